@@ -1,0 +1,24 @@
+// What every process needs to be a participant. Values; app fills them from the command line.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace giveway::link {
+
+struct LinkOptions {
+  std::uint32_t domain = 0;             // 1..99; above 101 ports collide with ephemeral ones
+  std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
+  std::string qos_file;                 // a complete Fast DDS XML profile set
+  std::string area = "main";            // [a-z0-9_-]+
+  std::uint32_t fleet_size = 2;         // sets resource limits and announcement periods
+};
+
+// An entity could not be made: says which, why, and what to do. Start-up only; main exits with 2.
+class LinkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace giveway::link

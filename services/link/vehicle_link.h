@@ -1,0 +1,72 @@
+// A vehicle's side of the fleet: joins, then drains beacons, ranges and QoS events into Inputs and
+// sends Outputs. Knows Fast DDS, decides nothing. One thread; Fast DDS's own threads only queue.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "services/link/link_options.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/vehicle_io.h"
+
+namespace giveway::link {
+
+// What one drain found. The spans of `inputs` point into the link and hold until the next Take.
+struct Taken {
+  Inputs inputs;
+  std::uint32_t scans_skipped = 0;  // scans overwritten by a newer one in the same drain
+};
+
+// Counters of the link alone; the brain counts what it accepts and refuses.
+struct VehicleLinkCounters {
+  std::uint32_t beacons_superseded = 0;  // sample-lost status of the beacon reader
+  std::uint32_t unbound_samples = 0;     // writer's partition not yet known: dropped
+  std::uint32_t wrong_name_scans = 0;    // ranges whose id is not this vehicle's
+  std::uint32_t events_dropped = 0;      // the event queue was full
+  std::uint32_t write_failures = 0;
+  std::uint32_t matched_peers = 0;  // beacon writers matched now, own excluded
+  std::uint32_t ranges_deadline_missed = 0;
+};
+
+// QoS of the beacon endpoints as the library resolved it, milliseconds.
+struct EffectiveBeaconQos {
+  double deadline_offered_ms = 0;
+  double deadline_requested_ms = 0;
+  double lease_ms = 0;
+};
+
+class VehicleLink {
+ public:
+  // Makes the participant and the joining endpoints. Throws LinkError.
+  explicit VehicleLink(const LinkOptions& options);
+  ~VehicleLink();
+  VehicleLink(const VehicleLink&) = delete;
+  VehicleLink& operator=(const VehicleLink&) = delete;
+
+  void SendJoin(const JoinRequest& request);
+  // The newest roster entry of this session, if one has come since the last call.
+  std::optional<RosterEntry> TakeRoster(const SessionId& session);
+
+  // Makes every other endpoint, named after `id`. Once. Throws LinkError.
+  void Open(VehicleId id);
+
+  // Waits until a scan is there or `timeout` has passed. True if a scan is there.
+  bool WaitForScan(Nanoseconds timeout);
+  // Drains everything. `now` is stamped on what came.
+  Taken Take(SteadyTime now);
+  // Sends beacon and command; a failed write is counted.
+  void Send(const Outputs& outputs);
+  void SendStatus(const VehicleStatus& status);
+  // Waits until every matched observer has the last status, or `timeout`.
+  void FlushStatus(Nanoseconds timeout);
+
+  VehicleLinkCounters Counters() const;
+  EffectiveBeaconQos BeaconQos() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace giveway::link

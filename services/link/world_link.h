@@ -1,0 +1,56 @@
+// The world's side: drains joins and motor commands, sends ranges, roster, truth and events.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "services/link/link_options.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/motor_command.h"
+#include "services/types/range_scan.h"
+
+namespace giveway::link {
+
+struct WorldLinkCounters {
+  std::uint32_t commands_taken = 0;
+  std::uint32_t commands_wrong_name = 0;  // id is not the one of the writer's partition
+  std::uint32_t commands_unbound = 0;     // writer's partition not yet known
+  std::uint32_t commands_not_finite = 0;
+  std::uint32_t write_failures = 0;
+};
+
+class WorldLink {
+ public:
+  explicit WorldLink(const LinkOptions& options);  // Throws LinkError.
+  ~WorldLink();
+  WorldLink(const WorldLink&) = delete;
+  WorldLink& operator=(const WorldLink&) = delete;
+
+  // Makes the vehicle's ranges publisher and writer; kept until the world ends.
+  void OpenRanges(VehicleId vehicle);
+  // True once the vehicle's ranges reader and command writer are both matched.
+  bool IsMatched(VehicleId vehicle) const;
+
+  std::vector<JoinRequest> TakeJoins();
+  // Everything that came since the last call, in order of arrival; the span holds until the next.
+  std::span<const MotorCommand> TakeCommands();
+  // Waits until a command is there or `timeout` has passed. For lockstep.
+  bool WaitForCommands(Nanoseconds timeout);
+
+  void SendRoster(const RosterEntry& entry);
+  void SendScan(const RangeScan& scan);
+  void SendTruth(const Truth& truth);
+  void SendEvent(const WorldEvent& event);
+  void SendFigures(const RunFigures& figures);
+  // Waits until matched readers have every event, roster entry and the figures, or `timeout`.
+  void Flush(Nanoseconds timeout);
+
+  WorldLinkCounters Counters() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace giveway::link

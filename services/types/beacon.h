@@ -1,0 +1,57 @@
+// What a vehicle tells everyone, every tick, whether or not anyone is near.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+#include "services/types/decision.h"
+#include "services/types/ids.h"
+#include "services/types/pose.h"
+#include "services/types/time.h"
+
+namespace giveway {
+
+// Who may go first. Vehicles that waited beyond a limit come first, the longest wait first; then
+// the higher cruise-speed bucket; then the lower id. A strict total order over distinct ids.
+struct OrderKey {
+  std::uint32_t waited_ticks = 0;  // 0 below the ageing limit
+  std::uint32_t speed_bucket = 0;  // round(cruise / 0.05 m/s)
+  VehicleId vehicle = kNobody;
+
+  friend constexpr bool operator==(const OrderKey&, const OrderKey&) = default;
+};
+
+// True if `a` goes before `b`.
+constexpr bool GoesFirst(const OrderKey& a, const OrderKey& b) {
+  if (a.waited_ticks != b.waited_ticks) return a.waited_ticks > b.waited_ticks;
+  if (a.speed_bucket != b.speed_bucket) return a.speed_bucket > b.speed_bucket;
+  return a.vehicle < b.vehicle;
+}
+
+struct Beacon {
+  VehicleId vehicle = kNobody;
+  std::uint32_t boot_epoch = 0;  // random, one a process life; never 0
+  std::uint32_t seq = 0;         // 1, 2, 3 … within a boot epoch
+  WorldEpoch world_epoch = kNoEpoch;
+  Tick tick = kNoTick;           // the world tick this beacon answers
+  WheelSpeeds wheels;            // measured
+  double cruise_m_s = 0;         // the intent: does not drop because the vehicle gives way
+  Pose world_from_body;          // dead-reckoned estimate at `tick`
+  double sigma_position_m = 0;   // standard deviation of the position, along any axis
+  double sigma_heading_rad = 0;  // standard deviation of the heading
+  Mode mode = Mode::kHalt;
+  Rule rule = Rule::kNotRunning;
+  VehicleId gives_way_to = kNobody;
+  OrderKey order;
+};
+
+// A beacon as the link hands it to the brain.
+struct ReceivedBeacon {
+  Beacon beacon;
+  SteadyTime received{0};  // receiver's steady clock
+  bool crc_valid = false;
+  bool name_valid = false;   // the id is the one of the writer's partition
+  std::uint64_t writer = 0;  // identity of the writing endpoint, for duplicate ids; never 0
+};
+
+}  // namespace giveway

@@ -1,0 +1,120 @@
+// What travels besides beacons, ranges and commands: joining, the roster, the truth for observers,
+// events of the run, and a vehicle's own report of itself.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "services/types/counters.h"
+#include "services/types/decision.h"
+#include "services/types/ids.h"
+#include "services/types/pose.h"
+#include "services/types/range_scan.h"
+
+namespace giveway {
+
+// 128 random bits: names one try to join, whatever id is asked for.
+using SessionId = std::array<std::uint32_t, 4>;
+
+struct JoinRequest {
+  SessionId session{};
+  VehicleId wanted = kNobody;  // kNobody asks for any free id
+};
+
+struct RosterEntry {
+  SessionId session{};
+  VehicleId vehicle = kNobody;
+  bool accepted = false;
+  std::string reason;  // why not, or why the run ended; empty otherwise
+  WorldEpoch epoch = kNoEpoch;
+  Pose start_world;
+  RunState run_state = RunState::kWaiting;
+  std::uint32_t fleet_size = 0;  // vehicles the scenario waits for
+};
+
+// Ground truth of one vehicle at one tick. For observers only; a vehicle never reads it.
+struct Truth {
+  VehicleId vehicle = kNobody;
+  WorldEpoch epoch = kNoEpoch;
+  Tick tick = kNoTick;
+  double time_s = 0;  // since the start signal; negative before it
+  Pose world_from_body;
+  WheelSpeeds wheels;
+  double forward_m_s = 0;
+  bool present = true;  // false once the body was removed
+  bool arrived = false;
+};
+
+enum class EventKind : std::uint8_t {
+  kStarted,   // the run begins; value: fleet size
+  kHalted,    // vehicle stood still to give way to other
+  kWentOn,    // vehicle moves again after a halt
+  kArrived,   // value: seconds since the start
+  kContact,   // vehicle and other began to touch
+  kClosest,   // at the end: the closest approach; value: shell-to-shell metres
+  kFaultDue,  // a planned fault is due now; text: "kill"
+  kSilent,    // the world hears no command of vehicle any more
+  kRemoved,   // the body of a silent vehicle was taken away
+  kEnded,     // text: why; the verdict follows
+  kVerdict,   // passed when value is 1; text: reason
+};
+
+struct WorldEvent {
+  std::uint32_t seq = 0;  // 1, 2, 3 … within an epoch
+  EventKind kind = EventKind::kStarted;
+  WorldEpoch epoch = kNoEpoch;
+  Tick tick = kNoTick;
+  double time_s = 0;
+  VehicleId vehicle = kNobody;
+  VehicleId other = kNobody;
+  Vec2 position_world;        // of vehicle
+  Vec2 other_position_world;  // of other
+  double value = 0;           // meaning by kind
+  std::string text;
+};
+
+// The world's own figures of a finished run.
+struct RunFigures {
+  WorldEpoch epoch = kNoEpoch;
+  bool passed = false;
+  std::string reason;
+  std::uint32_t contacts = 0;
+  std::optional<double> min_separation_m;
+  std::optional<double> time_to_clear_s;
+  std::optional<double> reaction_p50_ms;
+  std::optional<double> reaction_p99_ms;
+  std::optional<double> reaction_max_ms;
+  std::uint32_t reactions = 0;
+  std::uint32_t ticks = 0;
+  std::uint32_t tick_overruns = 0;
+  std::uint64_t state_hash = 0;  // of the final world state
+};
+
+// A vehicle's report of itself.
+struct VehicleStatus {
+  VehicleId vehicle = kNobody;
+  WorldEpoch epoch = kNoEpoch;
+  Tick tick = kNoTick;
+  Decision decision;
+  VehicleId gives_way_to = kNobody;
+  double forward_m_s = 0;
+  std::optional<double> nearest_echo_m;
+  std::uint32_t peers_heard = 0;  // with a fresh beacon
+  BeaconCounters beacons;
+  std::uint32_t beacons_superseded = 0;  // overwritten in the reader before they were drained
+  QosCounters qos;
+  VehicleId last_deadline_missed = kNobody;
+  VehicleId last_liveliness_lost = kNobody;
+  std::uint32_t last_rejected_id = 0;  // id claimed by the last refused beacon
+  double step_p99_us = 0;              // of Vehicle::Step, over the last 1000 steps
+  double loop_max_ms = 0;              // longest time from scan to command so far
+  // QoS of the beacon endpoints as the library resolved it, milliseconds.
+  double beacon_deadline_offered_ms = 0;
+  double beacon_deadline_requested_ms = 0;
+  double beacon_lease_ms = 0;
+  bool final = false;  // the last one of this process
+};
+
+}  // namespace giveway

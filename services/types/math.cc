@@ -1,0 +1,116 @@
+#include "services/types/math.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+namespace giveway {
+namespace {
+
+// pi/2 in three parts of at most 33 significant bits, so that n * part is exact for n < 2^20
+// (Cody and Waite 1980).
+constexpr double kHalfPi1 = 1.57079632673412561417e+00;
+constexpr double kHalfPi2 = 6.07710050630396597660e-11;
+constexpr double kHalfPi3 = 2.02226624879595063154e-21;
+constexpr double kLn2High = 6.93147180369123816490e-01;
+constexpr double kLn2Low = 1.90821492927058770002e-10;
+
+double Nearest(double x) {
+  return static_cast<double>(static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5));
+}
+
+// Taylor series on [-pi/4, pi/4]: the first term left out is below 1e-19.
+double SinNearZero(double r) {
+  const double z = r * r;
+  double sum = 0;
+  for (int k = 17; k >= 3; k -= 2) sum = -z / (k * (k - 1)) * (1 + sum);
+  return r * (1 + sum);
+}
+
+double CosNearZero(double r) {
+  const double z = r * r;
+  double sum = 0;
+  for (int k = 18; k >= 2; k -= 2) sum = -z / (k * (k - 1)) * (1 + sum);
+  return 1 + sum;
+}
+
+struct Quadrant {
+  std::int64_t index;  // of the quarter turn nearest to x
+  double rest;         // x minus that many quarter turns, in [-pi/4, pi/4]
+};
+
+Quadrant Reduce(double x) {
+  const double n = Nearest(x * (2 / kPi));
+  const double rest = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3;
+  return {static_cast<std::int64_t>(n), rest};
+}
+
+// atan on [0, 1]: the half-angle formula twice brings z below tan(pi/16), then Taylor.
+double AtanUnit(double z) {
+  for (int i = 0; i < 2; ++i) z = z / (1 + Sqrt(1 + z * z));
+  const double zz = z * z;
+  double sum = 0;
+  for (int k = 27; k >= 1; k -= 2) sum = 1.0 / k - zz * sum;
+  return 4 * z * sum;
+}
+
+}  // namespace
+
+double Sqrt(double x) { return std::sqrt(x); }  // correctly rounded by IEEE 754
+
+double Sin(double x_rad) {
+  const auto [index, rest] = Reduce(x_rad);
+  const double magnitude = index % 2 == 0 ? SinNearZero(rest) : CosNearZero(rest);
+  return (index & 2) == 0 ? magnitude : -magnitude;
+}
+
+double Cos(double x_rad) {
+  const auto [index, rest] = Reduce(x_rad);
+  const double magnitude = index % 2 == 0 ? CosNearZero(rest) : SinNearZero(rest);
+  return ((index + 1) & 2) == 0 ? magnitude : -magnitude;
+}
+
+double Atan2(double y, double x) {
+  const double ax = x < 0 ? -x : x;
+  const double ay = y < 0 ? -y : y;
+  if (ax == 0 && ay == 0) return 0;
+  double angle = ay <= ax ? AtanUnit(ay / ax) : kPi / 2 - AtanUnit(ax / ay);
+  if (x < 0) angle = kPi - angle;
+  return y < 0 ? -angle : angle;
+}
+
+double Log(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x);
+  int exponent = static_cast<int>(bits >> 52) - 1023;
+  if (exponent == -1023) return Log(x * 0x1p54) - 54 * (kLn2High + kLn2Low);  // subnormal
+  double m = std::bit_cast<double>((bits & 0x000fffffffffffffULL) | 0x3ff0000000000000ULL);
+  if (m > 1.41421356237309504880) {
+    m *= 0.5;
+    ++exponent;
+  }
+  // log m = 2 artanh s with s = (m - 1) / (m + 1), |s| < 0.172
+  const double s = (m - 1) / (m + 1);
+  const double ss = s * s;
+  double sum = 0;
+  for (int k = 23; k >= 1; k -= 2) sum = 1.0 / k + ss * sum;
+  return exponent * kLn2High + (2 * s * sum + exponent * kLn2Low);
+}
+
+double Exp(double x) {
+  if (x < -700) return 0;
+  const double k = Nearest(x / (kLn2High + kLn2Low));
+  const double r = (x - k * kLn2High) - k * kLn2Low;
+  double sum = 1;
+  for (int i = 16; i >= 1; --i) sum = 1 + r / i * sum;
+  const auto exponent = static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023);
+  return sum * std::bit_cast<double>(exponent << 52);
+}
+
+double WrapAngle(double angle_rad) {
+  double a = angle_rad - Nearest(angle_rad / (2 * kPi)) * (2 * kPi);
+  if (a <= -kPi) a += 2 * kPi;
+  if (a > kPi) a -= 2 * kPi;
+  return a;
+}
+
+}  // namespace giveway

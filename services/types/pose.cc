@@ -1,0 +1,47 @@
+#include "services/types/pose.h"
+
+#include "services/types/math.h"
+
+namespace giveway {
+
+double Norm(Vec2 a) { return Sqrt(SquaredNorm(a)); }
+
+Twist TwistFromWheels(const DriveGeometry& drive, WheelSpeeds wheels) {
+  return {drive.wheel_radius_m / 2 * (wheels.right_rad_s + wheels.left_rad_s),
+          drive.wheel_radius_m / drive.axle_m * (wheels.right_rad_s - wheels.left_rad_s)};
+}
+
+WheelSpeeds WheelsFromTwist(const DriveGeometry& drive, Twist twist) {
+  const double rim = twist.turn_rad_s * drive.axle_m / 2;
+  return {(twist.forward_m_s - rim) / drive.wheel_radius_m,
+          (twist.forward_m_s + rim) / drive.wheel_radius_m};
+}
+
+Vec2 Forward(const Pose& world_from_body) {
+  return {Cos(world_from_body.heading_rad), Sin(world_from_body.heading_rad)};
+}
+
+Vec2 ToWorld(const Pose& world_from_body, Vec2 point_body) {
+  const Vec2 x_axis = Forward(world_from_body);
+  return world_from_body.position_world + point_body.x * x_axis + point_body.y * Left(x_axis);
+}
+
+Vec2 ToBody(const Pose& world_from_body, Vec2 point_world) {
+  const Vec2 x_axis = Forward(world_from_body);
+  const Vec2 offset_world = point_world - world_from_body.position_world;
+  return {Dot(x_axis, offset_world), Cross(x_axis, offset_world)};
+}
+
+Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s) {
+  const double turned = twist.turn_rad_s * dt_s;
+  const double half = turned / 2;
+  // The chord of an arc of length v dt and angle `turned` is v dt sin(half)/half long and points
+  // along the heading in the middle. Below 1e-4 the series is exact to the last bit.
+  const double sinc = half < 1e-4 && half > -1e-4 ? 1 - half * half / 6 : Sin(half) / half;
+  const double chord = twist.forward_m_s * dt_s * sinc;
+  const double middle = world_from_body.heading_rad + half;
+  return {world_from_body.position_world + chord * Vec2{Cos(middle), Sin(middle)},
+          WrapAngle(world_from_body.heading_rad + turned)};
+}
+
+}  // namespace giveway

@@ -1,0 +1,35 @@
+// What a vehicle senses in one tick: its 16 ultrasonic readings and its wheel encoders. The world
+// writes it, the brain reads it, and it is all a brain learns of the world.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "services/types/ids.h"
+#include "services/types/pose.h"
+#include "services/types/profile.h"
+
+namespace giveway {
+
+// No echo is not no data: kClear says the sensor fired and nothing within its range answered.
+enum class Echo : std::uint8_t { kNoData, kClear, kEcho };
+
+struct RangeReading {
+  Echo kind = Echo::kNoData;
+  double range_m = 0;   // from the transducer to the nearest point in its cone; only if kEcho
+  Tick tick = kNoTick;  // when the transducer fired; readings keep their own age
+};
+
+enum class RunState : std::uint8_t { kWaiting, kRunning, kEnded };
+
+struct RangeScan {
+  VehicleId vehicle = kNobody;
+  WorldEpoch epoch = kNoEpoch;
+  Tick tick = kNoTick;
+  RunState run_state = RunState::kWaiting;
+  // Encoder rates: the constant wheel speeds that moved the body from the last tick to this one.
+  WheelSpeeds wheels;
+  std::array<RangeReading, kSensorCount> readings{};
+};
+
+}  // namespace giveway

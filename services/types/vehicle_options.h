@@ -1,0 +1,52 @@
+// Everything that makes one vehicle drive as it does. Set once at start; never changed by Step.
+#pragma once
+
+#include <array>
+
+#include "services/types/decision.h"
+#include "services/types/ids.h"
+#include "services/types/profile.h"
+#include "services/types/time.h"
+
+namespace giveway {
+
+// Where a vehicle wants to be. Without a goal it drives straight on and never arrives.
+struct Goal {
+  bool set = false;
+  Vec2 at_world;          // m
+  double radius_m = 0.1;  // arrived when the axle centre is this near
+};
+
+// Wheel speed = v0 + sum of weight * activation, activation 1 at the near gate and 0 at the far
+// one.
+struct BraitenbergWeights {
+  double base_rad_s = 2.0;
+  double near_gate_m = 0.2;
+  double far_gate_m = 1.0;
+  std::array<double, kSensorCount> left{};  // rad/s per activation
+  std::array<double, kSensorCount> right{};
+};
+
+// Vehicle 2a as the lecture prints it: excites the wheel of the same side. Far gate 1.0 m.
+BraitenbergWeights LectureWeights();
+// The stock simulator script: vehicle 3b with braking. Far gate 0.5 m.
+BraitenbergWeights StockWeights();
+
+struct VehicleOptions {
+  VehicleId id = kNobody;
+  Behaviour behaviour = Behaviour::kCooperative;
+  VehicleProfile profile;
+  double cruise_m_s = 0.3;  // 0 < cruise <= profile.max_speed_m_s
+  Goal goal;
+  Pose start_world;                // given by the world's roster
+  BraitenbergWeights braitenberg;  // of the avoiding behaviours
+  Nanoseconds tick_period{50'000'000};
+  double gate_enter_m = 1.0;                  // the lecture's critical distance, shell to shell
+  double gate_exit_m = 1.2;                   // a latched encounter is over beyond it
+  double emission_radius_m = 5.0;             // beacons stated from farther away are not heard
+  Nanoseconds beacon_age_limit{200'000'000};  // receiver's clock; older is not fresh
+  Nanoseconds ranges_age_limit{150'000'000};  // older than this: halt
+  Nanoseconds ageing_limit{20'000'000'000};   // waiting longer moves a vehicle up the order
+};
+
+}  // namespace giveway

@@ -1,0 +1,3 @@
+giveway_test(unit types
+  SOURCES math_test.cc pose_test.cc profile_test.cc random_test.cc order_test.cc
+  LINK giveway::types)
