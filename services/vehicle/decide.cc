@@ -64,9 +64,9 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
     speed = limit->max_speed_m_s;
     may_turn = limit->may_turn;
     action.decision = {.rule = limit->rule,
-                        .peer = limit->peer,
-                        .sensor = limit->sensor,
-                        .cause_tick = limit->cause_tick};
+                       .peer = limit->peer,
+                       .sensor = limit->sensor,
+                       .cause_tick = limit->cause_tick};
   }
   action.target = Drive(profile, steering, speed, may_turn);
   return action;

@@ -159,6 +159,7 @@ void Vehicle::Remember(const Situation& s, const Decision& decision) {
 Beacon Vehicle::Say(const Situation& s) {
   VehicleState& state = *state_;
   ++state.seq;
+  state.gives_way_to = GivesWayTo(s);
   ++state.beacons.sent;
   return {.vehicle = options_.id,
           .boot_epoch = state.boot_epoch,
@@ -172,7 +173,7 @@ Beacon Vehicle::Say(const Situation& s) {
           .sigma_heading_rad = state.sigma_heading_rad,
           .mode = state.decision.mode,
           .rule = state.decision.rule,
-          .gives_way_to = GivesWayTo(s),
+          .gives_way_to = state.gives_way_to,
           .order = state.order};
 }
 
@@ -199,6 +200,10 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   return outputs;
 }
 
+double Vehicle::SpeedMps() const {
+  return TwistFromWheels(options_.profile.drive, state_->wheels).forward_m_s;
+}
+
 std::uint64_t Vehicle::Hash() const {
   StateHash hash;
   const VehicleState& state = *state_;
@@ -220,6 +225,7 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.decision.mode);
   hash.Add(state.decision.rule);
   hash.Add(state.decision.peer);
+  hash.Add(state.gives_way_to);
   state.ranges.AddTo(&hash);
   state.peers.AddTo(&hash);
   return hash.Value();

@@ -37,6 +37,7 @@ struct VehicleState {
   bool deaf = false;
   int deaf_sensor = -1;
   Decision decision;
+  VehicleId gives_way_to = kNobody;  // as last published
   RangeView ranges;
   PeerTable peers;
   BeaconCounters beacons;
@@ -55,6 +56,8 @@ class Vehicle {
   // Continues from a snapshot taken with the same options.
   void Restore(const VehicleState& state) { *state_ = state; }
   std::uint64_t Hash() const;
+  // Forward speed as last measured, m/s.
+  double SpeedMps() const;
   // Peers with a fresh beacon in the last step.
   std::uint32_t PeersHeard() const { return peers_heard_; }
 

@@ -42,7 +42,7 @@ class VirtualFleet {
 
   Scenario scenario_;
   Run run_;
-  std::vector<Member> members_;        // in the scenario's order
+  std::vector<Member> members_;         // in the scenario's order
   std::vector<ReceivedBeacon> on_air_;  // of the tick before
   std::vector<MotorCommand> commands_;
   std::vector<WorldEvent> history_;
