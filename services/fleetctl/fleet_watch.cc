@@ -1,0 +1,113 @@
+#include "services/fleetctl/fleet_watch.h"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+namespace giveway::fleetctl {
+namespace {
+
+std::string HashText(std::uint64_t hash) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016" PRIx64, hash);
+  return text;
+}
+
+void AddFigures(const RunFigures& figures, app::Report* report) {
+  report->verdict = figures.passed ? app::Verdict::kPassed : app::Verdict::kFailed;
+  report->reason = figures.reason;
+  report->contacts = figures.contacts;
+  report->min_separation_m = figures.min_separation_m;
+  report->time_to_clear_s = figures.time_to_clear_s;
+  report->reaction_p50_ms = figures.reaction_p50_ms;
+  report->reaction_p99_ms = figures.reaction_p99_ms;
+  report->reaction_max_ms = figures.reaction_max_ms;
+  report->tick_overruns = figures.tick_overruns;
+  report->state_hash = HashText(figures.state_hash);
+}
+
+void AddStatus(const VehicleStatus& status, app::Report* report) {
+  report->beacons_sent += status.beacons.sent;
+  report->beacons_received += status.beacons.accepted;
+  report->deadline_missed += status.qos.deadline_missed;
+  report->liveliness_lost += status.qos.liveliness_lost;
+}
+
+}  // namespace
+
+FleetWatch::FleetWatch(const Scenario& scenario, bool keep_tracks)
+    : scenario_(scenario), keep_tracks_(keep_tracks) {}
+
+void FleetWatch::Fold(const link::Observed& observed) {
+  for (const WorldEvent& event : observed.events) FoldEvent(event);
+  for (const Truth& truth : observed.truths) FoldTruth(truth);
+  for (const VehicleStatus& status : observed.statuses) statuses_[status.vehicle] = status;
+  for (const RosterEntry& entry : observed.roster) {
+    if (entry.run_state == RunState::kEnded) ended_ = true;
+  }
+  if (observed.figures) figures_ = observed.figures;
+}
+
+void FleetWatch::FoldEvent(const WorldEvent& event) {
+  events_.push_back(event);
+  time_s_ = std::max(time_s_, event.time_s);
+  if (event.kind == EventKind::kStarted) started_ = true;
+  if (event.kind == EventKind::kEnded) ended_ = true;
+  if (event.kind == EventKind::kFaultDue) {
+    due_kills_.push_back(event.vehicle);
+    killed_.push_back(event.vehicle);
+  }
+}
+
+void FleetWatch::FoldTruth(const Truth& truth) {
+  time_s_ = std::max(time_s_, truth.time_s);
+  if (!keep_tracks_) return;
+  app::Track& track = tracks_[truth.vehicle];
+  track.vehicle = truth.vehicle;
+  track.truths.push_back(truth);
+}
+
+std::vector<VehicleId> FleetWatch::TakeDueKills() { return std::exchange(due_kills_, {}); }
+
+bool FleetWatch::HasAllFinalStatuses() const {
+  return std::ranges::all_of(scenario_.vehicles, [this](const VehicleOptions& vehicle) {
+    if (std::ranges::find(killed_, vehicle.id) != killed_.end()) return true;
+    const auto status = statuses_.find(vehicle.id);
+    return status != statuses_.end() && status->second.final;
+  });
+}
+
+std::vector<VehicleId> FleetWatch::VehiclesOf(EventKind kind) const {
+  std::set<VehicleId> vehicles;
+  for (const WorldEvent& event : events_) {
+    if (event.kind == kind) vehicles.insert(event.vehicle);
+  }
+  return {vehicles.begin(), vehicles.end()};
+}
+
+app::Report FleetWatch::MakeReport(const std::optional<Overruled>& overruled) const {
+  app::Report report;
+  report.scenario = scenario_.name;
+  report.seed = scenario_.seed;
+  report.contacts = static_cast<std::uint32_t>(
+      std::ranges::count(events_, EventKind::kContact, &WorldEvent::kind));
+  report.halted = VehiclesOf(EventKind::kHalted);
+  report.arrived = VehiclesOf(EventKind::kArrived);
+  for (const auto& [vehicle, status] : statuses_) AddStatus(status, &report);
+  if (figures_) AddFigures(*figures_, &report);
+  if (overruled) {
+    report.verdict = overruled->verdict;
+    report.reason = overruled->reason;
+  }
+  return report;
+}
+
+std::string FleetWatch::DrawPicture() const {
+  std::vector<app::Track> tracks;
+  for (const auto& [vehicle, track] : tracks_) tracks.push_back(track);
+  return app::DrawRun(scenario_, tracks, events_);
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,63 @@
+// What an observer knows of a run: folds what the link brings into the newest status of each
+// vehicle, its track, the events and the figures, and makes the report of it. Pure.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/app/picture.h"
+#include "services/app/report.h"
+#include "services/link/observer_link.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/scenario.h"
+
+namespace giveway::fleetctl {
+
+// A verdict the world had no say in: an interrupt, a death, a start that failed.
+struct Overruled {
+  app::Verdict verdict = app::Verdict::kFailed;
+  std::string reason;
+};
+
+class FleetWatch {
+ public:
+  // Tracks are kept only where a picture is drawn: they grow with the run.
+  FleetWatch(const Scenario& scenario, bool keep_tracks);
+
+  void Fold(const link::Observed& observed);
+  // Vehicles whose planned kill has become due since the last call.
+  std::vector<VehicleId> TakeDueKills();
+
+  bool HasStarted() const { return started_; }
+  bool HasEnded() const { return ended_; }
+  bool HasFigures() const { return figures_.has_value(); }
+  // Seconds since the start signal; 0 before it.
+  double TimeSeconds() const { return time_s_; }
+  const std::map<VehicleId, VehicleStatus>& Statuses() const { return statuses_; }
+  // True once every vehicle but those killed as planned has sent its last status.
+  bool HasAllFinalStatuses() const;
+
+  app::Report MakeReport(const std::optional<Overruled>& overruled) const;
+  std::string DrawPicture() const;
+
+ private:
+  void FoldEvent(const WorldEvent& event);
+  void FoldTruth(const Truth& truth);
+  std::vector<VehicleId> VehiclesOf(EventKind kind) const;
+
+  const Scenario& scenario_;
+  bool keep_tracks_;
+  bool started_ = false;
+  bool ended_ = false;
+  double time_s_ = 0;
+  std::map<VehicleId, VehicleStatus> statuses_;
+  std::map<VehicleId, app::Track> tracks_;
+  std::vector<WorldEvent> events_;
+  std::vector<VehicleId> due_kills_;
+  std::vector<VehicleId> killed_;
+  std::optional<RunFigures> figures_;
+};
+
+}  // namespace giveway::fleetctl

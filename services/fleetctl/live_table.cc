@@ -1,0 +1,76 @@
+#include "services/fleetctl/live_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kRowFormat = "{:>7}  {:<11}  {:<14}  {:>9}  {:>6}  {:>5}  {}";
+constexpr std::size_t kHeaderLines = 2;
+
+std::string ReasonText(const Decision& decision) {
+  std::string reason(Name(decision.rule));
+  if (decision.peer != kNobody) reason += fmt::format(" {}", Number(decision.peer));
+  return reason;
+}
+
+std::string QosText(const VehicleStatus& status) {
+  const QosCounters& qos = status.qos;
+  std::string text = fmt::format("{} missed, {} lost", qos.deadline_missed, qos.liveliness_lost);
+  if (qos.incompatible_qos > 0) text += fmt::format(", {} incompatible", qos.incompatible_qos);
+  if (status.beacons.Rejected() > 0) text += fmt::format(", {} refused", status.beacons.Rejected());
+  return text;
+}
+
+std::string Row(VehicleId vehicle, const std::map<VehicleId, VehicleStatus>& statuses) {
+  const auto found = statuses.find(vehicle);
+  if (found == statuses.end()) {
+    return fmt::format(kRowFormat, Number(vehicle), "-", "not heard yet", "-", "-", "-", "-");
+  }
+  const VehicleStatus& status = found->second;
+  const std::string echo =
+      status.nearest_echo_m ? fmt::format("{:.2f}", *status.nearest_echo_m) : "-";
+  return fmt::format(kRowFormat, Number(vehicle), Name(status.decision.mode),
+                     ReasonText(status.decision), fmt::format("{:.2f}", status.forward_m_s), echo,
+                     status.peers_heard, QosText(status));
+}
+
+std::string Title(const TableView& view) {
+  return fmt::format("{}  domain {}  {}  {:.1f} s of at most {:.0f} s", view.scenario, view.domain,
+                     view.state, view.time_s, view.duration_s);
+}
+
+}  // namespace
+
+std::vector<std::string> TableLines(const TableView& view, TerminalSize size) {
+  // The last row stays free: a line feed there would scroll the screen.
+  const std::size_t room = static_cast<std::size_t>(std::max(size.rows - 1, 0));
+  std::vector<std::string> lines{
+      Title(view), fmt::format(kRowFormat, "vehicle", "mode", "reason", "speed m/s", "echo m",
+                               "peers", "QoS events")};
+  const std::size_t rows = room > kHeaderLines ? room - kHeaderLines : 0;
+  const std::size_t total = view.vehicles.size();
+  const std::size_t shown = total <= rows ? total : (rows > 0 ? rows - 1 : 0);
+  for (std::size_t i = 0; i < shown; ++i) lines.push_back(Row(view.vehicles[i], view.statuses));
+  if (shown < total) lines.push_back(fmt::format("{:>7}  and {} more", "...", total - shown));
+  if (lines.size() > room) lines.resize(room);
+  const auto columns = static_cast<std::size_t>(std::max(size.columns, 0));
+  for (std::string& line : lines) {
+    if (line.size() > columns) line.resize(columns);
+  }
+  return lines;
+}
+
+std::string ProgressLine(const TableView& view) {
+  std::string line =
+      fmt::format("{}: {} of {} vehicles", Title(view), view.statuses.size(), view.vehicles.size());
+  for (const auto& [vehicle, status] : view.statuses) {
+    if (!IsGiveWay(status.decision.rule)) continue;
+    line += fmt::format(", {} {}", Number(vehicle), ReasonText(status.decision));
+  }
+  return line;
+}
+
+}  // namespace giveway::fleetctl

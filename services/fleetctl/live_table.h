@@ -1,0 +1,34 @@
+// The one-screen table of a running fleet as lines of text. Pure: what is known and the size of the
+// terminal go in, lines that fit it come out.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "services/types/fleet_facts.h"
+
+namespace giveway::fleetctl {
+
+struct TableView {
+  std::string scenario;
+  std::uint32_t domain = 0;
+  std::string state;  // "waiting", "running", "stopping"
+  double time_s = 0;  // since the start signal
+  double duration_s = 0;
+  std::vector<VehicleId> vehicles;  // every one the scenario names, heard of or not
+  std::map<VehicleId, VehicleStatus> statuses;
+};
+
+struct TerminalSize {
+  int columns = 80;
+  int rows = 24;
+};
+
+// At most rows - 1 lines, each at most `columns` wide, ASCII. Vehicles that do not fit are counted
+// in the last line.
+std::vector<std::string> TableLines(const TableView& view, TerminalSize size);
+// The same in one line, for a log: time, vehicles heard of, who gives way.
+std::string ProgressLine(const TableView& view);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,22 @@
+// A file the run will write at its end. Whether it can be written is found out before anything
+// starts: nobody wants to learn that after a minute's run.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace giveway::fleetctl {
+
+// The file cannot be written; what() names it, why, and what to do.
+class OutputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// Throws OutputError unless `path` can be written. Leaves no file behind.
+void CheckWritable(const std::string& path);
+// Makes the folder if it is missing; throws OutputError unless files can be made in it.
+void CheckFolder(const std::string& folder);
+void WriteFile(const std::string& path, const std::string& text);  // Throws OutputError.
+
+}  // namespace giveway::fleetctl

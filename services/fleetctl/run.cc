@@ -1,0 +1,86 @@
+#include "services/fleetctl/run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+#include "services/app/report.h"
+#include "services/app/scenario_file.h"
+#include "services/fleetctl/domain_lock.h"
+#include "services/fleetctl/live_screen.h"
+#include "services/fleetctl/output_file.h"
+#include "services/fleetctl/run_session.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr int kCouldNotRun = 2;
+constexpr std::string_view kShippedQos = "qos/fleet.xml";
+
+std::filesystem::path ProgramFolder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+// False if stdout did not take it: then nobody has the verdict.
+bool Print(const RunOptions& options, const app::Report& report) {
+  const std::string text =
+      options.json ? app::ToJson(report) : app::ToTable(report, SizeOfTerminal().columns);
+  std::fputs(text.c_str(), stdout);
+  if (!text.ends_with('\n')) std::fputc('\n', stdout);
+  return std::fflush(stdout) == 0;
+}
+
+int RefuseToRun(const RunOptions& options, const char* reason, const std::exception& why) {
+  std::fprintf(stderr, "%s\n", why.what());
+  if (options.json) {
+    app::Report report;
+    report.scenario = options.scenario;
+    report.reason = reason;
+    report.seed = options.seed.value_or(0);
+    report.domain = options.domain.value_or(0);
+    Print(options, report);
+  }
+  return kCouldNotRun;
+}
+
+int StartAndWatch(const RunOptions& options) {
+  const app::ScenarioOverrides overrides{options.seed, options.behaviour, options.duration_s};
+  const Scenario scenario = app::LoadScenario(options.scenario, overrides);
+  if (!options.picture_file.empty()) CheckWritable(options.picture_file);
+  if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
+
+  const DomainLock lock(options.domain);
+  FleetCommand command{ProgramFolder(), app::ResolveScenario(options.scenario), lock.Domain(),
+                       options.qos_file, lock.Fd()};
+  if (command.qos_file.empty()) {
+    command.qos_file = (std::filesystem::path(app::ConfigDir()) / kShippedQos).string();
+  }
+  std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
+  RunSession session(options, scenario, command);
+  const app::Report report = session.Run();
+
+  const bool told = Print(options, report);
+  if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
+  const int code = app::ExitCode(report.verdict);
+  if (!options.picture_file.empty()) WriteFile(options.picture_file, session.DrawPicture());
+  return told ? code : std::max(code, 1);
+}
+
+}  // namespace
+
+int Run(const RunOptions& options) {
+  try {
+    return StartAndWatch(options);
+  } catch (const app::InputError& error) {
+    return RefuseToRun(options, "bad_input", error);
+  } catch (const OutputError& error) {
+    return RefuseToRun(options, "unwritable_output", error);
+  } catch (const DomainError& error) {
+    return RefuseToRun(options, "no_domain", error);
+  } catch (const std::exception& error) {  // LinkError, StartError, out of memory
+    return RefuseToRun(options, "could_not_start", error);
+  }
+}
+
+}  // namespace giveway::fleetctl

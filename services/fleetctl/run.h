@@ -1,0 +1,32 @@
+// The verb `fleetctl run`: starts a world and one process a vehicle here, watches them, and prints
+// the verdict. Values in; the exit code out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "services/types/decision.h"
+
+namespace giveway::fleetctl {
+
+// What the operator asked for. Absent values are the scenario's.
+struct RunOptions {
+  std::string scenario;  // a file, or the name of a shipped scenario
+  std::optional<double> duration_s;
+  std::optional<std::uint32_t> seed;
+  std::optional<Behaviour> behaviour;
+  std::optional<std::uint32_t> domain;  // absent: the first free one
+  std::string interface = "127.0.0.1";
+  std::string qos_file;  // empty: the shipped one
+  bool lockstep = false;
+  std::string log_level = "info";  // of the world and the vehicles
+  std::string logs_folder;         // empty: no logs are kept
+  std::string picture_file;        // empty: none is drawn
+  bool json = false;               // one JSON object on stdout and nothing else
+};
+
+// 0 passed, 1 failed or interrupted, 2 could not run.
+int Run(const RunOptions& options);
+
+}  // namespace giveway::fleetctl

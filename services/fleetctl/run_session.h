@@ -1,0 +1,55 @@
+// One run from the first process to the last: watches the fleet, carries out planned faults, ends
+// the run when it is over, when somebody died, or when the operator says so, and reports.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "services/app/report.h"
+#include "services/fleetctl/fleet_processes.h"
+#include "services/fleetctl/fleet_watch.h"
+#include "services/fleetctl/interrupts.h"
+#include "services/fleetctl/live_screen.h"
+#include "services/fleetctl/run.h"
+#include "services/link/observer_link.h"
+#include "services/types/scenario.h"
+
+namespace giveway::fleetctl {
+
+class RunSession {
+ public:
+  // Starts everything. `scenario` outlives the session. Throws LinkError, StartError.
+  RunSession(const RunOptions& options, const Scenario& scenario, const FleetCommand& command);
+
+  // Returns when the last process is gone.
+  app::Report Run();
+  std::string DrawPicture() const { return watch_.DrawPicture(); }
+
+ private:
+  // Waits for the run's end. A value where the verdict is not the world's to give.
+  std::optional<Overruled> Supervise();
+  // Somebody ended who should not have, unless the end of the run is just on its way to us.
+  std::optional<Overruled> JudgeEnd(const ChildProcess& gone);
+  // Everyone leaves: by themselves within `grace`, else told to, else killed.
+  void StopAll(Nanoseconds grace);
+  bool WaitUntilAllEnded(Nanoseconds grace);
+  // Takes in what is still on its way after the last process is gone.
+  void DrainLast();
+  // How the processes ended says more than the world could know.
+  std::optional<Overruled> JudgeExits();
+  // One turn of the loop: sleep, drain, carry out faults, poll, show.
+  void Turn();
+  void ShowTrouble(const ChildProcess& child, const std::string& what);
+
+  const Scenario& scenario_;
+  std::uint32_t domain_;
+  Nanoseconds time_limit_;
+  Interrupts interrupts_;
+  FleetWatch watch_;
+  link::ObserverLink observer_;
+  FleetProcesses processes_;
+  LiveScreen screen_;
+  bool stopping_ = false;
+};
+
+}  // namespace giveway::fleetctl

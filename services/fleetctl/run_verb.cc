@@ -1,0 +1,103 @@
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include "services/fleetctl/domain_lock.h"
+#include "services/fleetctl/run.h"
+#include "services/fleetctl/verbs.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+Every flag but --json, --picture and --logs has a twin in the environment: --domain is also
+GIVEWAY_DOMAIN. The flag wins.
+
+Examples
+  fleetctl run intersection_yield
+  fleetctl run intersection_equal --picture equal.svg
+  fleetctl run intersection_yield --seed 7 --json | jq .min_separation_m
+  fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
+
+Exit code: 0 passed, 1 failed or interrupted, 2 could not run.
+)";
+
+// CLI11's own range check lets "nan" pass.
+std::string CheckDuration(const std::string& text) {
+  try {
+    const double value = std::stod(text);
+    if (std::isfinite(value) && value > 0) return {};
+  } catch (const std::exception&) {
+  }
+  return "must be a number of seconds above 0, not '" + text + "'";
+}
+
+std::string CheckNotEmpty(const std::string& text) {
+  return text.empty() ? "must not be empty" : "";
+}
+
+std::map<std::string, Behaviour> BehavioursByName() {
+  std::map<std::string, Behaviour> behaviours;
+  for (const Behaviour behaviour : {Behaviour::kCooperative, Behaviour::kLectureAvoid,
+                                    Behaviour::kStockAvoid, Behaviour::kLectureYield}) {
+    behaviours.emplace(Name(behaviour), behaviour);
+  }
+  return behaviours;
+}
+
+void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
+  verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  verb->add_option("--duration", options->duration_s, "End after this many seconds")
+      ->check(CheckDuration)
+      ->envname("GIVEWAY_DURATION");
+  verb->add_option("--behaviour", options->behaviour, "Every vehicle drives by this behaviour")
+      ->transform(CLI::CheckedTransformer(BehavioursByName())
+                      .description("cooperative, lecture_avoid, stock_avoid or lecture_yield"))
+      ->envname("GIVEWAY_BEHAVIOUR");
+  verb->add_option("--seed", options->seed, "Moves start poses and cruise speeds; 0 moves nothing")
+      ->envname("GIVEWAY_SEED");
+  verb->add_flag("--lockstep", options->lockstep, "The world waits for every command of a tick")
+      ->envname("GIVEWAY_LOCKSTEP");
+}
+
+void AddLinkFlags(CLI::App* verb, RunOptions* options) {
+  verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
+      ->check(CLI::Range(kFirstDomain, kLastDomain))
+      ->envname("GIVEWAY_DOMAIN");
+  verb->add_option("--interface", options->interface,
+                   "Address or name of a network interface, or 'any'")
+      ->check(CheckNotEmpty)
+      ->capture_default_str()
+      ->envname("GIVEWAY_INTERFACE");
+  verb->add_option("--qos", options->qos_file, "Fast DDS XML profiles; without it the shipped ones")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_QOS");
+}
+
+void AddOutputFlags(CLI::App* verb, RunOptions* options) {
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->add_option("--picture", options->picture_file, "Draw both paths as SVG into this file")
+      ->check(CheckNotEmpty);
+  verb->add_option("--logs", options->logs_folder, "Keep the log of every process in this folder")
+      ->check(CheckNotEmpty);
+  verb->add_option("--log-level", options->log_level, "Of the world and the vehicles")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+      ->capture_default_str()
+      ->envname("GIVEWAY_LOG_LEVEL");
+}
+
+}  // namespace
+
+void AddRunVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* verb =
+      fleetctl->add_subcommand("run", "Run a scenario here, one process a vehicle, and judge it");
+  verb->footer(kFooter);
+  AddScenarioFlags(verb, options.get());
+  AddLinkFlags(verb, options.get());
+  AddOutputFlags(verb, options.get());
+  verb->callback([options, exit_code] { *exit_code = Run(*options); });
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,11 @@
+// The verbs of the command line, one file each. A verb adds itself, and sets the exit code when it
+// has been run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace giveway::fleetctl {
+
+void AddRunVerb(CLI::App* fleetctl, int* exit_code);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,77 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/fleetctl/fleet_processes.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using testing::Contains;
+using testing::Not;
+using testing::SizeIs;
+
+Scenario TwoVehicles() {
+  Scenario scenario;
+  scenario.vehicles.resize(2);
+  scenario.vehicles[0].id = VehicleId{3};
+  scenario.vehicles[1].id = VehicleId{8};
+  return scenario;
+}
+
+FleetCommand OnDomainFive() { return {"/opt/bin", "/tmp/s.textproto", 5, "/tmp/q.xml", 9}; }
+
+// True if `flag` is followed by `value`.
+bool Says(const ChildCommand& command, const std::string& flag, const std::string& value) {
+  const auto found = std::ranges::find(command.words, flag);
+  return found != command.words.end() && found + 1 != command.words.end() && found[1] == value;
+}
+
+TEST(MakeCommands, WorldComesFirstThenEveryVehicleByItsId) {
+  const auto commands = MakeCommands({}, OnDomainFive(), TwoVehicles());
+  ASSERT_THAT(commands, SizeIs(3));
+  EXPECT_EQ(commands[0].words[0], "/opt/bin/giveway-world");
+  EXPECT_THAT(commands[0].words, Not(Contains("--id")));
+  EXPECT_EQ(commands[1].words[0], "/opt/bin/giveway-vehicle");
+  EXPECT_TRUE(Says(commands[1], "--id", "3"));
+  EXPECT_TRUE(Says(commands[2], "--id", "8"));
+}
+
+TEST(MakeCommands, EveryoneIsToldTheSameScenarioDomainAndQos) {
+  RunOptions options;
+  options.seed = 17;
+  options.behaviour = Behaviour::kLectureYield;
+  options.duration_s = 2.5;
+  options.lockstep = true;
+  options.interface = "any";
+  for (const ChildCommand& command : MakeCommands(options, OnDomainFive(), TwoVehicles())) {
+    EXPECT_TRUE(Says(command, "--scenario", "/tmp/s.textproto"));
+    EXPECT_TRUE(Says(command, "--domain", "5"));
+    EXPECT_TRUE(Says(command, "--qos", "/tmp/q.xml"));
+    EXPECT_TRUE(Says(command, "--interface", "any"));
+    EXPECT_TRUE(Says(command, "--seed", "17"));
+    EXPECT_TRUE(Says(command, "--behaviour", "lecture_yield"));
+    EXPECT_TRUE(Says(command, "--duration", "2.5"));
+    EXPECT_THAT(command.words, Contains("--lockstep"));
+    EXPECT_EQ(command.kept_fd, 9);
+  }
+}
+
+TEST(MakeCommands, WhatTheOperatorLeftOutIsLeftToTheScenario) {
+  for (const ChildCommand& command : MakeCommands({}, OnDomainFive(), TwoVehicles())) {
+    for (const char* flag : {"--seed", "--behaviour", "--duration", "--lockstep"}) {
+      EXPECT_THAT(command.words, Not(Contains(flag)));
+    }
+  }
+}
+
+TEST(MakeCommands, LogsAreKeptOnlyWhereAFolderIsNamed) {
+  RunOptions options;
+  EXPECT_EQ(MakeCommands(options, OnDomainFive(), TwoVehicles())[0].log_file, "");
+  options.logs_folder = "logs";
+  const auto commands = MakeCommands(options, OnDomainFive(), TwoVehicles());
+  EXPECT_EQ(commands[0].log_file, "logs/world.log");
+  EXPECT_EQ(commands[2].log_file, "logs/vehicle-8.log");
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl
