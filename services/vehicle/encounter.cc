@@ -24,7 +24,8 @@ bool Begins(const PeerView& view, const Situation& s) {
   if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
   const bool critically_close = NearestEchoOf(view, s) < s.options.gate_enter_m;
   if (s.options.behaviour == Behaviour::kLectureYield) {
-    return critically_close && view.peer->beacon.rule != Rule::kArrived;
+    const bool parting = !view.conflict && view.closing_m_s <= 0;
+    return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
   }
   if (!view.conflict) return false;
   return critically_close || !IsThroughFirst(view, s);
@@ -51,12 +52,38 @@ void UpdateLost(const PeerView& view, const Situation& s) {
   if (waited && clear) encounter.released = true;
 }
 
-// True once the stop for this encounter must begin: at the gate, or where only braking now still
-// ends before the conflict.
-bool MustStop(const PeerView& view, const Situation& s) {
+// True where only braking now still ends before the conflict. Inside it, standing still helps
+// nobody: the vehicle drives out.
+bool MustBrakeNow(const PeerView& view, const Situation& s) {
+  return view.conflict && view.conflict->own.begin_m > 0 &&
+         view.conflict->own.begin_m <= OwnStoppingDistance(s);
+}
+
+// Whom the order puts second stops at the gate, or where only braking now is early enough.
+bool SecondMustStop(const PeerView& view, const Situation& s) {
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
-  if (view.conflict && view.conflict->own.begin_m <= OwnStoppingDistance(s)) return true;
-  return view.conflict && view.gap_m <= CriticalDistance(s, view);
+  if (!view.conflict) return false;
+  return view.gap_m <= CriticalDistance(s, view) ||
+         view.conflict->own.begin_m <= OwnStoppingDistance(s);
+}
+
+// Whom the order puts first needs the other's word, or to be through before it; the lecture's
+// behaviour trusts the order alone.
+bool FirstMayGo(const PeerView& view, const Situation& s) {
+  return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
+}
+
+// Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
+// stopping distance, and a stop that ends whenever it is short enough would never be one.
+bool Holds(const PeerView& view, const Situation& s) {
+  const bool held = view.peer->encounter.holds;
+  if (view.lost) {
+    if (view.peer->encounter.released) return false;
+    return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
+  }
+  if (view.goes_first) return held || SecondMustStop(view, s);
+  if (FirstMayGo(view, s)) return false;
+  return held || MustBrakeNow(view, s);
 }
 
 }  // namespace
@@ -86,18 +113,16 @@ void UpdateEncounter(const PeerView& view, const Situation& s) {
   }
   if (view.lost) {
     if (encounter.active) UpdateLost(view, s);
-    return;
+  } else {
+    encounter.lost = false;
+    encounter.released = false;
+    if (!encounter.active) {
+      encounter.active = Begins(view, s);
+    } else if (IsOver(view, s)) {
+      encounter = {};
+    }
   }
-  if (!view.fresh) return;  // not yet known
-  encounter.lost = false;
-  encounter.released = false;
-  if (!encounter.active) {
-    encounter.active = Begins(view, s);
-  } else if (IsOver(view, s)) {
-    encounter = {};
-  }
-  if (encounter.active && view.goes_first && MustStop(view, s)) encounter.halted_for_it = true;
-  if (!view.goes_first) encounter.halted_for_it = false;
+  encounter.holds = encounter.active && Holds(view, s);
 }
 
 }  // namespace giveway

@@ -6,7 +6,7 @@
 
 namespace giveway {
 
-// Moves the peer's encounter on by one tick.
+// Moves the peer's encounter on by one tick, and says whether this vehicle holds for it.
 void UpdateEncounter(const PeerView& view, const Situation& s);
 
 // True if this vehicle is the one to wait in the encounter, and can: it stands, or will before

@@ -196,7 +196,7 @@ void PeerTable::AddTo(StateHash* hash) const {
     hash->Add(peer.left);
     hash->Add(peer.out_of_reach);
     hash->Add(peer.encounter.active);
-    hash->Add(peer.encounter.halted_for_it);
+    hash->Add(peer.encounter.holds);
     hash->Add(peer.encounter.lost);
     hash->Add(peer.encounter.released);
   }

@@ -20,9 +20,9 @@ inline constexpr std::uint32_t kMaxPeers = 1024;
 // Where this vehicle stands in an encounter with one peer.
 struct Encounter {
   bool active = false;
-  bool halted_for_it = false;  // the stop has begun and holds until the encounter is over
-  bool lost = false;           // the peer fell silent while the encounter was active
-  bool released = false;       // lost, waited out, and the own ranges show the way clear
+  bool holds = false;     // this vehicle stops, or stands, because of the peer
+  bool lost = false;      // the peer fell silent while the encounter was active
+  bool released = false;  // lost, waited out, and the own ranges show the way clear
   SteadyTime lost_at{0};
   double lost_wait_s = 0;  // how long the silent peer may take to pass at its cruise speed
 };

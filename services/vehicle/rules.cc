@@ -3,33 +3,26 @@
 #include <algorithm>
 
 #include "services/vehicle/echoes.h"
-#include "services/vehicle/encounter.h"
 
 namespace giveway {
 namespace {
 
 Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
 
-Proposal DeadStopFor(Rule rule, const PeerView& view, Tick cause_tick) {
-  return {.max_speed_m_s = 0, .rule = rule, .peer = view.peer->id, .cause_tick = cause_tick};
-}
-
-// The nearest peer for which `applies` holds; null if there is none.
+// A dead stop for the nearest peer that this vehicle holds for and `applies` to.
 template <typename Predicate>
-const PeerView* Nearest(const Situation& s, Predicate applies) {
+std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies) {
   const PeerView* nearest = nullptr;
   for (const PeerView& view : s.peers) {
-    if (!view.peer->encounter.active || !applies(view)) continue;
+    if (!view.peer->encounter.holds || !applies(view)) continue;
     if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
   }
-  return nearest;
-}
-
-// True where the vehicle must brake now to stand before its conflict with the peer. Inside it,
-// standing still helps nobody: it drives out.
-bool MustBrakeBefore(const PeerView& view, const Situation& s) {
-  return view.conflict && view.conflict->own.begin_m > 0 &&
-         view.conflict->own.begin_m <= OwnStoppingDistance(s);
+  if (nearest == nullptr) return std::nullopt;
+  Proposal proposal = DeadStop(rule);
+  proposal.peer = nearest->peer->id;
+  // Silence has no tick that shows it: a lost peer is a cause without one.
+  proposal.cause_tick = nearest->lost ? kNoTick : nearest->peer->beacon.tick;
+  return proposal;
 }
 
 }  // namespace
@@ -57,30 +50,17 @@ std::optional<Proposal> Arrived(const Situation& s) {
 }
 
 std::optional<Proposal> GiveWay(const Situation& s) {
-  const PeerView* view = Nearest(s, [](const PeerView& candidate) {
-    return candidate.fresh && candidate.peer->encounter.halted_for_it;
-  });
-  if (view == nullptr) return std::nullopt;
-  return DeadStopFor(Rule::kGiveWay, *view, view->peer->beacon.tick);
+  return HoldFor(Rule::kGiveWay, s,
+                 [](const PeerView& view) { return !view.lost && view.goes_first; });
 }
 
 std::optional<Proposal> NotGranted(const Situation& s) {
-  const PeerView* view = Nearest(s, [&](const PeerView& candidate) {
-    return candidate.fresh && !candidate.goes_first && !candidate.grants &&
-           MustBrakeBefore(candidate, s) && !IsThroughFirst(candidate, s);
-  });
-  if (view == nullptr) return std::nullopt;
-  return DeadStopFor(Rule::kNotGranted, *view, view->peer->beacon.tick);
+  return HoldFor(Rule::kNotGranted, s,
+                 [](const PeerView& view) { return !view.lost && !view.goes_first; });
 }
 
-// Silence has no tick that shows it: this decision has no cause tick.
 std::optional<Proposal> PeerLost(const Situation& s) {
-  const PeerView* view = Nearest(s, [&](const PeerView& candidate) {
-    if (!candidate.lost || candidate.peer->encounter.released) return false;
-    return s.options.behaviour == Behaviour::kLectureYield || MustBrakeBefore(candidate, s);
-  });
-  if (view == nullptr) return std::nullopt;
-  return DeadStopFor(Rule::kPeerLost, *view, kNoTick);
+  return HoldFor(Rule::kPeerLost, s, [](const PeerView& view) { return view.lost; });
 }
 
 std::optional<Proposal> Deaf(const Situation& s) {

@@ -26,9 +26,9 @@ std::optional<Proposal> NotRunning(const Situation& s);
 std::optional<Proposal> RangesStale(const Situation& s);
 std::optional<Proposal> Arrived(const Situation& s);
 
-// Right of way. Each looks at every encounter and answers for the peer nearest to the own shell.
+// Right of way: dead stops for the nearest peer that an encounter holds this vehicle for.
 std::optional<Proposal> GiveWay(const Situation& s);
-std::optional<Proposal> NotGranted(const Situation& s);  // cooperative only
+std::optional<Proposal> NotGranted(const Situation& s);
 std::optional<Proposal> PeerLost(const Situation& s);
 
 // What the own ultrasonics ask for by themselves.

@@ -44,11 +44,7 @@ TEST_P(CrossingTest, OfEqualsExactlyTheHigherIdHalts) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, CrossingTest,
-                         testing::Values(Behaviour::kCooperative, Behaviour::kLectureYield),
-                         [](const auto& info) { return std::string(Name(info.param)); });
-
-TEST(CrossingTest, WhenThePeerDiesTheOtherStopsAndGoesOnOnceTheWayIsClear) {
+TEST(CrossingOnce, WhenThePeerDiesTheOtherStopsAndGoesOnOnceTheWayIsClear) {
   for (std::uint32_t seed = 1; seed <= 100; ++seed) {
     Scenario scenario = Perturbed(Crossing(Behaviour::kCooperative, 0.4, 0.3), seed);
     scenario.faults = {{FaultKind::kKill, VehicleId{2}, std::nullopt, 1.5}};
@@ -59,7 +55,27 @@ TEST(CrossingTest, WhenThePeerDiesTheOtherStopsAndGoesOnOnceTheWayIsClear) {
   }
 }
 
-TEST(CrossingTest, WhicheverDiesWheneverNobodyTouches) {
+// Decisions of one vehicle in a finished run: a stop that flickers shows as many.
+int DecisionsOf(std::size_t index, const Scenario& scenario) {
+  sim::VirtualFleet fleet(scenario);
+  int decisions = 0;
+  while (fleet.Advance()) decisions += fleet.Said(index).decision_changed ? 1 : 0;
+  return decisions;
+}
+
+// cruise, give way, cruise: the run ends on its arrival
+TEST_P(CrossingTest, TheLoserDoesNotFlickerOnceTheWinnerHasPassed) {
+  EXPECT_EQ(DecisionsOf(1, Crossing(GetParam(), 0.4, 0.3)), 3);
+}
+
+// cruise, sensor only, peer lost, cruise, cooperative again or arrived
+TEST(CrossingOnce, ALostPeerStopsItOnceAndFirmly) {
+  Scenario scenario = Crossing(Behaviour::kCooperative, 0.4, 0.3);
+  scenario.faults = {{FaultKind::kKill, VehicleId{2}, std::nullopt, 1.5}};
+  EXPECT_LE(DecisionsOf(0, scenario), 6);
+}
+
+TEST(CrossingOnce, WhicheverDiesWheneverNobodyTouches) {
   for (std::uint32_t victim = 1; victim <= 2; ++victim) {
     for (int tenth = 1; tenth < 160; tenth += 3) {
       Scenario scenario = Crossing(Behaviour::kCooperative, 0.4, 0.3);
@@ -70,7 +86,7 @@ TEST(CrossingTest, WhicheverDiesWheneverNobodyTouches) {
   }
 }
 
-TEST(CrossingTest, TheLecturesAvoidersPartWays) {
+TEST(CrossingOnce, TheLecturesAvoidersPartWays) {
   for (std::uint32_t seed = 1; seed <= 100; ++seed) {
     Scenario scenario =
         test::ScenarioOf({test::VehicleAt(1, Behaviour::kLectureAvoid, 0.195, {-2, 0}, 0, 0),
@@ -81,6 +97,10 @@ TEST(CrossingTest, TheLecturesAvoidersPartWays) {
     ASSERT_TRUE(outcome.figures.passed) << "seed " << seed << ": " << outcome.figures.reason;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Both, CrossingTest,
+                         testing::Values(Behaviour::kCooperative, Behaviour::kLectureYield),
+                         [](const auto& test) { return std::string(Name(test.param)); });
 
 }  // namespace
 }  // namespace giveway

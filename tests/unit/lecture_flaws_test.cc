@@ -100,7 +100,7 @@ TEST_P(LectureFlaw, No9CriticalButDeafHalts) {
 
 INSTANTIATE_TEST_SUITE_P(Settled, LectureFlaw,
                          testing::Values(Behaviour::kCooperative, Behaviour::kLectureYield),
-                         [](const auto& info) { return std::string(Name(info.param)); });
+                         [](const auto& test) { return std::string(Name(test.param)); });
 
 // Kept on purpose: vehicle 2a speeds up towards what is exactly ahead. It is the lecture's
 // behaviour, and never a default.

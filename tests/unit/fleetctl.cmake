@@ -1,3 +1,0 @@
-giveway_test(unit fleetctl
-  SOURCES fleet_commands_test.cc fleet_watch_test.cc live_table_test.cc
-  LINK giveway::fleetctl)
