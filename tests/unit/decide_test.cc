@@ -195,6 +195,66 @@ TEST(Decide, AGrantToSomebodyElseIsNone) {
   EXPECT_EQ(DriveUpTo(&bench, 0.2, VehicleId{3}).command.decision.rule, Rule::kNotGranted);
 }
 
+TEST(Decide, AStopOnceBegunIsNotTakenBackAsTheVehicleSlows) {
+  BrainBench bench(test::DefaultOptions());
+  DriveUpTo(&bench, 0.4, kNobody);
+  for (double speed = 0.27; speed >= 0; speed -= 0.03) {
+    Beacon beacon = Crossing(bench.NextTick() - 1, 0.4, 1.2);
+    beacon.wheels = {};
+    const Outputs out = bench.Step(Driving(speed), {beacon});
+    ASSERT_EQ(out.command.target, WheelSpeeds{}) << speed;
+  }
+}
+
+// The path no longer conflicts, but the peer backs towards the one that waits for it.
+TEST(Decide, AnEncounterIsNotOverWhileThePeerStillComesNearer) {
+  BrainBench bench(test::DefaultOptions());
+  DriveUpTo(&bench, 0.4, kNobody);
+  Beacon beacon = Crossing(bench.NextTick() - 1, 0.4, 0.8);
+  beacon.world_from_body.heading_rad = -kPi / 2;
+  beacon.wheels = {-2, -2};
+  EXPECT_EQ(bench.Step(Driving(0), {beacon}).command.decision.rule, Rule::kGiveWay);
+  beacon = Crossing(bench.NextTick() - 1, 0.4, 0.8);
+  beacon.world_from_body.heading_rad = -kPi / 2;
+  beacon.wheels = {2, 2};
+  EXPECT_EQ(bench.Step(Driving(0), {beacon}).command.decision.rule, Rule::kCruise);
+}
+
+TEST(Decide, AConflictBeyondTheGoalIsNone) {
+  VehicleOptions options = test::DefaultOptions();
+  options.goal.at_world = {2, 0};
+  BrainBench bench(options);
+  bench.Step(Driving(0.3));
+  EXPECT_EQ(bench.Step(Driving(0.3), {Crossing(1, 0.4, 3)}).beacon.gives_way_to, kNobody);
+}
+
+// Sensor 2 hears a wall at 0.8 m; the faster peer is 3 m away in the same direction.
+TEST(Decide, AWallInFrontOfAPeerIsNotThePeer) {
+  VehicleOptions options = test::DefaultOptions();
+  options.behaviour = Behaviour::kLectureYield;
+  BrainBench bench(options);
+  RangeScan scan = ClearScan(0);
+  test::SetEcho(&scan, 1, 0.8);
+  bench.Step(scan);
+  const Vec2 there = 3.0 * Vec2{Cos(Radians(50)), Sin(Radians(50))};
+  const Pose pose{.position_world = there, .heading_rad = Radians(-90)};
+  EXPECT_EQ(bench.Step(scan, {BeaconOf(2, 1, pose, 0.4)}).command.decision.rule, Rule::kCruise);
+  const Pose near{
+      .position_world = {0.114 + 1.05 * Cos(Radians(50)), 0.119 + 1.05 * Sin(Radians(50))},
+      .heading_rad = Radians(-90)};
+  EXPECT_EQ(bench.Step(scan, {BeaconOf(2, 2, near, 0.4)}).command.decision.rule, Rule::kGiveWay);
+}
+
+// By its cone alone the echo could lie in the path; the beacon says the body is beside it.
+TEST(Decide, AKnownPeerBesideThePathIsNoObstacle) {
+  BrainBench bench(test::DefaultOptions());
+  RangeScan scan = ClearScan(0);
+  test::SetEcho(&scan, 1, 0.284);
+  EXPECT_EQ(bench.Step(scan).command.decision.rule, Rule::kObstacle);
+  const Beacon beside = BeaconOf(2, 1, {.position_world = {0.3, 0.62}});  // heads the same way
+  EXPECT_EQ(bench.Step(scan, {beside}).command.decision.rule, Rule::kCruise);
+}
+
 TEST(Decide, LeavingStopsAndSaysSo) {
   Vehicle vehicle(test::DefaultOptions(), 42);
   Inputs inputs;

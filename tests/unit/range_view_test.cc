@@ -58,6 +58,16 @@ TEST_F(RangeViewTest, ClosingSpeedIsTheRateOfTheRange) {
   EXPECT_EQ(view_[3].streak, 9U);
 }
 
+// With a firing schedule most scans repeat a sensor's last reading.
+TEST_F(RangeViewTest, ARepeatedReadingIsNotANewOne) {
+  for (std::uint32_t tick = 1; tick <= 3; ++tick) Take(tick, 2.0 - 0.02 * tick);
+  RangeScan scan = ClearScan(4);
+  scan.readings[3] = {Echo::kEcho, 1.94, Tick{3}};
+  view_.Take(scan, milliseconds(200), options_.tick_period);
+  EXPECT_EQ(view_[3].streak, 2U);
+  EXPECT_NEAR(view_[3].closing_m_s, 0.4, 1e-9);
+}
+
 TEST_F(RangeViewTest, AJumpIsAnotherObject) {
   Take(1, 3.0);
   Take(2, 2.99);

@@ -72,6 +72,22 @@ TEST(Vehicle, ANewWorldEpochStartsDeadReckoningAnew) {
   EXPECT_EQ(out.beacon.world_epoch, WorldEpoch{8});
 }
 
+TEST(Vehicle, AScanOlderThanTheLastMovesNothing) {
+  Vehicle vehicle(test::DefaultOptions(), 42);
+  Inputs inputs;
+  for (std::uint32_t tick : {1U, 2U, 3U}) {
+    RangeScan scan = Arc();
+    scan.tick = Tick{tick};
+    inputs.scan = scan;
+    vehicle.Step(inputs);
+  }
+  const Vec2 before = vehicle.State().world_from_body.position_world;
+  inputs.scan->tick = Tick{2};
+  vehicle.Step(inputs);
+  EXPECT_EQ(vehicle.State().world_from_body.position_world, before);
+  EXPECT_EQ(vehicle.State().tick, Tick{3});
+}
+
 TEST(Vehicle, TheSameInputsGiveTheSameBits) {
   BrainBench first(test::DefaultOptions());
   BrainBench second(test::DefaultOptions());
