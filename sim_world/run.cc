@@ -43,6 +43,7 @@ void Run::Start() {
 }
 
 void Run::End(std::string reason) {
+  GIVEWAY_CHECK(!reason.empty());
   if (state_ != RunState::kEnded) asked_end_ = std::move(reason);
 }
 
