@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # From a fresh checkout to a judged crossing: installs what is missing, builds, runs.
 set -euo pipefail
-# shellcheck source=services/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 usage() {
