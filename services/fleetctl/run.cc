@@ -16,7 +16,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr int kCouldNotRun = 2;
-constexpr std::string_view kShippedQos = "qos/fleet.xml";
+constexpr std::string_view kShippedQos = "qos/default.xml";
 
 std::filesystem::path ProgramFolder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();

@@ -24,6 +24,7 @@ constexpr double kSpareSeconds = 10;
 constexpr double kLockstepSlowdown =
     10;  // lockstep waits for slow brains: no real time is promised
 
+constexpr const char* kInterrupted = "interrupted";
 constexpr int kCouldNotStart = 2;
 constexpr int kCouldNotExec = 127;
 
@@ -70,7 +71,12 @@ app::Report RunSession::Run() {
   const bool announces = processes_.World().IsRunning();
   StopAll(!overruled ? kLeaveGrace : announces ? kAnnounceGrace : Nanoseconds{0});
   DrainLast();
-  if (!overruled) overruled = JudgeExits();
+  if (!overruled) {
+    overruled = JudgeExits();
+  } else if (const ChildProcess* bad = processes_.FirstBadEnd();
+             bad != nullptr && overruled->reason == kInterrupted) {
+    ShowTrouble(*bad, "did not leave in good order");
+  }
   screen_.Finish();
   app::Report report = watch_.MakeReport(overruled);
   report.domain = domain_;
@@ -81,7 +87,7 @@ std::optional<Overruled> RunSession::Supervise() {
   const SteadyTime limit = app::SteadyNow() + time_limit_;
   for (;;) {
     Turn();
-    if (Interrupts::Count() > 0) return Overruled{app::Verdict::kFailed, "interrupted"};
+    if (Interrupts::Count() > 0) return Overruled{app::Verdict::kFailed, kInterrupted};
     if (watch_.HasEnded()) return std::nullopt;
     if (const ChildProcess* gone = processes_.FirstUnplannedEnd()) return JudgeEnd(*gone);
     if (app::SteadyNow() > limit) return Overruled{app::Verdict::kFailed, "overran"};
@@ -128,7 +134,7 @@ void RunSession::DrainLast() {
 }
 
 std::optional<Overruled> RunSession::JudgeExits() {
-  if (Interrupts::Count() > 0) return Overruled{app::Verdict::kFailed, "interrupted"};
+  if (Interrupts::Count() > 0) return Overruled{app::Verdict::kFailed, kInterrupted};
   if (const ChildProcess* bad = processes_.FirstBadEnd()) {
     ShowTrouble(*bad, "ended badly after the run");
     return Overruled{app::Verdict::kFailed, "process_died"};

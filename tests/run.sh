@@ -1,0 +1,148 @@
+#!/usr/bin/env bash
+# Sets up, builds, runs the tests, and ends with a table and one line that counts them all.
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
+cd "$GIVEWAY_ROOT"
+
+ALL_STAGES=(format rules unit golden link system asan tsan)
+
+usage() {
+  cat <<'TEXT'
+Usage: bash tests/run.sh [STAGE ...] [--full]
+
+Stages, by default all of them:
+  format   clang-format over every tracked source
+  rules    include arrows, sizes, names, shell scripts
+  unit     pure tests: no sockets, no clocks
+  golden   hashes that must never change
+  link     Fast DDS between participants of one process
+  system   real processes: crossings, kills, bad input
+  asan     unit and link under the address and undefined-behaviour sanitizers
+  tsan     link and one crossing under the thread sanitizer
+
+  --full   more repetitions of the system tests
+
+The last line counts test cases: N passed, N failed.
+TEXT
+}
+
+stages=()
+export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2
+for argument in "$@"; do
+  case $argument in
+    --help | -h)
+      usage
+      exit 0
+      ;;
+    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 ;;
+    all) stages=("${ALL_STAGES[@]}") ;;
+    *)
+      [[ " ${ALL_STAGES[*]} " == *" $argument "* ]] ||
+        die "unknown stage '$argument'; known: all ${ALL_STAGES[*]}"
+      stages+=("$argument")
+      ;;
+  esac
+done
+[[ ${#stages[@]} -gt 0 ]] || stages=("${ALL_STAGES[@]}")
+
+warnings=()
+[[ ${CI:-} == true ]] && warnings=(-DGIVEWAY_WERROR=ON)
+# The library frees some objects by another size than it made them with.
+export ASAN_OPTIONS=new_delete_type_mismatch=0:${ASAN_OPTIONS:-}
+export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
+export TSAN_OPTIONS=suppressions=$GIVEWAY_ROOT/tests/support/tsan.supp:${TSAN_OPTIONS:-}
+
+passed_total=0
+failed_total=0
+table=()
+passed=0
+failed=0
+
+# check NAME COMMAND...: one test case.
+check() {
+  local name=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+    echo "ok      $name"
+  else
+    failed=$((failed + 1))
+    echo "FAILED  $name"
+  fi
+}
+
+# An attribute of the first testsuite element of a JUnit file.
+junit() {
+  sed -n "s/.*<testsuite[^>]* $2=\"\([0-9]*\)\".*/\1/p; s/^[[:space:]]*$2=\"\([0-9]*\)\".*/\1/p" \
+    "$1" 2>/dev/null | head -n 1
+}
+
+# run_ctest PRESET LABEL JOBS [CTEST_ARGUMENTS]
+run_ctest() {
+  local preset=$1 label=$2 jobs=$3 report code=0 ran bad skipped
+  shift 3
+  report="$GIVEWAY_ROOT/build/$preset/junit-$label.xml"
+  rm -f "$report"
+  ctest --test-dir "build/$preset" -L "^$label\$" -j "$jobs" --output-on-failure --no-tests=error \
+    --output-junit "$report" "$@" || code=$?
+  ran=$(junit "$report" tests)
+  bad=$(junit "$report" failures)
+  skipped=$(($(junit "$report" skipped || echo 0) + $(junit "$report" disabled || echo 0)))
+  ran=${ran:-0} bad=${bad:-0}
+  # No test at all, or a ctest that failed without saying which test did, is a failure too.
+  [[ $code -ne 0 && $bad -eq 0 ]] && bad=1 && ran=$((ran > 0 ? ran : 1))
+  passed=$((passed + ran - bad - skipped))
+  failed=$((failed + bad))
+}
+
+prepare() {
+  configure "$1" "${warnings[@]}"
+  build "$1"
+}
+
+stage_format() {
+  mapfile -t sources < <(git ls-files '*.h' '*.cc')
+  check "formatting of ${#sources[@]} files" clang-format --dry-run -Werror "${sources[@]}"
+}
+
+stage_rules() {
+  mapfile -t scripts < <(git ls-files '*.sh' .ci/run)
+  check "include rules" bash tests/rules/include_rules.sh
+  check "include rules catch what is planted" bash tests/rules/include_rules_test.sh
+  check "shell scripts" shellcheck "${scripts[@]}"
+}
+
+stage_unit() { prepare release && run_ctest release unit "$(nproc)"; }
+stage_golden() { prepare release && run_ctest release golden "$(nproc)"; }
+stage_link() { prepare release && run_ctest release link 1; }
+stage_system() { prepare release && run_ctest release system 1; }
+
+stage_asan() {
+  prepare asan
+  run_ctest asan unit "$(nproc)"
+  run_ctest asan link 1
+}
+
+stage_tsan() {
+  prepare tsan
+  run_ctest tsan link 1
+  run_ctest tsan system 1 -R '^system_crossing_intersection_yield$'
+}
+
+mapfile -t packages < <(build_packages && test_packages)
+install_packages "${packages[@]}"
+check_java
+
+for stage in "${stages[@]}"; do
+  say "stage $stage"
+  passed=0 failed=0 started=$SECONDS
+  "stage_$stage"
+  passed_total=$((passed_total + passed))
+  failed_total=$((failed_total + failed))
+  table+=("$(printf '%-8s %7d %7d %6d s' "$stage" "$passed" "$failed" $((SECONDS - started)))")
+done
+
+printf '\n%-8s %7s %7s %8s\n' stage passed failed time
+printf '%s\n' "${table[@]}"
+printf '\n%d passed, %d failed\n' "$passed_total" "$failed_total"
+[[ $failed_total -eq 0 && $passed_total -gt 0 ]]

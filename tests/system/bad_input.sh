@@ -1,0 +1,104 @@
+#!/usr/bin/env bash
+# Whatever is wrong with what the operator hands in: exit code 2, a message that names the file, the
+# line and what to do, nothing started, and no waiting.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+
+# A small scenario that is right; each case spoils one thing.
+good="$SCRATCH/good.textproto"
+cat >"$good" <<'TEXT'
+name: "good"
+duration_s: 1
+vehicle {
+  id: 1
+  start { x_m: -3 y_m: 0 heading_deg: 0 }
+  cruise_m_s: 0.3
+}
+vehicle {
+  id: 2
+  start { x_m: 0 y_m: -3 heading_deg: 90 }
+  cruise_m_s: 0.4
+}
+expect { contacts: 0 }
+TEXT
+
+# refused NAME PATTERN ARGUMENTS...: fleetctl run ARGUMENTS is refused with a message like PATTERN.
+refused() {
+  local name=$1 pattern=$2 code=0 logs="$SCRATCH/logs"
+  shift 2
+  rm -rf "$logs"
+  timeout 5 "$FLEETCTL" run --logs "$logs" "$@" >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
+  [[ $code -eq 2 ]] || fail "$name: exit code $code"
+  grep -Eq -- "$pattern" "$SCRATCH/err" ||
+    fail "$name: the message has no '$pattern': $(head -c 600 "$SCRATCH/err")"
+  [[ ! -s $SCRATCH/out ]] || fail "$name: something on stdout"
+  [[ -z $(find "$logs" -type f 2>/dev/null) ]] || fail "$name: something was started"
+  echo "$name: $(head -n 1 "$SCRATCH/err" | head -c 200)" >&2
+}
+
+# spoilt NAME PATTERN SED: the same for the good scenario changed by a sed script.
+spoilt() {
+  local file="$SCRATCH/spoilt.textproto"
+  sed -E "$3" "$good" >"$file"
+  cmp -s "$good" "$file" && fail "$1: the case spoils nothing"
+  refused "$1" "$2" "$file"
+}
+
+# The control: unspoilt, it runs. Otherwise every case below would prove nothing.
+code=0
+"$FLEETCTL" run "$good" >/dev/null 2>"$SCRATCH/err" || code=$?
+[[ $code -eq 0 ]] || fail "the good scenario: exit code $code: $(tail -n 5 "$SCRATCH/err")"
+
+refused "absent file" 'no_such' no_such.textproto
+refused "folder" 'folder|directory' "$SCRATCH"
+: >"$SCRATCH/empty.textproto"
+refused "empty file" 'empty\.textproto' "$SCRATCH/empty.textproto"
+head -c 4096 /dev/urandom >"$SCRATCH/binary.textproto"
+refused "binary file" 'binary\.textproto' "$SCRATCH/binary.textproto"
+truncate -s 100M "$SCRATCH/sparse.textproto"
+refused "100 MB of nothing" '8 MiB' "$SCRATCH/sparse.textproto"
+yes "$(cat "$good")" 2>/dev/null | head -c 100000000 >"$SCRATCH/huge.textproto"
+refused "100 MB of text" '8 MiB' "$SCRATCH/huge.textproto"
+mkfifo "$SCRATCH/pipe.textproto"
+refused "named pipe" 'pipe\.textproto' "$SCRATCH/pipe.textproto"
+{
+  printf 'expect '
+  printf '{ x %.0s' $(seq 20000)
+} >"$SCRATCH/deep.textproto"
+refused "deep nesting" 'deep\.textproto' "$SCRATCH/deep.textproto"
+
+spoilt "unknown field" 'spoilt\.textproto:6: .*cruise_mps' '6s/cruise_m_s/cruise_mps/'
+spoilt "missing id" 'spoilt\.textproto:[0-9]+: .*id' '4d'
+spoilt "id 0" 'spoilt\.textproto:4: .*id' '4s/1/0/'
+spoilt "NaN" 'spoilt\.textproto:6: .*nan' '6s/0.3/nan/'
+spoilt "infinite" 'spoilt\.textproto:6: ' '6s/0.3/1e400/'
+spoilt "negative radius" 'spoilt\.textproto:3: .*body_radius_m' \
+  '3s/\{/{ profile { body_radius_m: -0.2 }/'
+spoilt "overlapping start poses" 'spoilt\.textproto:[0-9]+: .*' \
+  '10s/x_m: 0 y_m: -3/x_m: -2.8 y_m: 0/'
+spoilt "duplicate ids" 'spoilt\.textproto:9: .*id' '9s/2/1/'
+spoilt "field given twice" 'spoilt\.textproto:2: |spoilt\.textproto:3: ' '2s/$/\nduration_s: 2/'
+spoilt "text where a number belongs" 'spoilt\.textproto:6' '6s/0.3/"fast"/'
+spoilt "unclosed brace" 'spoilt\.textproto:' '13d;12d'
+spoilt "no expectation" 'spoilt\.textproto:.*expect' '13d'
+
+refused "no scenario" 'SCENARIO'
+refused "unknown flag" 'Try: fleetctl run --help' intersection_yield --sped 3
+refused "domain 0" 'domain' intersection_yield --domain 0
+refused "domain 100" 'domain' intersection_yield --domain 100
+refused "negative seed" 'seed' intersection_yield --seed -1
+refused "seed of 33 bits" 'seed' intersection_yield --seed 4294967296
+refused "duration nan" 'duration' intersection_yield --duration nan
+refused "duration 0" 'duration' intersection_yield --duration 0
+refused "unknown behaviour" 'behaviour' intersection_yield --behaviour reckless
+refused "absent QoS file" 'no_such\.xml' intersection_yield --qos no_such.xml
+refused "QoS file that is no XML" 'good\.textproto' intersection_yield --qos "$good"
+refused "unknown interface" 'nowhere0' intersection_yield --interface nowhere0
+refused "picture nowhere" 'no_such_folder' intersection_yield --picture no_such_folder/run.svg
+refused "picture that is a folder" "$SCRATCH" intersection_yield --picture "$SCRATCH"
+
+# With --json the refusal is data, too.
+"$FLEETCTL" run no_such.textproto --json 2>/dev/null >"$SCRATCH/out" || true
+jq -e '.verdict == "not_run" and .reason == "bad_input"' "$SCRATCH/out" >/dev/null ||
+  fail "JSON of a refusal: $(cat "$SCRATCH/out")"
+
+[[ $failures -eq 0 ]]

@@ -1,0 +1,172 @@
+// Real processes and real time: what a pure test cannot say of ChildProcess.
+#include "services/fleetctl/child_process.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+namespace giveway::fleetctl {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+ChildCommand Shell(const std::string& script) {
+  return {"the shell", {"/bin/sh", "-c", script}, "", -1};
+}
+
+// Polls until `done`, at most five seconds.
+template <typename Condition>
+bool WaitFor(ChildProcess* child, Condition done) {
+  for (int i = 0; i < 500; ++i) {
+    child->Poll();
+    if (done()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+bool WaitForEnd(ChildProcess* child) {
+  return WaitFor(child, [child] { return !child->IsRunning(); });
+}
+
+bool IsAlive(pid_t pid) { return ::kill(pid, 0) == 0; }
+
+TEST(ChildProcess, ExitCodeAndLastLinesAreKept) {
+  ChildProcess child(Shell("echo to stdout; echo to stderr >&2; printf unfinished; exit 3"));
+  ASSERT_TRUE(WaitForEnd(&child));
+  EXPECT_EQ(child.End(), (ProcessEnd{false, 3}));
+  EXPECT_EQ(Describe(*child.End()), "exit code 3");
+  EXPECT_THAT(child.LastLines(), ElementsAre("to stdout", "to stderr", "unfinished"));
+}
+
+TEST(ChildProcess, OnlyTheLastTwentyLinesAreKept) {
+  ChildProcess child(Shell("for i in $(seq 1 1000); do echo line $i; done"));
+  ASSERT_TRUE(WaitForEnd(&child));
+  ASSERT_THAT(child.LastLines(), SizeIs(ChildProcess::kLinesKept));
+  EXPECT_EQ(child.LastLines().front(), "line 981");
+  EXPECT_EQ(child.LastLines().back(), "line 1000");
+}
+
+TEST(ChildProcess, MegabytesWithoutALineFeedStayBounded) {
+  ChildProcess child(Shell("head -c 5000000 /dev/zero | tr '\\0' x"));
+  ASSERT_TRUE(WaitForEnd(&child));
+  ASSERT_THAT(child.LastLines(), SizeIs(1));
+  EXPECT_LE(child.LastLines()[0].size(), 2000U);
+}
+
+TEST(ChildProcess, DeathBySignalIsNamed) {
+  ChildProcess child(Shell("sleep 60"));
+  child.Signal(SIGKILL);
+  ASSERT_TRUE(WaitForEnd(&child));
+  EXPECT_EQ(Describe(*child.End()), "signal 9 (Killed)");
+}
+
+TEST(ChildProcess, ProgramThatIsNotThereSaysSo) {
+  ChildProcess child({"nobody", {"/does/not/exist"}, "", -1});
+  ASSERT_TRUE(WaitForEnd(&child));
+  EXPECT_EQ(child.End(), (ProcessEnd{false, 127}));
+  EXPECT_THAT(child.LastLines(), ElementsAre(HasSubstr("cannot start /does/not/exist: No such")));
+}
+
+TEST(ChildProcess, DestructionKillsAndReapsAChildThatIgnoresSigterm) {
+  pid_t pid = 0;
+  {
+    ChildProcess child(Shell("trap '' TERM; echo ready; while :; do sleep 1; done"));
+    pid = child.Pid();
+    ASSERT_TRUE(WaitFor(&child, [&child] { return !child.LastLines().empty(); }));
+    child.Signal(SIGTERM);
+  }
+  EXPECT_FALSE(IsAlive(pid));
+}
+
+TEST(ChildProcess, ChildSeesNoDescriptorButTheStandardOnesAndTheKeptOne) {
+  const int leaked = ::dup(STDERR_FILENO);  // not close-on-exec, as the library's sockets are
+  const int kept = ::dup(STDERR_FILENO);
+  // The shell opens the directory of its own descriptors to list it: that one is not counted.
+  ChildCommand command{"ls", {"/bin/ls", "/proc/self/fd"}, "", kept};
+  ChildProcess child(command);
+  ASSERT_TRUE(WaitForEnd(&child));
+  EXPECT_THAT(child.LastLines(), ElementsAre("0", "1", "2", "3", "4"));
+  command.kept_fd = -1;
+  ChildProcess without(command);
+  ASSERT_TRUE(WaitForEnd(&without));
+  EXPECT_THAT(without.LastLines(), ElementsAre("0", "1", "2", "3"));
+  ::close(leaked);
+  ::close(kept);
+}
+
+TEST(ChildProcess, SignalsBlockedOrIgnoredHereReachTheChild) {
+  struct sigaction before {};
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  ::sigaction(SIGTERM, &ignore, &before);
+  ChildProcess child({"sleep", {"/bin/sleep", "60"}, "", -1});
+  ::sigaction(SIGTERM, &before, nullptr);
+  // A signal between fork and exec would find the handler of this process.
+  ASSERT_TRUE(WaitFor(&child, [&child] {
+    return std::filesystem::read_symlink("/proc/" + std::to_string(child.Pid()) + "/exe")
+               .filename() == "sleep";
+  }));
+  child.Signal(SIGTERM);
+  ASSERT_TRUE(WaitForEnd(&child));
+  EXPECT_EQ(child.End(), (ProcessEnd{true, SIGTERM}));
+}
+
+bool IsGoneOrUnreaped(pid_t pid) {
+  std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+  std::string id, name, state;
+  return !(stat >> id >> name >> state) || state == "Z";
+}
+
+TEST(ChildProcess, DiesWhenItsParentIsKilled) {
+  std::array<int, 2> pipe{};
+  ASSERT_EQ(::pipe(pipe.data()), 0);
+  const pid_t parent = ::fork();
+  ASSERT_GE(parent, 0);
+  if (parent == 0) {
+    ChildProcess child({"sleep", {"/bin/sleep", "60"}, "", -1});
+    const pid_t pid = child.Pid();
+    if (::write(pipe[1], &pid, sizeof pid) != sizeof pid) ::_exit(1);
+    for (;;) ::pause();
+  }
+  pid_t orphan = 0;
+  EXPECT_EQ(::read(pipe[0], &orphan, sizeof orphan), static_cast<ssize_t>(sizeof orphan));
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  EXPECT_FALSE(IsGoneOrUnreaped(orphan));
+  ::kill(parent, SIGKILL);
+  ::waitpid(parent, nullptr, 0);
+  bool gone = false;
+  for (int i = 0; i < 200 && !gone; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    gone = IsGoneOrUnreaped(orphan);
+  }
+  EXPECT_TRUE(gone);
+  ::close(pipe[0]);
+  ::close(pipe[1]);
+}
+
+TEST(ChildProcess, LogFileHoldsEverythingItSaid) {
+  ChildCommand command = Shell("for i in $(seq 1 100); do echo line $i; done");
+  command.log_file = testing::TempDir() + "child_log_" + std::to_string(::getpid());
+  ChildProcess child(command);
+  ASSERT_TRUE(WaitForEnd(&child));
+  std::ifstream log(command.log_file);
+  std::string line;
+  int lines = 0;
+  while (std::getline(log, line)) ++lines;
+  EXPECT_EQ(lines, 100);
+  std::filesystem::remove(command.log_file);
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl

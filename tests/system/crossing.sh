@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# One run of a shipped scenario, judged by its JSON and its picture.
+# Usage: crossing.sh SCENARIO
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+scenario=${1:?name a scenario}
+
+# What a reader of the JSON counts on, in every run.
+shape='type == "object"
+  and (.verdict | IN("passed", "failed", "not_run")) and (.reason | length > 0)
+  and ([.contacts, .beacons_sent, .beacons_received, .deadline_missed, .liveliness_lost,
+        .tick_overruns, .seed, .domain] | all(type == "number"))
+  and (.halted | type == "array") and (.domain >= 1 and .domain <= 99)'
+passed='.verdict == "passed" and .contacts == 0 and .min_separation_m > 0
+  and .beacons_sent > 0 and .beacons_received > 0'
+
+case $scenario in
+  intersection_yield)
+    expected='.halted == [2] and .arrived == [1, 2] and .time_to_clear_s > 0
+      and .reaction_ms.p50 > 0 and .reaction_ms.p99 >= .reaction_ms.p50
+      and .reaction_ms.max >= .reaction_ms.p99'
+    ;;
+  intersection_equal) expected='.halted == [2] and .arrived == [1, 2]' ;;
+  intersection_avoid) expected='.halted == []' ;;
+  wall_only)
+    expected='.halted == []'
+    passed=${passed//and .min_separation_m > 0/} # one vehicle has nobody to come near to
+    passed=${passed//and .beacons_received > 0/}
+    ;;
+  peer_dies) expected='(.halted | length) == 1 and (.arrived | length) == 1' ;;
+  *)
+    echo "unknown scenario '$scenario'" >&2
+    exit 2
+    ;;
+esac
+
+code=0
+"$FLEETCTL" run "$scenario" --json --picture "$SCRATCH/run.svg" --logs "$SCRATCH/logs" \
+  >"$SCRATCH/run.json" 2>"$SCRATCH/run.err" || code=$?
+cat "$SCRATCH/run.json"
+
+[[ $code -eq 0 ]] || fail "exit code $code"
+[[ $(jq -s length "$SCRATCH/run.json") == 1 ]] || fail "stdout is not exactly one JSON object"
+for what in "$shape" "$passed" "$expected"; do
+  jq -e "$what" "$SCRATCH/run.json" >/dev/null || fail "not true of the report: $what"
+done
+if command -v rsvg-convert >/dev/null; then
+  rsvg-convert "$SCRATCH/run.svg" -o "$SCRATCH/run.png" || fail "the picture does not render"
+fi
+[[ -e $SCRATCH/logs/world.log ]] || fail "no log of the world"
+
+if [[ $failures -gt 0 ]]; then
+  tail -n 20 "$SCRATCH/run.err" "$SCRATCH"/logs/*
+  exit 1
+fi

@@ -1,0 +1,82 @@
+# shellcheck shell=bash
+# What the system tests share: where the programs are, a scratch folder, how a failure is said, and
+# who belongs to a run. Sourced, never run. Processes are found by id and by their own arguments,
+# never by name alone: other runs on the machine are nobody's business here.
+set -euo pipefail
+
+REPOSITORY=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+FLEETCTL=${GIVEWAY_BIN_DIR:-$REPOSITORY/build/release/bin}/fleetctl
+[[ -x $FLEETCTL ]] || {
+  echo "no $FLEETCTL; build first: bash services/run.sh --setup-only" >&2
+  exit 2
+}
+SCRATCH=$(mktemp -d)
+trap 'rm -rf "$SCRATCH"' EXIT
+failures=0
+
+fail() {
+  printf 'FAILED: %s\n' "$*"
+  failures=$((failures + 1))
+}
+
+# The ids of the direct children of a process, one a line.
+children_of() {
+  local stat pid rest
+  for stat in /proc/[0-9]*/stat; do
+    { read -r rest <"$stat"; } 2>/dev/null || continue
+    pid=${rest%% *}
+    rest=${rest##*) } # behind the name, which may hold anything: state, parent, ...
+    read -r _ rest _ <<<"$rest"
+    [[ $rest == "$1" ]] && echo "$pid"
+  done
+  return 0
+}
+
+arguments_of() { { tr '\0' ' ' <"/proc/$1/cmdline"; } 2>/dev/null || true; }
+
+# The child of fleetctl $1 that is `world` or vehicle number $2; empty if there is none yet.
+find_child() {
+  local pid arguments
+  for pid in $(children_of "$1"); do
+    arguments=$(arguments_of "$pid")
+    case $2 in
+      world) [[ $arguments == */giveway-world\ * ]] && echo "$pid" ;;
+      *) [[ $arguments == */giveway-vehicle\ *"--id $2 "* ]] && echo "$pid" ;;
+    esac
+  done
+  return 0
+}
+
+# wait_for_child FLEETCTL_PID WHO: prints the id once the child is there; five seconds at most.
+wait_for_child() {
+  local pid _
+  for _ in $(seq 250); do
+    pid=$(find_child "$1" "$2")
+    [[ -n $pid ]] && echo "$pid" && return
+    sleep 0.02
+  done
+  return 1
+}
+
+# The domain a child was told.
+domain_of() { arguments_of "$1" | sed -n 's/.*--domain \([0-9]*\) .*/\1/p'; }
+
+# The processes of a run on a domain, one a line.
+processes_on() {
+  local folder
+  for folder in /proc/[0-9]*; do
+    [[ $(arguments_of "${folder#/proc/}") == *"/giveway-"*" --domain $1 "* ]] || continue
+    echo "${folder#/proc/}"
+  done
+  return 0
+}
+
+# True once no process of the domain is left; waits $2 tenths of a second at most.
+all_gone() {
+  local _
+  for _ in $(seq "$2"); do
+    [[ -z $(processes_on "$1") ]] && return
+    sleep 0.1
+  done
+  [[ -z $(processes_on "$1") ]]
+}

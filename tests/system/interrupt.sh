@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Ctrl-C is a clean stop: exit code 1, reason "interrupted", everyone leaves in good order within a
+# second. SIGTERM is the same; a second Ctrl-C does not wait.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+
+now_ms() { echo $(($(date +%s%N) / 1000000)); }
+
+# interrupt NAME SECONDS SIGNAL...: sends the signals that long after the start, 50 ms apart.
+interrupt() {
+  local name=$1 delay=$2 run world domain begun code=0 signal
+  shift 2
+  "$FLEETCTL" run intersection_yield --json >"$SCRATCH/out.json" 2>"$SCRATCH/err" &
+  run=$!
+  world=$(wait_for_child "$run" world) || {
+    fail "$name: never started"
+    return
+  }
+  domain=$(domain_of "$world")
+  sleep "$delay"
+  begun=$(now_ms)
+  for signal in "$@"; do
+    kill -s "$signal" "$run" || true
+    sleep 0.05
+  done
+  all_gone "$domain" 15 || fail "$name: left over: $(processes_on "$domain" | xargs)"
+  local took=$(($(now_ms) - begun))
+  wait "$run" || code=$?
+  [[ $took -le 1300 ]] || fail "$name: it took $took ms until all were gone"
+  [[ $code -eq 1 ]] || fail "$name: exit code $code"
+  jq -e '.verdict == "failed" and .reason == "interrupted"' "$SCRATCH/out.json" >/dev/null ||
+    fail "$name: the report says $(cat "$SCRATCH/out.json")"
+  if [[ $# -eq 1 ]] && grep -q 'did not leave in good order' "$SCRATCH/err"; then
+    fail "$name: $(tail -n 5 "$SCRATCH/err")"
+  fi
+  echo "$name: gone after $took ms" >&2
+}
+
+interrupt "Ctrl-C at once" 0 INT
+interrupt "Ctrl-C while driving" 4 INT
+interrupt "SIGTERM while driving" 3 TERM
+interrupt "Ctrl-C twice" 3 INT INT
+[[ $failures -eq 0 ]]
