@@ -1,6 +1,7 @@
 // An observer's side: reads what the world and the vehicles publish, writes nothing.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -16,6 +17,7 @@ struct Observed {
   std::vector<VehicleStatus> statuses;
   std::vector<RosterEntry> roster;
   std::optional<RunFigures> figures;
+  std::uint32_t refused = 0;  // statuses whose id is not the one of their writer's partition
 };
 
 class ObserverLink {
@@ -25,7 +27,8 @@ class ObserverLink {
   ObserverLink(const ObserverLink&) = delete;
   ObserverLink& operator=(const ObserverLink&) = delete;
 
-  // Everything that came since the last call, each kind in order of arrival.
+  // Everything that came since the last call: events in order, the other kinds in order of arrival
+  // for each vehicle (roster: session).
   Observed Take();
 
  private:

@@ -20,13 +20,16 @@ struct Taken {
 
 // Counters of the link alone; the brain counts what it accepts and refuses.
 struct VehicleLinkCounters {
-  std::uint32_t beacons_superseded = 0;  // sample-lost status of the beacon reader
+  // Beacons that arrived and were overwritten in the reader before a drain: gaps in the writers'
+  // own sequence numbers less what the library's sample-lost status says never arrived.
+  std::uint32_t beacons_superseded = 0;
   std::uint32_t unbound_samples = 0;     // writer's partition not yet known: dropped
+  std::uint32_t unreadable_samples = 0;  // sound, but with an enumerator unknown here: dropped
   std::uint32_t wrong_name_scans = 0;    // ranges whose id is not this vehicle's
   std::uint32_t events_dropped = 0;      // the event queue was full
   std::uint32_t write_failures = 0;
-  std::uint32_t matched_peers = 0;  // beacon writers matched now, own excluded
-  std::uint32_t ranges_deadline_missed = 0;
+  std::uint32_t matched_peers = 0;           // beacon writers matched now, own excluded
+  std::uint32_t ranges_deadline_missed = 0;  // edges: once until the next scan
 };
 
 // QoS of the beacon endpoints as the library resolved it, milliseconds.

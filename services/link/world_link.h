@@ -9,6 +9,7 @@
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
+#include "services/types/time.h"
 
 namespace giveway::link {
 
@@ -16,7 +17,7 @@ struct WorldLinkCounters {
   std::uint32_t commands_taken = 0;
   std::uint32_t commands_wrong_name = 0;  // id is not the one of the writer's partition
   std::uint32_t commands_unbound = 0;     // writer's partition not yet known
-  std::uint32_t commands_not_finite = 0;
+  std::uint32_t commands_not_finite = 0;  // or with an enumerator unknown here
   std::uint32_t write_failures = 0;
 };
 
@@ -33,7 +34,8 @@ class WorldLink {
   bool IsMatched(VehicleId vehicle) const;
 
   std::vector<JoinRequest> TakeJoins();
-  // Everything that came since the last call, in order of arrival; the span holds until the next.
+  // Everything that came since the last call, each vehicle's in order of arrival; the span holds
+  // until the next call.
   std::span<const MotorCommand> TakeCommands();
   // Waits until a command is there or `timeout` has passed. For lockstep.
   bool WaitForCommands(Nanoseconds timeout);

@@ -1,0 +1,57 @@
+#include "services/link/beacon_inbox.h"
+
+#include <algorithm>
+
+#include "services/link/convert.h"
+
+namespace giveway::link {
+
+BeaconInbox::BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names,
+                         const rtps::GuidPrefix_t& own)
+    : reader_(reader), names_(names), own_(own) {}
+
+void BeaconInbox::Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons) {
+  reader_.TakeEach([&](const wire::Beacon& sample, const dds::SampleInfo& info) {
+    Receive(sample, info, now, beacons);
+  });
+}
+
+void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& info, SteadyTime now,
+                          std::vector<ReceivedBeacon>& beacons) {
+  const rtps::GUID_t& writer = info.sample_identity.writer_guid();
+  if (writer.guidPrefix == own_) return;
+  WriterEntry* const entry = names_.Find(writer);
+  if (entry == nullptr) {
+    ++unbound_;
+    return;
+  }
+  const std::uint64_t sequence = info.sample_identity.sequence_number().to64long();
+  if (entry->last_sequence != 0) gaps_ += sequence - entry->last_sequence - 1;
+  entry->last_sequence = sequence;
+
+  ReceivedBeacon& received = beacons.emplace_back();
+  const bool readable = FromWire(sample, received.beacon);
+  received.received = now;
+  received.crc_valid = sample.crc() == BeaconCrc(sample);
+  received.name_valid = entry->vehicle != kNobody && entry->vehicle == received.beacon.vehicle;
+  received.writer = entry->identity;
+  // A broken beacon is told as broken whatever it says; a sound one that says what this build does
+  // not know cannot be told at all.
+  if (received.crc_valid && !readable) {
+    ++unreadable_;
+    beacons.pop_back();
+  }
+}
+
+std::uint32_t BeaconInbox::Superseded() {
+  dds::SampleLostStatus lost;
+  if (!Ok(reader_.Entity().get_sample_lost_status(lost))) return superseded_;
+  // A loss is reported before the gap it leaves is seen, hence never downwards.
+  const auto lost_count = static_cast<std::uint64_t>(lost.total_count);
+  if (gaps_ > lost_count) {
+    superseded_ = std::max(superseded_, static_cast<std::uint32_t>(gaps_ - lost_count));
+  }
+  return superseded_;
+}
+
+}  // namespace giveway::link

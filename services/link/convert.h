@@ -1,0 +1,37 @@
+// Our values to wire types and back, field by field, nothing judged: NaN goes through as NaN. Text
+// longer than its bound is cut. FromWire is false if the sample has an enumerator this build does
+// not know; those fields keep their value, the others are set.
+#pragma once
+
+#include "services/link/fastdds_version.h"
+#include "services/types/beacon.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/motor_command.h"
+#include "services/types/range_scan.h"
+
+namespace giveway::link {
+
+// The checksum of fleet.idl over the fields of `beacon`; ToWire(Beacon) sets it.
+std::uint32_t BeaconCrc(const wire::Beacon& beacon);
+
+wire::Beacon ToWire(const Beacon& beacon);
+wire::RangeScan ToWire(const RangeScan& scan);
+wire::MotorCommand ToWire(const MotorCommand& command);
+wire::Status ToWire(const VehicleStatus& status);
+wire::Join ToWire(const JoinRequest& request);
+wire::Roster ToWire(const RosterEntry& entry);
+wire::Truth ToWire(const Truth& truth);
+wire::Event ToWire(const WorldEvent& event);
+wire::Figures ToWire(const RunFigures& figures);
+
+bool FromWire(const wire::Beacon& sample, Beacon& beacon);
+bool FromWire(const wire::RangeScan& sample, RangeScan& scan);
+bool FromWire(const wire::MotorCommand& sample, MotorCommand& command);
+bool FromWire(const wire::Status& sample, VehicleStatus& status);
+bool FromWire(const wire::Join& sample, JoinRequest& request);
+bool FromWire(const wire::Roster& sample, RosterEntry& entry);
+bool FromWire(const wire::Truth& sample, Truth& truth);
+bool FromWire(const wire::Event& sample, WorldEvent& event);
+bool FromWire(const wire::Figures& sample, RunFigures& figures);
+
+}  // namespace giveway::link

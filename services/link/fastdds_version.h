@@ -1,0 +1,103 @@
+// Everything particular to one version of Fast DDS: names, headers, return codes, the shape of the
+// discovery callback, the generated types. The rest of this room compiles against either 2.9.1 or
+// 3.1.2 unchanged. Never included outside this room and its tests.
+#pragma once
+
+#include <cstdint>
+#include <fastdds/dds/core/LoanableSequence.hpp>
+#include <fastdds/dds/core/condition/StatusCondition.hpp>
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <string>
+#include <vector>
+
+#if __has_include(<fastrtps/config.h>)
+#include <fastdds/rtps/common/Guid.h>
+#include <fastdds/rtps/common/InstanceHandle.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <idl/fleetPubSubTypes.h>
+
+namespace giveway::link {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+namespace transport = eprosima::fastdds::rtps;
+using Duration = eprosima::fastrtps::Duration_t;
+using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+
+inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
+// The result of DataWriter::write: true is good in 2.9.1, and 0 is good in 3.1.2.
+inline bool Ok(bool written) { return written; }
+
+}  // namespace giveway::link
+
+#define GIVEWAY_IS_PLAIN_PARAMETERS
+#else
+#include <fastdds/rtps/builtin/data/PublicationBuiltinTopicData.hpp>
+#include <fastdds/rtps/common/Guid.hpp>
+#include <fastdds/rtps/common/InstanceHandle.hpp>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
+#include <idl/fleetPubSubTypes.hpp>
+
+namespace giveway::link {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastdds::rtps;
+namespace transport = eprosima::fastdds::rtps;
+using Duration = dds::Duration_t;
+using ReturnCode = dds::ReturnCode_t;
+
+inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
+
+}  // namespace giveway::link
+
+#define GIVEWAY_IS_PLAIN_PARAMETERS dds::DataRepresentationId_t
+#endif
+
+namespace giveway::link {
+
+// Tells of every writer in the domain that this participant discovers, its own included.
+class DiscoveryListener : public dds::DomainParticipantListener {
+ public:
+  enum class Change : std::uint8_t { kFound, kGone };
+
+  // Called on the library's threads. A writer whose QoS changed is found again.
+  virtual void OnWriter(Change change, const rtps::GUID_t& writer,
+                        const std::vector<std::string>& partitions) = 0;
+
+#if __has_include(<fastrtps/config.h>)
+  void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) final {
+    const bool gone = found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
+    OnWriter(gone ? Change::kGone : Change::kFound, found.info.guid(),
+             found.info.m_qos.m_partition.names());
+  }
+#else
+  void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus status,
+                                const dds::PublicationBuiltinTopicData& found, bool&) final {
+    const bool gone = status == rtps::WriterDiscoveryStatus::REMOVED_WRITER;
+    OnWriter(gone ? Change::kGone : Change::kFound, found.guid, found.partition.names());
+  }
+#endif
+};
+
+// A generated type that is always deserialized. Left to itself the library lends its network buffer
+// for types without strings: unchecked in length and byte order, and misaligned for doubles.
+template <typename Generated>
+class CheckedType final : public Generated {
+ public:
+  bool is_plain(GIVEWAY_IS_PLAIN_PARAMETERS) const override { return false; }
+};
+
+}  // namespace giveway::link

@@ -1,0 +1,16 @@
+// Sends what Fast DDS logs to stderr (its default is stdout, where our JSON goes), errors only, and
+// keeps the last of it so that a start-up error can quote the library's own words.
+#pragma once
+
+#include <string>
+
+namespace giveway::link {
+
+// Takes the library's log over. Once a process; later calls do nothing.
+void TakeOverLibraryLog();
+
+// What the library complained about since the last call, one line each; empty if nothing.
+// While the caller is about to quote it, nothing is lost: it was on stderr already.
+std::string LibraryComplaints();
+
+}  // namespace giveway::link

@@ -1,0 +1,70 @@
+#include "services/link/observer_link.h"
+
+#include "services/link/convert.h"
+#include "services/link/participant.h"
+#include "services/link/writer_names.h"
+
+namespace giveway::link {
+namespace {
+
+constexpr char kWorld[] = "world";
+
+// Appends every sample that this build can read.
+template <typename Wire, typename Ours>
+void Append(Reader<Wire>& reader, std::vector<Ours>& list) {
+  reader.TakeEach([&](const Wire& sample, const dds::SampleInfo&) {
+    Ours value;
+    if (FromWire(sample, value)) list.push_back(std::move(value));
+  });
+}
+
+}  // namespace
+
+struct ObserverLink::Impl {
+  explicit Impl(const LinkOptions& options)
+      : participant(options, "giveway-observer", names),
+        status_reader(participant.MakeReader<wire::Status>("v*")),
+        truth_reader(participant.MakeReader<wire::Truth>(kWorld)),
+        event_reader(participant.MakeReader<wire::Event>(kWorld, EventDepth(options.fleet_size))),
+        roster_reader(participant.MakeReader<wire::Roster>(kWorld)),
+        figures_reader(participant.MakeReader<wire::Figures>(kWorld)) {}
+
+  void TakeStatuses(Observed& observed) {
+    status_reader.TakeEach([&](const wire::Status& sample, const dds::SampleInfo& info) {
+      const WriterEntry* const entry = names.Find(info.sample_identity.writer_guid());
+      VehicleStatus status;
+      if (entry == nullptr || entry->vehicle == kNobody ||
+          entry->vehicle != VehicleId{sample.vehicle()}) {
+        ++observed.refused;
+      } else if (FromWire(sample, status)) {
+        observed.statuses.push_back(status);
+      }
+    });
+  }
+
+  WriterNames names;  // the library calls it until the participant is gone
+  Participant participant;
+  Reader<wire::Status> status_reader;
+  Reader<wire::Truth> truth_reader;
+  Reader<wire::Event> event_reader;
+  Reader<wire::Roster> roster_reader;
+  Reader<wire::Figures> figures_reader;
+};
+
+ObserverLink::ObserverLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+ObserverLink::~ObserverLink() = default;
+
+Observed ObserverLink::Take() {
+  impl_->names.Update();
+  Observed observed;
+  impl_->TakeStatuses(observed);
+  Append(impl_->truth_reader, observed.truths);
+  Append(impl_->event_reader, observed.events);
+  Append(impl_->roster_reader, observed.roster);
+  std::vector<RunFigures> figures;
+  Append(impl_->figures_reader, figures);
+  if (!figures.empty()) observed.figures = figures.back();
+  return observed;
+}
+
+}  // namespace giveway::link

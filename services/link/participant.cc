@@ -1,0 +1,134 @@
+#include "services/link/participant.h"
+
+#include <regex>
+
+#include "services/link/interfaces.h"
+#include "services/link/library_log.h"
+#include "services/link/profiles.h"
+
+namespace giveway::link {
+namespace {
+
+constexpr char kParticipantProfile[] = "giveway_participant";
+// Announcements cost N^2 packets a period, so a large fleet announces itself more rarely.
+constexpr std::uint32_t kLargeFleet = 32;
+const Duration kLargeFleetLease{20, 0};
+const Duration kLargeFleetAnnouncement{5, 0};
+
+void CheckOptions(const LinkOptions& options) {
+  if (options.domain < 1 || options.domain > 99) {
+    throw LinkError("domain " + std::to_string(options.domain) +
+                    ": must be 1 to 99; above 101 its ports collide with ephemeral ones");
+  }
+  if (!std::regex_match(options.area, std::regex("[a-z0-9_-]{1,64}"))) {
+    throw LinkError("area \"" + options.area + "\": must be 1 to 64 of a-z 0-9 _ -");
+  }
+}
+
+// UDP only: the profile says how, the options say on which interfaces.
+void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options) {
+  auto& list = qos.transport().user_transports;
+  const auto* udp = list.size() == 1
+                        ? dynamic_cast<transport::UDPv4TransportDescriptor*>(list.front().get())
+                        : nullptr;
+  if (udp == nullptr || qos.transport().use_builtin_transports) {
+    throw LinkError("QoS file " + options.qos_file + ": profile \"" + kParticipantProfile +
+                    "\" must switch useBuiltinTransports off and name one UDPv4 transport");
+  }
+  // A copy, because the profile's descriptor is shared by the whole process.
+  auto own = std::make_shared<transport::UDPv4TransportDescriptor>(*udp);
+  own->interfaceWhiteList = ResolveInterface(options.interface);
+  list.front() = own;
+}
+
+dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name) {
+  dds::DomainParticipantQos qos;
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  if (!Ok(factory->get_participant_qos_from_profile(kParticipantProfile, qos))) {
+    ThrowMissingProfile(kParticipantProfile);
+  }
+  qos.name(name);
+  SetTransport(qos, options);
+  if (options.fleet_size > kLargeFleet) {
+    auto& discovery = qos.wire_protocol().builtin.discovery_config;
+    discovery.leaseDuration = kLargeFleetLease;
+    discovery.leaseDuration_announcementperiod = kLargeFleetAnnouncement;
+  }
+  return qos;
+}
+
+[[noreturn]] void ThrowNotMade(const std::string& what) {
+  throw LinkError("Fast DDS did not make the " + what + LibraryComplaints());
+}
+
+template <typename Qos>
+void SetDepth(Qos& qos, std::int32_t depth) {
+  if (depth != Participant::kProfileDepth) qos.history().depth = depth;
+}
+
+}  // namespace
+
+std::string VehiclePartition(VehicleId vehicle) { return "v" + std::to_string(Number(vehicle)); }
+
+void Participant::Delete::operator()(dds::DomainParticipant* participant) const {
+  participant->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+}
+
+Participant::Participant(const LinkOptions& options, const std::string& name,
+                         DiscoveryListener& discovery) {
+  CheckOptions(options);
+  LoadProfiles(options.qos_file);
+  // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
+  // missed by a writer without a listener of its own crashes there.
+  participant_.reset(dds::DomainParticipantFactory::get_instance()->create_participant(
+      options.domain, MakeQos(options, name), &discovery, dds::StatusMask::none()));
+  if (participant_ == nullptr) {
+    ThrowNotMade("participant in domain " + std::to_string(options.domain) + " on interface " +
+                 options.interface +
+                 "; are there more than mutation_tries participants on this host?");
+  }
+}
+
+dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& name) {
+  if (auto* known = participant_->lookup_topicdescription(name)) {
+    return *dynamic_cast<dds::Topic*>(known);
+  }
+  if (!Ok(type.register_type(participant_.get()))) ThrowNotMade("type " + type.get_type_name());
+  auto* topic = participant_->create_topic(name, type.get_type_name(), dds::TOPIC_QOS_DEFAULT);
+  if (topic == nullptr) ThrowNotMade("topic " + name);
+  return *topic;
+}
+
+dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& profile,
+                                         const std::string& partition, std::int32_t depth) {
+  dds::PublisherQos publisher_qos;
+  publisher_qos.partition().push_back(partition.c_str());
+  auto* publisher = participant_->create_publisher(publisher_qos, nullptr, dds::StatusMask::none());
+  if (publisher == nullptr) ThrowNotMade("publisher for partition " + partition);
+  dds::DataWriterQos qos;
+  if (!Ok(publisher->get_datawriter_qos_from_profile(profile, qos))) ThrowMissingProfile(profile);
+  SetDepth(qos, depth);
+  auto* writer = publisher->create_datawriter(&topic, qos, nullptr, dds::StatusMask::none());
+  if (writer == nullptr) ThrowNotMade("writer of profile \"" + profile + "\"");
+  return *writer;
+}
+
+dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& profile,
+                                         const std::string& partition, std::int32_t depth,
+                                         dds::DataReaderListener* listener,
+                                         const dds::StatusMask& mask) {
+  dds::SubscriberQos subscriber_qos;
+  subscriber_qos.partition().push_back(partition.c_str());
+  auto* subscriber =
+      participant_->create_subscriber(subscriber_qos, nullptr, dds::StatusMask::none());
+  if (subscriber == nullptr) ThrowNotMade("subscriber for partition " + partition);
+  dds::DataReaderQos qos;
+  if (!Ok(subscriber->get_datareader_qos_from_profile(profile, qos))) ThrowMissingProfile(profile);
+  SetDepth(qos, depth);
+  auto* reader = subscriber->create_datareader(&topic, qos, listener, mask);
+  if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
+  return *reader;
+}
+
+}  // namespace giveway::link

@@ -1,0 +1,64 @@
+// One DDS participant and every entity in it. Entities are made by profile name; code adds only
+// what follows from the options: partition, transport whitelist, history depth, announcement
+// period.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "services/link/endpoint.h"
+#include "services/link/link_options.h"
+#include "services/link/topics.h"
+#include "services/types/ids.h"
+
+namespace giveway::link {
+
+class Participant {
+ public:
+  // Takes the depth of a history from the profile.
+  static constexpr std::int32_t kProfileDepth = 0;
+
+  // `discovery` is called from the first moment and must outlive this. Throws LinkError.
+  Participant(const LinkOptions& options, const std::string& name, DiscoveryListener& discovery);
+
+  // Each endpoint has a Publisher or Subscriber of its own, because that is what carries the
+  // partition. Throws LinkError.
+  template <typename Wire>
+  Writer<Wire> MakeWriter(const std::string& partition, std::int32_t depth = kProfileDepth) {
+    return Writer<Wire>(MakeWriter(MakeTopic<Wire>(), TopicOf<Wire>::kWriter, partition, depth));
+  }
+  // `listener`, if any, hears the statuses of `mask` and must outlive this.
+  template <typename Wire>
+  Reader<Wire> MakeReader(const std::string& partition, std::int32_t depth = kProfileDepth,
+                          dds::DataReaderListener* listener = nullptr,
+                          const dds::StatusMask& mask = dds::StatusMask::none()) {
+    return Reader<Wire>(
+        MakeReader(MakeTopic<Wire>(), TopicOf<Wire>::kReader, partition, depth, listener, mask));
+  }
+
+  const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
+
+ private:
+  struct Delete {
+    void operator()(dds::DomainParticipant* participant) const;
+  };
+
+  template <typename Wire>
+  dds::Topic& MakeTopic() {
+    return MakeTopic(dds::TypeSupport(new typename TopicOf<Wire>::Type), TopicOf<Wire>::kName);
+  }
+  dds::Topic& MakeTopic(dds::TypeSupport type, const std::string& name);
+  dds::DataWriter& MakeWriter(dds::Topic& topic, const std::string& profile,
+                              const std::string& partition, std::int32_t depth);
+  dds::DataReader& MakeReader(dds::Topic& topic, const std::string& profile,
+                              const std::string& partition, std::int32_t depth,
+                              dds::DataReaderListener* listener, const dds::StatusMask& mask);
+
+  std::unique_ptr<dds::DomainParticipant, Delete> participant_;
+};
+
+// The partition that names a vehicle's own endpoints: "v7".
+std::string VehiclePartition(VehicleId vehicle);
+
+}  // namespace giveway::link

@@ -1,0 +1,52 @@
+// Turns what a reader's listener queued into QoS events that name a vehicle, and keeps who is
+// matched. A deadline miss becomes an edge: once a vehicle until it is heard again, and never for a
+// vehicle that has left, because the library repeats misses of departed instances for ever.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "services/link/reader_events.h"
+#include "services/link/writer_names.h"
+#include "services/types/qos_event.h"
+
+namespace giveway::link {
+
+class PeerEvents {
+ public:
+  // Nothing is told of writers with the prefix `own`: a reader matches its own participant's.
+  PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own);
+
+  // Appends to `told`. `names` must be updated after `events` were taken.
+  void Translate(std::span<const ReaderEvent> events, SteadyTime now, std::vector<QosEvent>& told);
+  // A sample of the vehicle was accepted: its next deadline miss is news again.
+  void Heard(VehicleId vehicle);
+
+  // Writers matched now, own excluded.
+  std::uint32_t MatchedWriters() const { return matched_writers_; }
+  bool IsMatched(VehicleId vehicle) const { return peers_.contains(vehicle); }
+
+ private:
+  struct Peer {
+    std::uint32_t writers = 0;  // matched; more than one where an id is claimed twice
+    bool missed = false;
+  };
+  struct Hash {
+    std::size_t operator()(const rtps::GUID_t& guid) const { return Identity(guid); }
+  };
+
+  void Matched(VehicleId vehicle);
+  void Unmatched(VehicleId vehicle);
+  bool IsNewMiss(VehicleId vehicle);
+
+  const WriterNames& names_;
+  rtps::GuidPrefix_t own_;
+  std::uint32_t matched_writers_ = 0;
+  std::unordered_map<VehicleId, Peer> peers_;         // with at least one matched writer
+  std::unordered_set<rtps::GUID_t, Hash> not_alive_;  // matched writers that fell silent
+};
+
+}  // namespace giveway::link

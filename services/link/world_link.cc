@@ -1,0 +1,146 @@
+#include "services/link/world_link.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "services/link/convert.h"
+#include "services/link/participant.h"
+#include "services/link/peer_events.h"
+#include "services/link/reader_events.h"
+#include "services/link/writer_names.h"
+#include "services/types/check.h"
+
+namespace giveway::link {
+namespace {
+
+constexpr char kWorld[] = "world";
+
+bool IsFinite(const MotorCommand& command) {
+  return std::isfinite(command.target.left_rad_s) && std::isfinite(command.target.right_rad_s);
+}
+
+}  // namespace
+
+struct WorldLink::Impl {
+  explicit Impl(const LinkOptions& options)
+      : participant(options, "giveway-world", names),
+        join_reader(participant.MakeReader<wire::Join>("fleet")),
+        command_reader(participant.MakeReader<wire::MotorCommand>(
+            "v*", Participant::kProfileDepth, &events, dds::StatusMask::subscription_matched())),
+        roster_writer(participant.MakeWriter<wire::Roster>(kWorld)),
+        truth_writer(participant.MakeWriter<wire::Truth>(kWorld)),
+        event_writer(participant.MakeWriter<wire::Event>(kWorld, EventDepth(options.fleet_size))),
+        figures_writer(participant.MakeWriter<wire::Figures>(kWorld)),
+        vehicles(names, participant.Prefix()),
+        command_wait(command_reader.Entity()) {}
+
+  void FollowDiscovery() {
+    const auto queued = events.Take();  // before the names, see VehicleLink::Take
+    names.Update();
+    discarded.clear();
+    vehicles.Translate(queued, SteadyTime{0}, discarded);
+  }
+  void Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info);
+  void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
+
+  WriterNames names;    // the library calls these two until the participant is gone, so they are
+  ReaderEvents events;  // declared before it
+  Participant participant;
+  Reader<wire::Join> join_reader;
+  Reader<wire::MotorCommand> command_reader;
+  Writer<wire::Roster> roster_writer;
+  Writer<wire::Truth> truth_writer;
+  Writer<wire::Event> event_writer;
+  Writer<wire::Figures> figures_writer;
+  std::unordered_map<VehicleId, Writer<wire::RangeScan>> ranges_writers;
+  PeerEvents vehicles;  // by their command writers
+  DataWait command_wait;
+  std::vector<MotorCommand> commands;
+  std::vector<QosEvent> discarded;
+  WorldLinkCounters counters;
+};
+
+void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info) {
+  ++counters.commands_taken;
+  const WriterEntry* const entry = names.Find(info.sample_identity.writer_guid());
+  MotorCommand command;
+  if (entry == nullptr) {
+    ++counters.commands_unbound;
+  } else if (entry->vehicle == kNobody || entry->vehicle != VehicleId{sample.vehicle()}) {
+    ++counters.commands_wrong_name;
+  } else if (!FromWire(sample, command) || !IsFinite(command)) {
+    ++counters.commands_not_finite;
+  } else {
+    commands.push_back(command);
+  }
+}
+
+WorldLink::WorldLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+WorldLink::~WorldLink() = default;
+
+void WorldLink::OpenRanges(VehicleId vehicle) {
+  GIVEWAY_CHECK(vehicle != kNobody);
+  if (impl_->ranges_writers.contains(vehicle)) return;
+  impl_->ranges_writers.emplace(
+      vehicle, impl_->participant.MakeWriter<wire::RangeScan>(VehiclePartition(vehicle)));
+}
+
+bool WorldLink::IsMatched(VehicleId vehicle) const {
+  impl_->FollowDiscovery();
+  const auto writer = impl_->ranges_writers.find(vehicle);
+  return writer != impl_->ranges_writers.end() && writer->second.HasReader() &&
+         impl_->vehicles.IsMatched(vehicle);
+}
+
+std::vector<JoinRequest> WorldLink::TakeJoins() {
+  std::vector<JoinRequest> joins;
+  impl_->join_reader.TakeEach([&](const wire::Join& sample, const dds::SampleInfo&) {
+    FromWire(sample, joins.emplace_back());
+  });
+  return joins;
+}
+
+std::span<const MotorCommand> WorldLink::TakeCommands() {
+  impl_->FollowDiscovery();
+  impl_->commands.clear();
+  impl_->command_reader.TakeEach(
+      [&](const wire::MotorCommand& sample, const dds::SampleInfo& info) {
+        impl_->Receive(sample, info);
+      });
+  return impl_->commands;
+}
+
+bool WorldLink::WaitForCommands(Nanoseconds timeout) { return impl_->command_wait.Wait(timeout); }
+
+void WorldLink::SendRoster(const RosterEntry& entry) {
+  impl_->CountWrite(impl_->roster_writer.Write(ToWire(entry)));
+}
+
+void WorldLink::SendScan(const RangeScan& scan) {
+  const auto writer = impl_->ranges_writers.find(scan.vehicle);
+  GIVEWAY_CHECK(writer != impl_->ranges_writers.end(), Number(scan.vehicle));
+  impl_->CountWrite(writer->second.Write(ToWire(scan)));
+}
+
+void WorldLink::SendTruth(const Truth& truth) {
+  impl_->CountWrite(impl_->truth_writer.Write(ToWire(truth)));
+}
+
+void WorldLink::SendEvent(const WorldEvent& event) {
+  impl_->CountWrite(impl_->event_writer.Write(ToWire(event)));
+}
+
+void WorldLink::SendFigures(const RunFigures& figures) {
+  impl_->CountWrite(impl_->figures_writer.Write(ToWire(figures)));
+}
+
+void WorldLink::Flush(Nanoseconds timeout) {
+  // One after the other: each usually returns at once, so the sum stays near one `timeout`.
+  impl_->roster_writer.WaitUntilHeard(timeout);
+  impl_->event_writer.WaitUntilHeard(timeout);
+  impl_->figures_writer.WaitUntilHeard(timeout);
+}
+
+WorldLinkCounters WorldLink::Counters() const { return impl_->counters; }
+
+}  // namespace giveway::link

@@ -1,0 +1,89 @@
+#include "services/link/writer_names.h"
+
+#include <charconv>
+#include <cstring>
+
+namespace giveway::link {
+namespace {
+
+// Writers that left stay known this long, because their last samples and the event that they left
+// are drained after the news of it.
+constexpr std::size_t kGoneKept = 1024;
+
+constexpr std::uint64_t Mix(std::uint64_t bits) {
+  bits = (bits ^ (bits >> 32U)) * 0xd6e8feb86659fd93ULL;
+  return bits ^ (bits >> 32U);
+}
+
+}  // namespace
+
+VehicleId NamedVehicle(const std::vector<std::string>& partitions) {
+  if (partitions.size() != 1) return kNobody;
+  std::string_view name = partitions.front();
+  name.remove_prefix(name.rfind('/') + 1);  // npos + 1 is 0: no area before the name
+  if (name.size() < 2 || name[0] != 'v' || name[1] == '0') return kNobody;
+  std::uint32_t number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + 1, end, number);
+  if (error != std::errc{} || stop != end) return kNobody;
+  return VehicleId{number};
+}
+
+std::uint64_t Identity(const rtps::GUID_t& endpoint) {
+  static_assert(sizeof(endpoint.guidPrefix.value) + sizeof(endpoint.entityId.value) == 16);
+  std::uint64_t high = 0;
+  std::uint64_t low = 0;
+  std::memcpy(&high, endpoint.guidPrefix.value, 8);
+  std::memcpy(&low, endpoint.guidPrefix.value + 8, 4);
+  std::uint32_t entity = 0;
+  std::memcpy(&entity, endpoint.entityId.value, 4);
+  const std::uint64_t hash = Mix(Mix(high) + (low << 32U | entity));
+  return hash == 0 ? 1 : hash;
+}
+
+rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle) {
+  rtps::GUID_t guid;
+  rtps::iHandle2GUID(guid, handle);
+  return guid;
+}
+
+void WriterNames::OnWriter(Change change, const rtps::GUID_t& writer,
+                           const std::vector<std::string>& partitions) {
+  const Queued queued{change, writer, NamedVehicle(partitions)};
+  const std::scoped_lock lock(mutex_);
+  queue_.push_back(queued);
+}
+
+void WriterNames::Update() {
+  batch_.clear();
+  {
+    const std::scoped_lock lock(mutex_);
+    batch_.swap(queue_);
+  }
+  for (const Queued& queued : batch_) {
+    WriterEntry& entry = writers_[queued.writer];
+    entry.gone = queued.change == Change::kGone;
+    if (entry.gone) {
+      gone_.push_back(queued.writer);
+    } else {
+      entry.vehicle = queued.vehicle;
+      entry.identity = Identity(queued.writer);
+    }
+  }
+  for (; gone_.size() > kGoneKept; gone_.pop_front()) {
+    const auto oldest = writers_.find(gone_.front());
+    if (oldest != writers_.end() && oldest->second.gone) writers_.erase(oldest);
+  }
+}
+
+WriterEntry* WriterNames::Find(const rtps::GUID_t& writer) {
+  const auto found = writers_.find(writer);
+  return found == writers_.end() ? nullptr : &found->second;
+}
+
+const WriterEntry* WriterNames::Find(const rtps::GUID_t& writer) const {
+  const auto found = writers_.find(writer);
+  return found == writers_.end() ? nullptr : &found->second;
+}
+
+}  // namespace giveway::link

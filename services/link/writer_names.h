@@ -1,0 +1,66 @@
+// Which vehicle each discovered writer speaks for, by the `v<id>` of its partition. A sample whose
+// id is another one is not believed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "services/link/fastdds_version.h"
+#include "services/types/ids.h"
+
+namespace giveway::link {
+
+// The vehicle named by a writer's partitions: exactly one partition whose last part is `v<id>`.
+// kNobody for anything else: wildcards, several partitions, leading zeros, numbers out of range.
+VehicleId NamedVehicle(const std::vector<std::string>& partitions);
+
+// 64 bits that stand for one endpoint; never 0.
+std::uint64_t Identity(const rtps::GUID_t& endpoint);
+
+rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle);
+
+// What the link knows of one writer.
+struct WriterEntry {
+  VehicleId vehicle = kNobody;  // whom its partition names
+  std::uint64_t identity = 0;
+  std::uint64_t last_sequence = 0;  // of the last sample taken from it; 0 before the first
+  bool gone = false;                // left; may be found again
+};
+
+class WriterNames final : public DiscoveryListener {
+ public:
+  // The library's side: only queues.
+  void OnWriter(Change change, const rtps::GUID_t& writer,
+                const std::vector<std::string>& partitions) override;
+
+  // The loop's side: applies what was queued. Discovery of a writer is queued before any sample or
+  // event of it can be.
+  void Update();
+  // Null if the writer is not known. Valid until the next Update.
+  WriterEntry* Find(const rtps::GUID_t& writer);
+  const WriterEntry* Find(const rtps::GUID_t& writer) const;
+
+ private:
+  struct Queued {
+    Change change;
+    rtps::GUID_t writer;
+    VehicleId vehicle;
+  };
+  struct Hash {
+    std::size_t operator()(const rtps::GUID_t& guid) const { return Identity(guid); }
+  };
+
+  std::mutex mutex_;
+  std::vector<Queued> queue_;  // guarded by mutex_
+  std::vector<Queued> batch_;
+  std::unordered_map<rtps::GUID_t, WriterEntry, Hash> writers_;
+  std::deque<rtps::GUID_t> gone_;  // still in writers_, oldest first
+};
+
+}  // namespace giveway::link

@@ -1,0 +1,48 @@
+#include "services/vehicle/beacon_check.h"
+
+#include <cmath>
+
+#include "services/types/math.h"
+
+namespace giveway {
+namespace {
+
+// ARIA's absolute limit for the platform is 2.2 m/s, 22.6 rad/s at the wheel; beyond that with some
+// room nobody is a vehicle of this fleet.
+constexpr double kMaxWheel_rad_s = 30.0;
+constexpr double kMaxCruise_m_s = 2.5;
+constexpr double kMaxCoordinate_m = 100'000.0;
+constexpr double kMaxSigma_m = 1000.0;
+constexpr double kSpeedBucket_m_s = 0.05;
+
+bool Within(double x, double limit) { return x >= -limit && x <= limit; }
+
+}  // namespace
+
+bool IsFinite(const Beacon& b) {
+  return std::isfinite(b.wheels.left_rad_s) && std::isfinite(b.wheels.right_rad_s) &&
+         std::isfinite(b.cruise_m_s) && std::isfinite(b.world_from_body.position_world.x) &&
+         std::isfinite(b.world_from_body.position_world.y) &&
+         std::isfinite(b.world_from_body.heading_rad) && std::isfinite(b.sigma_position_m) &&
+         std::isfinite(b.sigma_heading_rad);
+}
+
+bool IsInRange(const Beacon& b) {
+  return b.vehicle != kNobody && b.boot_epoch != 0 && b.seq != 0 &&
+         Within(b.wheels.left_rad_s, kMaxWheel_rad_s) &&
+         Within(b.wheels.right_rad_s, kMaxWheel_rad_s) && b.cruise_m_s >= 0 &&
+         b.cruise_m_s <= kMaxCruise_m_s &&
+         Within(b.world_from_body.position_world.x, kMaxCoordinate_m) &&
+         Within(b.world_from_body.position_world.y, kMaxCoordinate_m) &&
+         Within(b.world_from_body.heading_rad, kPi + 1e-9) && b.sigma_position_m >= 0 &&
+         b.sigma_position_m <= kMaxSigma_m && b.sigma_heading_rad >= 0 &&
+         b.sigma_heading_rad <= 2 * kPi && b.mode <= Mode::kLeaving && b.rule <= Rule::kLeaving &&
+         b.order.vehicle == b.vehicle && b.order.waited_ticks <= Number(b.tick) &&
+         b.order.speed_bucket == SpeedBucket(b.cruise_m_s);
+}
+
+std::uint32_t SpeedBucket(double cruise_m_s) {
+  return static_cast<std::uint32_t>(cruise_m_s / kSpeedBucket_m_s + 0.5);
+}
+
+}  // namespace giveway

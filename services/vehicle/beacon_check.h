@@ -1,0 +1,18 @@
+// Whether a beacon's numbers can be believed at all, before anything is concluded from them.
+#pragma once
+
+#include "services/types/beacon.h"
+
+namespace giveway {
+
+// True if every floating-point field is a finite number.
+bool IsFinite(const Beacon& beacon);
+
+// True if every field lies where a vehicle of this fleet can be: see the limits in the .cc.
+// Precondition: IsFinite(beacon).
+bool IsInRange(const Beacon& beacon);
+
+// The speed bucket of the order: round(cruise / 0.05 m/s).
+std::uint32_t SpeedBucket(double cruise_m_s);
+
+}  // namespace giveway

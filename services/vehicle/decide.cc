@@ -1,0 +1,98 @@
+#include "services/vehicle/decide.h"
+
+#include <algorithm>
+
+#include "services/vehicle/encounter.h"
+#include "services/vehicle/rules.h"
+#include "services/vehicle/steering.h"
+
+namespace giveway {
+namespace {
+
+// Past a standing vehicle at walking pace, and no faster than the cruise.
+constexpr double kRoundSpeed_m_s = 0.2;
+
+bool IsAvoiding(Behaviour behaviour) {
+  return behaviour == Behaviour::kLectureAvoid || behaviour == Behaviour::kStockAvoid;
+}
+
+std::optional<Proposal> MostRestrictive(const Situation& s) {
+  std::optional<Proposal> lowest;
+  for (const RuleFunction rule : RulesOf(s.options.behaviour)) {
+    const std::optional<Proposal> proposal = rule(s);
+    if (proposal && (!lowest || proposal->max_speed_m_s < lowest->max_speed_m_s)) {
+      lowest = proposal;
+    }
+  }
+  return lowest;
+}
+
+// The ladder: how much of what a decision wants to know is known.
+Mode ModeOf(const Situation& s) {
+  if (s.leaving) return Mode::kLeaving;
+  if (s.blind_sensor >= 0) return Mode::kHalt;
+  const bool someone_lost =
+      std::any_of(s.peers.begin(), s.peers.end(), [](const PeerView& view) { return view.lost; });
+  return s.deaf || someone_lost ? Mode::kSensorOnly : Mode::kCooperative;
+}
+
+Action AvoidingAction(const Situation& s) {
+  const Avoidance avoidance = Avoid(s.options.braitenberg, s.ranges);
+  Action action{.target = avoidance.wheels};
+  action.decision.rule = avoidance.sensor >= 0 ? Rule::kAvoid : Rule::kCruise;
+  action.decision.sensor = avoidance.sensor;
+  action.decision.cause_tick = avoidance.sensor >= 0 ? s.tick : kNoTick;
+  return action;
+}
+
+// Drives to the goal no faster than `limit`, slowing so that it can stop there.
+Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
+  const VehicleProfile& profile = s.options.profile;
+  const Steering steering = SteerToGoal(s);
+  Action action;
+  double speed = std::min(s.options.cruise_m_s,
+                          SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
+                                            profile.deceleration_m_s2));
+  action.decision.rule = Rule::kCruise;
+  if (steering.round != kNobody) {
+    speed = std::min(speed, kRoundSpeed_m_s);
+    action.decision.rule = Rule::kSteerRound;
+    action.decision.peer = steering.round;
+  }
+  bool may_turn = true;
+  if (limit && limit->max_speed_m_s < speed) {
+    speed = limit->max_speed_m_s;
+    may_turn = limit->may_turn;
+    action.decision = {.rule = limit->rule,
+                       .peer = limit->peer,
+                       .sensor = limit->sensor,
+                       .cause_tick = limit->cause_tick};
+  }
+  action.target = Drive(profile, steering, speed, may_turn);
+  return action;
+}
+
+}  // namespace
+
+Action Decide(const Situation& s) {
+  const std::optional<Proposal> limit = MostRestrictive(s);
+  Action action;
+  if (IsAvoiding(s.options.behaviour) && !limit) {
+    action = AvoidingAction(s);
+  } else {
+    action = DrivingAction(s, limit);
+  }
+  action.decision.mode = ModeOf(s);
+  return action;
+}
+
+VehicleId GivesWayTo(const Situation& s) {
+  const PeerView* nearest = nullptr;
+  for (const PeerView& view : s.peers) {
+    if (!view.peer->encounter.active || !view.fresh || !CanGiveWay(view, s)) continue;
+    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
+  }
+  return nearest == nullptr ? kNobody : nearest->peer->id;
+}
+
+}  // namespace giveway

@@ -1,0 +1,128 @@
+#include "services/vehicle/encounter.h"
+
+#include <algorithm>
+
+namespace giveway {
+namespace {
+
+constexpr double kPeerSpeedSlack = 1.1;   // a peer's seed, slip and rounding
+constexpr double kThroughMargin_s = 1.0;  // between leaving the conflict and its coming
+constexpr double kLostMargin_s = 1.0;     // on top of the time a silent peer may need to pass
+
+// The nearest echo that is this peer's body; huge if no sensor hears it.
+double NearestEchoOf(const PeerView& view, const Situation& s) {
+  double nearest = 1e9;
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    if ((view.explains >> i & 1U) != 0) nearest = std::min(nearest, s.ranges[i].range_m);
+  }
+  return nearest;
+}
+
+// lecture_yield compares when the ultrasonics say "critically close"; cooperative as soon as the
+// paths conflict, by beacon, or when the ultrasonics do: the union of both.
+bool Begins(const PeerView& view, const Situation& s) {
+  if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
+  const bool critically_close = NearestEchoOf(view, s) < s.options.gate_enter_m;
+  if (s.options.behaviour == Behaviour::kLectureYield) {
+    const bool parting = !view.conflict && view.closing_m_s <= 0;
+    return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
+  }
+  if (!view.conflict) return false;
+  return critically_close || !IsThroughFirst(view, s);
+}
+
+bool IsOver(const PeerView& view, const Situation& s) {
+  if (view.conflict) return false;
+  return view.gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
+}
+
+// A silent peer's encounter ends only when it had the time to pass and nothing near is heard.
+void UpdateLost(const PeerView& view, const Situation& s) {
+  Encounter& encounter = view.peer->encounter;
+  if (!encounter.lost) {
+    const double cruise = std::max(0.05, view.peer->beacon.cruise_m_s);
+    encounter.lost = true;
+    encounter.lost_at = s.now;
+    encounter.lost_wait_s =
+        (view.conflict ? view.conflict->peer.end_m / cruise : 0) + kLostMargin_s;
+  }
+  const double nearest = s.ranges.NearestEcho();
+  const bool clear = nearest < 0 || nearest >= s.options.gate_exit_m;
+  const bool waited = Seconds(s.now - encounter.lost_at) >= encounter.lost_wait_s;
+  if (waited && clear) encounter.released = true;
+}
+
+// True where only braking now still ends before the conflict. Inside it, standing still helps
+// nobody: the vehicle drives out.
+bool MustBrakeNow(const PeerView& view, const Situation& s) {
+  return view.conflict && view.conflict->own.begin_m > 0 &&
+         view.conflict->own.begin_m <= OwnStoppingDistance(s);
+}
+
+// Whom the order puts second stops at the gate, or where only braking now is early enough.
+bool SecondMustStop(const PeerView& view, const Situation& s) {
+  if (s.options.behaviour == Behaviour::kLectureYield) return true;
+  if (!view.conflict) return false;
+  return view.gap_m <= CriticalDistance(s, view) ||
+         view.conflict->own.begin_m <= OwnStoppingDistance(s);
+}
+
+// Whom the order puts first needs the other's word, or to be through before it; the lecture's
+// behaviour trusts the order alone.
+bool FirstMayGo(const PeerView& view, const Situation& s) {
+  return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
+}
+
+// Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
+// stopping distance, and a stop that ends whenever it is short enough would never be one.
+bool Holds(const PeerView& view, const Situation& s) {
+  const bool held = view.peer->encounter.holds;
+  if (view.lost) {
+    if (view.peer->encounter.released) return false;
+    return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
+  }
+  if (view.goes_first) return held || SecondMustStop(view, s);
+  if (FirstMayGo(view, s)) return false;
+  return held || MustBrakeNow(view, s);
+}
+
+}  // namespace
+
+bool IsThroughFirst(const PeerView& view, const Situation& s) {
+  if (!view.conflict) return true;
+  const VehicleProfile& profile = s.options.profile;
+  const double own_s = TimeToCover(view.conflict->own.end_m, std::max(0.0, s.speed_m_s),
+                                   s.options.cruise_m_s, profile.acceleration_m_s2);
+  const double peer_speed =
+      kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
+  if (peer_speed <= 0) return true;
+  return own_s + kThroughMargin_s < view.conflict->peer.begin_m / peer_speed;
+}
+
+bool CanGiveWay(const PeerView& view, const Situation& s) {
+  if (!view.goes_first) return false;
+  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
+  return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
+}
+
+void UpdateEncounter(const PeerView& view, const Situation& s) {
+  Encounter& encounter = view.peer->encounter;
+  if (view.peer->left || view.peer->out_of_reach) {
+    encounter = {};
+    return;
+  }
+  if (view.lost) {
+    if (encounter.active) UpdateLost(view, s);
+  } else {
+    encounter.lost = false;
+    encounter.released = false;
+    if (!encounter.active) {
+      encounter.active = Begins(view, s);
+    } else if (IsOver(view, s)) {
+      encounter = {};
+    }
+  }
+  encounter.holds = encounter.active && Holds(view, s);
+}
+
+}  // namespace giveway

@@ -1,0 +1,20 @@
+// Begins, holds and ends encounters: the memory that keeps right of way from flickering. An
+// encounter begins when two paths conflict, and ends when they no longer do and the gap has opened.
+#pragma once
+
+#include "services/vehicle/situation.h"
+
+namespace giveway {
+
+// Moves the peer's encounter on by one tick, and says whether this vehicle holds for it.
+void UpdateEncounter(const PeerView& view, const Situation& s);
+
+// True if this vehicle is the one to wait in the encounter, and can: it stands, or will before
+// the conflict. Only then may it say that it gives way.
+bool CanGiveWay(const PeerView& view, const Situation& s);
+
+// True if every way of the peer at up to a tenth above its cruise speed leaves this vehicle out of
+// the conflict before the peer can reach it.
+bool IsThroughFirst(const PeerView& view, const Situation& s);
+
+}  // namespace giveway

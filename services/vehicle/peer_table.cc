@@ -1,0 +1,205 @@
+#include "services/vehicle/peer_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/types/math.h"
+#include "services/vehicle/beacon_check.h"
+
+namespace giveway {
+
+Peer* PeerTable::Find(VehicleId id) {
+  const auto end = peers_.begin() + count_;
+  const auto at = std::lower_bound(
+      peers_.begin(), end, id, [](const Peer& peer, VehicleId wanted) { return peer.id < wanted; });
+  return at != end && at->id == id ? &*at : nullptr;
+}
+
+Peer* PeerTable::FindOrInsert(VehicleId id) {
+  const auto end = peers_.begin() + count_;
+  const auto at = std::lower_bound(
+      peers_.begin(), end, id, [](const Peer& peer, VehicleId wanted) { return peer.id < wanted; });
+  if (at != end && at->id == id) return &*at;
+  if (count_ == kMaxPeers) return nullptr;
+  std::move_backward(at, end, end + 1);
+  *at = Peer{.id = id};
+  ++count_;
+  return &*at;
+}
+
+// One writer speaks for an id. Another is believed once the first is silent past its lease or has
+// left; while both speak, neither is.
+bool PeerTable::BelongsTo(Peer* peer, const ReceivedBeacon& received) {
+  const SteadyTime now = received.received;
+  if (peer->writer == 0) peer->writer = received.writer;
+  if (received.writer != peer->writer) {
+    const bool silent = now - peer->spoke > kWriterLease || peer->left;
+    const bool restarted = received.beacon.boot_epoch != peer->boot_epoch;
+    if (silent && restarted) {
+      *peer = Peer{.id = peer->id, .writer = received.writer, .encounter = peer->encounter};
+    } else {
+      peer->rivalled = true;
+      peer->rival_spoke = now;
+      return false;
+    }
+  }
+  peer->spoke = now;
+  if (peer->rivalled && now - peer->rival_spoke <= kWriterLease) return false;
+  peer->rivalled = false;
+  return true;
+}
+
+void PeerTable::Store(Peer* peer, const ReceivedBeacon& received, Tick tick) {
+  const Beacon& beacon = received.beacon;
+  peer->boot_epoch = beacon.boot_epoch;
+  peer->last_seq = beacon.seq;
+  peer->deadline_missed = false;
+  peer->liveliness_lost = false;
+  peer->out_of_reach = false;
+  peer->left = beacon.mode == Mode::kLeaving;
+  if (beacon.tick < tick) {
+    peer->beacon = beacon;
+    peer->received = received.received;
+    peer->known = true;
+    peer->waiting_count = 0;  // all older than this one
+    return;
+  }
+  if (peer->waiting_count == peer->waiting.size()) {  // the newer of two waits for its turn no more
+    peer->waiting[0] = peer->waiting[1];
+    peer->waiting_received[0] = peer->waiting_received[1];
+    --peer->waiting_count;
+  }
+  peer->waiting[peer->waiting_count] = beacon;
+  peer->waiting_received[peer->waiting_count] = received.received;
+  ++peer->waiting_count;
+}
+
+void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
+                     const VehicleOptions& options, BeaconCounters* counters) {
+  const Beacon& beacon = received.beacon;
+  ++counters->taken;
+  const auto refuse = [&](std::uint32_t BeaconCounters::*counter) {
+    ++(counters->*counter);
+    last_rejected_ = beacon.vehicle;
+  };
+  if (beacon.vehicle == self.id) return refuse(&BeaconCounters::rejected_own);
+  if (!received.name_valid) return refuse(&BeaconCounters::rejected_wrong_name);
+  if (!received.crc_valid) return refuse(&BeaconCounters::rejected_crc);
+  if (!IsFinite(beacon)) return refuse(&BeaconCounters::rejected_not_finite);
+  if (!IsInRange(beacon)) return refuse(&BeaconCounters::rejected_out_of_range);
+  if (beacon.world_epoch != self.epoch) return refuse(&BeaconCounters::rejected_wrong_epoch);
+
+  const bool heard = Norm(beacon.world_from_body.position_world - self.position_world) <=
+                     options.emission_radius_m;
+  if (!heard) {
+    ++counters->not_heard;
+    Peer* peer = Find(beacon.vehicle);
+    if (peer != nullptr && peer->writer == received.writer) {
+      peer->out_of_reach = true;
+      peer->spoke = received.received;
+      peer->last_seq = beacon.seq;
+    }
+    return;
+  }
+  Peer* peer = FindOrInsert(beacon.vehicle);
+  if (peer == nullptr) return refuse(&BeaconCounters::rejected_table_full);
+  if (!BelongsTo(peer, received)) return refuse(&BeaconCounters::rejected_duplicate_id);
+  const bool replayed = peer->boot_epoch != 0 &&
+                        (beacon.boot_epoch != peer->boot_epoch || beacon.seq <= peer->last_seq);
+  if (replayed) return refuse(&BeaconCounters::rejected_replayed);
+  if (peer->boot_epoch != 0) counters->lost += beacon.seq - peer->last_seq - 1;
+  ++counters->accepted;
+  Store(peer, received, self.tick);
+}
+
+void PeerTable::Note(const QosEvent& event, QosCounters* counters) {
+  Peer* peer = Find(event.vehicle);
+  switch (event.kind) {
+    case QosEventKind::kDeadlineMissed:
+      // A good-bye is no miss, and a miss is an edge: one until the next accepted beacon.
+      if (peer == nullptr || peer->left || peer->deadline_missed) return;
+      ++counters->deadline_missed;
+      last_deadline_missed_ = event.vehicle;
+      peer->deadline_missed = true;
+      return;
+    case QosEventKind::kLivelinessLost:
+      if (peer == nullptr || peer->left || peer->liveliness_lost) return;
+      ++counters->liveliness_lost;
+      last_liveliness_lost_ = event.vehicle;
+      peer->liveliness_lost = true;
+      return;
+    case QosEventKind::kIncompatibleQos:
+      ++counters->incompatible_qos;
+      return;
+    case QosEventKind::kMatched:
+      ++counters->matched;
+      return;
+    case QosEventKind::kUnmatched:
+      ++counters->unmatched;
+      return;
+    case QosEventKind::kLivelinessBack:
+      return;  // its next beacon says more
+  }
+}
+
+void PeerTable::Advance(SteadyTime now, Tick tick) {
+  for (Peer& peer : Peers()) {
+    while (peer.waiting_count > 0 && peer.waiting[0].tick < tick) {
+      peer.beacon = peer.waiting[0];
+      peer.received = peer.waiting_received[0];
+      peer.known = true;
+      peer.waiting[0] = peer.waiting[1];
+      peer.waiting_received[0] = peer.waiting_received[1];
+      --peer.waiting_count;
+    }
+  }
+  const auto end = peers_.begin() + count_;
+  const auto kept = std::remove_if(
+      peers_.begin(), end, [now](const Peer& peer) { return now - peer.spoke > kForgetAfter; });
+  count_ = static_cast<std::uint32_t>(kept - peers_.begin());
+}
+
+Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_period) {
+  // One tick behind is what every decision works with; only ticks beyond it are age.
+  const std::uint32_t behind = TicksBetween(After(peer.beacon.tick, 1), tick);
+  return std::max(now - peer.received, behind * tick_period);
+}
+
+bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
+  return peer.known && !peer.left && !peer.rivalled && !peer.deadline_missed &&
+         !peer.liveliness_lost && !peer.out_of_reach &&
+         Age(peer, now, tick, options.tick_period) <= options.beacon_age_limit;
+}
+
+bool IsLost(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
+  return peer.known && !peer.left && !peer.out_of_reach && !IsFresh(peer, now, tick, options);
+}
+
+void PeerTable::AddTo(StateHash* hash) const {
+  hash->Add(count_);
+  for (const Peer& peer : Peers()) {
+    hash->Add(peer.id);
+    hash->Add(peer.known);
+    hash->Add(peer.received.count());
+    hash->Add(peer.spoke.count());
+    hash->Add(peer.boot_epoch);
+    hash->Add(peer.last_seq);
+    hash->Add(peer.waiting_count);
+    hash->Add(peer.beacon.tick);
+    hash->Add(peer.beacon.world_from_body.position_world.x);
+    hash->Add(peer.beacon.world_from_body.position_world.y);
+    hash->Add(peer.beacon.world_from_body.heading_rad);
+    hash->Add(peer.beacon.gives_way_to);
+    hash->Add(peer.rivalled);
+    hash->Add(peer.deadline_missed);
+    hash->Add(peer.liveliness_lost);
+    hash->Add(peer.left);
+    hash->Add(peer.out_of_reach);
+    hash->Add(peer.encounter.active);
+    hash->Add(peer.encounter.holds);
+    hash->Add(peer.encounter.lost);
+    hash->Add(peer.encounter.released);
+  }
+}
+
+}  // namespace giveway

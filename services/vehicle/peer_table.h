@@ -1,0 +1,108 @@
+// What this vehicle knows of the others: one entry a vehicle id, bounded, trivially copyable. Takes
+// in beacons and QoS events, refuses and counts what it cannot believe, and says who is fresh. Its
+// only clock is the receiver's, passed in. Decides nothing.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "services/types/beacon.h"
+#include "services/types/counters.h"
+#include "services/types/qos_event.h"
+#include "services/types/state_hash.h"
+#include "services/types/vehicle_options.h"
+
+namespace giveway {
+
+inline constexpr std::uint32_t kMaxPeers = 1024;
+
+// Where this vehicle stands in an encounter with one peer.
+struct Encounter {
+  bool active = false;
+  bool holds = false;     // this vehicle stops, or stands, because of the peer
+  bool lost = false;      // the peer fell silent while the encounter was active
+  bool released = false;  // lost, waited out, and the own ranges show the way clear
+  SteadyTime lost_at{0};
+  double lost_wait_s = 0;  // how long the silent peer may take to pass at its cruise speed
+};
+
+struct Peer {
+  VehicleId id = kNobody;
+  Beacon beacon;  // newest of a tick before this vehicle's; valid if `known`
+  bool known = false;
+  SteadyTime received{0};           // of `beacon`
+  std::array<Beacon, 2> waiting{};  // of this tick or later, older first
+  std::array<SteadyTime, 2> waiting_received{};
+  std::uint32_t waiting_count = 0;
+
+  std::uint64_t writer = 0;  // who speaks for this id
+  std::uint32_t boot_epoch = 0;
+  std::uint32_t last_seq = 0;
+  SteadyTime spoke{0};        // last beacon of `writer`, accepted or not
+  SteadyTime rival_spoke{0};  // last beacon of another writer for the same id
+  bool rivalled = false;      // two writers spoke within one lease: both are distrusted
+
+  bool deadline_missed = false;  // since the last accepted beacon
+  bool liveliness_lost = false;  // since the last accepted beacon
+  bool left = false;             // said good-bye: a departure, not a loss
+  bool out_of_reach = false;     // last heard of from beyond the emission radius
+  Encounter encounter;
+};
+
+// What the table needs to know of its owner.
+struct Self {
+  VehicleId id = kNobody;
+  WorldEpoch epoch = kNoEpoch;
+  Tick tick = kNoTick;
+  Vec2 position_world;
+};
+
+class PeerTable {
+ public:
+  // Takes one beacon in or refuses it; exactly one counter of `counters` beside `taken` moves.
+  void Take(const ReceivedBeacon& received, const Self& self, const VehicleOptions& options,
+            BeaconCounters* counters);
+  // Notes what the middleware says. Only ever makes a peer less believed.
+  void Note(const QosEvent& event, QosCounters* counters);
+  // Moves waiting beacons of ticks before `tick` up, and drops peers silent for kForgetAfter.
+  void Advance(SteadyTime now, Tick tick);
+
+  std::span<Peer> Peers() { return {peers_.data(), count_}; }
+  std::span<const Peer> Peers() const { return {peers_.data(), count_}; }
+  Peer* Find(VehicleId id);
+
+  VehicleId LastDeadlineMissed() const { return last_deadline_missed_; }
+  VehicleId LastLivelinessLost() const { return last_liveliness_lost_; }
+  // The id claimed by the last refused beacon.
+  VehicleId LastRejected() const { return last_rejected_; }
+
+  void AddTo(StateHash* hash) const;
+
+ private:
+  Peer* FindOrInsert(VehicleId id);
+  bool BelongsTo(Peer* peer, const ReceivedBeacon& received);
+  void Store(Peer* peer, const ReceivedBeacon& received, Tick tick);
+
+  std::array<Peer, kMaxPeers> peers_{};  // sorted by id
+  std::uint32_t count_ = 0;
+  VehicleId last_deadline_missed_ = kNobody;
+  VehicleId last_liveliness_lost_ = kNobody;
+  VehicleId last_rejected_ = kNobody;
+};
+
+// The lease after which another writer may speak for a silent one's id.
+inline constexpr Nanoseconds kWriterLease{250'000'000};
+// A peer that has not been heard for this long is forgotten.
+inline constexpr Nanoseconds kForgetAfter{30'000'000'000};
+
+// Age of the peer's newest usable beacon: the greater of receiver's clock and ticks behind.
+Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_period);
+
+// True if what the peer says may be used to decide: young enough, alive, and spoken by one voice.
+bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options);
+
+// True if the peer should be heard and is not: it neither left nor went out of reach.
+bool IsLost(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options);
+
+}  // namespace giveway

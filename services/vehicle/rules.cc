@@ -1,0 +1,111 @@
+#include "services/vehicle/rules.h"
+
+#include <algorithm>
+
+#include "services/vehicle/echoes.h"
+
+namespace giveway {
+namespace {
+
+Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
+
+// A dead stop for the nearest peer that this vehicle holds for and `applies` to.
+template <typename Predicate>
+std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies) {
+  const PeerView* nearest = nullptr;
+  for (const PeerView& view : s.peers) {
+    if (!view.peer->encounter.holds || !applies(view)) continue;
+    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
+  }
+  if (nearest == nullptr) return std::nullopt;
+  Proposal proposal = DeadStop(rule);
+  proposal.peer = nearest->peer->id;
+  // Silence has no tick that shows it: a lost peer is a cause without one.
+  proposal.cause_tick = nearest->lost ? kNoTick : nearest->peer->beacon.tick;
+  return proposal;
+}
+
+}  // namespace
+
+std::optional<Proposal> Leaving(const Situation& s) {
+  if (!s.leaving) return std::nullopt;
+  return DeadStop(Rule::kLeaving);
+}
+
+std::optional<Proposal> NotRunning(const Situation& s) {
+  if (s.run_state == RunState::kRunning) return std::nullopt;
+  return DeadStop(Rule::kNotRunning);
+}
+
+std::optional<Proposal> RangesStale(const Situation& s) {
+  if (s.blind_sensor < 0) return std::nullopt;
+  Proposal proposal = DeadStop(Rule::kRangesStale);
+  proposal.sensor = s.blind_sensor < static_cast<int>(kSensorCount) ? s.blind_sensor : -1;
+  return proposal;
+}
+
+std::optional<Proposal> Arrived(const Situation& s) {
+  if (!s.arrived) return std::nullopt;
+  return DeadStop(Rule::kArrived);
+}
+
+std::optional<Proposal> GiveWay(const Situation& s) {
+  return HoldFor(Rule::kGiveWay, s,
+                 [](const PeerView& view) { return !view.lost && view.goes_first; });
+}
+
+std::optional<Proposal> NotGranted(const Situation& s) {
+  return HoldFor(Rule::kNotGranted, s,
+                 [](const PeerView& view) { return !view.lost && !view.goes_first; });
+}
+
+std::optional<Proposal> PeerLost(const Situation& s) {
+  return HoldFor(Rule::kPeerLost, s, [](const PeerView& view) { return view.lost; });
+}
+
+std::optional<Proposal> Deaf(const Situation& s) {
+  if (!s.deaf) return std::nullopt;
+  Proposal proposal = DeadStop(Rule::kDeaf);
+  proposal.sensor = s.deaf_sensor;
+  proposal.cause_tick = s.tick;
+  return proposal;
+}
+
+std::optional<Proposal> Obstacle(const Situation& s) {
+  constexpr double kStandOff_m = 0.15;  // left between the shell and what stands in the path
+  std::optional<Proposal> nearest;
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    const std::optional<double> free_m = FreeAhead(i, s);
+    if (!free_m) continue;
+    const double limit = SpeedToStopWithin(*free_m - kStandOff_m, ReactionSeconds(s.options),
+                                           s.options.profile.deceleration_m_s2);
+    if (limit >= s.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
+    nearest = Proposal{.max_speed_m_s = limit,
+                       .may_turn = true,
+                       .rule = Rule::kObstacle,
+                       .sensor = static_cast<int>(i),
+                       .cause_tick = s.tick};
+  }
+  return nearest;
+}
+
+std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
+  static constexpr std::array<RuleFunction, 4> kAvoiding = {Leaving, NotRunning, RangesStale,
+                                                            Arrived};
+  static constexpr std::array<RuleFunction, 8> kLecture = {
+      Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle};
+  static constexpr std::array<RuleFunction, 9> kCooperative = {
+      Leaving, NotRunning, RangesStale, Arrived, GiveWay, NotGranted, PeerLost, Deaf, Obstacle};
+  switch (behaviour) {
+    case Behaviour::kLectureAvoid:
+    case Behaviour::kStockAvoid:
+      return kAvoiding;
+    case Behaviour::kLectureYield:
+      return kLecture;
+    case Behaviour::kCooperative:
+      return kCooperative;
+  }
+  return kCooperative;
+}
+
+}  // namespace giveway

@@ -1,0 +1,42 @@
+// The rules, each a pure function of the situation: it proposes a limit with its reason, or has
+// nothing to say. Decide takes the most restrictive.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "services/vehicle/situation.h"
+
+namespace giveway {
+
+struct Proposal {
+  double max_speed_m_s = 0;  // forward
+  bool may_turn = false;     // a disc that turns on the spot touches nothing; a dead stop is dead
+  Rule rule = Rule::kCruise;
+  VehicleId peer = kNobody;
+  int sensor = -1;
+  Tick cause_tick = kNoTick;  // of the scan or beacon that shows the cause
+};
+
+using RuleFunction = std::optional<Proposal> (*)(const Situation&);
+
+// Dead stops, whatever the behaviour.
+std::optional<Proposal> Leaving(const Situation& s);
+std::optional<Proposal> NotRunning(const Situation& s);
+std::optional<Proposal> RangesStale(const Situation& s);
+std::optional<Proposal> Arrived(const Situation& s);
+
+// Right of way: dead stops for the nearest peer that an encounter holds this vehicle for.
+std::optional<Proposal> GiveWay(const Situation& s);
+std::optional<Proposal> NotGranted(const Situation& s);
+std::optional<Proposal> PeerLost(const Situation& s);
+
+// What the own ultrasonics ask for by themselves.
+std::optional<Proposal> Deaf(const Situation& s);
+std::optional<Proposal> Obstacle(const Situation& s);
+
+// Every rule that applies to the behaviour, the more telling reason first: of equal limits the
+// first one names the decision.
+std::span<const RuleFunction> RulesOf(Behaviour behaviour);
+
+}  // namespace giveway

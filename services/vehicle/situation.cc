@@ -1,0 +1,78 @@
+#include "services/vehicle/situation.h"
+
+#include <algorithm>
+
+#include "services/types/math.h"
+#include "services/vehicle/echoes.h"
+
+namespace giveway {
+namespace {
+
+// A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
+bool StaysPut(const Beacon& beacon) {
+  return beacon.rule == Rule::kArrived || beacon.rule == Rule::kNotRunning;
+}
+
+// Both vehicles' paths, as half-lines; a peer that stays put has none.
+std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
+  if (StaysPut(view.peer->beacon)) return std::nullopt;
+  const Path peer_path{view.world_from_body.position_world, Forward(view.world_from_body)};
+  const double turn = Dot(s.path.direction_world, peer_path.direction_world);
+  constexpr double kSameWay = 0.94;  // within 20 degrees: one follows the other
+  if (turn > kSameWay) return std::nullopt;
+  const double reach = 2 * s.options.profile.body_radius_m + kPassingMargin_m +
+                       2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
+  auto conflict = FindConflict(s.path, peer_path, reach);
+  if (conflict && conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
+  return conflict;
+}
+
+}  // namespace
+
+double ReactionSeconds(const VehicleOptions& options) { return 2 * Seconds(options.tick_period); }
+
+double OwnStoppingDistance(const Situation& s) {
+  const double speed = std::max(0.0, s.speed_m_s);
+  constexpr double kInHand_m = 0.03;
+  return StoppingDistance(speed, ReactionSeconds(s.options) + Seconds(s.options.tick_period),
+                          s.options.profile.deceleration_m_s2) +
+         kInHand_m;
+}
+
+double CriticalDistance(const Situation& s, const PeerView& view) {
+  const double reaction = ReactionSeconds(s.options);
+  const double braking = s.options.profile.deceleration_m_s2;
+  constexpr double kMargin_m = 0.1;
+  const double both = StoppingDistance(std::max(0.0, s.speed_m_s), reaction, braking) +
+                      StoppingDistance(std::max(0.0, view.speed_m_s), reaction, braking);
+  const double uncertainty = 2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
+  return std::max(s.options.gate_enter_m, both + kMargin_m + uncertainty);
+}
+
+PeerView LookAt(Peer* peer, const Situation& s) {
+  PeerView view{.peer = peer};
+  const Beacon& beacon = peer->beacon;
+  const Twist twist = TwistFromWheels(s.options.profile.drive, beacon.wheels);
+  view.fresh = IsFresh(*peer, s.now, s.tick, s.options);
+  view.lost = IsLost(*peer, s.now, s.tick, s.options);
+  // A silent peer is left where it was last heard: what it did since is not known.
+  const double ahead_s =
+      view.fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
+  view.world_from_body = AdvanceArc(beacon.world_from_body, twist, ahead_s);
+  view.speed_m_s = twist.forward_m_s;
+  view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
+  view.goes_first = GoesFirst(beacon.order, s.order);
+  view.grants = view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon));
+
+  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const double distance = Norm(offset);
+  view.gap_m = distance - 2 * s.options.profile.body_radius_m;
+  const Vec2 velocity =
+      view.speed_m_s * Forward(view.world_from_body) - s.speed_m_s * Forward(s.world_from_body);
+  view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
+  view.conflict = ConflictWith(view, s);
+  if (view.fresh) view.explains = EchoesOf(view.world_from_body.position_world, s);
+  return view;
+}
+
+}  // namespace giveway

@@ -1,0 +1,72 @@
+// One tick as the rules see it: the own state, the ranges, and every near peer carried forward to
+// now. Built once a step from the tables; the rules only read it.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "services/types/range_scan.h"
+#include "services/types/vehicle_options.h"
+#include "services/vehicle/conflict.h"
+#include "services/vehicle/peer_table.h"
+#include "services/vehicle/range_view.h"
+
+namespace giveway {
+
+// A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
+struct PeerView {
+  Peer* peer = nullptr;
+  Pose world_from_body;
+  double speed_m_s = 0;  // forward, as measured by the peer
+  bool fresh = false;
+  bool lost = false;
+  bool standing = false;    // below kStandingSpeed
+  bool goes_first = false;  // before this vehicle, by both keys as published
+  bool grants = false;     // fresh, and says that it gives way to this vehicle or stays where it is
+  double gap_m = 0;        // shell to shell
+  double closing_m_s = 0;  // positive while the gap shrinks
+  std::optional<Conflict> conflict;
+  std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
+};
+
+struct Situation {
+  const VehicleOptions& options;
+  SteadyTime now{0};
+  Tick tick = kNoTick;
+  RunState run_state = RunState::kWaiting;
+  bool leaving = false;
+  bool arrived = false;
+  Pose world_from_body;
+  double speed_m_s = 0;   // forward, measured
+  double turn_rad_s = 0;  // measured
+  double sigma_position_m = 0;
+  Path path;                      // towards the goal, or straight on
+  double distance_to_goal_m = 0;  // huge without a goal
+  OrderKey order;                 // as last published
+  const RangeView& ranges;
+  int blind_sensor = -1;        // see RangeView::FirstBlind
+  std::uint32_t explained = 0;  // union of the peers' `explains`
+  bool deaf = false;            // something near moves and no fresh beacon explains it
+  int deaf_sensor = -1;
+  std::span<const PeerView> peers;
+};
+
+// Below this a vehicle stands still, as the verdict defines it.
+inline constexpr double kStandingSpeed_m_s = 0.01;
+// Kept between two shells beyond what geometry and uncertainty ask for.
+inline constexpr double kPassingMargin_m = 0.2;
+
+// From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old.
+double ReactionSeconds(const VehicleOptions& options);
+
+// Distance this vehicle needs to stand still from its present speed, with one tick in hand.
+double OwnStoppingDistance(const Situation& s);
+
+// The distance, shell to shell, at which two closing vehicles must begin to stop: both stopping
+// distances, margin and uncertainty; never below the gate.
+double CriticalDistance(const Situation& s, const PeerView& view);
+
+// Carries `peer` forward to now and relates it to the own path.
+PeerView LookAt(Peer* peer, const Situation& s);
+
+}  // namespace giveway

@@ -1,0 +1,30 @@
+// Which way to turn: towards the goal, or past a body that stands in the way and has said that it
+// stays. Also the avoiding behaviours' wheel speeds. Pure.
+#pragma once
+
+#include "services/vehicle/situation.h"
+
+namespace giveway {
+
+struct Steering {
+  double heading_error_rad = 0;  // wanted minus present heading, in (-pi, pi]
+  VehicleId round = kNobody;     // the halted peer that is being passed
+};
+
+// Steers to the goal; where a standing peer that gives way blocks the straight path, along the
+// tangent past it on the side nearer to the goal, its left when both are alike.
+Steering SteerToGoal(const Situation& s);
+
+// Braitenberg: wheel = base + sum of weight * activation (reference/lecture.md, behaviour A).
+struct Avoidance {
+  WheelSpeeds wheels;
+  int sensor = -1;  // the most active one; -1 where none is
+};
+Avoidance Avoid(const BraitenbergWeights& weights, const RangeView& ranges);
+
+// Wheel speeds for a forward speed limit and a steering: turns on the spot before it drives where
+// the error is large. `may_turn` false stands dead still when the limit is 0.
+WheelSpeeds Drive(const VehicleProfile& profile, const Steering& steering, double speed_m_s,
+                  bool may_turn);
+
+}  // namespace giveway

@@ -1,0 +1,234 @@
+#include "services/vehicle/vehicle.h"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "services/types/check.h"
+#include "services/types/math.h"
+#include "services/vehicle/beacon_check.h"
+#include "services/vehicle/decide.h"
+#include "services/vehicle/echoes.h"
+#include "services/vehicle/encounter.h"
+
+namespace giveway {
+namespace {
+
+static_assert(std::is_trivially_copyable_v<VehicleState>);
+
+// The platform's odometry error as its simulator profile gives it: per metre and per radian.
+constexpr double kOdometryError = 0.0075;
+constexpr double kNoGoal_m = 1e6;
+// How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
+// not start as one.
+constexpr double kDeafHold_s = 1.0;
+constexpr double kDeafStagger_s = 0.5;
+constexpr std::uint32_t kDeafStaggerSteps = 8;
+
+double Magnitude(double x) { return x < 0 ? -x : x; }
+
+}  // namespace
+
+Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
+    : options_(options),
+      state_(std::make_unique<VehicleState>()),
+      views_(std::make_unique<std::array<PeerView, kMaxPeers>>()) {
+  GIVEWAY_CHECK(options.id != kNobody);
+  GIVEWAY_CHECK(boot_epoch != 0);
+  state_->boot_epoch = boot_epoch;
+  state_->world_from_body = options.start_world;
+  state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
+}
+
+// Dead reckoning: the encoders give the constant wheel speeds since the last tick. Ticks that were
+// lost are taken to have been like this one, and cost certainty.
+void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
+  VehicleState& state = *state_;
+  if (scan.epoch != state.epoch) {
+    state.epoch = scan.epoch;
+    state.tick = kNoTick;
+    state.world_from_body = options_.start_world;
+    state.sigma_position_m = 0;
+    state.sigma_heading_rad = 0;
+    state.arrived = false;
+  }
+  if (state.tick != kNoTick && scan.tick <= state.tick) return;  // out of order: older than known
+  const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);
+  const double dt_s = Seconds(ticks * options_.tick_period);
+  const Twist twist = TwistFromWheels(options_.profile.drive, scan.wheels);
+  state.world_from_body = AdvanceArc(state.world_from_body, twist, dt_s);
+  const double guessed_m = ticks > 1 ? options_.profile.acceleration_m_s2 * dt_s * dt_s : 0;
+  state.sigma_position_m += kOdometryError * Magnitude(twist.forward_m_s) * dt_s + guessed_m;
+  state.sigma_heading_rad += kOdometryError * Magnitude(twist.turn_rad_s) * dt_s;
+  state.tick = scan.tick;
+  state.run_state = scan.run_state;
+  state.wheels = scan.wheels;
+  state.ranges.Take(scan, now, options_.tick_period);
+}
+
+void Vehicle::TakePeers(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  const Self self{options_.id, state.epoch, state.tick, state.world_from_body.position_world};
+  state.peers.Advance(inputs.now, state.tick);
+  for (const ReceivedBeacon& received : inputs.beacons) {
+    state.peers.Take(received, self, options_, &state.beacons);
+  }
+  for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
+}
+
+Situation Vehicle::Look(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
+  Situation s{.options = options_, .ranges = state.ranges};
+  s.now = inputs.now;
+  s.tick = state.tick;
+  s.run_state = state.run_state;
+  s.leaving = inputs.leaving;
+  s.world_from_body = state.world_from_body;
+  s.speed_m_s = twist.forward_m_s;
+  s.turn_rad_s = twist.turn_rad_s;
+  s.sigma_position_m = state.sigma_position_m;
+  s.order = state.order;
+  s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
+  s.path = {s.world_from_body.position_world, Forward(s.world_from_body)};
+  s.distance_to_goal_m = kNoGoal_m;
+  if (options_.goal.set) {
+    const Vec2 to_goal = options_.goal.at_world - s.world_from_body.position_world;
+    s.distance_to_goal_m = Norm(to_goal);
+    if (s.distance_to_goal_m > 0) s.path.direction_world = (1 / s.distance_to_goal_m) * to_goal;
+    // Well inside the radius, so that the truth is inside too.
+    if (s.distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
+  }
+  s.arrived = state.arrived;
+  return s;
+}
+
+void Vehicle::LookAtPeers(Situation* s) {
+  std::uint32_t count = 0;
+  peers_heard_ = 0;
+  for (Peer& peer : state_->peers.Peers()) {
+    if (!peer.known) continue;
+    PeerView view = LookAt(&peer, *s);
+    peers_heard_ += view.fresh ? 1 : 0;
+    s->explained |= view.explains;
+    UpdateEncounter(view, *s);
+    (*views_)[count++] = view;
+  }
+  s->peers = {views_->data(), count};
+}
+
+// Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
+void Vehicle::ListenForMovers(Situation* s) {
+  VehicleState& state = *state_;
+  bool moving = false;
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    const bool near =
+        s->ranges[i].kind == Echo::kEcho &&
+        s->ranges[i].range_m < (state.deaf ? options_.gate_exit_m : options_.gate_enter_m);
+    if (!near || (s->explained >> i & 1U) != 0 || !MovesByItself(i, *s)) continue;
+    moving = true;
+    state.deaf_sensor = static_cast<int>(i);
+  }
+  if (moving) {
+    state.deaf = true;
+    state.deaf_since = s->now;
+  }
+  const double hold_s = kDeafHold_s + kDeafStagger_s * (Number(options_.id) % kDeafStaggerSteps);
+  if (state.deaf && Seconds(s->now - state.deaf_since) > hold_s) state.deaf = false;
+  s->deaf = state.deaf;
+  s->deaf_sensor = state.deaf ? state.deaf_sensor : -1;
+}
+
+// What the next step must know: how long it has waited, and its place in the order, which is
+// sampled when the first of the encounters begins and then stands until the last is over.
+void Vehicle::Remember(const Situation& s, const Decision& decision) {
+  VehicleState& state = *state_;
+  const auto under_way = static_cast<std::uint32_t>(
+      std::count_if(s.peers.begin(), s.peers.end(),
+                    [](const PeerView& view) { return view.peer->encounter.active; }));
+  const auto limit = static_cast<std::uint32_t>(options_.ageing_limit / options_.tick_period);
+  const bool waits = IsGiveWay(decision.rule) && s.speed_m_s < kStandingSpeed_m_s;
+  if (waits) ++state.waited_ticks;
+  if (under_way == 0 || state.encounters == 0) {
+    state.order.waited_ticks = state.waited_ticks > limit ? state.waited_ticks : 0;
+  }
+  if (under_way == 0 && !waits) state.waited_ticks = 0;
+  state.encounters = under_way;
+  state.decision = decision;
+}
+
+Beacon Vehicle::Say(const Situation& s) {
+  VehicleState& state = *state_;
+  ++state.seq;
+  state.gives_way_to = GivesWayTo(s);
+  ++state.beacons.sent;
+  return {.vehicle = options_.id,
+          .boot_epoch = state.boot_epoch,
+          .seq = state.seq,
+          .world_epoch = state.epoch,
+          .tick = state.tick,
+          .wheels = state.wheels,
+          .cruise_m_s = options_.cruise_m_s,
+          .world_from_body = state.world_from_body,
+          .sigma_position_m = state.sigma_position_m,
+          .sigma_heading_rad = state.sigma_heading_rad,
+          .mode = state.decision.mode,
+          .rule = state.decision.rule,
+          .gives_way_to = state.gives_way_to,
+          .order = state.order};
+}
+
+Outputs Vehicle::Step(const Inputs& inputs) noexcept {
+  VehicleState& state = *state_;
+  if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
+  TakePeers(inputs);
+  Situation s = Look(inputs);
+  LookAtPeers(&s);
+  ListenForMovers(&s);
+  const Action action = Decide(s);
+  const bool changed = !SameReason(action.decision, state.decision);
+  Remember(s, action.decision);
+
+  Outputs outputs;
+  outputs.beacon = Say(s);
+  outputs.decision_changed = changed;
+  outputs.command = {.vehicle = options_.id,
+                     .epoch = state.epoch,
+                     .tick = state.tick,
+                     .target = action.target,
+                     .decision = action.decision,
+                     .decision_changed = changed};
+  return outputs;
+}
+
+double Vehicle::SpeedMps() const {
+  return TwistFromWheels(options_.profile.drive, state_->wheels).forward_m_s;
+}
+
+std::uint64_t Vehicle::Hash() const {
+  StateHash hash;
+  const VehicleState& state = *state_;
+  hash.Add(VehicleState::kVersion);
+  hash.Add(state.seq);
+  hash.Add(state.epoch);
+  hash.Add(state.tick);
+  hash.Add(state.run_state);
+  hash.Add(state.world_from_body.position_world.x);
+  hash.Add(state.world_from_body.position_world.y);
+  hash.Add(state.world_from_body.heading_rad);
+  hash.Add(state.wheels.left_rad_s);
+  hash.Add(state.wheels.right_rad_s);
+  hash.Add(state.sigma_position_m);
+  hash.Add(state.arrived);
+  hash.Add(state.order.waited_ticks);
+  hash.Add(state.waited_ticks);
+  hash.Add(state.deaf);
+  hash.Add(state.decision.mode);
+  hash.Add(state.decision.rule);
+  hash.Add(state.decision.peer);
+  hash.Add(state.gives_way_to);
+  state.ranges.AddTo(&hash);
+  state.peers.AddTo(&hash);
+  return hash.Value();
+}
+
+}  // namespace giveway

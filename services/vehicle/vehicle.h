@@ -1,0 +1,79 @@
+// The brain: one pure step from what a vehicle heard and sensed to what it does and says. No
+// clock, no thread, no allocation, no exception; the same inputs give the same bits anywhere.
+//
+//   scan, beacons, events -> dead reckoning -> PeerTable, RangeView -> Situation -> Decide -> out
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "services/types/vehicle_io.h"
+#include "services/types/vehicle_options.h"
+#include "services/vehicle/peer_table.h"
+#include "services/vehicle/range_view.h"
+#include "services/vehicle/situation.h"
+
+namespace giveway {
+
+// Everything a brain remembers. Trivially copyable: a snapshot is a copy.
+struct VehicleState {
+  static constexpr std::uint32_t kVersion = 1;
+
+  std::uint32_t boot_epoch = 0;
+  std::uint32_t seq = 0;
+  WorldEpoch epoch = kNoEpoch;
+  Tick tick = kNoTick;
+  RunState run_state = RunState::kWaiting;
+  Pose world_from_body;
+  WheelSpeeds wheels;  // as last measured
+  double sigma_position_m = 0;
+  double sigma_heading_rad = 0;
+  bool arrived = false;
+  OrderKey order;
+  std::uint32_t waited_ticks = 0;  // halted to give way, in the encounters under way
+  std::uint32_t encounters = 0;    // under way in the step before
+  SteadyTime deaf_since{0};        // last time something near moved unexplained
+  bool deaf = false;
+  int deaf_sensor = -1;
+  Decision decision;
+  VehicleId gives_way_to = kNobody;  // as last published
+  RangeView ranges;
+  PeerTable peers;
+  BeaconCounters beacons;
+  QosCounters qos;
+};
+
+class Vehicle {
+ public:
+  // `boot_epoch` is random and not 0: it tells two lives of one vehicle apart.
+  Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch);
+
+  // One step. The outputs answer inputs.scan, or repeat the tick of the last one.
+  Outputs Step(const Inputs& inputs) noexcept;
+
+  const VehicleState& State() const { return *state_; }
+  // Continues from a snapshot taken with the same options.
+  void Restore(const VehicleState& state) { *state_ = state; }
+  std::uint64_t Hash() const;
+  // Forward speed as last measured, m/s.
+  double SpeedMps() const;
+  // Peers with a fresh beacon in the last step.
+  std::uint32_t PeersHeard() const { return peers_heard_; }
+
+ private:
+  void TakeScan(const RangeScan& scan, SteadyTime now);
+  void TakePeers(const Inputs& inputs);
+  Situation Look(const Inputs& inputs);
+  void LookAtPeers(Situation* situation);
+  void ListenForMovers(Situation* situation);
+  void Remember(const Situation& situation, const Decision& decision);
+  Beacon Say(const Situation& situation);
+
+  VehicleOptions options_;
+  std::unique_ptr<VehicleState> state_;
+  std::unique_ptr<std::array<PeerView, kMaxPeers>> views_;  // scratch of one step
+  std::uint32_t peers_heard_ = 0;
+};
+
+}  // namespace giveway

@@ -1,0 +1,76 @@
+#include "services/vehicle_report.h"
+
+#include <algorithm>
+
+namespace giveway {
+namespace {
+
+constexpr std::size_t kKeptSteps = 1000;
+
+}  // namespace
+
+std::string Describe(const Decision& decision) {
+  std::string text(Name(decision.rule));
+  if (decision.peer != kNobody) text += " for " + std::to_string(Number(decision.peer));
+  if (decision.sensor >= 0) text += ", sensor " + std::to_string(decision.sensor + 1);
+  return text + " (" + std::string(Name(decision.mode)) + ")";
+}
+
+void VehicleReport::NoteStep(Nanoseconds step, Nanoseconds turn) {
+  const double us = Milliseconds(step) * 1000;
+  if (steps_us_.size() < kKeptSteps) {
+    steps_us_.push_back(us);
+  } else {
+    steps_us_[next_] = us;
+    next_ = (next_ + 1) % kKeptSteps;
+  }
+  longest_turn_ms_ = std::max(longest_turn_ms_, Milliseconds(turn));
+}
+
+double VehicleReport::StepP99Us() {
+  if (steps_us_.empty()) return 0;
+  sorted_ = steps_us_;
+  const auto rank = sorted_.begin() + static_cast<std::ptrdiff_t>((sorted_.size() * 99 - 1) / 100);
+  std::nth_element(sorted_.begin(), rank, sorted_.end());
+  return *rank;
+}
+
+VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::VehicleLink& link) {
+  const VehicleState& state = vehicle.State();
+  const link::VehicleLinkCounters counters = link.Counters();
+  const link::EffectiveBeaconQos qos = link.BeaconQos();
+  VehicleStatus status;
+  status.vehicle = state.order.vehicle;
+  status.epoch = state.epoch;
+  status.tick = state.tick;
+  status.decision = state.decision;
+  status.gives_way_to = state.gives_way_to;
+  status.forward_m_s = vehicle.SpeedMps();
+  const double nearest = state.ranges.NearestEcho();
+  if (nearest >= 0) status.nearest_echo_m = nearest;
+  status.peers_heard = vehicle.PeersHeard();
+  status.beacons = state.beacons;
+  status.beacons_superseded = counters.beacons_superseded;
+  status.qos = state.qos;
+  status.last_deadline_missed = state.peers.LastDeadlineMissed();
+  status.last_liveliness_lost = state.peers.LastLivelinessLost();
+  status.last_rejected_id = Number(state.peers.LastRejected());
+  status.step_p99_us = StepP99Us();
+  status.loop_max_ms = longest_turn_ms_;
+  status.beacon_deadline_offered_ms = qos.deadline_offered_ms;
+  status.beacon_deadline_requested_ms = qos.deadline_requested_ms;
+  status.beacon_lease_ms = qos.lease_ms;
+  return status;
+}
+
+void VehicleReport::Send(const Vehicle& vehicle, link::VehicleLink& link) {
+  link.SendStatus(Gather(vehicle, link));
+}
+
+void VehicleReport::SendFinal(const Vehicle& vehicle, link::VehicleLink& link) {
+  VehicleStatus status = Gather(vehicle, link);
+  status.final = true;
+  link.SendStatus(status);
+}
+
+}  // namespace giveway

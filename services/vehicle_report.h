@@ -1,0 +1,32 @@
+// What a vehicle reports of itself: gathers brain, link and timing into a VehicleStatus.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/link/vehicle_link.h"
+#include "services/vehicle/vehicle.h"
+
+namespace giveway {
+
+// "give_way to 1 (cooperative)", for log lines.
+std::string Describe(const Decision& decision);
+
+class VehicleReport {
+ public:
+  // `step` is what Vehicle::Step took, `turn` the time from waking on a scan to the command sent.
+  void NoteStep(Nanoseconds step, Nanoseconds turn);
+  void Send(const Vehicle& vehicle, link::VehicleLink& link);
+  void SendFinal(const Vehicle& vehicle, link::VehicleLink& link);
+
+ private:
+  VehicleStatus Gather(const Vehicle& vehicle, const link::VehicleLink& link);
+  double StepP99Us();
+
+  std::vector<double> steps_us_;  // the last kKeptSteps, in a ring
+  std::vector<double> sorted_;
+  std::size_t next_ = 0;
+  double longest_turn_ms_ = 0;
+};
+
+}  // namespace giveway

@@ -1,0 +1,101 @@
+#include "sim_world/judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim_world/ticks.h"
+
+namespace giveway::sim {
+namespace {
+
+constexpr double kStandstill_m_s = 0.01;
+constexpr Nanoseconds kHaltTime{500'000'000};
+
+}  // namespace
+
+Judge::Judge(const Scenario& scenario)
+    : halt_ticks_(TicksCovering(kHaltTime, scenario.tick_period)) {
+  for (const VehicleOptions& options : scenario.vehicles) {
+    tracks_.push_back({.vehicle = options.id});
+  }
+}
+
+void Judge::Observe(double time_s, std::span<const Body> bodies, std::span<const Contact> contacts,
+                    EventLog* log) {
+  for (const Contact& contact : contacts) {
+    log->Add({.kind = EventKind::kContact,
+              .vehicle = contact.vehicle,
+              .other = contact.other,
+              .position_world = contact.position_world,
+              .other_position_world = contact.other_position_world});
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].present || tracks_[i].arrived_s) continue;
+    WatchGoal(time_s, bodies[i], &tracks_[i], log);
+    if (!tracks_[i].arrived_s) WatchHalt(bodies[i], &tracks_[i], log);
+  }
+}
+
+void Judge::WatchGoal(double time_s, const Body& body, Track* track, EventLog* log) const {
+  if (!body.goal.set) return;
+  const Vec2 position = body.world_from_body.position_world;
+  if (Norm(body.goal.at_world - position) > body.goal.radius_m) return;
+  track->arrived_s = time_s;
+  log->Add({.kind = EventKind::kArrived,
+            .vehicle = body.vehicle,
+            .position_world = position,
+            .value = time_s});
+}
+
+// A vehicle that the world itself brakes stands for want of a command, whatever its last one said.
+void Judge::WatchHalt(const Body& body, Track* track, EventLog* log) const {
+  const Vec2 position = body.world_from_body.position_world;
+  const bool stands = std::abs(body.ForwardSpeed()) < kStandstill_m_s;
+  if (track->halted) {
+    if (stands) return;
+    track->halted = false;
+    track->still_ticks = 0;
+    log->Add({.kind = EventKind::kWentOn, .vehicle = body.vehicle, .position_world = position});
+    return;
+  }
+  const bool gives_way = body.obeyed && IsGiveWay(body.command.decision.rule);
+  track->still_ticks = stands && gives_way ? track->still_ticks + 1 : 0;
+  if (track->still_ticks < halt_ticks_) return;
+  track->halted = true;
+  track->halted_once = true;
+  log->Add({.kind = EventKind::kHalted,
+            .vehicle = body.vehicle,
+            .other = body.command.decision.peer,
+            .position_world = position});
+}
+
+bool Judge::HasArrived(VehicleId vehicle) const {
+  const auto track = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
+  return track != tracks_.end() && track->vehicle == vehicle && track->arrived_s.has_value();
+}
+
+std::vector<VehicleId> Judge::Halted() const {
+  std::vector<VehicleId> halted;
+  for (const Track& track : tracks_) {
+    if (track.halted_once) halted.push_back(track.vehicle);
+  }
+  return halted;
+}
+
+std::vector<VehicleId> Judge::Arrived() const {
+  std::vector<VehicleId> arrived;
+  for (const Track& track : tracks_) {
+    if (track.arrived_s) arrived.push_back(track.vehicle);
+  }
+  return arrived;
+}
+
+std::optional<double> Judge::LastArrival() const {
+  std::optional<double> last;
+  for (const Track& track : tracks_) {
+    if (track.arrived_s && (!last || *track.arrived_s > *last)) last = track.arrived_s;
+  }
+  return last;
+}
+
+}  // namespace giveway::sim

@@ -1,0 +1,49 @@
+// Watches a run by the truth and says what happened: who halted to give way, who went on, who
+// arrived, who touched. It decides nothing about the run's end.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "services/types/scenario.h"
+#include "sim_world/body.h"
+#include "sim_world/event_log.h"
+#include "sim_world/expectation.h"
+#include "sim_world/separation.h"
+
+namespace giveway::sim {
+
+class Judge {
+ public:
+  explicit Judge(const Scenario& scenario);
+
+  // Takes in one tick of the run, time_s after its start.
+  void Observe(double time_s, std::span<const Body> bodies, std::span<const Contact> contacts,
+               EventLog* log);
+
+  bool HasArrived(VehicleId vehicle) const;
+  // Everyone who ever halted to give way, and everyone who arrived; sorted.
+  std::vector<VehicleId> Halted() const;
+  std::vector<VehicleId> Arrived() const;
+  // Seconds from the start to the last arrival so far; none before the first.
+  std::optional<double> LastArrival() const;
+
+ private:
+  struct Track {
+    VehicleId vehicle = kNobody;
+    std::uint32_t still_ticks = 0;  // in a row, standing for a give-way reason
+    bool halted = false;            // stands, after a halt that was logged
+    bool halted_once = false;
+    std::optional<double> arrived_s;
+  };
+
+  void WatchGoal(double time_s, const Body& body, Track* track, EventLog* log) const;
+  void WatchHalt(const Body& body, Track* track, EventLog* log) const;
+
+  std::uint32_t halt_ticks_;
+  std::vector<Track> tracks_;  // in the scenario's order, as the bodies are
+};
+
+}  // namespace giveway::sim

@@ -1,0 +1,48 @@
+#include "sim_world/reaction.h"
+
+#include <algorithm>
+
+namespace giveway::sim {
+namespace {
+
+// The smallest sample that at least `percent` of all do not exceed. `samples` are sorted.
+double NearestRank_ms(const std::vector<Nanoseconds>& samples, std::size_t percent) {
+  const std::size_t rank = (samples.size() * percent + 99) / 100;
+  return Milliseconds(samples[rank - 1]);
+}
+
+}  // namespace
+
+ReactionMeter::ReactionMeter() { samples_.reserve(kKeptSamples); }
+
+void ReactionMeter::Published(Tick tick, SteadyTime at) {
+  publications_[Number(tick) % kRememberedTicks] = {tick, at};
+}
+
+void ReactionMeter::Applied(const MotorCommand& command, SteadyTime at) {
+  const Tick cause = command.decision.cause_tick;
+  if (!command.decision_changed || cause == kNoTick) return;
+  const Publication& publication = publications_[Number(cause) % kRememberedTicks];
+  if (publication.tick != cause) return;
+  const Nanoseconds sample = at - publication.at;
+  if (samples_.size() < kKeptSamples) {
+    samples_.push_back(sample);
+  } else {
+    samples_[count_ % kKeptSamples] = sample;
+  }
+  ++count_;
+  longest_ = std::max(longest_, sample);
+}
+
+ReactionFigures ReactionMeter::Figures() const {
+  ReactionFigures figures{.count = count_, .p50_ms = {}, .p99_ms = {}, .max_ms = {}};
+  if (samples_.empty()) return figures;
+  std::vector<Nanoseconds> sorted = samples_;
+  std::sort(sorted.begin(), sorted.end());
+  figures.p50_ms = NearestRank_ms(sorted, 50);
+  figures.p99_ms = NearestRank_ms(sorted, 99);
+  figures.max_ms = Milliseconds(longest_);
+  return figures;
+}
+
+}  // namespace giveway::sim

@@ -1,0 +1,52 @@
+// Measures reaction times: from the publication of the scans of the tick that first showed a cause
+// to the application of the first command that answers it. Reads no clock; times are arguments.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "services/types/motor_command.h"
+#include "services/types/time.h"
+
+namespace giveway::sim {
+
+struct ReactionFigures {
+  std::uint32_t count = 0;
+  // By nearest rank over the newest kept samples; max over all. None without a sample.
+  std::optional<double> p50_ms;
+  std::optional<double> p99_ms;
+  std::optional<double> max_ms;
+};
+
+class ReactionMeter {
+ public:
+  static constexpr std::size_t kRememberedTicks = 64;
+  static constexpr std::size_t kKeptSamples = 100'000;
+
+  ReactionMeter();
+
+  // The scans of `tick` went out at `at`. Only ticks of the running run are told, so that nothing
+  // before the start signal counts as a cause.
+  void Published(Tick tick, SteadyTime at);
+  // The world applied the command at `at`. Counts it if it is the first of a new decision whose
+  // cause is a tick told and not yet forgotten.
+  void Applied(const MotorCommand& command, SteadyTime at);
+
+  ReactionFigures Figures() const;
+
+ private:
+  struct Publication {
+    Tick tick = kNoTick;
+    SteadyTime at{0};
+  };
+
+  std::array<Publication, kRememberedTicks> publications_{};  // [tick % kRememberedTicks]
+  std::vector<Nanoseconds> samples_;                          // a ring once it is full
+  std::uint32_t count_ = 0;
+  Nanoseconds longest_{0};
+};
+
+}  // namespace giveway::sim

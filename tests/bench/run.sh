@@ -1,0 +1,69 @@
+#!/usr/bin/env bash
+# Prints one line a figure: `name value bound ok|short`. A figure is a measurement, not a test: the
+# exit code is 0 however they come out, and 2 if one could not be taken.
+#
+#   bash tests/bench/run.sh            every figure
+#   bash tests/bench/run.sh step       figures whose name begins so (step, link, reaction, rss)
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+only="${1:-}"
+bin=build/release/bin
+[[ -x $bin/giveway-bench ]] || bash services/run.sh --setup-only
+[[ -x $bin/giveway-bench ]] || cmake --build build/release --target giveway-bench
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+wanted() { [[ $1 == "$only"* ]]; }
+
+# figure NAME VALUE BOUND: at most the bound is ok.
+figure() {
+  local verdict
+  verdict=$(awk -v value="$2" -v bound="$3" 'BEGIN { print (value <= bound ? "ok" : "short") }')
+  printf '%-28s %10s %10s %s\n' "$1" "$2" "$3" "$verdict"
+}
+
+# microbench NAME: median over repetitions of one benchmark, in its own unit.
+microbench() {
+  "$bin/giveway-bench" --benchmark_filter="^$1\$" --benchmark_repetitions=5 \
+    --benchmark_report_aggregates_only=true --benchmark_format=json 2>"$scratch/err" |
+    jq -r '.benchmarks[] | select(.aggregate_name == "median") | .real_time' ||
+    { cat "$scratch/err" >&2; exit 2; }
+}
+
+# Vehicle::Step with everyone heard anew every tick, microseconds.
+if wanted step; then
+  figure step_10_peers_us "$(printf '%.2f' "$(microbench VehicleStep/10)")" 0.5
+  figure step_100_peers_us "$(printf '%.2f' "$(microbench VehicleStep/100)")" 5
+  figure step_1000_peers_us "$(printf '%.2f' "$(microbench VehicleStep/1000)")" 50
+fi
+
+# Our link against bare Fast DDS calls in the same run; the median of the ratios of paired runs.
+if wanted link; then
+  for direction in send take; do
+    figure "link_${direction}_ratio" "$("$bin/giveway-bench" --link_ratio="$direction")" 1.1
+  done
+fi
+
+# Publication of the scan or beacon that first shows the cause to application of the command that
+# answers it, from real runs of the crossing; at most two ticks plus 2 ms.
+if wanted reaction; then
+  for seed in 1 2 3 4 5; do
+    "$bin/fleetctl" run intersection_yield --seed "$seed" --json >>"$scratch/runs.json" ||
+      echo "tests/bench/run.sh: the crossing with seed $seed did not pass" >&2
+  done
+  figure reaction_p99_ms "$(jq -s 'map(.reaction_ms.p99) | max' "$scratch/runs.json")" 102
+fi
+
+# Resident memory of vehicle processes with eight peers, ten seconds after the start.
+if wanted rss; then
+  "$bin/fleetctl" run tests/bench/nine.textproto --json >"$scratch/nine.json" &
+  fleet=$!
+  sleep 14  # starting and matching takes up to 4 s
+  largest=0
+  for process in $(pgrep -P "$fleet" -f giveway-vehicle); do
+    rss_kb=$(awk '/^VmRSS/ { print $2 }' "/proc/$process/status")
+    largest=$((rss_kb > largest ? rss_kb : largest))
+  done
+  wait "$fleet" || echo "tests/bench/run.sh: the nine vehicles did not pass" >&2
+  figure rss_8_peers_mb "$(awk -v kb="$largest" 'BEGIN { printf "%.1f", kb / 1000 }')" 25
+fi

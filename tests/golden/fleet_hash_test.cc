@@ -1,0 +1,37 @@
+// World and brains together, pinned: the same crossing gives the same bits in every build and on
+// every machine, down to what each brain remembers. A change of a hash is a change of behaviour.
+#include <gtest/gtest.h>
+
+#include "services/types/state_hash.h"
+#include "tests/support/crossing.h"
+
+namespace giveway {
+namespace {
+
+struct Golden {
+  Behaviour behaviour;
+  std::uint64_t hash;
+};
+
+class FleetHash : public testing::TestWithParam<Golden> {};
+
+TEST_P(FleetHash, IsTheSameEverywhere) {
+  sim::VirtualFleet fleet(test::Crossing(GetParam().behaviour, 0.4, 0.3));
+  StateHash hash;
+  while (fleet.Advance()) {
+    hash.Add(fleet.World().Hash());
+    hash.Add(fleet.Brain(0).Hash());
+    hash.Add(fleet.Brain(1).Hash());
+  }
+  EXPECT_EQ(hash.Value(), GetParam().hash) << std::hex << "got 0x" << hash.Value();
+}
+
+INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
+                         testing::Values(Golden{Behaviour::kCooperative, 0xcc81530a636688c4ULL},
+                                         Golden{Behaviour::kLectureAvoid, 0x77974fabe21891f0ULL},
+                                         Golden{Behaviour::kStockAvoid, 0x3461607555bf2fccULL},
+                                         Golden{Behaviour::kLectureYield, 0x88a93908ff5515a4ULL}),
+                         [](const auto& test) { return std::string(Name(test.param.behaviour)); });
+
+}  // namespace
+}  // namespace giveway

@@ -1,0 +1,304 @@
+// Every type goes to the wire and back unchanged. Each wire sample is also serialized, because the
+// generated code is part of the way.
+#include "services/link/convert.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+
+#include "services/link/topics.h"
+
+namespace giveway::link {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTiny = std::numeric_limits<double>::denorm_min();
+constexpr double kHuge = std::numeric_limits<double>::max();
+constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
+
+std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+
+// `wire` serialized and deserialized.
+template <typename Wire>
+Wire Travelled(Wire wire) {
+  typename TopicOf<Wire>::Type type;
+  rtps::SerializedPayload_t payload(type.m_typeSize);
+  EXPECT_TRUE(type.serialize(&wire, &payload));
+  Wire arrived;
+  EXPECT_TRUE(type.deserialize(&payload, &arrived));
+  return arrived;
+}
+
+template <typename Ours>
+Ours RoundTrip(const Ours& value) {
+  Ours back;
+  EXPECT_TRUE(FromWire(Travelled(ToWire(value)), back));
+  return back;
+}
+
+TEST(Convert, BeaconComesBackBitForBit) {
+  Beacon sent;
+  sent.vehicle = VehicleId{kMax};
+  sent.boot_epoch = 2;
+  sent.seq = 3;
+  sent.world_epoch = WorldEpoch{4};
+  sent.tick = Tick{kMax - 1};
+  sent.wheels = {kNan, -kInfinity};
+  sent.cruise_m_s = kTiny;
+  sent.world_from_body = {{kHuge, -0.0}, -kHuge};
+  sent.sigma_position_m = kInfinity;
+  sent.sigma_heading_rad = 0.1;
+  sent.mode = Mode::kLeaving;
+  sent.rule = Rule::kLeaving;
+  sent.gives_way_to = VehicleId{5};
+  sent.order = {6, 7, VehicleId{8}};
+  const Beacon back = RoundTrip(sent);
+  EXPECT_EQ(back.vehicle, sent.vehicle);
+  EXPECT_EQ(back.boot_epoch, sent.boot_epoch);
+  EXPECT_EQ(back.seq, sent.seq);
+  EXPECT_EQ(back.world_epoch, sent.world_epoch);
+  EXPECT_EQ(back.tick, sent.tick);
+  EXPECT_EQ(Bits(back.wheels.left_rad_s), Bits(kNan));
+  EXPECT_EQ(back.wheels.right_rad_s, -kInfinity);
+  EXPECT_EQ(back.cruise_m_s, kTiny);
+  EXPECT_EQ(back.world_from_body.position_world.x, kHuge);
+  EXPECT_EQ(Bits(back.world_from_body.position_world.y), Bits(-0.0));
+  EXPECT_EQ(back.world_from_body.heading_rad, -kHuge);
+  EXPECT_EQ(back.sigma_position_m, kInfinity);
+  EXPECT_EQ(back.sigma_heading_rad, 0.1);
+  EXPECT_EQ(back.mode, sent.mode);
+  EXPECT_EQ(back.rule, sent.rule);
+  EXPECT_EQ(back.gives_way_to, sent.gives_way_to);
+  EXPECT_EQ(back.order, sent.order);
+}
+
+TEST(Convert, BeaconStillPassesItsChecksumAfterTheWay) {
+  Beacon sent;
+  sent.wheels.left_rad_s = kNan;
+  const wire::Beacon arrived = Travelled(ToWire(sent));
+  EXPECT_EQ(arrived.crc(), BeaconCrc(arrived));
+}
+
+TEST(Convert, ScanComesBackWithEverySensor) {
+  RangeScan sent;
+  sent.vehicle = VehicleId{1};
+  sent.epoch = WorldEpoch{2};
+  sent.tick = Tick{3};
+  sent.run_state = RunState::kEnded;
+  sent.wheels = {-1, kNan};
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    sent.readings[i] = {static_cast<Echo>(i % 3), 0.25 * static_cast<double>(i),
+                        Tick{static_cast<std::uint32_t>(100 + i)}};
+  }
+  const RangeScan back = RoundTrip(sent);
+  EXPECT_EQ(back.vehicle, sent.vehicle);
+  EXPECT_EQ(back.epoch, sent.epoch);
+  EXPECT_EQ(back.tick, sent.tick);
+  EXPECT_EQ(back.run_state, sent.run_state);
+  EXPECT_EQ(back.wheels.left_rad_s, -1);
+  EXPECT_EQ(Bits(back.wheels.right_rad_s), Bits(kNan));
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    EXPECT_EQ(back.readings[i].kind, sent.readings[i].kind) << i;
+    EXPECT_EQ(back.readings[i].range_m, sent.readings[i].range_m) << i;
+    EXPECT_EQ(back.readings[i].tick, sent.readings[i].tick) << i;
+  }
+}
+
+TEST(Convert, CommandComesBack) {
+  const MotorCommand sent{.vehicle = VehicleId{1},
+                          .epoch = WorldEpoch{2},
+                          .tick = Tick{3},
+                          .target = {kInfinity, -0.5},
+                          .decision = {Mode::kSensorOnly, Rule::kDeaf, VehicleId{4}, -1, Tick{5}},
+                          .decision_changed = true,
+                          .matched_peers = kMax};
+  const MotorCommand back = RoundTrip(sent);
+  EXPECT_EQ(back.vehicle, sent.vehicle);
+  EXPECT_EQ(back.epoch, sent.epoch);
+  EXPECT_EQ(back.tick, sent.tick);
+  EXPECT_EQ(back.target, sent.target);
+  EXPECT_EQ(back.decision, sent.decision);
+  EXPECT_TRUE(back.decision_changed);
+  EXPECT_EQ(back.matched_peers, kMax);
+}
+
+TEST(Convert, JoinAndRosterComeBack) {
+  const JoinRequest join{{1, 2, 3, kMax}, VehicleId{9}};
+  EXPECT_EQ(RoundTrip(join).session, join.session);
+  EXPECT_EQ(RoundTrip(join).wanted, join.wanted);
+
+  const RosterEntry sent{.session = {kMax, 0, 1, 2},
+                         .vehicle = VehicleId{3},
+                         .accepted = true,
+                         .reason = "vehicle 3 is taken",
+                         .epoch = WorldEpoch{4},
+                         .start_world = {{-1, 2}, 3},
+                         .run_state = RunState::kRunning,
+                         .fleet_size = 5};
+  const RosterEntry back = RoundTrip(sent);
+  EXPECT_EQ(back.session, sent.session);
+  EXPECT_EQ(back.vehicle, sent.vehicle);
+  EXPECT_TRUE(back.accepted);
+  EXPECT_EQ(back.reason, sent.reason);
+  EXPECT_EQ(back.epoch, sent.epoch);
+  EXPECT_EQ(back.start_world, sent.start_world);
+  EXPECT_EQ(back.run_state, sent.run_state);
+  EXPECT_EQ(back.fleet_size, sent.fleet_size);
+}
+
+TEST(Convert, TruthComesBack) {
+  const Truth sent{.vehicle = VehicleId{1},
+                   .epoch = WorldEpoch{2},
+                   .tick = Tick{3},
+                   .time_s = -0.05,
+                   .world_from_body = {{4, 5}, 6},
+                   .wheels = {7, 8},
+                   .forward_m_s = 9,
+                   .present = false,
+                   .arrived = true};
+  const Truth back = RoundTrip(sent);
+  EXPECT_EQ(back.vehicle, sent.vehicle);
+  EXPECT_EQ(back.epoch, sent.epoch);
+  EXPECT_EQ(back.tick, sent.tick);
+  EXPECT_EQ(back.time_s, sent.time_s);
+  EXPECT_EQ(back.world_from_body, sent.world_from_body);
+  EXPECT_EQ(back.wheels, sent.wheels);
+  EXPECT_EQ(back.forward_m_s, sent.forward_m_s);
+  EXPECT_FALSE(back.present);
+  EXPECT_TRUE(back.arrived);
+}
+
+TEST(Convert, EventComesBackWhateverItsKind) {
+  for (int kind = 0; kind <= static_cast<int>(giveway::EventKind::kVerdict); ++kind) {
+    const WorldEvent sent{.seq = 1,
+                          .kind = static_cast<giveway::EventKind>(kind),
+                          .epoch = WorldEpoch{2},
+                          .tick = Tick{3},
+                          .time_s = 4,
+                          .vehicle = VehicleId{5},
+                          .other = VehicleId{6},
+                          .position_world = {7, 8},
+                          .other_position_world = {9, 10},
+                          .value = 11,
+                          .text = "kill"};
+    const WorldEvent back = RoundTrip(sent);
+    EXPECT_EQ(back.seq, sent.seq);
+    EXPECT_EQ(back.kind, sent.kind);
+    EXPECT_EQ(back.epoch, sent.epoch);
+    EXPECT_EQ(back.tick, sent.tick);
+    EXPECT_EQ(back.time_s, sent.time_s);
+    EXPECT_EQ(back.vehicle, sent.vehicle);
+    EXPECT_EQ(back.other, sent.other);
+    EXPECT_EQ(back.position_world, sent.position_world);
+    EXPECT_EQ(back.other_position_world, sent.other_position_world);
+    EXPECT_EQ(back.value, sent.value);
+    EXPECT_EQ(back.text, sent.text);
+  }
+}
+
+TEST(Convert, FiguresComeBackAndAbsentOnesStayAbsent) {
+  RunFigures sent;
+  sent.epoch = WorldEpoch{1};
+  sent.passed = true;
+  sent.reason = "expectations_met";
+  sent.contacts = 2;
+  sent.min_separation_m = 0.0;
+  sent.reaction_p99_ms = 100.5;
+  sent.reactions = 3;
+  sent.ticks = 4;
+  sent.tick_overruns = 5;
+  sent.state_hash = std::numeric_limits<std::uint64_t>::max();
+  const RunFigures back = RoundTrip(sent);
+  EXPECT_EQ(back.epoch, sent.epoch);
+  EXPECT_TRUE(back.passed);
+  EXPECT_EQ(back.reason, sent.reason);
+  EXPECT_EQ(back.contacts, sent.contacts);
+  EXPECT_EQ(back.min_separation_m, sent.min_separation_m);
+  EXPECT_EQ(back.time_to_clear_s, std::nullopt);
+  EXPECT_EQ(back.reaction_p50_ms, std::nullopt);
+  EXPECT_EQ(back.reaction_p99_ms, sent.reaction_p99_ms);
+  EXPECT_EQ(back.reaction_max_ms, std::nullopt);
+  EXPECT_EQ(back.reactions, sent.reactions);
+  EXPECT_EQ(back.ticks, sent.ticks);
+  EXPECT_EQ(back.tick_overruns, sent.tick_overruns);
+  EXPECT_EQ(back.state_hash, sent.state_hash);
+}
+
+TEST(Convert, StatusComesBackWithEveryCounter) {
+  VehicleStatus sent;
+  sent.vehicle = VehicleId{1};
+  sent.epoch = WorldEpoch{2};
+  sent.tick = Tick{3};
+  sent.decision = {Mode::kCooperative, Rule::kAvoid, VehicleId{4}, 15, Tick{5}};
+  sent.gives_way_to = VehicleId{6};
+  sent.forward_m_s = -0.5;
+  sent.nearest_echo_m = 0.75;
+  sent.peers_heard = 7;
+  sent.beacons = {8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21};
+  sent.beacons_superseded = 22;
+  sent.qos = {23, 24, 25, 26, 27};
+  sent.last_deadline_missed = VehicleId{28};
+  sent.last_liveliness_lost = VehicleId{29};
+  sent.last_rejected_id = 30;
+  sent.step_p99_us = 31;
+  sent.loop_max_ms = 32;
+  sent.beacon_deadline_offered_ms = 33;
+  sent.beacon_deadline_requested_ms = 34;
+  sent.beacon_lease_ms = 35;
+  sent.final = true;
+  const VehicleStatus back = RoundTrip(sent);
+  EXPECT_EQ(back.vehicle, sent.vehicle);
+  EXPECT_EQ(back.epoch, sent.epoch);
+  EXPECT_EQ(back.tick, sent.tick);
+  EXPECT_EQ(back.decision, sent.decision);
+  EXPECT_EQ(back.gives_way_to, sent.gives_way_to);
+  EXPECT_EQ(back.forward_m_s, sent.forward_m_s);
+  EXPECT_EQ(back.nearest_echo_m, sent.nearest_echo_m);
+  EXPECT_EQ(back.peers_heard, sent.peers_heard);
+  static_assert(sizeof(BeaconCounters) == 14 * 4 && sizeof(QosCounters) == 5 * 4);
+  using Counts = std::array<std::uint32_t, 14>;
+  EXPECT_EQ(std::bit_cast<Counts>(back.beacons), std::bit_cast<Counts>(sent.beacons));
+  using Five = std::array<std::uint32_t, 5>;
+  EXPECT_EQ(std::bit_cast<Five>(back.qos), std::bit_cast<Five>(sent.qos));
+  EXPECT_EQ(back.beacons_superseded, sent.beacons_superseded);
+  EXPECT_EQ(back.last_deadline_missed, sent.last_deadline_missed);
+  EXPECT_EQ(back.last_liveliness_lost, sent.last_liveliness_lost);
+  EXPECT_EQ(back.last_rejected_id, sent.last_rejected_id);
+  EXPECT_EQ(back.step_p99_us, sent.step_p99_us);
+  EXPECT_EQ(back.loop_max_ms, sent.loop_max_ms);
+  EXPECT_EQ(back.beacon_deadline_offered_ms, sent.beacon_deadline_offered_ms);
+  EXPECT_EQ(back.beacon_deadline_requested_ms, sent.beacon_deadline_requested_ms);
+  EXPECT_EQ(back.beacon_lease_ms, sent.beacon_lease_ms);
+  EXPECT_TRUE(back.final);
+}
+
+TEST(Convert, CutsTextToItsBoundBetweenCharacters) {
+  RosterEntry entry;
+  entry.reason = std::string(254, 'a') + "\xC3\xA9";  // 254 bytes, then a character of two
+  EXPECT_EQ(RoundTrip(entry).reason, std::string(254, 'a'));
+  entry.reason = std::string(300, 'b');
+  EXPECT_EQ(RoundTrip(entry).reason, std::string(255, 'b'));
+}
+
+TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
+  wire::Beacon beacon = ToWire(Beacon{});
+  beacon.mode(static_cast<wire::DriveMode>(256));  // would be kCooperative if cut to 8 bits
+  Beacon back;
+  EXPECT_FALSE(FromWire(beacon, back));
+  EXPECT_EQ(back.mode, Beacon{}.mode);
+
+  wire::RangeScan scan = ToWire(RangeScan{});
+  scan.echo()[15] = static_cast<wire::EchoKind>(3);
+  RangeScan scan_back;
+  EXPECT_FALSE(FromWire(scan, scan_back));
+
+  wire::MotorCommand command = ToWire(MotorCommand{});
+  command.decision().rule(static_cast<wire::DriveRule>(99));
+  MotorCommand command_back;
+  EXPECT_FALSE(FromWire(command, command_back));
+}
+
+}  // namespace
+}  // namespace giveway::link

@@ -1,0 +1,174 @@
+// Vehicles that fall silent, leave and come back: each is named, and a gone one stays gone.
+#include <gmock/gmock.h>
+
+#include "tests/link/fleet.h"
+#include "tests/link/raw_vehicle.h"
+
+namespace giveway::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::IsSupersetOf;
+using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
+
+constexpr VehicleId kListener{1000};
+
+TEST(Departures, OfThreeVehiclesKilledAtOnceAreEachNamed) {
+  const DomainLock domain;
+  const link::LinkOptions options = OptionsIn(domain);
+  link::VehicleLink listener(options);
+  listener.Open(kListener);
+  Ears ears(listener);
+  std::vector<std::unique_ptr<BeaconingProcess>> fleet;
+  for (std::uint32_t id = 1; id <= 5; ++id) {
+    fleet.push_back(std::make_unique<BeaconingProcess>(options, VehicleId{id}));
+  }
+  ASSERT_TRUE(Eventually([&] {
+    ears.Listen();
+    return ears.Heard().size() == 5;
+  }));
+  ears.Forget();
+  for (const std::size_t i : {1, 2, 4}) fleet[i]->Kill();
+  const std::set<VehicleId> killed{VehicleId{2}, VehicleId{3}, VehicleId{5}};
+  const auto all_told = [&](QosEventKind kind) {
+    const std::vector<VehicleId> told = ears.Told(kind);
+    return std::includes(told.begin(), told.end(), told.begin(), told.end()) &&
+           std::set<VehicleId>(told.begin(), told.end()).size() >= 3;
+  };
+  EXPECT_TRUE(Eventually(
+      [&] {
+        ears.Listen();
+        return all_told(QosEventKind::kLivelinessLost) && all_told(QosEventKind::kDeadlineMissed);
+      },
+      seconds(5)));
+  // Each exactly once; a living vehicle may be late on a busy machine, but never a dead one twice.
+  for (const QosEventKind kind : {QosEventKind::kLivelinessLost, QosEventKind::kDeadlineMissed}) {
+    const std::vector<VehicleId> told = ears.Told(kind);
+    for (const VehicleId id : killed) {
+      EXPECT_EQ(std::count(told.begin(), told.end(), id), 1) << Number(id);
+    }
+  }
+  // The living are still heard.
+  ears.Forget();
+  EXPECT_TRUE(Eventually([&] {
+    ears.Listen();
+    return ears.Heard().size() == 2;
+  }));
+  EXPECT_THAT(ears.Heard(), UnorderedElementsAre(VehicleId{1}, VehicleId{4}));
+}
+
+TEST(Departures, OfFiftyVehiclesLeaveThePublishedCountersStill) {
+  const DomainLock domain;
+  const link::LinkOptions options = OptionsIn(domain);
+  RawListener listener(options);
+  std::uint32_t id = 0;
+  // Forty leave in good order, ten are killed and leave when their participants' lease ends.
+  for (int batch = 0; batch < 4; ++batch) {
+    std::vector<std::unique_ptr<RawSender>> fleet;
+    const std::uint32_t first = id + 1;
+    for (int i = 0; i < 10; ++i) {
+      fleet.push_back(std::make_unique<RawSender>(options, "main/v" + std::to_string(++id)));
+    }
+    ASSERT_TRUE(Eventually([&, seq = 0U]() mutable {
+      ++seq;
+      for (std::uint32_t i = 0; i < 10; ++i) {
+        fleet[i]->Send(link::ToWire(BeaconFrom(VehicleId{first + i}, seq).beacon));
+      }
+      listener.Listen();
+      return listener.Matched() == 10 && seq > 20;
+    }));
+  }
+  std::vector<std::unique_ptr<BeaconingProcess>> processes;
+  for (int i = 0; i < 10; ++i) {
+    processes.push_back(std::make_unique<BeaconingProcess>(options, VehicleId{++id}));
+  }
+  ASSERT_TRUE(Eventually([&] {
+    listener.Listen();
+    return listener.Matched() == 10 && listener.Heard() > 500;
+  }));
+  for (auto& process : processes) process->Kill();
+  ASSERT_TRUE(Eventually(
+      [&] {
+        listener.Listen();
+        return listener.Matched() == 0;
+      },
+      seconds(30)));
+  EXPECT_EQ(listener.Told(QosEventKind::kMatched), 50U);
+  EXPECT_EQ(listener.Told(QosEventKind::kUnmatched), 50U);
+  EXPECT_GE(listener.Told(QosEventKind::kLivelinessLost), 10U);
+
+  // The library still repeats the misses of the departed; none of it is told.
+  const std::size_t told = listener.Told();
+  const std::size_t raw = listener.RawMisses();
+  EXPECT_TRUE(Eventually([&] {
+    listener.Listen();
+    return listener.RawMisses() > raw + 200;
+  })) << "the library stopped repeating: this test no longer shows anything";
+  EXPECT_EQ(listener.Told(), told);
+}
+
+TEST(Departures, ARestartedVehicleIsHeardAgainAndMissedAgain) {
+  const DomainLock domain;
+  const link::LinkOptions options = OptionsIn(domain);
+  link::VehicleLink listener(options);
+  listener.Open(kListener);
+  Ears ears(listener);
+  const auto hear_it = [&] {
+    return Eventually([&] {
+      ears.Listen();
+      return ears.Heard().contains(VehicleId{5});
+    });
+  };
+  std::uint64_t first_writer = 0;
+  {
+    const BeaconingProcess first_life(options, VehicleId{5});
+    ASSERT_TRUE(hear_it());
+    first_writer = ears.Beacons().back().writer;
+  }
+  ASSERT_TRUE(Eventually([&] {
+    ears.Listen();
+    return ears.Told(QosEventKind::kLivelinessLost).size() == 1 &&
+           ears.Told(QosEventKind::kDeadlineMissed).size() == 1;
+  }));
+  ears.Forget();
+  {
+    // At once, while the dead participant is still remembered.
+    const BeaconingProcess second_life(options, VehicleId{5});
+    ASSERT_TRUE(hear_it());
+    EXPECT_NE(ears.Beacons().back().writer, first_writer);
+  }
+  EXPECT_TRUE(Eventually([&] {
+    ears.Listen();
+    return !ears.Told(QosEventKind::kDeadlineMissed).empty();
+  }));
+  EXPECT_EQ(ears.Told(QosEventKind::kDeadlineMissed).front(), VehicleId{5});
+}
+
+TEST(Departures, AVehicleThatPausesIsMissedOnceAndComesBack) {
+  const DomainLock domain;
+  Beaconing sender(OptionsIn(domain), VehicleId{5});
+  link::VehicleLink listener(OptionsIn(domain));
+  listener.Open(kListener);
+  Ears ears(listener);
+  ASSERT_TRUE(Eventually([&] {
+    sender.Send();
+    ears.Listen();
+    return ears.Heard().contains(VehicleId{5});
+  }));
+  ears.Forget();
+  // Ten deadlines go by: one edge, not ten misses.
+  Repeat(milliseconds(1500), [&] { ears.Listen(); });
+  EXPECT_THAT(ears.Told(QosEventKind::kDeadlineMissed), SizeIs(1));
+  EXPECT_THAT(ears.Told(QosEventKind::kLivelinessLost), SizeIs(1));
+  EXPECT_TRUE(Eventually([&] {
+    sender.Send();
+    ears.Listen();
+    return !ears.Told(QosEventKind::kLivelinessBack).empty() && ears.Heard().size() == 1;
+  }));
+  EXPECT_EQ(ears.Told(QosEventKind::kLivelinessBack).front(), VehicleId{5});
+}
+
+}  // namespace
+}  // namespace giveway::test

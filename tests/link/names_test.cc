@@ -1,0 +1,99 @@
+#include <gmock/gmock.h>
+
+#include "services/link/interfaces.h"
+#include "services/link/link_options.h"
+#include "services/link/writer_names.h"
+
+namespace giveway::link {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+TEST(NamedVehicle, IsTheNumberAfterTheLastSlash) {
+  EXPECT_EQ(NamedVehicle({"v7"}), VehicleId{7});
+  EXPECT_EQ(NamedVehicle({"main/v12"}), VehicleId{12});
+  EXPECT_EQ(NamedVehicle({"main/v4294967295"}), VehicleId{4294967295U});
+}
+
+TEST(NamedVehicle, IsNobodyForAnythingElse) {
+  for (const char* name : {"", "v", "v0", "v07", "v-1", "v+1", "v1 ", "v1x", "w1", "7", "v*",
+                           "main/*", "*", "v4294967296", "main/v1/x", "world"}) {
+    EXPECT_EQ(NamedVehicle({name}), kNobody) << name;
+  }
+  EXPECT_EQ(NamedVehicle({}), kNobody);
+  EXPECT_EQ(NamedVehicle({"v1", "v2"}), kNobody);
+}
+
+rtps::GUID_t WriterNumber(std::uint32_t number) {
+  rtps::GUID_t guid;
+  guid.guidPrefix.value[11] = static_cast<rtps::octet>(number & 0xffU);
+  guid.guidPrefix.value[10] = static_cast<rtps::octet>(number >> 8U & 0xffU);
+  guid.entityId.value[0] = 1;
+  return guid;
+}
+
+TEST(WriterNames, KnowsAWriterOnlyAfterUpdate) {
+  WriterNames names;
+  names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(1), {"main/v4"});
+  EXPECT_EQ(names.Find(WriterNumber(1)), nullptr);
+  names.Update();
+  ASSERT_NE(names.Find(WriterNumber(1)), nullptr);
+  EXPECT_EQ(names.Find(WriterNumber(1))->vehicle, VehicleId{4});
+}
+
+TEST(WriterNames, StillNamesAWriterThatJustLeft) {
+  WriterNames names;
+  names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(1), {"main/v4"});
+  names.OnWriter(DiscoveryListener::Change::kGone, WriterNumber(1), {"main/v4"});
+  names.Update();
+  ASSERT_NE(names.Find(WriterNumber(1)), nullptr);
+  EXPECT_EQ(names.Find(WriterNumber(1))->vehicle, VehicleId{4});
+}
+
+TEST(WriterNames, ForgetsWritersThatLeftLongAgoButNotOneThatCameBack) {
+  WriterNames names;
+  names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(0), {"main/v4"});
+  names.OnWriter(DiscoveryListener::Change::kGone, WriterNumber(0), {"main/v4"});
+  names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(0), {"main/v4"});
+  for (std::uint32_t i = 1; i < 3000; ++i) {
+    names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(i), {"main/v5"});
+    names.OnWriter(DiscoveryListener::Change::kGone, WriterNumber(i), {"main/v5"});
+  }
+  names.Update();
+  EXPECT_EQ(names.Find(WriterNumber(1)), nullptr);
+  EXPECT_NE(names.Find(WriterNumber(2999)), nullptr);
+  EXPECT_NE(names.Find(WriterNumber(0)), nullptr);
+}
+
+TEST(Identity, DiffersBetweenWritersAndIsNeverZero) {
+  std::vector<std::uint64_t> seen;
+  for (std::uint32_t i = 0; i < 1000; ++i) seen.push_back(Identity(WriterNumber(i)));
+  seen.push_back(Identity(rtps::GUID_t{}));
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(std::adjacent_find(seen.begin(), seen.end()), seen.end());
+  EXPECT_NE(seen.front(), 0U);
+}
+
+TEST(ResolveInterface, TakesAnAddressANameOrAny) {
+  EXPECT_THAT(ResolveInterface("127.0.0.1"), ElementsAre("127.0.0.1"));
+  EXPECT_THAT(ResolveInterface("lo"), Contains("127.0.0.1"));
+  EXPECT_THAT(ResolveInterface("any"), IsEmpty());
+}
+
+TEST(ResolveInterface, NamesTheInterfacesThereAreWhenItKnowsNone) {
+  for (const char* wrong : {"no-such-interface", "192.0.2.1", ""}) {
+    try {
+      ResolveInterface(wrong);
+      FAIL() << wrong;
+    } catch (const LinkError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("lo (127.0.0.1)"));
+      EXPECT_THAT(error.what(), HasSubstr(std::string("\"") + wrong + "\""));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace giveway::link

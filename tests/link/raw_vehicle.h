@@ -1,0 +1,78 @@
+// A vehicle made of the link's inner parts, for what VehicleLink rightly never does: beacons with
+// the wrong name or a broken sum, and a look at what the library itself reports.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "services/link/beacon_inbox.h"
+#include "services/link/convert.h"
+#include "services/link/participant.h"
+#include "services/link/peer_events.h"
+#include "services/link/reader_events.h"
+
+namespace giveway::test {
+
+class RawSender {
+ public:
+  RawSender(const link::LinkOptions& options, const std::string& partition)
+      : participant_(options, "raw-sender", names_),
+        writer_(participant_.MakeWriter<wire::Beacon>(partition)) {}
+  bool Send(const wire::Beacon& sample) { return writer_.Write(sample); }
+
+ private:
+  link::WriterNames names_;
+  link::Participant participant_;
+  link::Writer<wire::Beacon> writer_;
+};
+
+class RawListener {
+ public:
+  explicit RawListener(const link::LinkOptions& options)
+      : participant_(options, "raw-listener", names_),
+        reader_(participant_.MakeReader<wire::Beacon>(options.area + "/*",
+                                                      link::Participant::kProfileDepth, &events_,
+                                                      link::ReaderEvents::Mask())),
+        inbox_(reader_, names_, participant_.Prefix()),
+        peers_(names_, participant_.Prefix()) {}
+
+  // One turn of VehicleLink::Take.
+  void Listen() {
+    const auto events = events_.Take();
+    for (const link::ReaderEvent& event : events) {
+      raw_misses_ += event.kind == link::ReaderEvent::Kind::kDeadlineMissed ? 1 : 0;
+    }
+    names_.Update();
+    peers_.Translate(events, SteadyTime{0}, told_);
+    beacons_.clear();
+    inbox_.Drain(SteadyTime{0}, beacons_);
+    for (const ReceivedBeacon& received : beacons_) peers_.Heard(received.beacon.vehicle);
+    heard_ += beacons_.size();
+  }
+  std::size_t Heard() const { return heard_; }
+  std::size_t RawMisses() const { return raw_misses_; }  // as often as the library said so
+  std::size_t Told() const { return told_.size(); }
+  std::size_t Told(QosEventKind kind) const {
+    return static_cast<std::size_t>(std::count_if(
+        told_.begin(), told_.end(), [kind](const QosEvent& event) { return event.kind == kind; }));
+  }
+  std::uint32_t Matched() const { return peers_.MatchedWriters(); }
+  std::uint32_t Superseded() { return inbox_.Superseded(); }
+  std::uint32_t Unbound() const { return inbox_.Unbound(); }
+  std::uint32_t Unreadable() const { return inbox_.Unreadable(); }
+
+ private:
+  link::WriterNames names_;
+  link::ReaderEvents events_;
+  link::Participant participant_;
+  link::Reader<wire::Beacon> reader_;
+  link::BeaconInbox inbox_;
+  link::PeerEvents peers_;
+  std::vector<ReceivedBeacon> beacons_;
+  std::vector<QosEvent> told_;
+  std::size_t heard_ = 0;
+  std::size_t raw_misses_ = 0;
+};
+
+}  // namespace giveway::test

@@ -1,0 +1,141 @@
+// What a participant that cannot be made says. Each in a process of its own, as a service would be:
+// the library keeps the profiles it loaded once for the whole process.
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "tests/link/fleet.h"
+
+namespace giveway::test {
+namespace {
+
+using ::testing::ExitedWithCode;
+
+// As a main does: the error on stderr, exit 2.
+[[noreturn]] void Start(const link::LinkOptions& options) {
+  try {
+    link::VehicleLink vehicle(options);
+    vehicle.Open(VehicleId{1});
+  } catch (const link::LinkError& error) {
+    std::fprintf(stderr, "start error: %s\n", error.what());
+    std::exit(2);
+  }
+  std::exit(0);
+}
+
+class StartErrors : public ::testing::Test {
+ protected:
+  StartErrors() : options_(OptionsIn(domain_)) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    folder_ = std::filesystem::temp_directory_path() /
+              ("giveway-start-errors-" + std::to_string(options_.domain));
+    std::filesystem::create_directories(folder_);
+  }
+  ~StartErrors() override { std::filesystem::remove_all(folder_); }
+
+  std::string Write(const std::string& text) {
+    const std::string path = folder_ / "qos.xml";
+    std::ofstream(path) << text;
+    return path;
+  }
+  std::string DefaultText() {
+    std::ostringstream text;
+    text << std::ifstream(options_.qos_file).rdbuf();
+    return text.str();
+  }
+  std::string DefaultWith(const std::string& what, const std::string& instead) {
+    std::string text = DefaultText();
+    const std::size_t at = text.find(what);
+    EXPECT_NE(at, std::string::npos) << what;
+    return text.replace(at, what.size(), instead);
+  }
+
+  DomainLock domain_;
+  link::LinkOptions options_;
+  std::filesystem::path folder_;
+};
+
+TEST_F(StartErrors, AreNoneWithTheDefaultProfiles) {
+  EXPECT_EXIT(Start(options_), ExitedWithCode(0), "^$");
+}
+
+TEST_F(StartErrors, NameAFileThatIsNotThere) {
+  options_.qos_file = "/nowhere/qos.xml";
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2),
+              "start error: QoS file /nowhere/qos.xml: does not exist; give .*default.xml");
+}
+
+TEST_F(StartErrors, NameAFolderGivenAsFile) {
+  options_.qos_file = folder_;
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*is not a file");
+}
+
+TEST_F(StartErrors, RefuseAnEmptyAndABinaryFile) {
+  options_.qos_file = Write("");
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*qos.xml: the library refuses it");
+  options_.qos_file = Write(std::string("\0\1\2\377\376 ELF", 9));
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*qos.xml: the library refuses it");
+}
+
+TEST_F(StartErrors, RefuseMalformedXml) {
+  options_.qos_file = Write(DefaultText().substr(0, 3000));
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*qos.xml: the library refuses it");
+}
+
+TEST_F(StartErrors, QuoteTheLibraryOnAnUnknownElement) {
+  options_.qos_file = Write(DefaultWith("<deadline>", "<deadlines></deadlines><deadline>"));
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2),
+              "start error: .*the library refuses it.*\n.*Fast DDS: .*deadlines");
+}
+
+TEST_F(StartErrors, NameAProfileThatIsMissing) {
+  options_.qos_file = Write(DefaultWith("fleet_beacon_writer", "fleet_bacon_writer"));
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2),
+              "start error: QoS file .*qos.xml: has no profile \"fleet_beacon_writer\"; .*copy");
+  options_.qos_file = Write(DefaultWith("giveway_participant", "participant"));
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2),
+              "start error: .*has no profile \"giveway_participant\"");
+}
+
+TEST_F(StartErrors, RefuseSharedMemoryTransport) {
+  options_.qos_file =
+      Write(DefaultWith("<useBuiltinTransports>false", "<useBuiltinTransports>true"));
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*useBuiltinTransports");
+}
+
+TEST_F(StartErrors, NameTheInterfacesThereAre) {
+  options_.interface = "eth99";
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2),
+              "start error: interface \"eth99\" .*lo \\(127.0.0.1\\)");
+}
+
+TEST_F(StartErrors, RefuseADomainOrAreaOutOfRange) {
+  for (const std::uint32_t wrong : {0U, 100U, 4000000000U}) {
+    options_.domain = wrong;
+    EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: domain .*must be 1 to 99");
+  }
+  options_ = OptionsIn(domain_);
+  for (const char* wrong : {"", "Main", "a/b", "*", "a b"}) {
+    options_.area = wrong;
+    EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: area \".*must be");
+  }
+}
+
+TEST_F(StartErrors, AreNoneWhereStrayProfilesLieAboutOrAreNamedByTheEnvironment) {
+  std::ofstream(folder_ / "DEFAULT_FASTRTPS_PROFILES.xml") << "<broken";
+  const std::string stray = Write("<broken");
+  EXPECT_EXIT(
+      {
+        std::filesystem::current_path(folder_);
+        setenv("FASTRTPS_DEFAULT_PROFILES_FILE", stray.c_str(), 1);
+        setenv("ROS_DISCOVERY_SERVER", "127.0.0.1:11811", 1);
+        Start(options_);
+      },
+      ExitedWithCode(0), "^$");
+}
+
+}  // namespace
+}  // namespace giveway::test

@@ -1,0 +1,136 @@
+#include "sim_world/judge.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/sim_scenario.h"
+
+namespace giveway::sim {
+namespace {
+
+const VehicleId kTwo{2};
+
+// One vehicle with a goal at (5, 0), moved by hand.
+class JudgeTest : public testing::Test {
+ protected:
+  JudgeTest() : judge_(ScenarioOf({Vehicle()})) {
+    body_.vehicle = kTwo;
+    body_.profile = PioneerP3dx();
+    body_.goal = Vehicle().goal;
+    body_.present = true;
+    body_.obeyed = true;
+    body_.command.decision = {.mode = Mode::kCooperative, .rule = Rule::kCruise};
+    SetSpeed(0.3);
+  }
+  static VehicleOptions Vehicle() {
+    VehicleOptions options = VehicleAt(2, {});
+    options.goal = {.set = true, .at_world = {5, 0}, .radius_m = 0.1};
+    return options;
+  }
+  void SetSpeed(double forward_m_s) {
+    body_.wheels = WheelsFromTwist(body_.profile.drive, {forward_m_s, 0});
+  }
+  // Observes `ticks` ticks; collects their events.
+  void Observe(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      log_.BeginTick(Tick{1}, 0);
+      time_s_ += 0.05;
+      judge_.Observe(time_s_, {&body_, 1}, {}, &log_);
+      events_.insert(events_.end(), log_.Events().begin(), log_.Events().end());
+    }
+  }
+
+  Judge judge_;
+  Body body_;
+  EventLog log_{kEpoch};
+  std::vector<WorldEvent> events_;
+  double time_s_ = 0;
+};
+
+TEST_F(JudgeTest, StandingHalfASecondToGiveWayIsAHaltAndOnlyOne) {
+  SetSpeed(0.009);
+  body_.command.decision = {.rule = Rule::kGiveWay, .peer = VehicleId{1}};
+  Observe(9);
+  EXPECT_TRUE(events_.empty());
+  Observe(50);
+  ASSERT_EQ(events_.size(), 1U);
+  EXPECT_EQ(events_[0].kind, EventKind::kHalted);
+  EXPECT_EQ(events_[0].vehicle, kTwo);
+  EXPECT_EQ(events_[0].other, VehicleId{1});
+  EXPECT_EQ(judge_.Halted(), std::vector{kTwo});
+}
+
+TEST_F(JudgeTest, AVehicleThatMovesAgainWentOn) {
+  SetSpeed(0);
+  body_.command.decision = {.rule = Rule::kDeaf};
+  Observe(10);
+  body_.command.decision = {.rule = Rule::kCruise};
+  Observe(10);  // still stands: nothing new
+  EXPECT_EQ(events_.size(), 1U);
+  SetSpeed(0.02);
+  Observe(10);
+  ASSERT_EQ(events_.size(), 2U);
+  EXPECT_EQ(events_[1].kind, EventKind::kWentOn);
+}
+
+TEST_F(JudgeTest, StandingForAnotherReasonIsNoHalt) {
+  SetSpeed(0);
+  for (const Rule rule : {Rule::kObstacle, Rule::kRangesStale, Rule::kNotRunning, Rule::kCruise}) {
+    body_.command.decision = {.rule = rule};
+    Observe(40);
+  }
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+TEST_F(JudgeTest, AnInterruptedStandstillStartsAnew) {
+  body_.command.decision = {.rule = Rule::kGiveWay};
+  for (int i = 0; i < 5; ++i) {
+    SetSpeed(0);
+    Observe(9);
+    SetSpeed(0.05);
+    Observe(1);
+  }
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+// Its last command said "give way", but the process is gone and the world holds the brake.
+TEST_F(JudgeTest, ADeadVehicleDoesNotHaltToGiveWay) {
+  SetSpeed(0);
+  body_.command.decision = {.rule = Rule::kGiveWay};
+  body_.obeyed = false;
+  Observe(40);
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+TEST_F(JudgeTest, ArrivalIsTheAxleCentreWithinTheGoalsRadiusAndOnlyOnce) {
+  body_.world_from_body.position_world = {4.89, 0};
+  Observe(1);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  body_.world_from_body.position_world = {4.95, 0.05};
+  Observe(5);
+  EXPECT_TRUE(judge_.HasArrived(kTwo));
+  EXPECT_EQ(judge_.Arrived(), std::vector{kTwo});
+  EXPECT_DOUBLE_EQ(judge_.LastArrival().value(), 0.1);
+  ASSERT_EQ(events_.size(), 1U);
+  EXPECT_EQ(events_[0].kind, EventKind::kArrived);
+  EXPECT_DOUBLE_EQ(events_[0].value, 0.1);
+}
+
+TEST_F(JudgeTest, AfterArrivalNothingIsAHalt) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  body_.command.decision = {.rule = Rule::kGiveWay};
+  Observe(40);
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+TEST_F(JudgeTest, ContactsBecomeEvents) {
+  const Contact contact = {.vehicle = VehicleId{1}, .other = kTwo, .position_world = {1, 2}};
+  judge_.Observe(1, {&body_, 1}, {&contact, 1}, &log_);
+  ASSERT_EQ(log_.Events().size(), 1U);
+  EXPECT_EQ(log_.Events()[0].kind, EventKind::kContact);
+  EXPECT_EQ(log_.Events()[0].other, kTwo);
+  EXPECT_EQ(log_.Events()[0].position_world, (Vec2{1, 2}));
+}
+
+}  // namespace
+}  // namespace giveway::sim

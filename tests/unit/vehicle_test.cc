@@ -1,0 +1,141 @@
+#include "services/vehicle/vehicle.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "tests/support/brain_bench.h"
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}  // namespace
+
+// Every allocation of this test program is counted.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace giveway {
+namespace {
+
+using test::BeaconOf;
+using test::BrainBench;
+using test::ClearScan;
+
+RangeScan Arc() {
+  RangeScan scan = ClearScan(0);
+  scan.wheels = {2.0, 3.0};
+  return scan;
+}
+
+TEST(Vehicle, BeaconsAlwaysHeardOrNot) {
+  BrainBench bench(test::DefaultOptions());
+  for (std::uint32_t i = 1; i <= 3; ++i) EXPECT_EQ(bench.StepBlind().beacon.seq, i);
+}
+
+TEST(Vehicle, DeadReckonsAlongExactArcs) {
+  BrainBench bench(test::DefaultOptions());
+  Outputs out;
+  for (int i = 0; i < 20; ++i) out = bench.Step(Arc());
+  const Pose expected = AdvanceArc({}, TwistFromWheels({}, {2.0, 3.0}), 1.0);
+  EXPECT_NEAR(out.beacon.world_from_body.position_world.x, expected.position_world.x, 1e-12);
+  EXPECT_NEAR(out.beacon.world_from_body.position_world.y, expected.position_world.y, 1e-12);
+  EXPECT_NEAR(out.beacon.world_from_body.heading_rad, expected.heading_rad, 1e-12);
+}
+
+TEST(Vehicle, ALostTickIsBridgedAndCostsCertainty) {
+  BrainBench whole(test::DefaultOptions());
+  BrainBench gappy(test::DefaultOptions());
+  Outputs out, bridged;
+  for (int i = 0; i < 10; ++i) {
+    out = whole.Step(Arc());
+    bridged = i == 5 ? gappy.StepBlind() : gappy.Step(Arc());
+  }
+  EXPECT_NEAR(bridged.beacon.world_from_body.position_world.x,
+              out.beacon.world_from_body.position_world.x, 1e-12);
+  EXPECT_GT(bridged.beacon.sigma_position_m, out.beacon.sigma_position_m);
+}
+
+TEST(Vehicle, ANewWorldEpochStartsDeadReckoningAnew) {
+  BrainBench bench(test::DefaultOptions());
+  for (int i = 0; i < 5; ++i) bench.Step(Arc());
+  RangeScan scan = ClearScan(0);
+  scan.epoch = WorldEpoch{8};
+  const Outputs out = bench.Step(scan);
+  EXPECT_EQ(out.beacon.world_from_body.position_world, Vec2{});
+  EXPECT_EQ(out.beacon.world_epoch, WorldEpoch{8});
+}
+
+TEST(Vehicle, AScanOlderThanTheLastMovesNothing) {
+  Vehicle vehicle(test::DefaultOptions(), 42);
+  Inputs inputs;
+  for (std::uint32_t tick : {1U, 2U, 3U}) {
+    RangeScan scan = Arc();
+    scan.tick = Tick{tick};
+    inputs.scan = scan;
+    vehicle.Step(inputs);
+  }
+  const Vec2 before = vehicle.State().world_from_body.position_world;
+  inputs.scan->tick = Tick{2};
+  vehicle.Step(inputs);
+  EXPECT_EQ(vehicle.State().world_from_body.position_world, before);
+  EXPECT_EQ(vehicle.State().tick, Tick{3});
+}
+
+TEST(Vehicle, TheSameInputsGiveTheSameBits) {
+  BrainBench first(test::DefaultOptions());
+  BrainBench second(test::DefaultOptions());
+  for (std::uint32_t i = 1; i <= 50; ++i) {
+    const std::vector<Beacon> heard = {BeaconOf(2, i, {.position_world = {2, 1}})};
+    first.Step(Arc(), heard);
+    second.Step(Arc(), heard);
+    ASSERT_EQ(first.Brain().Hash(), second.Brain().Hash()) << i;
+  }
+}
+
+TEST(Vehicle, ARunContinuesFromASnapshotBitForBit) {
+  const VehicleOptions options = test::DefaultOptions();
+  Vehicle original(options, 42);
+  Vehicle restored(options, 42);
+  for (std::uint32_t tick = 1; tick <= 60; ++tick) {
+    if (tick == 30) restored.Restore(original.State());
+    RangeScan scan = Arc();
+    scan.tick = Tick{tick};
+    Inputs inputs;
+    inputs.now = tick * options.tick_period;
+    inputs.scan = scan;
+    original.Step(inputs);
+    if (tick < 30) continue;
+    restored.Step(inputs);
+    ASSERT_EQ(original.Hash(), restored.Hash()) << tick;
+  }
+}
+
+TEST(Vehicle, StepAllocatesNothing) {
+  Vehicle vehicle(test::DefaultOptions(), 42);
+  std::vector<ReceivedBeacon> heard(50);
+  const auto step = [&](std::uint32_t tick) {
+    for (std::uint32_t i = 0; i < heard.size(); ++i) {
+      const Beacon beacon = BeaconOf(i + 2, tick, {.position_world = {1.0 + 0.05 * i, 2.0}});
+      heard[i] = test::Received(beacon, tick * std::chrono::milliseconds(50));
+    }
+    Inputs inputs;
+    inputs.now = tick * std::chrono::milliseconds(50);
+    inputs.scan = ClearScan(tick);
+    inputs.beacons = heard;
+    return vehicle.Step(inputs);
+  };
+  for (std::uint32_t tick = 1; tick <= 5; ++tick) step(tick);
+  const std::size_t before = allocations;
+  for (std::uint32_t tick = 6; tick <= 100; ++tick) step(tick);
+  EXPECT_EQ(allocations, before);
+}
+
+}  // namespace
+}  // namespace giveway

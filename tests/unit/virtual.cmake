@@ -1,0 +1,3 @@
+giveway_test(unit virtual
+  SOURCES crossing_test.cc lecture_flaws_test.cc
+  LINK giveway::virtual)
