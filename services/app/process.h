@@ -1,5 +1,5 @@
-// The edges every service process shares: stop signal, ticks on absolute deadlines, log, and the
-// flags with their GIVEWAY_ environment twins.
+// The edges every service process shares: stop signal, ticks on absolute deadlines, log. Flags are
+// in flags.h.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,13 @@ void SleepUntil(SteadyTime when);
 // A random 32-bit number that is never 0, from the operating system.
 std::uint32_t RandomNonZero();
 
+// What a Ticker does at `now`, given the deadline it waits for.
+struct NextTick {
+  SteadyTime deadline;       // the one after
+  std::uint32_t missed = 0;  // whole periods between the deadline and `now`
+};
+NextTick AfterDeadline(SteadyTime deadline, Nanoseconds period, SteadyTime now);
+
 // A tick on absolute deadlines: never catches up, counts what it missed.
 class Ticker {
  public:
@@ -38,7 +45,8 @@ class Ticker {
   SteadyTime next_;
 };
 
-// Log lines go to stderr. Format "text" or "json", level "debug" .. "error".
+// Log lines go to stderr. Format "text" or "json" (one object a line: time, level, process, text),
+// level "debug", "info", "warning" or "error". Before InitLog: text from info on.
 void InitLog(const std::string& process_name, const std::string& format, const std::string& level);
 void LogDebug(const std::string& text);
 void LogInfo(const std::string& text);

@@ -37,7 +37,7 @@ struct Report {
 
 // One JSON object on one line, proto field names, defaults printed, absent values left out.
 std::string ToJson(const Report& report);
-// The verdict table for a terminal of `columns`; no line is longer.
+// The verdict table for a terminal of `columns` (taken as at least 24); no line is longer.
 std::string ToTable(const Report& report, int columns);
 // 0 passed, 1 failed, 2 not run.
 int ExitCode(Verdict verdict);

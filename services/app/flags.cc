@@ -1,0 +1,142 @@
+#include "services/app/flags.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <list>
+
+#include "services/app/flag_values.h"
+
+namespace giveway::app {
+namespace {
+
+constexpr int kUsageError = 2;
+enum class Service { kVehicle, kWorld };
+
+constexpr const char* kFooter =
+    "Every flag has a twin in the environment: --log-level is also GIVEWAY_LOG_LEVEL. The flag\n"
+    "wins; an empty variable counts as unset. GIVEWAY_CONFIG_DIR names the folder with qos/ and\n"
+    "scenarios/.\n\nExit code 2: a flag, a file or the network was not usable; stderr says which.";
+
+// CLI11 splits the command line and prints the help. The values stay text: judging them is ours, so
+// that a flag and its twin are refused with the same words.
+class CommandLine {
+ public:
+  CommandLine(Service service, const std::string& name, const std::string& description)
+      : app_(description, name) {
+    app_.set_version_flag("--version", name + " " + GIVEWAY_VERSION);
+    app_.footer(kFooter);
+    Add("--scenario", "FILE|NAME", "scenario file, or the name of a shipped one (required)");
+    Add("--domain", "1..99", "DDS domain (required)");
+    Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
+    Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
+    if (service == Service::kVehicle) {
+      Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
+    }
+    Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
+    Add("--behaviour", "NAME", "cooperative, lecture_avoid, stock_avoid or lecture_yield");
+    Add("--duration", "SECONDS", "end after this time instead of the scenario's");
+    lockstep_ = app_.add_flag("--lockstep");
+    lockstep_->description("the world waits for every command of a tick");
+    Add("--log-format", "text|json", "of the lines on stderr (default text)");
+    Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
+  }
+
+  // The flags given and their values. Throws CLI::ParseError.
+  std::map<std::string, std::string> Parse(int argc, const char* const* argv) {
+    app_.parse(argc, argv);
+    std::map<std::string, std::string> given;
+    for (const auto& [option, value] : options_) {
+      if (option->count() > 0) given.emplace(option->get_name(), value);
+    }
+    if (lockstep_->count() > 0) given.emplace("--lockstep", "1");
+    return given;
+  }
+
+  // Prints help or version and gives 0, or what is wrong and gives 2.
+  int Exit(const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app_.exit(error);
+    std::fprintf(stderr, "command line: %s; see %s --help\n", error.what(),
+                 app_.get_name().c_str());
+    return kUsageError;
+  }
+
+ private:
+  void Add(const std::string& flag, const std::string& value_name, const std::string& help) {
+    auto& [option, value] = options_.emplace_back();
+    option = app_.add_option(flag, value, help)->type_name(value_name);
+  }
+
+  CLI::App app_;
+  std::list<std::pair<CLI::Option*, std::string>> options_;  // a list: CLI11 keeps references
+  CLI::Option* lockstep_ = nullptr;
+};
+
+std::string DefaultQos(FlagValues* values) {
+  try {
+    return ConfigDir() + "/qos/default.xml";
+  } catch (const InputError& error) {
+    values->Add(error.Problems());
+    return "";
+  }
+}
+
+ServiceFlags Read(Service service, FlagValues* values) {
+  constexpr double kMaxWhole = 4294967295.0;
+  ServiceFlags flags;
+  flags.scenario = values->RequiredText("--scenario", "name a file or a shipped scenario");
+  if (!values->Text("--domain")) {
+    values->Complain("--domain", "is required and missing", "write --domain with a number 1..99");
+  }
+  flags.domain = values->Whole("--domain", {1, 99}).value_or(0);
+  flags.interface = values->TextOr(flags.interface, "--interface");
+  flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
+  if (service == Service::kVehicle) flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
+  flags.seed = values->Whole("--seed", {0, kMaxWhole});
+  const auto behaviour =
+      values->OneOf("--behaviour", {Name(Behaviour::kCooperative), Name(Behaviour::kLectureAvoid),
+                                    Name(Behaviour::kStockAvoid), Name(Behaviour::kLectureYield)});
+  if (behaviour) flags.behaviour = BehaviourNamed(*behaviour);
+  flags.duration_s = values->Number("--duration", {0, 86400, "s", true});
+  flags.lockstep = values->Switch("--lockstep");
+  flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);
+  flags.log_level =
+      values->OneOf("--log-level", {"debug", "info", "warning", "error"}).value_or(flags.log_level);
+  return flags;
+}
+
+ParsedFlags ParseFlags(Service service, const std::string& name, const std::string& description,
+                       int argc, const char* const* argv) {
+  CommandLine line(service, name, description);
+  try {
+    FlagValues values(line.Parse(argc, argv));
+    ServiceFlags flags = Read(service, &values);
+    if (values.Problems().empty()) return flags;
+    std::fprintf(stderr, "%s\n", Format(values.Problems()).c_str());
+    return kUsageError;
+  } catch (const CLI::ParseError& error) {
+    return line.Exit(error);
+  }
+}
+
+}  // namespace
+
+ParsedFlags ParseVehicleFlags(int argc, const char* const* argv) {
+  return ParseFlags(Service::kVehicle, "giveway-vehicle",
+                    "One vehicle of a fleet: beacons, decides, drives.", argc, argv);
+}
+
+ParsedFlags ParseWorldFlags(int argc, const char* const* argv) {
+  return ParseFlags(Service::kWorld, "giveway-world",
+                    "The simulated world a fleet shares: bodies, walls, ultrasonics, the judge.",
+                    argc, argv);
+}
+
+std::optional<Behaviour> BehaviourNamed(std::string_view name) {
+  for (const Behaviour behaviour : {Behaviour::kCooperative, Behaviour::kLectureAvoid,
+                                    Behaviour::kStockAvoid, Behaviour::kLectureYield}) {
+    if (Name(behaviour) == name) return behaviour;
+  }
+  return std::nullopt;
+}
+
+}  // namespace giveway::app

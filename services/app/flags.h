@@ -1,0 +1,39 @@
+// The command line of the two services. Every flag has an environment twin: --log-level is
+// GIVEWAY_LOG_LEVEL. The flag wins; an empty variable counts as unset. There is no third way.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "services/types/decision.h"
+
+namespace giveway::app {
+
+struct ServiceFlags {
+  std::uint32_t domain = 0;             // 1..99
+  std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
+  std::string qos;                      // a file; ConfigDir()/qos/default.xml if not given
+  std::string scenario;                 // a file or a shipped scenario's name
+  std::uint32_t id = 0;                 // vehicle only; 0 asks the world for any free id
+  // Overrides of the scenario's; 0 moves nothing. Without the flag: the scenario's own seed.
+  std::optional<std::uint32_t> seed;
+  std::optional<Behaviour> behaviour;
+  std::optional<double> duration_s;
+  bool lockstep = false;
+  std::string log_format = "text";  // "text" or "json"
+  std::string log_level = "info";   // "debug", "info", "warning" or "error"
+};
+
+// The flags, or the exit code to end with at once: 0 after --help or --version, 2 after telling
+// stderr every wrong flag with its value, the allowed range and the remedy.
+using ParsedFlags = std::variant<ServiceFlags, int>;
+ParsedFlags ParseVehicleFlags(int argc, const char* const* argv);
+ParsedFlags ParseWorldFlags(int argc, const char* const* argv);
+
+// The behaviour whose Name() this is.
+std::optional<Behaviour> BehaviourNamed(std::string_view name);
+
+}  // namespace giveway::app

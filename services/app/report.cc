@@ -1,0 +1,83 @@
+#include "services/app/report.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "report.pb.h"
+#include "services/types/check.h"
+
+namespace giveway::app {
+namespace {
+
+schema::Report::Verdict ToSchema(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPassed:
+      return schema::Report::passed;
+    case Verdict::kFailed:
+      return schema::Report::failed;
+    case Verdict::kNotRun:
+      return schema::Report::not_run;
+  }
+  return schema::Report::not_run;
+}
+
+// JSON has no word for nan and inf: such a value does not exist.
+bool Exists(const std::optional<double>& value) { return value && std::isfinite(*value); }
+
+void SetReaction(const Report& report, schema::Report* message) {
+  const auto& [p50, p99, max] =
+      std::tie(report.reaction_p50_ms, report.reaction_p99_ms, report.reaction_max_ms);
+  if (Exists(p50)) message->mutable_reaction_ms()->set_p50(*p50);
+  if (Exists(p99)) message->mutable_reaction_ms()->set_p99(*p99);
+  if (Exists(max)) message->mutable_reaction_ms()->set_max(*max);
+}
+
+schema::Report ToSchema(const Report& report) {
+  schema::Report message;
+  message.set_scenario(report.scenario);
+  message.set_verdict(ToSchema(report.verdict));
+  message.set_reason(report.reason);
+  message.set_contacts(report.contacts);
+  if (Exists(report.min_separation_m)) message.set_min_separation_m(*report.min_separation_m);
+  if (Exists(report.time_to_clear_s)) message.set_time_to_clear_s(*report.time_to_clear_s);
+  for (const VehicleId id : report.halted) message.add_halted(Number(id));
+  for (const VehicleId id : report.arrived) message.add_arrived(Number(id));
+  message.set_beacons_sent(report.beacons_sent);
+  message.set_beacons_received(report.beacons_received);
+  message.set_deadline_missed(report.deadline_missed);
+  message.set_liveliness_lost(report.liveliness_lost);
+  SetReaction(report, &message);
+  message.set_tick_overruns(report.tick_overruns);
+  message.set_seed(report.seed);
+  message.set_domain(report.domain);
+  message.set_state_hash(report.state_hash);
+  return message;
+}
+
+}  // namespace
+
+std::string ToJson(const Report& report) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.always_print_primitive_fields = true;
+  options.preserve_proto_field_names = true;
+  std::string json;
+  const auto status = google::protobuf::util::MessageToJsonString(ToSchema(report), &json, options);
+  GIVEWAY_CHECK(status.ok(), status.ToString());
+  return json;
+}
+
+int ExitCode(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kPassed:
+      return 0;
+    case Verdict::kFailed:
+      return 1;
+    case Verdict::kNotRun:
+      return 2;
+  }
+  return 2;
+}
+
+}  // namespace giveway::app

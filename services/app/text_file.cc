@@ -1,0 +1,118 @@
+#include "services/app/text_file.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "services/app/scenario_file.h"
+
+namespace giveway::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void Refuse(const std::string& path, std::string message, std::string remedy,
+                         int line = 0) {
+  throw InputError({{path, line, "", "", std::move(message), std::move(remedy)}});
+}
+
+void RefuseOddFiles(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) {
+    Refuse(path, "does not exist", "check the path");
+  }
+  if (error) Refuse(path, error.message(), "check the path and its permissions");
+  if (status.type() == fs::file_type::directory) {
+    Refuse(path, "is a directory", "name a file in it");
+  }
+  // A pipe or a device may never end.
+  if (status.type() != fs::file_type::regular) {
+    Refuse(path, "is no regular file", "write the text to a file first");
+  }
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error) Refuse(path, error.message(), "check the path and its permissions");
+  if (bytes == 0) Refuse(path, "is empty", "start from a file in config/scenarios");
+  if (bytes > kMaxFileBytes) {
+    Refuse(path, fmt::format("has {} bytes; at most {} are read", bytes, kMaxFileBytes),
+           "check that this is the file you meant");
+  }
+}
+
+}  // namespace
+
+std::size_t Utf8Length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return 1;
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return 0;
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return 0;
+  }
+  // Longer than needed, a surrogate, or beyond U+10FFFF.
+  if ((lead == 0xe0 && byte(1) < 0xa0) || (lead == 0xed && byte(1) > 0x9f)) return 0;
+  if ((lead == 0xf0 && byte(1) < 0x90) || (lead == 0xf4 && byte(1) > 0x8f)) return 0;
+  return length;
+}
+
+bool IsText(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = Utf8Length(text);
+    if (length == 0 || text.front() == '\0') return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+int LineNestedTooDeep(std::string_view text) {
+  int line = 1;
+  int depth = 0;
+  char quote = 0;  // of the string we are in
+  bool comment = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '\n') {
+      ++line;
+      quote = 0;  // strings end with their line
+      comment = false;
+    } else if (comment) {
+      continue;
+    } else if (quote != 0) {
+      if (c == '\\' && i + 1 < text.size() && text[i + 1] != '\n') ++i;
+      if (c == quote) quote = 0;
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (c == '#') {
+      comment = true;
+    } else if (c == '{' || c == '<' || c == '[') {
+      if (++depth > kMaxNesting) return line;
+    } else if (c == '}' || c == '>' || c == ']') {
+      --depth;
+    }
+  }
+  return 0;
+}
+
+std::string ReadTextFile(const std::string& path) {
+  RefuseOddFiles(path);
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) Refuse(path, std::strerror(errno), "check its permissions");
+  std::string text(kMaxFileBytes, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad()) Refuse(path, "cannot be read to its end", "check the file");
+  if (!IsText(text)) Refuse(path, "is binary, not UTF-8 text", "check that this is the right file");
+  if (const int line = LineNestedTooDeep(text); line > 0) {
+    Refuse(path, fmt::format("nests deeper than {} brackets", kMaxNesting),
+           "close the brackets before", line);
+  }
+  return text;
+}
+
+}  // namespace giveway::app

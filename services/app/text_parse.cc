@@ -1,0 +1,81 @@
+#include "services/app/text_parse.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/descriptor.h>
+
+#include <string_view>
+
+namespace giveway::app {
+namespace {
+
+// The parts of a message that stand in double quotes.
+std::vector<std::string> Quoted(const std::string& message) {
+  std::vector<std::string> parts;
+  std::size_t open = message.find('"');
+  while (open != std::string::npos) {
+    const std::size_t close = message.find('"', open + 1);
+    if (close == std::string::npos) break;
+    parts.push_back(message.substr(open + 1, close - open - 1));
+    open = message.find('"', close + 1);
+  }
+  return parts;
+}
+
+std::string FieldsOf(const std::string& type) {
+  const auto* message =
+      google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(type);
+  std::string names;
+  for (int i = 0; message != nullptr && i < message->field_count(); ++i) {
+    names += (i == 0 ? "" : ", ") + message->field(i)->name();
+  }
+  return names;
+}
+
+std::string LineOf(const std::string& text, int line) {
+  std::size_t begin = 0;
+  for (; line > 0 && begin != std::string::npos; --line) {
+    begin = text.find('\n', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  if (begin == std::string::npos) return "";
+  std::string found = text.substr(begin, text.find('\n', begin) - begin);
+  const std::size_t first = found.find_first_not_of(" \t");
+  const std::size_t last = found.find_last_not_of(" \t\r");
+  if (first == std::string::npos) return "";
+  found = found.substr(first, last - first + 1);
+  return found.size() > 60 ? found.substr(0, 57) + "..." : found;
+}
+
+// The words are the parser's own: "Message type "T" has no field named "f"."
+Problem UnknownField(const std::string& message) {
+  const std::vector<std::string> parts = Quoted(message);
+  Problem problem;
+  if (parts.size() != 2) {
+    problem.message = message;
+    problem.remedy = "remove it";
+    return problem;
+  }
+  problem.field = parts[1];
+  problem.message = fmt::format("is no field of {}", parts[0].substr(parts[0].rfind('.') + 1));
+  problem.remedy = fmt::format("remove it, or write one of {}", FieldsOf(parts[0]));
+  return problem;
+}
+
+}  // namespace
+
+Problem ParserProblem(const std::string& file, const std::string& text, int line, int column,
+                      const std::string& message, bool unknown_field) {
+  Problem problem;
+  if (unknown_field) {
+    problem = UnknownField(message);
+  } else {
+    problem.message = fmt::format("column {}: {}", column + 1, message);
+    problem.remedy = "correct this first: nothing after it was read";
+  }
+  problem.file = file;
+  problem.line = line + 1;
+  problem.value = LineOf(text, line);
+  return problem;
+}
+
+}  // namespace giveway::app

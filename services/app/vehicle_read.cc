@@ -1,0 +1,119 @@
+#include "services/app/vehicle_read.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/types/math.h"
+
+namespace giveway::app {
+namespace {
+
+constexpr double kFrontSensors = 8;
+
+Pose ReadStart(const Section& section) {
+  const double heading_deg = section.Number("heading_deg", {-360, 360, "degrees"});
+  const double heading_rad = heading_deg == heading_deg ? WrapAngle(Radians(heading_deg)) : 0;
+  return {ReadPoint(section), heading_rad};
+}
+
+Goal ReadGoal(const Section& section, double cruise_m_s, Nanoseconds tick_period) {
+  Goal goal{.set = true, .at_world = ReadPoint(section)};
+  goal.radius_m = section.NumberOr(goal.radius_m, "radius_m", {0, 100, "m", true});
+  const double tick_travel_m = cruise_m_s * Seconds(tick_period);
+  if (goal.radius_m < tick_travel_m) {
+    section.Complain("radius_m",
+                     fmt::format("{} m is less than the {:.3f} m driven in a tick at cruise speed: "
+                                 "the vehicle may jump over its goal",
+                                 goal.radius_m, tick_travel_m),
+                     fmt::format("write at least {:.3f}", tick_travel_m));
+  }
+  return goal;
+}
+
+void ReadWeights(const Section& section, const char* field,
+                 std::array<double, kSensorCount>* weights) {
+  const std::vector<double> given = section.Numbers(field, {-100, 100, "rad/s"});
+  if (given.size() != kFrontSensors && given.size() != kSensorCount) {
+    section.Complain(field, fmt::format("has {} values", given.size()),
+                     "write 8 values (front ring) or 16, in left and in right");
+    return;
+  }
+  weights->fill(0);
+  std::copy(given.begin(), given.end(), weights->begin());
+}
+
+BraitenbergWeights ReadBraitenberg(const Section& section, const BraitenbergWeights& defaults) {
+  BraitenbergWeights read = defaults;
+  read.base_rad_s = section.NumberOr(read.base_rad_s, "base_rad_s", {0, 100, "rad/s"});
+  read.near_gate_m = section.NumberOr(read.near_gate_m, "near_gate_m", {0, 5, "m", true});
+  read.far_gate_m = section.NumberOr(read.far_gate_m, "far_gate_m", {0, 5, "m", true});
+  if (read.near_gate_m >= read.far_gate_m) {
+    section.Complain(section.Has("near_gate_m") ? "near_gate_m" : "far_gate_m",
+                     fmt::format("the near gate ({} m) must be below the far gate ({} m)",
+                                 read.near_gate_m, read.far_gate_m),
+                     "lower the near gate or raise the far gate");
+  }
+  if (section.Has("left") || section.Has("right")) {
+    ReadWeights(section, "left", &read.left);
+    ReadWeights(section, "right", &read.right);
+  }
+  return read;
+}
+
+}  // namespace
+
+Vec2 ReadPoint(const Section& section) {
+  return {section.Number("x_m", kCoordinate), section.Number("y_m", kCoordinate)};
+}
+
+std::optional<Behaviour> ReadBehaviour(const Section& section) {
+  const std::optional<int> choice = section.Choice("behaviour");
+  if (!choice) return std::nullopt;
+  return static_cast<Behaviour>(*choice);  // numbered alike; a test holds them together
+}
+
+void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile) {
+  if (!section) return;
+  const auto read = [&](const char* field, const Allowed& allowed, double* value) {
+    *value = section->NumberOr(*value, field, allowed);
+  };
+  read("body_radius_m", {0.05, 10, "m"}, &profile->body_radius_m);
+  read("wheel_radius_m", {0.01, 5, "m"}, &profile->drive.wheel_radius_m);
+  read("axle_m", {0.02, 20, "m"}, &profile->drive.axle_m);
+  read("max_speed_m_s", {0, 20, "m/s", true}, &profile->max_speed_m_s);
+  read("max_turn_rad_s", {0, 20, "rad/s", true}, &profile->max_turn_rad_s);
+  read("acceleration_m_s2", {0, 20, "m/s^2", true}, &profile->acceleration_m_s2);
+  read("deceleration_m_s2", {0, 20, "m/s^2", true}, &profile->deceleration_m_s2);
+  for (std::size_t i = kSensorCount / 2; i < kSensorCount; ++i) {
+    profile->sonar[i].enabled = section->FlagOr(profile->sonar[i].enabled, "rear_sonar");
+  }
+}
+
+VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
+                           std::optional<Behaviour> forced) {
+  VehicleOptions vehicle = common;
+  vehicle.id = VehicleId{section.Whole("id", kId)};
+  ReadProfile(section.Sub("profile"), &vehicle.profile);
+  const auto own = ReadBehaviour(section);  // read even where forced, for its problems
+  vehicle.behaviour = forced.value_or(own.value_or(common.behaviour));
+  if (const auto start = section.RequiredSub("start")) {
+    vehicle.start_world = ReadStart(*start);
+  } else {
+    vehicle.start_world.position_world = {kUnusable, kUnusable};
+  }
+  // A refused top speed is a problem already; the vehicle's cruise is then judged by its own cap.
+  const double top = vehicle.profile.max_speed_m_s;
+  vehicle.cruise_m_s = section.Number("cruise_m_s", {0, top == top ? top : 20, "m/s", true});
+  if (const auto goal = section.Sub("goal")) {
+    vehicle.goal = ReadGoal(*goal, vehicle.cruise_m_s, vehicle.tick_period);
+  }
+  vehicle.braitenberg =
+      vehicle.behaviour == Behaviour::kStockAvoid ? StockWeights() : LectureWeights();
+  if (const auto weights = section.Sub("braitenberg")) {
+    vehicle.braitenberg = ReadBraitenberg(*weights, vehicle.braitenberg);
+  }
+  return vehicle;
+}
+
+}  // namespace giveway::app
