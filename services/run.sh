@@ -42,7 +42,7 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 
-mapfile -t packages < <(build_packages)
+mapfile -t packages < <(build_packages && java_package)
 install_packages "${packages[@]}"
 check_java
 configure release

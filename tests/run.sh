@@ -129,7 +129,7 @@ stage_tsan() {
   run_ctest tsan system 1 -R '^system_crossing_intersection_yield$'
 }
 
-mapfile -t packages < <(build_packages && test_packages)
+mapfile -t packages < <(build_packages && test_packages && java_package)
 install_packages "${packages[@]}"
 check_java
 
