@@ -1,6 +1,7 @@
 // Scenario files for the tests of the app room: a folder that vanishes, and a good text to spoil.
 #pragma once
 
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,5 +33,8 @@ std::string Spoilt(std::string_view from, std::string_view to);
 Scenario Load(const std::string& text, const ScenarioOverrides& overrides = {});
 // What is wrong with a scenario text; empty if it loads.
 std::vector<Problem> ProblemsOf(const std::string& text, const ScenarioOverrides& overrides = {});
+
+// For the messages of failed tests.
+inline void PrintTo(const Problem& problem, std::ostream* out) { *out << Format({problem}); }
 
 }  // namespace giveway::app

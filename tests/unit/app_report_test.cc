@@ -33,13 +33,15 @@ Report Passed() {
   return report;
 }
 
+// Protobuf prints what has presence after the rest; the order means nothing in JSON.
 TEST(Report, JsonIsOneObjectOnOneLine) {
   EXPECT_EQ(ToJson(Passed()),
             R"({"scenario":"intersection_yield","verdict":"passed","reason":"expectations_met",)"
-            R"("contacts":0,"min_separation_m":0.625,"time_to_clear_s":18.25,"halted":[2],)"
-            R"("arrived":[1,2],"beacons_sent":730,"beacons_received":728,"deadline_missed":0,)"
-            R"("liveliness_lost":0,"reaction_ms":{"p50":50.5,"p99":51,"max":52},)"
-            R"("tick_overruns":0,"seed":4294967295,"domain":17,"state_hash":"00ff00ff00ff00ff"})");
+            R"("contacts":0,"halted":[2],"arrived":[1,2],"beacons_sent":730,)"
+            R"("beacons_received":728,"deadline_missed":0,"liveliness_lost":0,)"
+            R"("reaction_ms":{"p50":50.5,"p99":51,"max":52},"tick_overruns":0,)"
+            R"("seed":4294967295,"domain":17,"state_hash":"00ff00ff00ff00ff",)"
+            R"("min_separation_m":0.625,"time_to_clear_s":18.25})");
 }
 
 TEST(Report, JsonPrintsDefaultsAndLeavesOutWhatDoesNotExist) {
@@ -67,7 +69,7 @@ TEST(Report, JsonEscapesAndSurvivesBytesThatAreNoText) {
   report.reason = "a \"quote\"\nand a line";
   EXPECT_THAT(ToJson(report), HasSubstr(R"(a \"quote\"\nand a line)"));
   report.reason = "\xff\xfe";
-  EXPECT_THAT(ToJson(report), HasSubstr("\"contacts\":0"));
+  EXPECT_THAT(ToJson(report), HasSubstr("\"reason\":\"\xef\xbf\xbd\xef\xbf\xbd\""));
 }
 
 TEST(Report, TheExitCodeIsTheVerdict) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "services/app/text_file.h"
+#include "services/app/utf8.h"
 #include "tests/unit/app_files.h"
 
 namespace giveway::app {
