@@ -16,7 +16,8 @@ TEST(Log, AJsonStringEscapesWhatItMust) {
   EXPECT_EQ(JsonString("caf\xc3\xa9 \x7f"), "\"caf\xc3\xa9 \x7f\"");
   EXPECT_EQ(JsonString("\xff"
                        "a"),
-            "\"\\ufffda\"");
+            "\"\xef\xbf\xbd"
+            "a\"");
   EXPECT_EQ(JsonString(""), "\"\"");
 }
 
