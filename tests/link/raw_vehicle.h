@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -47,10 +48,14 @@ class RawListener {
     peers_.Translate(events, SteadyTime{0}, told_);
     beacons_.clear();
     inbox_.Drain(SteadyTime{0}, beacons_);
-    for (const ReceivedBeacon& received : beacons_) peers_.Heard(received.beacon.vehicle);
+    for (const ReceivedBeacon& received : beacons_) {
+      peers_.Heard(received.beacon.vehicle);
+      vehicles_.insert(received.beacon.vehicle);
+    }
     heard_ += beacons_.size();
   }
   std::size_t Heard() const { return heard_; }
+  const std::set<VehicleId>& Vehicles() const { return vehicles_; }  // heard at least once
   std::size_t RawMisses() const { return raw_misses_; }  // as often as the library said so
   std::size_t Told() const { return told_.size(); }
   std::size_t Told(QosEventKind kind) const {
@@ -72,6 +77,7 @@ class RawListener {
   std::vector<ReceivedBeacon> beacons_;
   std::vector<QosEvent> told_;
   std::size_t heard_ = 0;
+  std::set<VehicleId> vehicles_;
   std::size_t raw_misses_ = 0;
 };
 
