@@ -9,7 +9,7 @@
 namespace giveway::app {
 namespace {
 
-constexpr double kFrontSensors = 8;
+constexpr std::size_t kFrontSensors = 8;
 
 Pose ReadStart(const Section& section) {
   const double heading_deg = section.Number("heading_deg", {-360, 360, "degrees"});
