@@ -70,7 +70,7 @@ class WorldLoop {
     for (const MotorCommand& command : commands_) {
       Hearing& hearing = heard_[command.vehicle];
       hearing = {command.tick, command.matched_peers, true};
-      if (run_.State() == RunState::kRunning) reactions_.Applied(command, now);
+      reactions_.Applied(command, now);
     }
     if (run_.State() == RunState::kWaiting) StartIfReady();
     run_.Advance(commands_);
@@ -79,7 +79,9 @@ class WorldLoop {
   }
 
   void Publish() {
-    reactions_.Published(run_.Now(), app::SteadyNow());
+    if (run_.State() == RunState::kRunning) {
+      reactions_.Published(run_.Now(), app::SteadyNow());
+    }
     for (const RangeScan& scan : run_.Scans()) link_.SendScan(scan);
     for (const Truth& truth : run_.Truths()) link_.SendTruth(truth);
     for (const WorldEvent& event : run_.Events()) link_.SendEvent(event);
@@ -155,7 +157,11 @@ class WorldLoop {
   bool TellTheEnd() {
     RunFigures figures = run_.Figures();
     figures.tick_overruns = overruns_;
-    reactions_.FillIn(&figures);
+    const sim::ReactionFigures reactions = reactions_.Figures();
+    figures.reactions = reactions.count;
+    figures.reaction_p50_ms = reactions.p50_ms;
+    figures.reaction_p99_ms = reactions.p99_ms;
+    figures.reaction_max_ms = reactions.max_ms;
     link_.SendFigures(figures);
     TellRunState(RunState::kEnded, run_.EndReason());
     link_.Flush(kFlushTimeout);

@@ -49,6 +49,15 @@ TEST(Drive, ACommandBeyondTheCapsEndsOnTheCaps) {
   EXPECT_NEAR(TwistFromWheels(kP3dx.drive, spin).turn_rad_s, kP3dx.max_turn_rad_s, 1e-12);
 }
 
+// The asked-for curve is beyond both caps: forward and turn rate are capped each for itself.
+TEST(Drive, ACurveBeyondBothCapsSettlesOnBoth) {
+  WheelSpeeds wheels;
+  for (int i = 0; i < 400; ++i) wheels = MoveWheels(kP3dx, wheels, {20, 5}, kDt_s);
+  const Twist twist = TwistFromWheels(kP3dx.drive, wheels);
+  EXPECT_NEAR(twist.forward_m_s, kP3dx.max_speed_m_s, 1e-12);
+  EXPECT_NEAR(twist.turn_rad_s, -kP3dx.max_turn_rad_s, 1e-12);
+}
+
 TEST(Drive, NoCommandEverBreaksTheCapsOrTheAcceleration) {
   Random random(11);
   WheelSpeeds wheels;
@@ -63,6 +72,20 @@ TEST(Drive, NoCommandEverBreaksTheCapsOrTheAcceleration) {
     const bool grew = !reversed && std::abs(next.left_rad_s) > std::abs(wheels.left_rad_s);
     ASSERT_LE(change, (grew ? kSpeedUp : kSlowDown) + 1e-9) << i;
     wheels = next;
+  }
+}
+
+// Wheels that speed up faster than they slow down could overshoot the turn cap on the way.
+TEST(Drive, TheCapsWinOverTheAcceleration) {
+  VehicleProfile eager = kP3dx;
+  eager.acceleration_m_s2 = 3;
+  Random random(12);
+  WheelSpeeds wheels;
+  for (int i = 0; i < 100'000; ++i) {
+    wheels = MoveWheels(eager, wheels, {random.Uniform(-15, 15), random.Uniform(-15, 15)}, kDt_s);
+    const Twist twist = TwistFromWheels(eager.drive, wheels);
+    ASSERT_LE(std::abs(twist.forward_m_s), eager.max_speed_m_s + 1e-12);
+    ASSERT_LE(std::abs(twist.turn_rad_s), eager.max_turn_rad_s + 1e-12);
   }
 }
 

@@ -98,12 +98,10 @@ TEST(Motion, ArcsNeverPassThroughEachOther) {
 }
 
 TEST(Motion, TheClosestMomentOfPassingBodiesLiesInsideTheTick) {
-  // Crossing at right angles, closest when both are 1 cm short of each other's line.
   const Motion a = From({-0.6, 0}, 0, 1, 0, 1);
-  const Motion b = From({0, -0.9 - 0.6}, kPi / 2, 1, 0, 1.2);
-  const ClosestMoment closest = ClosestWithin(a, b, 1);
   // p = (0.6, -1.5), w = (-1, 1): closest after 1.05 s, so at the end of one second.
-  EXPECT_DOUBLE_EQ(closest.t_s, 1);
+  const Motion b = From({0, -1.5}, kPi / 2, 1, 0, 1.2);
+  EXPECT_DOUBLE_EQ(ClosestWithin(a, b, 1).t_s, 1);
   const Motion nearer = From({0, -0.9}, kPi / 2, 1, 0, 1.2);
   // p = (0.6, -0.9): closest after 0.75 s, 0.15 sqrt 2 from centre to centre.
   const ClosestMoment passing = ClosestWithin(a, nearer, 1);
