@@ -16,7 +16,7 @@ using std::chrono::seconds;
 
 constexpr Nanoseconds kTurn = milliseconds(20);
 constexpr Nanoseconds kNewsUnderway = milliseconds(500);   // between an exit and its explanation
-constexpr Nanoseconds kLeaveGrace = seconds(1);            // after the world announced the end
+constexpr Nanoseconds kLeaveGrace = seconds(2);            // after the world announced the end
 constexpr Nanoseconds kAnnounceGrace = milliseconds(300);  // for the world to announce a stop
 constexpr Nanoseconds kTermGrace = seconds(1);             // from SIGTERM to SIGKILL
 constexpr Nanoseconds kLastWords = milliseconds(500);

@@ -14,6 +14,9 @@ constexpr char kParticipantProfile[] = "giveway_participant";
 constexpr std::uint32_t kLargeFleet = 32;
 const Duration kLargeFleetLease{20, 0};
 const Duration kLargeFleetAnnouncement{5, 0};
+// How soon a reliable writer asks for acknowledgements: by default 3 s, which every farewell that
+// waits for them would last. Not in the profiles because 2.9 and 3.1 spell it differently.
+const Duration kHeartbeatPeriod{0, 50'000'000};
 
 void CheckOptions(const LinkOptions& options) {
   if (options.domain < 1 || options.domain > 99) {

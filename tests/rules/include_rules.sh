@@ -29,7 +29,8 @@ room_of() {
     services/link/*) echo link ;;
     services/app/*) echo app ;;
     services/fleetctl/*) echo fleetctl ;;
-    services/*_main.cc) echo vehicle_main ;;
+    services/*/*) echo nowhere ;;
+    services/*) echo vehicle_main ;; # the wiring of giveway-vehicle
     sim_world/world_main.cc) echo world_main ;;
     sim_world/virtual/*) echo virtual ;;
     sim_world/*) echo sim_world ;;
@@ -48,7 +49,9 @@ may_include() {
     link) [[ $2 == services/@(link|types)/* || $2 == fleet*.h || $2 == idl/* ]] ;;
     app) [[ $2 == services/@(app|types)/* || $2 == *.pb.h ]] ;;
     fleetctl) [[ $2 == services/@(fleetctl|link|app|types)/* || $2 == sim_world/virtual/* ]] ;;
-    vehicle_main) [[ $2 == services/@(vehicle|link|app|types)/* ]] ;;
+    vehicle_main)
+      [[ $2 == services/@(vehicle|link|app|types)/* || $2 == services/vehicle_report.h ]]
+      ;;
     world_main) [[ $2 == services/@(link|app|types)/* || $2 == sim_world/* ]] ;;
     tests) true ;;
     *) false ;;
