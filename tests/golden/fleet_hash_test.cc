@@ -2,6 +2,8 @@
 // every machine, down to what each brain remembers. A change of a hash is a change of behaviour.
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "services/types/state_hash.h"
 #include "tests/support/crossing.h"
 
@@ -11,6 +13,8 @@ namespace {
 struct Golden {
   Behaviour behaviour;
   std::uint64_t hash;
+
+  friend void PrintTo(const Golden& golden, std::ostream* out) { *out << Name(golden.behaviour); }
 };
 
 class FleetHash : public testing::TestWithParam<Golden> {};
