@@ -9,8 +9,8 @@ namespace giveway::link {
 // Takes the library's log over. Once a process; later calls do nothing.
 void TakeOverLibraryLog();
 
-// What the library complained about since the last call, one line each; empty if nothing.
-// While the caller is about to quote it, nothing is lost: it was on stderr already.
+// What the library complained about since the last call, one line each; empty if nothing. It was
+// on stderr already.
 std::string LibraryComplaints();
 
 }  // namespace giveway::link

@@ -12,7 +12,7 @@ struct LinkOptions {
   std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
   std::string qos_file;                 // a complete Fast DDS XML profile set
   std::string area = "main";            // [a-z0-9_-]+
-  std::uint32_t fleet_size = 2;         // sets resource limits and announcement periods
+  std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
 };
 
 // An entity could not be made: says which, why, and what to do. Start-up only; main exits with 2.

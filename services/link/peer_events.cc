@@ -1,6 +1,6 @@
 #include "services/link/peer_events.h"
 
-#include <optional>
+#include <utility>
 
 namespace giveway::link {
 namespace {

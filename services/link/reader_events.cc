@@ -1,6 +1,7 @@
 #include "services/link/reader_events.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace giveway::link {
 

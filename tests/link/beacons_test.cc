@@ -12,8 +12,6 @@ namespace {
 
 using ::testing::Each;
 using ::testing::Field;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 constexpr VehicleId kListener{1000};
 

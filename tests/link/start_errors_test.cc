@@ -125,7 +125,9 @@ TEST_F(StartErrors, RefuseADomainOrAreaOutOfRange) {
 }
 
 TEST_F(StartErrors, AreNoneWhereStrayProfilesLieAboutOrAreNamedByTheEnvironment) {
-  std::ofstream(folder_ / "DEFAULT_FASTRTPS_PROFILES.xml") << "<broken";
+  // Heard, it would take the names of our profiles, and the second ones would be refused.
+  std::ofstream(folder_ / "DEFAULT_FASTRTPS_PROFILES.xml") << DefaultText();
+  std::ofstream(folder_ / "DEFAULT_FASTDDS_PROFILES.xml") << DefaultText();
   const std::string stray = Write("<broken");
   EXPECT_EXIT(
       {
