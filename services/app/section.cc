@@ -153,7 +153,7 @@ double Section::CheckedNumber(std::string_view field, const Allowed& allowed, in
     value = whole ? reflection->GetRepeatedUInt32(message, f, index)
                   : reflection->GetRepeatedDouble(message, f, index);
   }
-  if (std::isfinite(value) && allowed.Contains(value)) return value;
+  if (allowed.Contains(value)) return value;  // never true of nan
   Complain(field,
            fmt::format("{}must be {}", std::isfinite(value) ? "" : "is not a finite number; ",
                        Describe(allowed)),
