@@ -7,6 +7,7 @@
 
 #include "services/app/picture_canvas.h"
 #include "services/app/picture_marks.h"
+#include "services/app/utf8.h"
 
 namespace giveway::app {
 namespace {

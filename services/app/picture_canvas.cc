@@ -180,10 +180,4 @@ std::string Canvas::Svg(std::string_view title) const {
       width, height, Escape(title), kStyle, elements_);
 }
 
-std::string Shortened(std::string text, std::size_t most) {
-  if (text.size() <= most) return text;
-  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0U) == 0x80) --most;
-  return text.substr(0, most) + "\xe2\x80\xa6";
-}
-
 }  // namespace giveway::app

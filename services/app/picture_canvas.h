@@ -77,7 +77,4 @@ class Canvas {
   std::string elements_;
 };
 
-// Shortens to `most` characters.
-std::string Shortened(std::string text, std::size_t most);
-
 }  // namespace giveway::app

@@ -12,6 +12,7 @@ namespace giveway::app {
 namespace {
 
 constexpr Allowed kWholeNumber{0, 4294967295.0};
+constexpr int kMaxVehicles = 1024;
 constexpr Allowed kDuration{0, 86400, "s", true};
 
 // [a-z0-9_-]+: area names become DDS partitions, and names become file names.
@@ -100,11 +101,10 @@ void ReadSettings(const Section& root, const ScenarioOverrides& overrides, Scena
 }
 
 // The sections of a repeated field, or none where there are too many to look at.
-std::vector<Section> Elements(const Section& root, const char* field, std::size_t most) {
-  std::vector<Section> elements = root.Subs(field);
-  if (elements.size() <= most) return elements;
-  root.Complain("",
-                fmt::format("has {} of {}; at most {} are allowed", elements.size(), field, most),
+std::vector<Section> Elements(const Section& root, const char* field, int most) {
+  const int count = root.Count(field);
+  if (count <= most) return root.Subs(field);
+  root.Complain("", fmt::format("has {} of {}; at most {} are allowed", count, field, most),
                 "leave some out");
   return {};
 }
@@ -147,7 +147,7 @@ PlannedFault ReadFault(const Section& section, const Section& root, const Ids& k
 // A sorted set of ids, each one known and named once.
 std::vector<VehicleId> ReadIds(const Section& section, const char* field, const Ids& known) {
   std::vector<VehicleId> ids;
-  const std::vector<double> numbers = section.Numbers(field, kId);
+  const std::vector<double> numbers = section.Numbers(field, kId, kMaxVehicles);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (std::isnan(numbers[i])) continue;
     const VehicleId id{static_cast<std::uint32_t>(numbers[i])};
@@ -199,7 +199,7 @@ void ReadVehicles(const Section& root, const ScenarioOverrides& overrides, ReadS
   const VehicleOptions common = ReadCommon(root);
   read->scenario.tick_period = common.tick_period;
   if (!root.Has("vehicle")) root.ComplainMissing("vehicle", "write vehicle { ... } at least once");
-  for (const Section& section : Elements(root, "vehicle", 1024)) {
+  for (const Section& section : Elements(root, "vehicle", kMaxVehicles)) {
     pairs.push_back({ReadVehicle(section, common, overrides.behaviour), section});
   }
   std::stable_sort(pairs.begin(), pairs.end(),

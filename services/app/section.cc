@@ -11,6 +11,7 @@
 
 #include "services/app/problem_list.h"
 #include "services/app/text_parse.h"
+#include "services/app/utf8.h"
 #include "services/types/check.h"
 
 namespace giveway::app {
@@ -21,6 +22,7 @@ using google::protobuf::Message;
 using google::protobuf::TextFormat;
 
 constexpr int kMaxDepth = 32;
+constexpr std::size_t kShown = 60;  // of a value
 
 const FieldDescriptor* Find(const Message& message, std::string_view field) {
   const FieldDescriptor* found = message.GetDescriptor()->FindFieldByName(std::string(field));
@@ -53,8 +55,7 @@ std::string ValueOf(std::string written) {
   const std::size_t first = written.find_first_not_of(" \t\r");
   const std::size_t last = written.find_last_not_of(" \t\r,;");
   if (first == std::string::npos || last == std::string::npos || last < first) return "";
-  written = written.substr(first, last - first + 1);
-  return written.size() > 60 ? written.substr(0, 57) + "..." : written;
+  return Shortened(written.substr(first, last - first + 1), kShown);
 }
 
 // Hears what the parser says and keeps it as problems.
@@ -135,6 +136,11 @@ bool Section::Has(std::string_view field) const {
                           : message.GetReflection()->HasField(message, f);
 }
 
+int Section::Count(std::string_view field) const {
+  const Message& message = *node_->message;
+  return message.GetReflection()->FieldSize(message, Find(message, field));
+}
+
 double Section::CheckedNumber(std::string_view field, const Allowed& allowed, int index) const {
   const Message& message = *node_->message;
   const FieldDescriptor* f = Find(message, field);
@@ -147,7 +153,7 @@ double Section::CheckedNumber(std::string_view field, const Allowed& allowed, in
     value = whole ? reflection->GetRepeatedUInt32(message, f, index)
                   : reflection->GetRepeatedDouble(message, f, index);
   }
-  if (std::isfinite(value) && allowed.Contains(value)) return value;
+  if (allowed.Contains(value)) return value;  // never true of nan
   Complain(field,
            fmt::format("{}must be {}", std::isfinite(value) ? "" : "is not a finite number; ",
                        Describe(allowed)),
@@ -180,10 +186,15 @@ bool Section::FlagOr(bool fallback, std::string_view field) const {
   return Has(field) ? message.GetReflection()->GetBool(message, Find(message, field)) : fallback;
 }
 
-std::vector<double> Section::Numbers(std::string_view field, const Allowed& allowed) const {
-  const Message& message = *node_->message;
-  const int size = message.GetReflection()->FieldSize(message, Find(message, field));
+std::vector<double> Section::Numbers(std::string_view field, const Allowed& allowed,
+                                     int most) const {
+  const int size = Count(field);
   std::vector<double> numbers;
+  if (size > most) {
+    Complain(field, fmt::format("has {} values; at most {} are allowed", size, most),
+             "leave some out");
+    return numbers;
+  }
   for (int i = 0; i < size; ++i) numbers.push_back(CheckedNumber(field, allowed, i));
   return numbers;
 }
@@ -230,8 +241,7 @@ std::optional<Section> Section::RequiredSub(std::string_view field) const {
 }
 
 std::vector<Section> Section::Subs(std::string_view field) const {
-  const Message& message = *node_->message;
-  const int size = message.GetReflection()->FieldSize(message, Find(message, field));
+  const int size = Count(field);
   std::vector<Section> sections;
   for (int i = 0; i < size; ++i) sections.push_back(Child(field, i));
   return sections;

@@ -41,6 +41,8 @@ inline constexpr double kUnusable = std::numeric_limits<double>::quiet_NaN();
 class Section {
  public:
   bool Has(std::string_view field) const;
+  // Of a repeated field.
+  int Count(std::string_view field) const;
 
   // Required numbers: kUnusable, or 0 for whole ones, where missing or refused.
   double Number(std::string_view field, const Allowed& allowed) const;
@@ -50,8 +52,8 @@ class Section {
   std::uint32_t WholeOr(std::uint32_t fallback, std::string_view field,
                         const Allowed& allowed) const;
   bool FlagOr(bool fallback, std::string_view field) const;
-  // Repeated numbers.
-  std::vector<double> Numbers(std::string_view field, const Allowed& allowed) const;
+  // Repeated numbers; none where there are more than `most`, which is a problem.
+  std::vector<double> Numbers(std::string_view field, const Allowed& allowed, int most) const;
   // Empty if absent.
   std::string Text(std::string_view field) const;
   // The number of an enum's value; nothing if absent or none the schema knows.

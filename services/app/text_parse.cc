@@ -5,8 +5,12 @@
 
 #include <string_view>
 
+#include "services/app/utf8.h"
+
 namespace giveway::app {
 namespace {
+
+constexpr std::size_t kShown = 60;  // of a line
 
 // The parts of a message that stand in double quotes.
 std::vector<std::string> Quoted(const std::string& message) {
@@ -42,8 +46,7 @@ std::string LineOf(const std::string& text, int line) {
   const std::size_t first = found.find_first_not_of(" \t");
   const std::size_t last = found.find_last_not_of(" \t\r");
   if (first == std::string::npos) return "";
-  found = found.substr(first, last - first + 1);
-  return found.size() > 60 ? found.substr(0, 57) + "..." : found;
+  return Shortened(found.substr(first, last - first + 1), kShown);
 }
 
 // The words are the parser's own: "Message type "T" has no field named "f"."
@@ -51,11 +54,11 @@ Problem UnknownField(const std::string& message) {
   const std::vector<std::string> parts = Quoted(message);
   Problem problem;
   if (parts.size() != 2) {
-    problem.message = message;
+    problem.message = Shortened(message, 3 * kShown);
     problem.remedy = "remove it";
     return problem;
   }
-  problem.field = parts[1];
+  problem.field = Shortened(parts[1], kShown);
   problem.message = fmt::format("is no field of {}", parts[0].substr(parts[0].rfind('.') + 1));
   problem.remedy = fmt::format("remove it, or write one of {}", FieldsOf(parts[0]));
   return problem;
@@ -69,7 +72,7 @@ Problem ParserProblem(const std::string& file, const std::string& text, int line
   if (unknown_field) {
     problem = UnknownField(message);
   } else {
-    problem.message = fmt::format("column {}: {}", column + 1, message);
+    problem.message = fmt::format("column {}: {}", column + 1, Shortened(message, 3 * kShown));
     problem.remedy = "correct this first: nothing after it was read";
   }
   problem.file = file;

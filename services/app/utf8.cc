@@ -36,4 +36,10 @@ std::string WellFormed(std::string_view text) {
   return well_formed;
 }
 
+std::string Shortened(std::string_view text, std::size_t most) {
+  if (text.size() <= most) return std::string(text);
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xc0U) == 0x80) --most;
+  return std::string(text.substr(0, most)) + "\xe2\x80\xa6";
+}
+
 }  // namespace giveway::app

@@ -13,5 +13,7 @@ std::size_t Utf8Length(std::string_view text);
 bool IsText(std::string_view text);
 // The text with every byte that belongs to no sequence replaced by U+FFFD.
 std::string WellFormed(std::string_view text);
+// At most `most` bytes of the text and, if that is not all, an ellipsis.
+std::string Shortened(std::string_view text, std::size_t most);
 
 }  // namespace giveway::app

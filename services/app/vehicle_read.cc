@@ -9,7 +9,7 @@
 namespace giveway::app {
 namespace {
 
-constexpr std::size_t kFrontSensors = 8;
+constexpr int kFrontSensors = 8;
 
 Pose ReadStart(const Section& section) {
   const Vec2 position_world = ReadPoint(section);
@@ -34,12 +34,13 @@ Goal ReadGoal(const Section& section, double cruise_m_s, Nanoseconds tick_period
 
 void ReadWeights(const Section& section, const char* field,
                  std::array<double, kSensorCount>* weights) {
-  const std::vector<double> given = section.Numbers(field, {-100, 100, "rad/s"});
-  if (given.size() != kFrontSensors && given.size() != kSensorCount) {
-    section.Complain(field, fmt::format("has {} values", given.size()),
+  const int count = section.Count(field);
+  if (count != kFrontSensors && count != static_cast<int>(kSensorCount)) {
+    section.Complain(field, fmt::format("has {} values", count),
                      "write 8 values (front ring) or 16, in left and in right");
     return;
   }
+  const std::vector<double> given = section.Numbers(field, {-100, 100, "rad/s"}, kSensorCount);
   weights->fill(0);
   std::copy(given.begin(), given.end(), weights->begin());
 }

@@ -275,6 +275,13 @@ TEST(ScenarioRules, AtMost1024VehiclesAreRead) {
   EXPECT_THAT(ProblemsOf(text), ElementsAre(Is(1, "", "1025 of vehicle; at most 1024")));
 }
 
+TEST(ScenarioRules, AListOfIdsHasAnEnd) {
+  std::string ids = "1";
+  for (int i = 0; i < 1024; ++i) ids += ", 1";
+  EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "arrived: [" + ids + "]")),
+              ElementsAre(Is(16, "expect.arrived", "1025 values; at most 1024")));
+}
+
 TEST(ScenarioRules, AllProblemsComeAtOnceInOrderOfLines) {
   std::string text = Spoilt("cruise_m_s: 0.4", "cruise_m_s: 9 foo: 1");
   text = "seed: 3 area: \"A\"\n" + text + "duration_s: nan\n";

@@ -243,6 +243,10 @@ TEST(Scenario, TheConfigFolderCanBeNamed) {
   unsetenv("GIVEWAY_CONFIG_DIR");
 }
 
+TEST(Scenario, AProblemNeverCommandsTheTerminal) {
+  EXPECT_EQ(Format({{"f", 1, "", "\x1b[2J\n", "is bad", "x"}}), "f:1: ?[2J?: is bad; x");
+}
+
 TEST(Scenario, AProblemIsToldOnOneLineWithItsPlace) {
   const Problem whole{"f", 0, "", "", "is empty", "write it"};
   const Problem field{"f", 3, "a.b", "nan", "is not finite", "write a number"};
