@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "services/app/text_file.h"
+#include "services/app/utf8.h"
 
 namespace giveway::app {
 namespace {
@@ -26,17 +26,9 @@ std::string Escaped(char c) {
 
 std::string JsonString(std::string_view text) {
   std::string json = "\"";
-  while (!text.empty()) {
-    const std::size_t length = Utf8Length(text);
-    const char c = text.front();
-    if (length == 0) {
-      json += "\\ufffd";
-    } else if (length == 1 && (c == '"' || c == '\\' || (c >= 0 && c < 0x20))) {
-      json += Escaped(c);
-    } else {
-      json += text.substr(0, length);
-    }
-    text.remove_prefix(length == 0 ? 1 : length);
+  for (const char c : WellFormed(text)) {
+    const bool control = static_cast<unsigned char>(c) < 0x20;
+    json += control || c == '"' || c == '\\' ? Escaped(c) : std::string(1, c);
   }
   return json + "\"";
 }

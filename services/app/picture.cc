@@ -80,7 +80,7 @@ std::size_t DrawLegendVehicles(Canvas* canvas, const Scenario& scenario) {
     canvas->Line(cell, {cell.x + 26, cell.y},
                  fmt::format("stroke=\"{}\" stroke-width=\"3\"", colour));
     LegendText(canvas, cell,
-               fmt::format("vehicle {}, {:.2f} m/s, {}", Number(vehicle.id), vehicle.cruise_m_s,
+               fmt::format("vehicle {}, {:.3g} m/s, {}", Number(vehicle.id), vehicle.cruise_m_s,
                            Name(vehicle.behaviour)));
   }
   if (index == scenario.vehicles.size()) return index;
@@ -125,6 +125,8 @@ std::string DrawRun(const Scenario& scenario, const std::vector<Track>& tracks,
   DrawGrid(&canvas);
   DrawScaleBar(&canvas);
   DrawWalls(&canvas, scenario);
+  for (const Track& track : tracks) KeepLabelsOff(&canvas, track);
+  DrawStartsAndGoals(&canvas, scenario);
   for (const Track& track : tracks) {
     DrawTrack(&canvas, track, ColourOf(scenario, track.vehicle));
   }
@@ -132,7 +134,6 @@ std::string DrawRun(const Scenario& scenario, const std::vector<Track>& tracks,
   DrawHalts(&canvas, scenario, events);
   DrawDeaths(&canvas, scenario, events);
   DrawContacts(&canvas, events);
-  DrawStartsAndGoals(&canvas, scenario);
   DrawHeader(&canvas, scenario, events);
   DrawLegendVehicles(&canvas, scenario);
   DrawLegendMarks(&canvas, (rows - 1) * kLegendColumns);

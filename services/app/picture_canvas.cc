@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "services/app/text_file.h"
+#include "services/app/utf8.h"
 
 namespace giveway::app {
 namespace {
@@ -21,11 +21,9 @@ bool Finite(Pixel p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 std::string Escape(std::string_view text) {
   std::string escaped;
-  while (!text.empty()) {
-    const std::size_t length = Utf8Length(text);
-    const char c = text.front();
-    if (length == 0 || (length == 1 && c >= 0 && c < 0x20)) {
-      escaped += "\xef\xbf\xbd";  // XML allows neither: U+FFFD
+  for (const char c : WellFormed(text)) {
+    if (static_cast<unsigned char>(c) < 0x20) {
+      escaped += ' ';  // XML allows no control characters
     } else if (c == '<') {
       escaped += "&lt;";
     } else if (c == '>') {
@@ -35,9 +33,8 @@ std::string Escape(std::string_view text) {
     } else if (c == '"') {
       escaped += "&quot;";
     } else {
-      escaped += text.substr(0, length);
+      escaped += c;
     }
-    text.remove_prefix(std::max<std::size_t>(length, 1));
   }
   return escaped;
 }

@@ -2,6 +2,7 @@
 // way. Knows nothing of vehicles. An element with a number that is not finite is left out.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,14 +47,18 @@ class Canvas {
   // `text` may hold anything; it is escaped here.
   void Text(Pixel at, std::string_view text, std::string_view attributes);
 
-  // Labels keep off these points.
-  void KeepClear(Pixel point) { busy_.push_back(point); }
+  // Labels keep off these points; in a picture so full that they are many, off the first of them.
+  void KeepClear(Pixel point) {
+    if (busy_.size() < kMaxBusy) busy_.push_back(point);
+  }
   // Writes `text` at the freest place around a disc.
   void Label(Pixel centre, double radius_px, std::string_view text, std::string_view attributes);
 
   std::string Svg(std::string_view title) const;
 
  private:
+  static constexpr std::size_t kMaxBusy = 20000;
+
   struct LabelBox {
     Pixel centre;
     double half_width = 0;

@@ -118,7 +118,7 @@ std::string ColourOf(const Scenario& scenario, VehicleId vehicle) {
 
 void DrawGrid(Canvas* canvas) {
   const auto& [low, high] = canvas->Shown();
-  const double step = RoundStep(*canvas, 44);
+  const double step = RoundStep(*canvas, 60);
   const Pixel from = canvas->TopLeft();
   const Pixel to = canvas->BottomRight();
   canvas->Rectangle(from, to.x - from.x, to.y - from.y, "fill=\"#fafbfc\" stroke=\"#d5d9de\"");
@@ -187,6 +187,16 @@ void DrawStartsAndGoals(Canvas* canvas, const Scenario& scenario) {
   }
 }
 
+void KeepLabelsOff(Canvas* canvas, const Track& track) {
+  Pixel last{-1e9, 0};
+  for (const Truth* truth : Drawable(track)) {
+    const Pixel point = canvas->At(truth->world_from_body.position_world);
+    if (Distance(point, last) < 4) continue;
+    canvas->KeepClear(point);
+    last = point;
+  }
+}
+
 void DrawTrack(Canvas* canvas, const Track& track, const std::string& colour) {
   const std::vector<const Truth*> truths = Drawable(track);
   std::vector<Pixel> points;
@@ -194,7 +204,6 @@ void DrawTrack(Canvas* canvas, const Track& track, const std::string& colour) {
     const Pixel point = canvas->At(truth->world_from_body.position_world);
     if (!points.empty() && Distance(points.back(), point) < 0.5 && truth != truths.back()) continue;
     points.push_back(point);
-    canvas->KeepClear(point);
   }
   canvas->Path(points, fmt::format("fill=\"none\" stroke=\"{}\" stroke-width=\"2.5\" "
                                    "stroke-linejoin=\"round\" stroke-linecap=\"round\"",
@@ -218,8 +227,8 @@ void DrawClosest(Canvas* canvas, const Scenario& scenario, const std::vector<Wor
     body(a, event.vehicle);
     body(b, event.other);
     canvas->Line(a, b, "stroke=\"#222\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
-    for (int i = 0; i <= 8; ++i) {
-      canvas->KeepClear({a.x + (b.x - a.x) * i / 8, a.y + (b.y - a.y) * i / 8});
+    for (int i = 0; i <= 100; ++i) {
+      canvas->KeepClear({a.x + (b.x - a.x) * i / 100, a.y + (b.y - a.y) * i / 100});
     }
     canvas->Label({(a.x + b.x) / 2, (a.y + b.y) / 2}, 4,
                   fmt::format("closest {:.2f} m", event.value), "style=\"fill:#222\"");

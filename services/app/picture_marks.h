@@ -17,6 +17,7 @@ void DrawScaleBar(Canvas* canvas);
 void DrawWalls(Canvas* canvas, const Scenario& scenario);
 // Start: the body, hollow, with its heading. Goal: its circle with a dot.
 void DrawStartsAndGoals(Canvas* canvas, const Scenario& scenario);
+void KeepLabelsOff(Canvas* canvas, const Track& track);
 // The path with a tick every 2 s and the seconds written beside some.
 void DrawTrack(Canvas* canvas, const Track& track, const std::string& colour);
 // Both bodies and the distance between them.

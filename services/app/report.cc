@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "report.pb.h"
+#include "services/app/utf8.h"
 #include "services/types/check.h"
 
 namespace giveway::app {
@@ -36,9 +37,9 @@ void SetReaction(const Report& report, schema::Report* message) {
 
 schema::Report ToSchema(const Report& report) {
   schema::Report message;
-  message.set_scenario(report.scenario);
+  message.set_scenario(WellFormed(report.scenario));
   message.set_verdict(ToSchema(report.verdict));
-  message.set_reason(report.reason);
+  message.set_reason(WellFormed(report.reason));
   message.set_contacts(report.contacts);
   if (Exists(report.min_separation_m)) message.set_min_separation_m(*report.min_separation_m);
   if (Exists(report.time_to_clear_s)) message.set_time_to_clear_s(*report.time_to_clear_s);
@@ -52,7 +53,7 @@ schema::Report ToSchema(const Report& report) {
   message.set_tick_overruns(report.tick_overruns);
   message.set_seed(report.seed);
   message.set_domain(report.domain);
-  message.set_state_hash(report.state_hash);
+  message.set_state_hash(WellFormed(report.state_hash));
   return message;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "services/app/report.h"
-#include "services/app/text_file.h"
+#include "services/app/utf8.h"
 
 namespace giveway::app {
 namespace {

@@ -1,7 +1,6 @@
 // Reads a text file that came from outside. Refuses what cannot be one before anyone parses it.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,10 +14,6 @@ inline constexpr int kMaxNesting = 32;  // our schemas need 4
 // than kMaxFileBytes (not read), or not UTF-8 text, or nests deeper than kMaxNesting.
 std::string ReadTextFile(const std::string& path);
 
-// Bytes of the UTF-8 sequence that begins `text`, which is not empty; 0 if none does (RFC 3629).
-std::size_t Utf8Length(std::string_view text);
-// True if `text` is well-formed UTF-8 without NUL bytes.
-bool IsText(std::string_view text);
 // The first line (from 1) on which brackets of protobuf text nest deeper than kMaxNesting; 0 if
 // none does. Strings and comments do not count.
 int LineNestedTooDeep(std::string_view text);

@@ -12,9 +12,10 @@ namespace {
 constexpr std::size_t kFrontSensors = 8;
 
 Pose ReadStart(const Section& section) {
+  const Vec2 position_world = ReadPoint(section);
   const double heading_deg = section.Number("heading_deg", {-360, 360, "degrees"});
   const double heading_rad = heading_deg == heading_deg ? WrapAngle(Radians(heading_deg)) : 0;
-  return {ReadPoint(section), heading_rad};
+  return {position_world, heading_rad};
 }
 
 Goal ReadGoal(const Section& section, double cruise_m_s, Nanoseconds tick_period) {

@@ -30,14 +30,14 @@ void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& inf
   entry->last_sequence = sequence;
 
   ReceivedBeacon& received = beacons.emplace_back();
-  const bool readable = FromWire(sample, received.beacon);
+  const Arrival arrival = FromWire(sample, received.beacon);
   received.received = now;
-  received.crc_valid = sample.crc() == BeaconCrc(sample);
+  received.crc_valid = arrival.crc_valid;
   received.name_valid = entry->vehicle != kNobody && entry->vehicle == received.beacon.vehicle;
   received.writer = entry->identity;
   // A broken beacon is told as broken whatever it says; a sound one that says what this build does
   // not know cannot be told at all.
-  if (received.crc_valid && !readable) {
+  if (arrival.crc_valid && !arrival.readable) {
     ++unreadable_;
     beacons.pop_back();
   }

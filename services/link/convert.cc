@@ -11,41 +11,63 @@
 namespace giveway::link {
 namespace {
 
-// Packs fields without padding, little-endian, in the order they are added.
-template <std::size_t kBytes>
+// Packs fields without padding, little-endian, in the order they are added. Builds whole words in a
+// register: bytes stored one field at a time would stall the checksum that reads them back.
 class Packer {
  public:
-  static_assert(std::endian::native == std::endian::little, "swap bytes in Add");
-
   template <typename T>
-  Packer& Add(T value) {
-    std::memcpy(&bytes_[used_], &value, sizeof(value));
-    used_ += sizeof(value);
-    return *this;
+  requires(sizeof(T) == 4) void Add(T value) {
+    const auto bits = std::uint64_t{static_cast<std::uint32_t>(value)};
+    if (half_) words_[used_++] = pending_ | bits << 32U;
+    pending_ = bits;
+    half_ = !half_;
   }
-  std::span<const std::uint8_t> Bytes() const { return {bytes_.data(), used_}; }
+  void Add(double value) {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    words_[used_++] = half_ ? pending_ | bits << 32U : bits;
+    pending_ = bits >> 32U;
+  }
+  std::span<const std::uint8_t> Bytes() {
+    static_assert(std::endian::native == std::endian::little, "words are read as bytes");
+    words_[used_] = pending_;
+    return {reinterpret_cast<const std::uint8_t*>(words_.data()), 8 * used_ + (half_ ? 4 : 0)};
+  }
 
  private:
-  std::array<std::uint8_t, kBytes> bytes_;
+  std::array<std::uint64_t, 15> words_;
   std::size_t used_ = 0;
+  std::uint64_t pending_ = 0;  // low half: the last 32 bits added, while half_
+  bool half_ = false;
 };
 
-}  // namespace
-
-std::uint32_t BeaconCrc(const wire::Beacon& beacon) {
-  const wire::PlanarPose& pose = beacon.world_from_body();
-  Packer<108> packer;
-  packer.Add(beacon.vehicle()).Add(beacon.boot_epoch()).Add(beacon.seq());
-  packer.Add(beacon.world_epoch()).Add(beacon.tick());
-  packer.Add(beacon.left_rad_s()).Add(beacon.right_rad_s()).Add(beacon.cruise_m_s());
-  packer.Add(pose.x_m()).Add(pose.y_m()).Add(pose.heading_rad());
-  packer.Add(beacon.sigma_position_m()).Add(beacon.sigma_heading_rad());
-  packer.Add(static_cast<std::uint32_t>(beacon.mode()));
-  packer.Add(static_cast<std::uint32_t>(beacon.rule()));
-  packer.Add(beacon.gives_way_to()).Add(beacon.order_waited_ticks());
-  packer.Add(beacon.order_speed_bucket()).Add(beacon.order_vehicle());
+// Packed from our fields and not from the sample's, whose every access is a call. Mode and rule are
+// the numbers sent: they may be none of ours.
+std::uint32_t Crc(const Beacon& beacon, wire::DriveMode mode, wire::DriveRule rule) {
+  const Pose& pose = beacon.world_from_body;
+  Packer packer;
+  packer.Add(beacon.vehicle);
+  packer.Add(beacon.boot_epoch);
+  packer.Add(beacon.seq);
+  packer.Add(beacon.world_epoch);
+  packer.Add(beacon.tick);
+  packer.Add(beacon.wheels.left_rad_s);
+  packer.Add(beacon.wheels.right_rad_s);
+  packer.Add(beacon.cruise_m_s);
+  packer.Add(pose.position_world.x);
+  packer.Add(pose.position_world.y);
+  packer.Add(pose.heading_rad);
+  packer.Add(beacon.sigma_position_m);
+  packer.Add(beacon.sigma_heading_rad);
+  packer.Add(mode);
+  packer.Add(rule);
+  packer.Add(beacon.gives_way_to);
+  packer.Add(beacon.order.waited_ticks);
+  packer.Add(beacon.order.speed_bucket);
+  packer.Add(beacon.order.vehicle);
   return Crc32c(packer.Bytes());
 }
+
+}  // namespace
 
 wire::Beacon ToWire(const Beacon& beacon) {
   wire::Beacon sent;
@@ -66,11 +88,14 @@ wire::Beacon ToWire(const Beacon& beacon) {
   sent.order_waited_ticks(beacon.order.waited_ticks);
   sent.order_speed_bucket(beacon.order.speed_bucket);
   sent.order_vehicle(Number(beacon.order.vehicle));
-  sent.crc(BeaconCrc(sent));
+  sent.crc(Crc(beacon, sent.mode(), sent.rule()));
   return sent;
 }
 
-bool FromWire(const wire::Beacon& sample, Beacon& beacon) {
+Arrival FromWire(const wire::Beacon& sample, Beacon& beacon) {
+  const wire::PlanarPose& pose = sample.world_from_body();
+  const wire::DriveMode mode = sample.mode();
+  const wire::DriveRule rule = sample.rule();
   beacon.vehicle = VehicleId{sample.vehicle()};
   beacon.boot_epoch = sample.boot_epoch();
   beacon.seq = sample.seq();
@@ -78,14 +103,15 @@ bool FromWire(const wire::Beacon& sample, Beacon& beacon) {
   beacon.tick = Tick{sample.tick()};
   beacon.wheels = {sample.left_rad_s(), sample.right_rad_s()};
   beacon.cruise_m_s = sample.cruise_m_s();
-  beacon.world_from_body = FromWirePart(sample.world_from_body());
+  beacon.world_from_body = {{pose.x_m(), pose.y_m()}, pose.heading_rad()};
   beacon.sigma_position_m = sample.sigma_position_m();
   beacon.sigma_heading_rad = sample.sigma_heading_rad();
   beacon.gives_way_to = VehicleId{sample.gives_way_to()};
   beacon.order = {sample.order_waited_ticks(), sample.order_speed_bucket(),
                   VehicleId{sample.order_vehicle()}};
-  const bool mode_known = FromWirePart(sample.mode(), beacon.mode);
-  return FromWirePart(sample.rule(), beacon.rule) && mode_known;
+  const bool mode_known = FromWirePart(mode, beacon.mode);
+  return {.crc_valid = sample.crc() == Crc(beacon, mode, rule),
+          .readable = FromWirePart(rule, beacon.rule) && mode_known};
 }
 
 wire::RangeScan ToWire(const RangeScan& scan) {

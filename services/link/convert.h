@@ -11,9 +11,6 @@
 
 namespace giveway::link {
 
-// The checksum of fleet.idl over the fields of `beacon`; ToWire(Beacon) sets it.
-std::uint32_t BeaconCrc(const wire::Beacon& beacon);
-
 wire::Beacon ToWire(const Beacon& beacon);
 wire::RangeScan ToWire(const RangeScan& scan);
 wire::MotorCommand ToWire(const MotorCommand& command);
@@ -24,7 +21,13 @@ wire::Truth ToWire(const Truth& truth);
 wire::Event ToWire(const WorldEvent& event);
 wire::Figures ToWire(const RunFigures& figures);
 
-bool FromWire(const wire::Beacon& sample, Beacon& beacon);
+// What a beacon that arrived is worth.
+struct Arrival {
+  bool crc_valid = false;  // the checksum of fleet.idl, set by ToWire(Beacon)
+  bool readable = false;   // as the other conversions' result
+};
+
+Arrival FromWire(const wire::Beacon& sample, Beacon& beacon);
 bool FromWire(const wire::RangeScan& sample, RangeScan& scan);
 bool FromWire(const wire::MotorCommand& sample, MotorCommand& command);
 bool FromWire(const wire::Status& sample, VehicleStatus& status);

@@ -7,6 +7,9 @@
 
 namespace giveway::link {
 
+// By the processor's instruction where it has one.
 std::uint32_t Crc32c(std::span<const std::uint8_t> bytes);
+// The same value everywhere, by table.
+std::uint32_t PortableCrc32c(std::span<const std::uint8_t> bytes);
 
 }  // namespace giveway::link

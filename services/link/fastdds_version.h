@@ -40,7 +40,8 @@ using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
 inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
 // The result of DataWriter::write: true is good in 2.9.1, and 0 is good in 3.1.2.
 inline bool Ok(bool written) { return written; }
-inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, Duration period) {
+
+inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) {
   qos.reliable_writer_qos().times.heartbeatPeriod = period;
 }
 
@@ -63,7 +64,8 @@ using Duration = dds::Duration_t;
 using ReturnCode = dds::ReturnCode_t;
 
 inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
-inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, Duration period) {
+
+inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) {
   qos.reliable_writer_qos().times.heartbeat_period = period;
 }
 

@@ -61,16 +61,16 @@ void PeerEvents::Translate(std::span<const ReaderEvent> events, SteadyTime now,
         break;
       case ReaderEvent::Kind::kUnmatched:
         Unmatched(vehicle);
-        not_alive_.erase(writer);
+        not_alive_.erase(Identity(writer));
         told.push_back({QosEventKind::kUnmatched, vehicle, now});
         break;
       case ReaderEvent::Kind::kNotAlive:
-        not_alive_.insert(writer);
+        not_alive_.insert(Identity(writer));
         told.push_back({QosEventKind::kLivelinessLost, vehicle, now});
         break;
       case ReaderEvent::Kind::kAlive:
         // The first sample of a writer is no return.
-        if (not_alive_.erase(writer) > 0) {
+        if (not_alive_.erase(Identity(writer)) > 0) {
           told.push_back({QosEventKind::kLivelinessBack, vehicle, now});
         }
         break;

@@ -34,9 +34,6 @@ class PeerEvents {
     std::uint32_t writers = 0;  // matched; more than one where an id is claimed twice
     bool missed = false;
   };
-  struct Hash {
-    std::size_t operator()(const rtps::GUID_t& guid) const { return Identity(guid); }
-  };
 
   void Matched(VehicleId vehicle);
   void Unmatched(VehicleId vehicle);
@@ -45,8 +42,8 @@ class PeerEvents {
   const WriterNames& names_;
   rtps::GuidPrefix_t own_;
   std::uint32_t matched_writers_ = 0;
-  std::unordered_map<VehicleId, Peer> peers_;         // with at least one matched writer
-  std::unordered_set<rtps::GUID_t, Hash> not_alive_;  // matched writers that fell silent
+  std::unordered_map<VehicleId, Peer> peers_;    // with at least one matched writer
+  std::unordered_set<std::uint64_t> not_alive_;  // matched writers that fell silent, by identity
 };
 
 }  // namespace giveway::link

@@ -49,7 +49,7 @@ rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle) {
 
 void WriterNames::OnWriter(Change change, const rtps::GUID_t& writer,
                            const std::vector<std::string>& partitions) {
-  const Queued queued{change, writer, NamedVehicle(partitions)};
+  const Queued queued{change, Identity(writer), NamedVehicle(partitions)};
   const std::scoped_lock lock(mutex_);
   queue_.push_back(queued);
 }
@@ -61,13 +61,13 @@ void WriterNames::Update() {
     batch_.swap(queue_);
   }
   for (const Queued& queued : batch_) {
-    WriterEntry& entry = writers_[queued.writer];
+    WriterEntry& entry = writers_[queued.identity];
+    entry.identity = queued.identity;
     entry.gone = queued.change == Change::kGone;
     if (entry.gone) {
-      gone_.push_back(queued.writer);
+      gone_.push_back(queued.identity);
     } else {
       entry.vehicle = queued.vehicle;
-      entry.identity = Identity(queued.writer);
     }
   }
   for (; gone_.size() > kGoneKept; gone_.pop_front()) {
@@ -77,12 +77,12 @@ void WriterNames::Update() {
 }
 
 WriterEntry* WriterNames::Find(const rtps::GUID_t& writer) {
-  const auto found = writers_.find(writer);
+  const auto found = writers_.find(Identity(writer));
   return found == writers_.end() ? nullptr : &found->second;
 }
 
 const WriterEntry* WriterNames::Find(const rtps::GUID_t& writer) const {
-  const auto found = writers_.find(writer);
+  const auto found = writers_.find(Identity(writer));
   return found == writers_.end() ? nullptr : &found->second;
 }
 

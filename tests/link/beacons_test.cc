@@ -188,9 +188,9 @@ TEST(Beacons, WithAnUnknownEnumeratorAndASoundSumAreDroppedAndCounted) {
   const DomainLock domain;
   RawSender sender(OptionsIn(domain), "main/v5");
   RawListener listener(OptionsIn(domain));
-  wire::Beacon newer = WireBeaconFrom(VehicleId{5});
-  newer.mode(static_cast<wire::DriveMode>(77));
-  newer.crc(link::BeaconCrc(newer));
+  Beacon unknown = BeaconFrom(VehicleId{5}, 1).beacon;
+  unknown.mode = static_cast<Mode>(77);
+  const wire::Beacon newer = link::ToWire(unknown);
   EXPECT_TRUE(Eventually([&] {
     sender.Send(newer);
     listener.Listen();

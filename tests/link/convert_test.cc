@@ -31,10 +31,13 @@ Wire Travelled(Wire wire) {
   return arrived;
 }
 
+bool IsReadable(bool readable) { return readable; }
+bool IsReadable(Arrival arrival) { return arrival.readable; }
+
 template <typename Ours>
 Ours RoundTrip(const Ours& value) {
   Ours back;
-  EXPECT_TRUE(FromWire(Travelled(ToWire(value)), back));
+  EXPECT_TRUE(IsReadable(FromWire(Travelled(ToWire(value)), back)));
   return back;
 }
 
@@ -77,8 +80,8 @@ TEST(Convert, BeaconComesBackBitForBit) {
 TEST(Convert, BeaconStillPassesItsChecksumAfterTheWay) {
   Beacon sent;
   sent.wheels.left_rad_s = kNan;
-  const wire::Beacon arrived = Travelled(ToWire(sent));
-  EXPECT_EQ(arrived.crc(), BeaconCrc(arrived));
+  Beacon back;
+  EXPECT_TRUE(FromWire(Travelled(ToWire(sent)), back).crc_valid);
 }
 
 TEST(Convert, ScanComesBackWithEverySensor) {
@@ -286,7 +289,7 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
   wire::Beacon beacon = ToWire(Beacon{});
   beacon.mode(static_cast<wire::DriveMode>(256));  // would be kCooperative if cut to 8 bits
   Beacon back;
-  EXPECT_FALSE(FromWire(beacon, back));
+  EXPECT_FALSE(FromWire(beacon, back).readable);
   EXPECT_EQ(back.mode, Beacon{}.mode);
 
   wire::RangeScan scan = ToWire(RangeScan{});

@@ -1,0 +1,17 @@
+// UTF-8 as far as the texts of this room need it (RFC 3629).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace giveway::app {
+
+// Bytes of the sequence that begins `text`, which is not empty; 0 if none does.
+std::size_t Utf8Length(std::string_view text);
+// True if `text` is well-formed and without NUL bytes.
+bool IsText(std::string_view text);
+// The text with every byte that belongs to no sequence replaced by U+FFFD.
+std::string WellFormed(std::string_view text);
+
+}  // namespace giveway::app

@@ -1,0 +1,169 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "services/app/flag_values.h"
+#include "services/app/flags.h"
+
+namespace giveway::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::internal::CaptureStderr;
+using ::testing::internal::CaptureStdout;
+using ::testing::internal::GetCapturedStderr;
+using ::testing::internal::GetCapturedStdout;
+
+ParsedFlags Vehicle(std::vector<const char*> words) {
+  words.insert(words.begin(), "giveway-vehicle");
+  return ParseVehicleFlags(static_cast<int>(words.size()), words.data());
+}
+
+ParsedFlags World(std::vector<const char*> words) {
+  words.insert(words.begin(), "giveway-world");
+  return ParseWorldFlags(static_cast<int>(words.size()), words.data());
+}
+
+// What stderr says about words that must end with exit code 2.
+std::string Refusal(const std::vector<const char*>& words) {
+  CaptureStderr();
+  const ParsedFlags parsed = Vehicle(words);
+  const std::string text = GetCapturedStderr();
+  const int* code = std::get_if<int>(&parsed);
+  EXPECT_TRUE(code != nullptr && *code == 2);
+  return text;
+}
+
+// Sets a variable for the length of a test.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
+  ~Variable() { unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+TEST(Flags, TheDefaultsNeedOnlyScenarioAndDomain) {
+  const ParsedFlags parsed = Vehicle({"--scenario", "wall_only", "--domain", "7"});
+  const ServiceFlags& flags = std::get<ServiceFlags>(parsed);
+  EXPECT_EQ(flags.scenario, "wall_only");
+  EXPECT_EQ(flags.domain, 7U);
+  EXPECT_EQ(flags.interface, "127.0.0.1");
+  EXPECT_THAT(flags.qos, ::testing::EndsWith("/qos/default.xml"));
+  EXPECT_EQ(flags.id, 0U);
+  EXPECT_FALSE(flags.seed || flags.behaviour || flags.duration_s || flags.lockstep);
+  EXPECT_EQ(flags.log_format, "text");
+  EXPECT_EQ(flags.log_level, "info");
+}
+
+TEST(Flags, EveryFlagReachesItsPlace) {
+  const ParsedFlags parsed = Vehicle({"--scenario=s",  "--domain",   "99",          "--interface",
+                                      "any",           "--qos",      "q.xml",       "--id",
+                                      "4294967295",    "--seed",     "0",           "--behaviour",
+                                      "lecture_yield", "--duration", "2.5",         "--lockstep",
+                                      "--log-format",  "json",       "--log-level", "debug"});
+  const ServiceFlags& flags = std::get<ServiceFlags>(parsed);
+  EXPECT_EQ(flags.scenario, "s");
+  EXPECT_EQ(flags.domain, 99U);
+  EXPECT_EQ(flags.interface, "any");
+  EXPECT_EQ(flags.qos, "q.xml");
+  EXPECT_EQ(flags.id, 4294967295U);
+  EXPECT_EQ(flags.seed, 0U);
+  EXPECT_EQ(flags.behaviour, Behaviour::kLectureYield);
+  EXPECT_EQ(flags.duration_s, 2.5);
+  EXPECT_TRUE(flags.lockstep);
+  EXPECT_EQ(flags.log_format, "json");
+  EXPECT_EQ(flags.log_level, "debug");
+}
+
+TEST(Flags, EveryWrongValueIsNamedWithItsRange) {
+  const std::string text = Refusal(
+      {"--scenario",  "",     "--domain",    "100", "--id",         "0",   "--seed",      "-1",
+       "--behaviour", "fast", "--duration",  "nan", "--log-format", "xml", "--log-level", "all",
+       "--qos",       "",     "--interface", ""});
+  for (const char* words :
+       {"--scenario = \"\": is required", "--domain = 100: must be a whole number between 1 and 99",
+        "--id = 0: must be a whole number between 1 and 4294967295",
+        "--seed = -1: must be a whole number between 0 and 4294967295",
+        "--behaviour = fast: must be one of cooperative, lecture_avoid",
+        "--duration = nan: must be a number above 0 and at most 86400 s",
+        "--log-format = xml: must be one of text, json", "--log-level = all: must be one of debug",
+        "--qos = \"\": must not be empty", "--interface = \"\": must not be empty"}) {
+    EXPECT_THAT(text, HasSubstr(words));
+  }
+}
+
+TEST(Flags, NumbersWithATailAreRefused) {
+  for (const char* domain : {"7x", " 7", "7.0", "0x7", "+7", "", "99999999999999999999"}) {
+    EXPECT_THAT(Refusal({"--scenario", "s", "--domain", domain}), HasSubstr("--domain"));
+  }
+  for (const char* duration : {"1e400", "inf", "0", "1s"}) {
+    EXPECT_THAT(Refusal({"--scenario", "s", "--domain", "1", "--duration", duration}),
+                HasSubstr("--duration"));
+  }
+}
+
+TEST(Flags, MissingOnesAreNamed) {
+  const std::string text = Refusal({});
+  EXPECT_THAT(text, HasSubstr("--scenario: is required"));
+  EXPECT_THAT(text, HasSubstr("--domain: is required"));
+}
+
+TEST(Flags, UnknownFlagsAndMissingValuesAreRefused) {
+  EXPECT_THAT(Refusal({"--fast"}), HasSubstr("--fast"));
+  EXPECT_THAT(Refusal({"--domain"}), HasSubstr("--domain"));
+  EXPECT_THAT(Refusal({"word"}), HasSubstr("word"));
+  CaptureStderr();
+  EXPECT_EQ(std::get<int>(World({"--scenario", "s", "--domain", "1", "--id", "1"})), 2);
+  EXPECT_THAT(GetCapturedStderr(), HasSubstr("--id"));
+}
+
+TEST(Flags, ATwinInTheEnvironmentStandsInForAFlag) {
+  const Variable domain("GIVEWAY_DOMAIN", "5");
+  const Variable level("GIVEWAY_LOG_LEVEL", "error");
+  const Variable lockstep("GIVEWAY_LOCKSTEP", "true");
+  const ParsedFlags parsed = Vehicle({"--scenario", "s"});
+  const ServiceFlags& flags = std::get<ServiceFlags>(parsed);
+  EXPECT_EQ(flags.domain, 5U);
+  EXPECT_EQ(flags.log_level, "error");
+  EXPECT_TRUE(flags.lockstep);
+}
+
+TEST(Flags, TheFlagWinsOverItsTwin) {
+  const Variable domain("GIVEWAY_DOMAIN", "500");
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle({"--scenario", "s", "--domain", "6"})).domain, 6U);
+}
+
+TEST(Flags, AnEmptyVariableCountsAsUnset) {
+  const Variable seed("GIVEWAY_SEED", "");
+  EXPECT_FALSE(std::get<ServiceFlags>(Vehicle({"--scenario", "s", "--domain", "6"})).seed);
+}
+
+TEST(Flags, AWrongVariableIsRefusedByItsName) {
+  const Variable domain("GIVEWAY_DOMAIN", "0");
+  const Variable lockstep("GIVEWAY_LOCKSTEP", "yes");
+  const std::string text = Refusal({"--scenario", "s"});
+  EXPECT_THAT(text, HasSubstr("environment: GIVEWAY_DOMAIN = 0: must be a whole number"));
+  EXPECT_THAT(text, HasSubstr("environment: GIVEWAY_LOCKSTEP = yes: must be one of 0, 1"));
+}
+
+TEST(Flags, HelpAndVersionEndWithZero) {
+  CaptureStdout();
+  EXPECT_EQ(std::get<int>(World({"--help"})), 0);
+  EXPECT_THAT(GetCapturedStdout(), HasSubstr("--lockstep"));
+  CaptureStdout();
+  EXPECT_EQ(std::get<int>(Vehicle({"--version"})), 0);
+  EXPECT_THAT(GetCapturedStdout(), ::testing::StartsWith("giveway-vehicle 0."));
+}
+
+TEST(Flags, TheTwinOfAFlagIsSpeltInCapitals) {
+  EXPECT_EQ(TwinOf("--log-level"), "GIVEWAY_LOG_LEVEL");
+}
+
+}  // namespace
+}  // namespace giveway::app

@@ -1,0 +1,56 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/app/json_line.h"
+#include "services/app/process.h"
+
+namespace giveway::app {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::internal::CaptureStderr;
+using ::testing::internal::GetCapturedStderr;
+
+TEST(Log, AJsonStringEscapesWhatItMust) {
+  EXPECT_EQ(JsonString("a \"b\" \\ \n\t\x01"), R"("a \"b\" \\ \n\t\u0001")");
+  EXPECT_EQ(JsonString("caf\xc3\xa9 \x7f"), "\"caf\xc3\xa9 \x7f\"");
+  EXPECT_EQ(JsonString("\xff"
+                       "a"),
+            "\"\xef\xbf\xbd"
+            "a\"");
+  EXPECT_EQ(JsonString(""), "\"\"");
+}
+
+TEST(Log, ALineIsAJsonObject) {
+  CaptureStderr();
+  InitLog("vehicle 1", "json", "debug");
+  LogDebug("gives way to {} \"2\"\n");
+  const std::string line = GetCapturedStderr();
+  EXPECT_THAT(line, ::testing::MatchesRegex(
+                        R"(\{"time":"....-..-..T..:..:..\....Z","level":"debug",)"
+                        R"("process":"vehicle 1","text":"gives way to \{\} \\"2\\"\\n"\})"
+                        "\n"));
+}
+
+TEST(Log, TextNamesLevelAndProcess) {
+  CaptureStderr();
+  InitLog("world", "text", "info");
+  LogWarning("tick late");
+  EXPECT_THAT(GetCapturedStderr(), HasSubstr("warning world: tick late\n"));
+}
+
+TEST(Log, LevelsBelowTheOneAskedForAreSilent) {
+  CaptureStderr();
+  InitLog("world", "text", "warning");
+  LogDebug("one");
+  LogInfo("two");
+  LogWarning("three");
+  LogError("four");
+  const std::string text = GetCapturedStderr();
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("two")));
+  EXPECT_THAT(text, HasSubstr("three"));
+  EXPECT_THAT(text, HasSubstr("error   world: four"));
+}
+
+}  // namespace
+}  // namespace giveway::app

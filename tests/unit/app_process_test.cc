@@ -1,0 +1,69 @@
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "services/app/process.h"
+
+namespace giveway::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Ticker, OnTimeNothingIsMissed) {
+  const NextTick next = AfterDeadline(100ms, 50ms, 60ms);
+  EXPECT_EQ(next.deadline, SteadyTime{150ms});
+  EXPECT_EQ(next.missed, 0U);
+}
+
+TEST(Ticker, LateWithinAPeriodKeepsTheGrid) {
+  const NextTick next = AfterDeadline(100ms, 50ms, 149ms);
+  EXPECT_EQ(next.deadline, SteadyTime{150ms});
+  EXPECT_EQ(next.missed, 0U);
+}
+
+TEST(Ticker, WholePeriodsAreMissedAndNeverCaughtUp) {
+  const NextTick one = AfterDeadline(100ms, 50ms, 150ms);
+  EXPECT_EQ(one.deadline, SteadyTime{200ms});
+  EXPECT_EQ(one.missed, 1U);
+  const NextTick many = AfterDeadline(100ms, 50ms, 620ms);
+  EXPECT_EQ(many.deadline, SteadyTime{650ms});
+  EXPECT_EQ(many.missed, 10U);
+}
+
+TEST(Process, ARandomNumberIsNeverZeroAndRarelyTheSame) {
+  const std::uint32_t first = RandomNonZero();
+  EXPECT_NE(first, 0U);
+  EXPECT_FALSE(RandomNonZero() == first && RandomNonZero() == first);
+}
+
+TEST(StopSignal, SetsAFlagOnInterruptAndTerminate) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const StopSignal stop;
+    EXPECT_FALSE(stop.IsSet());
+    std::raise(signal);
+    EXPECT_TRUE(stop.IsSet());
+  }
+}
+
+TEST(StopSignal, SurvivesABrokenPipeAndRestoresWhatWasThere) {
+  struct sigaction before {};
+  sigaction(SIGPIPE, nullptr, &before);
+  {
+    const StopSignal stop;
+    std::raise(SIGPIPE);
+    EXPECT_FALSE(stop.IsSet());
+  }
+  struct sigaction after {};
+  sigaction(SIGPIPE, nullptr, &after);
+  EXPECT_EQ(after.sa_handler, before.sa_handler);
+  sigaction(SIGTERM, nullptr, &after);
+  EXPECT_EQ(after.sa_handler, SIG_DFL);
+}
+
+TEST(StopSignalDeathTest, TwoAtATimeAreOurBug) {
+  const StopSignal stop;
+  EXPECT_DEATH(StopSignal(), "check failed");
+}
+
+}  // namespace
+}  // namespace giveway::app
