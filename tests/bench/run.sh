@@ -22,25 +22,27 @@ figure() {
   printf '%-28s %10s %10s %s\n' "$1" "$2" "$3" "$verdict"
 }
 
-# microbench NAME: median over repetitions of one benchmark, in its own unit.
+# microbench NAME FIELD: median over repetitions of one field of one benchmark.
 microbench() {
   "$bin/giveway-bench" --benchmark_filter="^$1\$" --benchmark_repetitions=5 \
     --benchmark_report_aggregates_only=true --benchmark_format=json 2>"$scratch/err" |
-    jq -r '.benchmarks[] | select(.aggregate_name == "median") | .real_time' ||
+    jq -er --arg field "$2" \
+      '.benchmarks[] | select(.aggregate_name == "median") | .[$field] * 100 | round / 100' ||
     { cat "$scratch/err" >&2; exit 2; }
 }
 
 # Vehicle::Step with everyone heard anew every tick, microseconds.
 if wanted step; then
-  figure step_10_peers_us "$(printf '%.2f' "$(microbench VehicleStep/10)")" 0.5
-  figure step_100_peers_us "$(printf '%.2f' "$(microbench VehicleStep/100)")" 5
-  figure step_1000_peers_us "$(printf '%.2f' "$(microbench VehicleStep/1000)")" 50
+  figure step_10_peers_us "$(microbench VehicleStep/10 real_time)" 0.5
+  figure step_100_peers_us "$(microbench VehicleStep/100 real_time)" 5
+  figure step_1000_peers_us "$(microbench VehicleStep/1000 real_time)" 50
 fi
 
-# Our link against bare Fast DDS calls in the same run; the median of the ratios of paired runs.
+# Our link against bare Fast DDS calls in the same loop; medians of the ratios of neighbours.
 if wanted link; then
-  for direction in send take; do
-    figure "link_${direction}_ratio" "$("$bin/giveway-bench" --link_ratio="$direction")" 1.1
+  for part in send take both; do
+    figure "link_${part}_ratio" \
+      "$(microbench 'LinkOverhead/iterations:4000/manual_time' "${part}_ratio")" 1.1
   done
 fi
 
