@@ -71,10 +71,11 @@ check() {
   fi
 }
 
-# An attribute of the first testsuite element of a JUnit file.
+# An attribute of the first testsuite element of a JUnit file; 0 if there is none.
 junit() {
-  sed -n "s/.*<testsuite[^>]* $2=\"\([0-9]*\)\".*/\1/p; s/^[[:space:]]*$2=\"\([0-9]*\)\".*/\1/p" \
-    "$1" 2>/dev/null | head -n 1
+  local value
+  value=$(sed -n "s/^[[:space:]]*$2=\"\([0-9]*\)\".*/\1/p" "$1" 2>/dev/null | head -n 1)
+  echo "${value:-0}"
 }
 
 # run_ctest PRESET LABEL JOBS [CTEST_ARGUMENTS]
@@ -87,10 +88,13 @@ run_ctest() {
     --output-junit "$report" "$@" || code=$?
   ran=$(junit "$report" tests)
   bad=$(junit "$report" failures)
-  skipped=$(($(junit "$report" skipped || echo 0) + $(junit "$report" disabled || echo 0)))
-  ran=${ran:-0} bad=${bad:-0}
-  # No test at all, or a ctest that failed without saying which test did, is a failure too.
-  [[ $code -ne 0 && $bad -eq 0 ]] && bad=1 && ran=$((ran > 0 ? ran : 1))
+  skipped=$(($(junit "$report" skipped) + $(junit "$report" disabled)))
+  # No test at all, or tests that could not even be run, are failures too.
+  if [[ $code -ne 0 && $bad -eq 0 ]]; then
+    bad=$((skipped > 0 ? skipped : 1))
+    skipped=0
+    ran=$((ran > bad ? ran : bad))
+  fi
   passed=$((passed + ran - bad - skipped))
   failed=$((failed + bad))
 }

@@ -1,7 +1,10 @@
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "services/app/flags.h"
 #include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/run.h"
 #include "services/fleetctl/verbs.h"
@@ -36,13 +39,12 @@ std::string CheckNotEmpty(const std::string& text) {
   return text.empty() ? "must not be empty" : "";
 }
 
-std::map<std::string, Behaviour> BehavioursByName() {
-  std::map<std::string, Behaviour> behaviours;
-  for (const Behaviour behaviour : {Behaviour::kCooperative, Behaviour::kLectureAvoid,
-                                    Behaviour::kStockAvoid, Behaviour::kLectureYield}) {
-    behaviours.emplace(Name(behaviour), behaviour);
-  }
-  return behaviours;
+Behaviour ParseBehaviour(const std::string& name) {
+  const std::optional<Behaviour> behaviour = app::BehaviourNamed(name);
+  if (behaviour) return *behaviour;
+  throw CLI::ValidationError(
+      "--behaviour",
+      "must be cooperative, lecture_avoid, stock_avoid or lecture_yield, not '" + name + "'");
 }
 
 void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
@@ -51,11 +53,13 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("--duration", options->duration_s, "End after this many seconds")
       ->check(CheckDuration)
       ->envname("GIVEWAY_DURATION");
-  verb->add_option("--behaviour", options->behaviour, "Every vehicle drives by this behaviour")
-      ->transform(CLI::CheckedTransformer(BehavioursByName())
-                      .description("cooperative, lecture_avoid, stock_avoid or lecture_yield"))
+  verb->add_option_function<std::string>(
+          "--behaviour",
+          [options](const std::string& name) { options->behaviour = ParseBehaviour(name); },
+          "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid or lecture_yield")
       ->envname("GIVEWAY_BEHAVIOUR");
   verb->add_option("--seed", options->seed, "Moves start poses and cruise speeds; 0 moves nothing")
+      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->envname("GIVEWAY_SEED");
   verb->add_flag("--lockstep", options->lockstep, "The world waits for every command of a tick")
       ->envname("GIVEWAY_LOCKSTEP");

@@ -55,9 +55,9 @@ refused "empty file" 'empty\.textproto' "$SCRATCH/empty.textproto"
 head -c 4096 /dev/urandom >"$SCRATCH/binary.textproto"
 refused "binary file" 'binary\.textproto' "$SCRATCH/binary.textproto"
 truncate -s 100M "$SCRATCH/sparse.textproto"
-refused "100 MB of nothing" '8 MiB' "$SCRATCH/sparse.textproto"
-yes "$(cat "$good")" 2>/dev/null | head -c 100000000 >"$SCRATCH/huge.textproto"
-refused "100 MB of text" '8 MiB' "$SCRATCH/huge.textproto"
+refused "100 MB of nothing" '8388608|8 MiB' "$SCRATCH/sparse.textproto"
+yes "$(cat "$good")" 2>/dev/null | head -c 100000000 >"$SCRATCH/huge.textproto" || true
+refused "100 MB of text" '8388608|8 MiB' "$SCRATCH/huge.textproto"
 mkfifo "$SCRATCH/pipe.textproto"
 refused "named pipe" 'pipe\.textproto' "$SCRATCH/pipe.textproto"
 {

@@ -21,12 +21,8 @@ case $scenario in
     ;;
   intersection_equal) expected='.halted == [2] and .arrived == [1, 2]' ;;
   intersection_avoid) expected='.halted == []' ;;
-  wall_only)
-    expected='.halted == []'
-    passed=${passed//and .min_separation_m > 0/} # one vehicle has nobody to come near to
-    passed=${passed//and .beacons_received > 0/}
-    ;;
-  peer_dies) expected='(.halted | length) == 1 and (.arrived | length) == 1' ;;
+  wall_only) expected='.halted == [] and .arrived == [1, 2]' ;;
+  peer_dies) expected='.halted == [1] and .arrived == [1] and .liveliness_lost > 0' ;;
   *)
     echo "unknown scenario '$scenario'" >&2
     exit 2
