@@ -7,6 +7,7 @@
 
 #include "services/link/convert_parts.h"
 #include "services/link/crc32c.h"
+#include "services/types/check.h"
 
 namespace giveway::link {
 namespace {
@@ -18,13 +19,13 @@ class Packer {
   template <typename T>
   requires(sizeof(T) == 4) void Add(T value) {
     const auto bits = std::uint64_t{static_cast<std::uint32_t>(value)};
-    if (half_) words_[used_++] = pending_ | bits << 32U;
+    if (half_) Push(pending_ | bits << 32U);
     pending_ = bits;
     half_ = !half_;
   }
   void Add(double value) {
     const auto bits = std::bit_cast<std::uint64_t>(value);
-    words_[used_++] = half_ ? pending_ | bits << 32U : bits;
+    Push(half_ ? pending_ | bits << 32U : bits);
     pending_ = bits >> 32U;
   }
   std::span<const std::uint8_t> Bytes() {
@@ -34,7 +35,12 @@ class Packer {
   }
 
  private:
-  std::array<std::uint64_t, 15> words_;
+  void Push(std::uint64_t word) {
+    GIVEWAY_CHECK(used_ + 1 < words_.size(), used_);  // one stays free for the last half
+    words_[used_++] = word;
+  }
+
+  std::array<std::uint64_t, 18> words_;  // 132 bytes and room for the next field
   std::size_t used_ = 0;
   std::uint64_t pending_ = 0;  // low half: the last 32 bits added, while half_
   bool half_ = false;
@@ -58,6 +64,9 @@ std::uint32_t Crc(const Beacon& beacon, wire::DriveMode mode, wire::DriveRule ru
   packer.Add(pose.heading_rad);
   packer.Add(beacon.sigma_position_m);
   packer.Add(beacon.sigma_heading_rad);
+  packer.Add(beacon.body_radius_m);
+  packer.Add(beacon.drive.wheel_radius_m);
+  packer.Add(beacon.drive.axle_m);
   packer.Add(mode);
   packer.Add(rule);
   packer.Add(beacon.gives_way_to);
@@ -82,6 +91,9 @@ wire::Beacon ToWire(const Beacon& beacon) {
   sent.world_from_body(ToWirePart(beacon.world_from_body));
   sent.sigma_position_m(beacon.sigma_position_m);
   sent.sigma_heading_rad(beacon.sigma_heading_rad);
+  sent.body_radius_m(beacon.body_radius_m);
+  sent.wheel_radius_m(beacon.drive.wheel_radius_m);
+  sent.axle_m(beacon.drive.axle_m);
   sent.mode(ToWireEnum<wire::DriveMode>(beacon.mode));
   sent.rule(ToWireEnum<wire::DriveRule>(beacon.rule));
   sent.gives_way_to(Number(beacon.gives_way_to));
@@ -106,6 +118,8 @@ Arrival FromWire(const wire::Beacon& sample, Beacon& beacon) {
   beacon.world_from_body = {{pose.x_m(), pose.y_m()}, pose.heading_rad()};
   beacon.sigma_position_m = sample.sigma_position_m();
   beacon.sigma_heading_rad = sample.sigma_heading_rad();
+  beacon.body_radius_m = sample.body_radius_m();
+  beacon.drive = {sample.wheel_radius_m(), sample.axle_m()};
   beacon.gives_way_to = VehicleId{sample.gives_way_to()};
   beacon.order = {sample.order_waited_ticks(), sample.order_speed_bucket(),
                   VehicleId{sample.order_vehicle()}};

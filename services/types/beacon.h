@@ -39,6 +39,8 @@ struct Beacon {
   Pose world_from_body;          // dead-reckoned estimate at `tick`
   double sigma_position_m = 0;   // standard deviation of the position, along any axis
   double sigma_heading_rad = 0;  // standard deviation of the heading
+  double body_radius_m = 0.25;   // disc round the axle centre
+  DriveGeometry drive;           // what turns the wheel speeds into motion
   Mode mode = Mode::kHalt;
   Rule rule = Rule::kNotRunning;
   VehicleId gives_way_to = kNobody;

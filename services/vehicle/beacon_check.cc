@@ -15,6 +15,9 @@ constexpr double kMaxCoordinate_m = 100'000.0;
 constexpr double kMaxSigma_m = 1000.0;
 constexpr double kSpeedBucket_m_s = 0.05;
 
+// No part of a vehicle is larger than this.
+bool IsLength(double x) { return x > 0 && x <= 20; }
+
 bool Within(double x, double limit) { return x >= -limit && x <= limit; }
 
 }  // namespace
@@ -24,7 +27,8 @@ bool IsFinite(const Beacon& b) {
          std::isfinite(b.cruise_m_s) && std::isfinite(b.world_from_body.position_world.x) &&
          std::isfinite(b.world_from_body.position_world.y) &&
          std::isfinite(b.world_from_body.heading_rad) && std::isfinite(b.sigma_position_m) &&
-         std::isfinite(b.sigma_heading_rad);
+         std::isfinite(b.sigma_heading_rad) && std::isfinite(b.body_radius_m) &&
+         std::isfinite(b.drive.wheel_radius_m) && std::isfinite(b.drive.axle_m);
 }
 
 bool IsInRange(const Beacon& b) {
@@ -36,8 +40,10 @@ bool IsInRange(const Beacon& b) {
          Within(b.world_from_body.position_world.y, kMaxCoordinate_m) &&
          Within(b.world_from_body.heading_rad, kPi + 1e-9) && b.sigma_position_m >= 0 &&
          b.sigma_position_m <= kMaxSigma_m && b.sigma_heading_rad >= 0 &&
-         b.sigma_heading_rad <= 2 * kPi && b.mode <= Mode::kLeaving && b.rule <= Rule::kLeaving &&
-         b.order.vehicle == b.vehicle && b.order.waited_ticks <= Number(b.tick) &&
+         b.sigma_heading_rad <= 2 * kPi && IsLength(b.body_radius_m) &&
+         IsLength(b.drive.wheel_radius_m) && IsLength(b.drive.axle_m) && b.mode <= Mode::kLeaving &&
+         b.rule <= Rule::kLeaving && b.order.vehicle == b.vehicle &&
+         b.order.waited_ticks <= Number(b.tick) &&
          b.order.speed_bucket == SpeedBucket(b.cruise_m_s);
 }
 

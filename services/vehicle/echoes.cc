@@ -34,22 +34,21 @@ Vec2 ArcPointNearestAxis(const SensorMount& mount, double half_angle, double ran
 
 }  // namespace
 
-std::uint32_t EchoesOf(Vec2 body_centre_world, const Situation& s) {
+std::uint32_t EchoesOf(Vec2 centre_world, double radius_m, const Situation& s) {
   const VehicleProfile& profile = s.options.profile;
-  const Vec2 centre = ToBody(s.world_from_body, body_centre_world);
+  const Vec2 centre = ToBody(s.world_from_body, centre_world);
   std::uint32_t explains = 0;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     const SensorView& view = s.ranges[i];
     if (view.kind != Echo::kEcho) continue;
     const Vec2 to_centre = centre - profile.sonar[i].position_body;
     const double distance = Norm(to_centre);
-    const double expected = distance - profile.body_radius_m;
+    const double expected = distance - radius_m;
     if (Magnitude(view.range_m - expected) > kSameBody_m) continue;
     // The body shows from one tangent to the other; half the body more allows for uncertainty.
     const double off_axis =
         Magnitude(WrapAngle(Atan2(to_centre.y, to_centre.x) - profile.sonar[i].bearing_rad));
-    const double half_width =
-        distance > 1.5 * profile.body_radius_m ? 1.5 * profile.body_radius_m / distance : kPi;
+    const double half_width = distance > 1.5 * radius_m ? 1.5 * radius_m / distance : kPi;
     if (off_axis <= profile.sonar_half_angle_rad + half_width) explains |= 1U << i;
   }
   return explains;
@@ -62,7 +61,7 @@ std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   for (const PeerView& peer : s.peers) {
     if ((peer.explains >> sensor & 1U) == 0) continue;
     return FreeBeforeDisc(ToBody(s.world_from_body, peer.world_from_body.position_world),
-                          2 * profile.body_radius_m);
+                          profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
   const Vec2 echo =
       ArcPointNearestAxis(profile.sonar[sensor], profile.sonar_half_angle_rad, view.range_m);

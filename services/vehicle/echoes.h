@@ -9,8 +9,8 @@
 
 namespace giveway {
 
-// Bit i is set if the echo of sensor i is where a body centred there would echo.
-std::uint32_t EchoesOf(Vec2 body_centre_world, const Situation& s);
+// Bit i is set if the echo of sensor i is where a disc centred there would echo.
+std::uint32_t EchoesOf(Vec2 centre_world, double radius_m, const Situation& s);
 
 // How far the own shell may still go before it touches what sensor `sensor` hears, if that can be
 // in the swept path; a known peer's body counts by its place, anything else anywhere on the arc of

@@ -20,7 +20,8 @@ std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
   const double turn = Dot(s.path.direction_world, peer_path.direction_world);
   constexpr double kSameWay = 0.94;  // within 20 degrees: one follows the other
   if (turn > kSameWay) return std::nullopt;
-  const double reach = 2 * s.options.profile.body_radius_m + kPassingMargin_m +
+  const double reach = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m +
+                       kPassingMargin_m +
                        2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
   auto conflict = FindConflict(s.path, peer_path, reach);
   if (conflict && conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
@@ -52,7 +53,7 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
 PeerView LookAt(Peer* peer, const Situation& s) {
   PeerView view{.peer = peer};
   const Beacon& beacon = peer->beacon;
-  const Twist twist = TwistFromWheels(s.options.profile.drive, beacon.wheels);
+  const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
   view.fresh = IsFresh(*peer, s.now, s.tick, s.options);
   view.lost = IsLost(*peer, s.now, s.tick, s.options);
   // A silent peer is left where it was last heard: what it did since is not known.
@@ -66,12 +67,13 @@ PeerView LookAt(Peer* peer, const Situation& s) {
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);
-  view.gap_m = distance - 2 * s.options.profile.body_radius_m;
+  view.gap_m = distance - s.options.profile.body_radius_m - beacon.body_radius_m;
   const Vec2 velocity =
       view.speed_m_s * Forward(view.world_from_body) - s.speed_m_s * Forward(s.world_from_body);
   view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
   view.conflict = ConflictWith(view, s);
-  if (view.fresh) view.explains = EchoesOf(view.world_from_body.position_world, s);
+  if (view.fresh)
+    view.explains = EchoesOf(view.world_from_body.position_world, beacon.body_radius_m, s);
   return view;
 }
 

@@ -10,10 +10,16 @@ namespace {
 // Between two shells when one steers round the other.
 constexpr double kRoundMargin_m = 0.15;
 
+// Between the two centres when one passes the other.
+double Clearance(const PeerView& view, const Situation& s) {
+  return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
+}
+
 // The nearest standing peer that keeps still for us and blocks the straight way to the goal.
-const PeerView* Blocking(const Situation& s, double clearance_m) {
+const PeerView* Blocking(const Situation& s) {
   const PeerView* nearest = nullptr;
   for (const PeerView& view : s.peers) {
+    const double clearance_m = Clearance(view, s);
     if (!view.fresh || !view.standing || !view.grants || view.goes_first) continue;
     const Vec2 offset = view.world_from_body.position_world - s.path.from_world;
     const double along = Dot(offset, s.path.direction_world);
@@ -51,9 +57,8 @@ double Activation(const BraitenbergWeights& weights, const SensorView& view) {
 Steering SteerToGoal(const Situation& s) {
   Steering steering;
   double heading = Atan2(s.path.direction_world.y, s.path.direction_world.x);
-  const double clearance = 2 * s.options.profile.body_radius_m + kRoundMargin_m;
-  if (const PeerView* view = Blocking(s, clearance)) {
-    heading = TangentHeading(s, view->world_from_body.position_world, clearance, heading);
+  if (const PeerView* view = Blocking(s)) {
+    heading = TangentHeading(s, view->world_from_body.position_world, Clearance(*view, s), heading);
     steering.round = view->peer->id;
   }
   steering.heading_error_rad = WrapAngle(heading - s.world_from_body.heading_rad);

@@ -171,6 +171,8 @@ Beacon Vehicle::Say(const Situation& s) {
           .world_from_body = state.world_from_body,
           .sigma_position_m = state.sigma_position_m,
           .sigma_heading_rad = state.sigma_heading_rad,
+          .body_radius_m = options_.profile.body_radius_m,
+          .drive = options_.profile.drive,
           .mode = state.decision.mode,
           .rule = state.decision.rule,
           .gives_way_to = state.gives_way_to,

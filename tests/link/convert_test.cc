@@ -53,6 +53,8 @@ TEST(Convert, BeaconComesBackBitForBit) {
   sent.world_from_body = {{kHuge, -0.0}, -kHuge};
   sent.sigma_position_m = kInfinity;
   sent.sigma_heading_rad = 0.1;
+  sent.body_radius_m = 0.4;
+  sent.drive = {0.1, 0.5};
   sent.mode = Mode::kLeaving;
   sent.rule = Rule::kLeaving;
   sent.gives_way_to = VehicleId{5};
@@ -71,6 +73,9 @@ TEST(Convert, BeaconComesBackBitForBit) {
   EXPECT_EQ(back.world_from_body.heading_rad, -kHuge);
   EXPECT_EQ(back.sigma_position_m, kInfinity);
   EXPECT_EQ(back.sigma_heading_rad, 0.1);
+  EXPECT_EQ(back.body_radius_m, 0.4);
+  EXPECT_EQ(back.drive.wheel_radius_m, 0.1);
+  EXPECT_EQ(back.drive.axle_m, 0.5);
   EXPECT_EQ(back.mode, sent.mode);
   EXPECT_EQ(back.rule, sent.rule);
   EXPECT_EQ(back.gives_way_to, sent.gives_way_to);

@@ -45,7 +45,7 @@ Beacon TestVector() {
   return beacon;
 }
 
-TEST(BeaconCrc, IsTheTestVectorOfTheIdl) { EXPECT_EQ(ToWire(TestVector()).crc(), 0xd1ad74ceU); }
+TEST(BeaconCrc, IsTheTestVectorOfTheIdl) { EXPECT_EQ(ToWire(TestVector()).crc(), 0x06fb3084U); }
 
 TEST(BeaconCrc, CoversEveryField) {
   using Change = void (*)(wire::Beacon&);
@@ -62,6 +62,9 @@ TEST(BeaconCrc, CoversEveryField) {
                             [](wire::Beacon& b) { b.world_from_body().heading_rad() += 1; },
                             [](wire::Beacon& b) { b.sigma_position_m() += 1; },
                             [](wire::Beacon& b) { b.sigma_heading_rad() += 1; },
+                            [](wire::Beacon& b) { b.body_radius_m() += 1; },
+                            [](wire::Beacon& b) { b.wheel_radius_m() += 1; },
+                            [](wire::Beacon& b) { b.axle_m() += 1; },
                             [](wire::Beacon& b) { b.mode(wire::DriveMode::MODE_HALT); },
                             [](wire::Beacon& b) { b.rule(wire::DriveRule::RULE_DEAF); },
                             [](wire::Beacon& b) { b.gives_way_to() ^= 1; },

@@ -220,6 +220,18 @@ TEST(Decide, AnEncounterIsNotOverWhileThePeerStillComesNearer) {
   EXPECT_EQ(bench.Step(Driving(0), {beacon}).command.decision.rule, Rule::kCruise);
 }
 
+// 2.1 m beside the path: past a small body there is room, past a large one there is not.
+TEST(Decide, APeersOwnSizeDecidesHowMuchRoomItNeeds) {
+  for (const double radius_m : {0.25, 1.7}) {
+    BrainBench bench(test::DefaultOptions());
+    bench.Step(Driving(0));
+    Beacon beacon = BeaconOf(2, 1, {.position_world = {4.5, 2.1}, .heading_rad = kPi}, 0.4);
+    beacon.body_radius_m = radius_m;
+    const VehicleId expected = radius_m > 1 ? VehicleId{2} : kNobody;
+    EXPECT_EQ(bench.Step(Driving(0), {beacon}).beacon.gives_way_to, expected) << radius_m;
+  }
+}
+
 TEST(Decide, AConflictBeyondTheGoalIsNone) {
   VehicleOptions options = test::DefaultOptions();
   options.goal.at_world = {2, 0};

@@ -86,6 +86,8 @@ TEST_F(PeerTableTest, EveryRefusalHasItsCounterAndNamesWhoItWas) {
           &BeaconCounters::rejected_not_finite);
   refused([](ReceivedBeacon* r) { r->beacon.wheels.right_rad_s = 31; },
           &BeaconCounters::rejected_out_of_range);
+  refused([](ReceivedBeacon* r) { r->beacon.body_radius_m = 0; },
+          &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.cruise_m_s = -0.1; },
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.order.speed_bucket = 99; },
