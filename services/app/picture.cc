@@ -133,7 +133,7 @@ std::string DrawRun(const Scenario& scenario, const std::vector<Track>& tracks,
   }
   DrawClosest(&canvas, scenario, events);
   DrawHalts(&canvas, scenario, events);
-  DrawDeaths(&canvas, scenario, events);
+  DrawDeaths(&canvas, scenario, tracks, events);
   DrawContacts(&canvas, events);
   DrawHeader(&canvas, scenario, events);
   DrawLegendVehicles(&canvas, scenario);
