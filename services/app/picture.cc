@@ -119,7 +119,9 @@ std::size_t LegendRows(const Scenario& scenario) {
 }  // namespace
 
 std::string DrawRun(const Scenario& scenario, const std::vector<Track>& tracks,
-                    const std::vector<WorldEvent>& events) {
+                    const std::vector<WorldEvent>& all_events) {
+  std::vector<WorldEvent> events = all_events;
+  std::erase_if(events, [](const WorldEvent& e) { return !std::isfinite(e.time_s); });
   const std::size_t rows = LegendRows(scenario);
   Canvas canvas(BoxOf(scenario, tracks), kHeader,
                 kLegendTop + kLegendRow * static_cast<double>(rows) + 16);
@@ -133,7 +135,7 @@ std::string DrawRun(const Scenario& scenario, const std::vector<Track>& tracks,
   }
   DrawClosest(&canvas, scenario, events);
   DrawHalts(&canvas, scenario, events);
-  DrawDeaths(&canvas, scenario, events);
+  DrawDeaths(&canvas, scenario, tracks, events);
   DrawContacts(&canvas, events);
   DrawHeader(&canvas, scenario, events);
   DrawLegendVehicles(&canvas, scenario);

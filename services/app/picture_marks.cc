@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace giveway::app {
 namespace {
@@ -23,20 +24,6 @@ double BodyPixels(const Canvas& canvas, const Scenario& scenario, VehicleId id) 
   return canvas.Pixels(vehicle == nullptr ? VehicleProfile{}.body_radius_m
                                           : vehicle->profile.body_radius_m);
 }
-
-// 1, 2 or 5 times a power of ten metres, at least `least_px` wide.
-double RoundStep(const Canvas& canvas, double least_px) {
-  double decade = 0.1;
-  while (true) {
-    for (const double factor : {1.0, 2.0, 5.0}) {
-      if (canvas.Pixels(decade * factor) >= least_px) return decade * factor;
-    }
-    decade *= 10;
-  }
-}
-
-// The first multiple of `step` at or above `low`.
-double FirstMultiple(double step, double low) { return std::ceil(low / step) * step; }
 
 void Cross(Canvas* canvas, Pixel at, double arm, const std::string& colour) {
   const std::string style =
@@ -95,6 +82,18 @@ void DrawTicks(Canvas* canvas, const std::vector<const Truth*>& truths, const st
   }
 }
 
+// Where the vehicle was seen last up to that moment.
+std::optional<Vec2> PlaceAt(const std::vector<Track>& tracks, VehicleId vehicle, double time_s) {
+  std::optional<Vec2> place;
+  for (const Track& track : tracks) {
+    if (track.vehicle != vehicle) continue;
+    for (const Truth* truth : Drawable(track)) {
+      if (truth->time_s <= time_s + 1e-6) place = truth->world_from_body.position_world;
+    }
+  }
+  return place;
+}
+
 double EndOf(const std::vector<WorldEvent>& events, std::size_t from) {
   double last_s = events[from].time_s;
   for (std::size_t i = from + 1; i < events.size(); ++i) {
@@ -114,47 +113,6 @@ std::string ColourOf(const Scenario& scenario, VehicleId vehicle) {
   std::size_t index = 0;
   while (index < scenario.vehicles.size() && scenario.vehicles[index].id != vehicle) ++index;
   return index == scenario.vehicles.size() ? "#777777" : kColours[index % kColours.size()];
-}
-
-void DrawGrid(Canvas* canvas) {
-  const auto& [low, high] = canvas->Shown();
-  const double step = RoundStep(*canvas, 60);
-  const Pixel from = canvas->TopLeft();
-  const Pixel to = canvas->BottomRight();
-  canvas->Rectangle(from, to.x - from.x, to.y - from.y, "fill=\"#fafbfc\" stroke=\"#d5d9de\"");
-  // Counted, not added up: far from the origin a sum may stand still.
-  const auto lines = [step](double first, double last) {
-    return static_cast<int>(std::floor((last - first) / step)) + 1;
-  };
-  const auto style = [](double value) {
-    return value == 0 ? "stroke=\"#c3c9d1\"" : "stroke=\"#e6e9ed\"";
-  };
-  const double first_x = FirstMultiple(step, low.x);
-  for (int i = 0; i < lines(first_x, high.x); ++i) {
-    const double value = first_x + i * step + 0.0;
-    const double x = canvas->At({value, 0}).x;
-    canvas->Line({x, from.y}, {x, to.y}, style(value));
-    canvas->Text({x, to.y + 16}, fmt::format("{:g}", value), "class=\"axis middle\"");
-  }
-  const double first_y = FirstMultiple(step, low.y);
-  for (int i = 0; i < lines(first_y, high.y); ++i) {
-    const double value = first_y + i * step + 0.0;
-    const double y = canvas->At({0, value}).y;
-    canvas->Line({from.x, y}, {to.x, y}, style(value));
-    canvas->Text({from.x - 8, y + 4}, fmt::format("{:g}", value), "class=\"axis end\"");
-  }
-}
-
-void DrawScaleBar(Canvas* canvas) {
-  const double metres = RoundStep(*canvas, 60);
-  const Pixel right{canvas->BottomRight().x - 14, canvas->BottomRight().y - 14};
-  const Pixel left{right.x - canvas->Pixels(metres), right.y};
-  constexpr const char* kStyle = "stroke=\"#444\" stroke-width=\"2\"";
-  canvas->Line(left, right, kStyle);
-  canvas->Line({left.x, left.y - 4}, {left.x, left.y + 4}, kStyle);
-  canvas->Line({right.x, right.y - 4}, {right.x, right.y + 4}, kStyle);
-  canvas->Text({(left.x + right.x) / 2, right.y - 7}, fmt::format("{:g} m", metres),
-               "class=\"time middle\" style=\"font-size:11px\"");
 }
 
 void DrawWalls(Canvas* canvas, const Scenario& scenario) {
@@ -253,14 +211,18 @@ void DrawHalts(Canvas* canvas, const Scenario& scenario, const std::vector<World
   }
 }
 
-void DrawDeaths(Canvas* canvas, const Scenario& scenario, const std::vector<WorldEvent>& events) {
+void DrawDeaths(Canvas* canvas, const Scenario& scenario, const std::vector<Track>& tracks,
+                const std::vector<WorldEvent>& events) {
   std::vector<VehicleId> drawn;  // silent first, removed later: one cross
   for (const WorldEvent& event : events) {
     if (event.kind != EventKind::kSilent && event.kind != EventKind::kRemoved) continue;
     if (std::find(drawn.begin(), drawn.end(), event.vehicle) != drawn.end()) continue;
+    // The world says when, not where: it took away what it no longer hears.
+    const auto place = PlaceAt(tracks, event.vehicle, event.time_s);
+    if (!place) continue;
     drawn.push_back(event.vehicle);
     const std::string colour = ColourOf(scenario, event.vehicle);
-    const Pixel at = canvas->At(event.position_world);
+    const Pixel at = canvas->At(*place);
     const double body = BodyPixels(*canvas, scenario, event.vehicle);
     canvas->Circle(at, body,
                    fmt::format("fill=\"#777\" fill-opacity=\"0.18\" stroke=\"{}\" "
@@ -278,9 +240,9 @@ void DrawDeaths(Canvas* canvas, const Scenario& scenario, const std::vector<Worl
 void DrawContacts(Canvas* canvas, const std::vector<WorldEvent>& events) {
   for (const WorldEvent& event : events) {
     if (event.kind != EventKind::kContact) continue;
-    // A wall has no position of its own: then the vehicle's says where.
+    // Of a wall, the other position is the point that was touched.
     const Vec2 middle = event.other == kNobody
-                            ? event.position_world
+                            ? event.other_position_world
                             : 0.5 * (event.position_world + event.other_position_world);
     const Pixel at = canvas->At(middle);
     canvas->Circle(at, 11,

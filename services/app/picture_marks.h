@@ -24,7 +24,8 @@ void DrawTrack(Canvas* canvas, const Track& track, const std::string& colour);
 void DrawClosest(Canvas* canvas, const Scenario& scenario, const std::vector<WorldEvent>& events);
 void DrawHalts(Canvas* canvas, const Scenario& scenario, const std::vector<WorldEvent>& events);
 // A cross where a vehicle fell silent or was taken away.
-void DrawDeaths(Canvas* canvas, const Scenario& scenario, const std::vector<WorldEvent>& events);
+void DrawDeaths(Canvas* canvas, const Scenario& scenario, const std::vector<Track>& tracks,
+                const std::vector<WorldEvent>& events);
 void DrawContacts(Canvas* canvas, const std::vector<WorldEvent>& events);
 
 }  // namespace giveway::app

@@ -95,18 +95,31 @@ TEST(Picture, AHaltThatNeverEndsLastsToTheEnd) {
   EXPECT_THAT(DrawRun(Crossing(), {}, events), HasSubstr(">2 halted 53.0 s<"));
 }
 
-TEST(Picture, ItMarksTheClosestApproachDeathsAndContacts) {
+TEST(Picture, ItMarksTheClosestApproachAndContacts) {
   WorldEvent closest = Event(EventKind::kClosest, 9, 1);
   closest.other = VehicleId{2};
   closest.value = 0.618;
-  const std::string svg =
-      DrawRun(Crossing(), {},
-              {closest, Event(EventKind::kSilent, 6.2, 2), Event(EventKind::kRemoved, 11.2, 2),
-               Event(EventKind::kContact, 3, 1)});
+  const std::string svg = DrawRun(Crossing(), {}, {closest, Event(EventKind::kContact, 3, 1)});
   EXPECT_THAT(svg, HasSubstr(">closest 0.62 m<"));
-  EXPECT_THAT(svg, HasSubstr(">2 fell silent at 6.2 s<"));
-  EXPECT_THAT(svg, Not(HasSubstr("removed at")));
   EXPECT_THAT(svg, HasSubstr(">contact at 3.0 s<"));
+}
+
+// The world says when a vehicle fell silent, not where.
+TEST(Picture, ADeathIsMarkedOnceWhereTheVehicleWasSeenLast) {
+  const std::vector<WorldEvent> events{Event(EventKind::kSilent, 6.2, 2),
+                                       Event(EventKind::kRemoved, 11.2, 2)};
+  EXPECT_THAT(DrawRun(Crossing(), {}, events), Not(HasSubstr("fell silent")));
+  const auto centre_of_death = [&](double y_m) {
+    const std::string svg = DrawRun(Crossing(), {Straight(VehicleId{2}, {0, y_m}, {0, 0})}, events);
+    EXPECT_THAT(svg, HasSubstr(">2 fell silent at 6.2 s<"));
+    EXPECT_THAT(svg, Not(HasSubstr("removed at")));
+    double x = 0;
+    double y = 0;
+    const std::size_t disc = svg.rfind("<circle", svg.find("fill=\"#777\""));
+    EXPECT_EQ(std::sscanf(svg.c_str() + disc, "<circle cx=\"%lf\" cy=\"%lf\"", &x, &y), 2);
+    return y;
+  };
+  EXPECT_GT(centre_of_death(-1), centre_of_death(1));
 }
 
 TEST(Picture, TheVerdictIsTheBadge) {
