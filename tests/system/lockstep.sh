@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# A real run in lockstep ends in the same state, to the bit, as the same scenario in virtual time,
+# also while every core is kept busy by something else.
+# Usage: lockstep.sh SCENARIO SEED
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+scenario=${1:?name a scenario} seed=${2:?give a seed}
+
+load=()
+for ((core = 0; core < 2 * $(nproc); core++)); do
+  timeout 120 sh -c 'while :; do :; done' &
+  load+=($!)
+done
+trap 'kill "${load[@]}" 2>/dev/null; rm -rf "$SCRATCH"' EXIT
+
+code=0
+"$FLEETCTL" run "$scenario" --seed "$seed" --lockstep --json \
+  >"$SCRATCH/run.json" 2>"$SCRATCH/run.err" || code=$?
+[[ $code -eq 0 ]] || fail "exit code $code: $(cat "$SCRATCH/run.json" "$SCRATCH/run.err")"
+real=$(jq -r .state_hash "$SCRATCH/run.json")
+virtual=$("$GIVEWAY_VIRTUAL_HASH" "$scenario" "$seed")
+echo "$scenario seed $seed: real $real, virtual $virtual"
+[[ -n $real && $real == "$virtual" ]] || fail "the real run and the virtual one differ"
+exit $((failures > 0))
