@@ -55,9 +55,11 @@ void FleetWatch::FoldEvent(const WorldEvent& event) {
   time_s_ = std::max(time_s_, event.time_s);
   if (event.kind == EventKind::kStarted) started_ = true;
   if (event.kind == EventKind::kEnded) ended_ = true;
+  if (event.kind == EventKind::kSilent) silent_.insert(event.vehicle);
   if (event.kind == EventKind::kFaultDue) {
     due_kills_.push_back(event.vehicle);
     killed_.push_back(event.vehicle);
+    silent_.insert(event.vehicle);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ class FleetWatch {
   // Seconds since the start signal; 0 before it.
   double TimeSeconds() const { return time_s_; }
   const std::map<VehicleId, VehicleStatus>& Statuses() const { return statuses_; }
+  // Vehicles killed as planned, or that the world hears no more.
+  const std::set<VehicleId>& Silent() const { return silent_; }
   // True once every vehicle but those killed as planned has sent its last status.
   bool HasAllFinalStatuses() const;
 
@@ -57,6 +60,7 @@ class FleetWatch {
   std::vector<WorldEvent> events_;
   std::vector<VehicleId> due_kills_;
   std::vector<VehicleId> killed_;
+  std::set<VehicleId> silent_;
   std::optional<RunFigures> figures_;
 };
 

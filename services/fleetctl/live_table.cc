@@ -24,9 +24,13 @@ std::string QosText(const VehicleStatus& status) {
   return text;
 }
 
-std::string Row(VehicleId vehicle, const std::map<VehicleId, VehicleStatus>& statuses) {
-  const auto found = statuses.find(vehicle);
-  if (found == statuses.end()) {
+std::string Row(VehicleId vehicle, const TableView& view) {
+  const auto found = view.statuses.find(vehicle);
+  if (view.silent.contains(vehicle)) {
+    const std::string events = found == view.statuses.end() ? "-" : QosText(found->second);
+    return fmt::format(kRowFormat, Number(vehicle), "silent", "-", "-", "-", "-", events);
+  }
+  if (found == view.statuses.end()) {
     return fmt::format(kRowFormat, Number(vehicle), "-", "not heard yet", "-", "-", "-", "-");
   }
   const VehicleStatus& status = found->second;
@@ -53,7 +57,7 @@ std::vector<std::string> TableLines(const TableView& view, TerminalSize size) {
   const std::size_t rows = room > kHeaderLines ? room - kHeaderLines : 0;
   const std::size_t total = view.vehicles.size();
   const std::size_t shown = total <= rows ? total : (rows > 0 ? rows - 1 : 0);
-  for (std::size_t i = 0; i < shown; ++i) lines.push_back(Row(view.vehicles[i], view.statuses));
+  for (std::size_t i = 0; i < shown; ++i) lines.push_back(Row(view.vehicles[i], view));
   if (shown < total) lines.push_back(fmt::format("{:>7}  and {} more", "...", total - shown));
   if (lines.size() > room) lines.resize(room);
   const auto columns = static_cast<std::size_t>(std::max(size.columns, 0));
@@ -67,7 +71,7 @@ std::string ProgressLine(const TableView& view) {
   std::string line =
       fmt::format("{}: {} of {} vehicles", Title(view), view.statuses.size(), view.vehicles.size());
   for (const auto& [vehicle, status] : view.statuses) {
-    if (!IsGiveWay(status.decision.rule)) continue;
+    if (view.silent.contains(vehicle) || !IsGiveWay(status.decision.rule)) continue;
     line += fmt::format(", {} {}", Number(vehicle), ReasonText(status.decision));
   }
   return line;

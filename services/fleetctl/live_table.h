@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct TableView {
   double duration_s = 0;
   std::vector<VehicleId> vehicles;  // every one the scenario names, heard of or not
   std::map<VehicleId, VehicleStatus> statuses;
+  std::set<VehicleId> silent;  // their last status is history, not state
 };
 
 struct TerminalSize {

@@ -48,6 +48,7 @@ TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWa
   view.duration_s = scenario.duration_s;
   for (const VehicleOptions& vehicle : scenario.vehicles) view.vehicles.push_back(vehicle.id);
   view.statuses = watch.Statuses();
+  view.silent = watch.Silent();
   return view;
 }
 

@@ -12,7 +12,7 @@ struct BeaconCounters {
   std::uint32_t sent = 0;
   std::uint32_t taken = 0;
   std::uint32_t accepted = 0;
-  std::uint32_t not_heard = 0;  // stated from beyond the emission radius
+  std::uint32_t not_heard = 0;  // from beyond the emission radius, or before a world was heard
   std::uint32_t lost = 0;       // sequence numbers that never arrived
   std::uint32_t rejected_not_finite = 0;
   std::uint32_t rejected_out_of_range = 0;

@@ -87,6 +87,11 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   if (!received.crc_valid) return refuse(&BeaconCounters::rejected_crc);
   if (!IsFinite(beacon)) return refuse(&BeaconCounters::rejected_not_finite);
   if (!IsInRange(beacon)) return refuse(&BeaconCounters::rejected_out_of_range);
+  // Before either has heard the world, positions have no common frame to be near in.
+  if (beacon.world_epoch == kNoEpoch || self.epoch == kNoEpoch) {
+    ++counters->not_heard;
+    return;
+  }
   if (beacon.world_epoch != self.epoch) return refuse(&BeaconCounters::rejected_wrong_epoch);
 
   const bool heard = Norm(beacon.world_from_body.position_world - self.position_world) <=

@@ -134,6 +134,11 @@ TEST_F(FleetWatchTest, FinalStatusOfEveryLivingVehicleIsWaitedFor) {
   EXPECT_FALSE(watch_.HasAllFinalStatuses());
 }
 
+TEST_F(FleetWatchTest, TheKilledAndTheUnheardAreSilent) {
+  watch_.Fold(Events({Event(EventKind::kFaultDue, kTwo), Event(EventKind::kSilent, kOne)}));
+  EXPECT_THAT(watch_.Silent(), ElementsAre(kOne, kTwo));
+}
+
 TEST_F(FleetWatchTest, DueKillIsHandedOutOnce) {
   watch_.Fold(Events({Event(EventKind::kFaultDue, kTwo)}));
   EXPECT_THAT(watch_.TakeDueKills(), ElementsAre(kTwo));

@@ -26,7 +26,7 @@ VehicleStatus GivingWay() {
 }
 
 TableView ViewOf(std::uint32_t vehicles) {
-  TableView view{"intersection_yield", 7, "running", 12.34, 60, {}, {}};
+  TableView view{"intersection_yield", 7, "running", 12.34, 60, {}, {}, {}};
   for (std::uint32_t id = 1; id <= vehicles; ++id) view.vehicles.push_back(VehicleId{id});
   view.statuses[VehicleId{2}] = GivingWay();
   return view;
@@ -43,6 +43,17 @@ TEST(LiveTable, RowNamesModeReasonPeerSpeedEchoAndEvents) {
 TEST(LiveTable, TitleNamesScenarioDomainStateAndTime) {
   const std::string title = TableLines(ViewOf(2), {120, 24})[0];
   EXPECT_EQ(title, "intersection_yield  domain 7  running  12.3 s of at most 60 s");
+}
+
+// A killed vehicle stood in the table as cruising at its last speed until the end of the run.
+TEST(LiveTable, ASilentVehicleShowsNoStateItNoLongerHas) {
+  TableView view = ViewOf(2);
+  view.silent = {VehicleId{2}};
+  const std::string row = TableLines(view, {120, 24})[3];
+  EXPECT_THAT(row, HasSubstr("silent"));
+  EXPECT_THAT(row, Not(HasSubstr("give_way")));
+  EXPECT_THAT(row, Not(HasSubstr("0.12")));
+  EXPECT_THAT(ProgressLine(view), Not(HasSubstr("give_way")));
 }
 
 TEST(LiveTable, VehicleNeverHeardOfHasARowAllTheSame) {

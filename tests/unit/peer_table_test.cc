@@ -126,6 +126,17 @@ TEST_F(PeerTableTest, BeyondTheEmissionRadiusIsNotHeardAndNoLoss) {
   EXPECT_EQ(counters_.lost, 0U);
 }
 
+// Every start-up showed a refused beacon or two that nobody had done anything wrong to earn.
+TEST_F(PeerTableTest, BeforeTheWorldIsHeardNobodyIsHeardAndNobodyIsRefused) {
+  Beacon early = BeaconOf(2, 1, {});
+  early.world_epoch = kNoEpoch;
+  Take(Received(early, milliseconds(0)));
+  self_.epoch = kNoEpoch;
+  Hear(3, 99, milliseconds(0));
+  EXPECT_EQ(counters_.not_heard, 2U);
+  EXPECT_EQ(counters_.Rejected(), 0U);
+}
+
 TEST_F(PeerTableTest, TwoWritersForOneIdAreBothDistrustedAndNamed) {
   Hear(2, 98, milliseconds(0));
   ReceivedBeacon rival = Received(BeaconOf(2, 50, {}), milliseconds(10));
