@@ -1,7 +1,9 @@
 #include "services/types/math.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace giveway {
@@ -19,19 +21,44 @@ double Nearest(double x) {
   return static_cast<double>(static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5));
 }
 
-// Taylor series on [-pi/4, pi/4]: the first term left out is below 1e-19.
+// The value of c[0] + c[1] x + c[2] x^2 + … by Horner's scheme.
+template <std::size_t N>
+double Polynomial(const std::array<double, N>& c, double x) {
+  double sum = c[N - 1];
+  for (std::size_t i = N - 1; i-- > 0;) sum = c[i] + x * sum;
+  return sum;
+}
+
+// Taylor coefficients first!/(first + 2 i)! with alternating signs, of sin (first 1) and cos (0).
+template <std::size_t N>
+constexpr std::array<double, N> AlternatingFactorials(int first) {
+  std::array<double, N> c{1.0};
+  for (std::size_t i = 1; i < N; ++i) {
+    const int k = first + 2 * static_cast<int>(i);
+    c[i] = -c[i - 1] / (k * (k - 1));
+  }
+  return c;
+}
+
+// Coefficients 1, s/3, 1/5, s/7 … of atan (s = -1) and artanh (s = 1).
+template <std::size_t N>
+constexpr std::array<double, N> OddReciprocals(int sign) {
+  std::array<double, N> c{};
+  for (std::size_t i = 0; i < N; ++i) {
+    c[i] = (sign < 0 && i % 2 == 1 ? -1.0 : 1.0) / static_cast<double>(2 * i + 1);
+  }
+  return c;
+}
+
+// On [-pi/4, pi/4] the first term left out is below 1e-19.
 double SinNearZero(double r) {
-  const double z = r * r;
-  double sum = 0;
-  for (int k = 17; k >= 3; k -= 2) sum = -z / (k * (k - 1)) * (1 + sum);
-  return r * (1 + sum);
+  static constexpr auto kTaylor = AlternatingFactorials<9>(1);
+  return r * Polynomial(kTaylor, r * r);
 }
 
 double CosNearZero(double r) {
-  const double z = r * r;
-  double sum = 0;
-  for (int k = 18; k >= 2; k -= 2) sum = -z / (k * (k - 1)) * (1 + sum);
-  return 1 + sum;
+  static constexpr auto kTaylor = AlternatingFactorials<10>(0);
+  return Polynomial(kTaylor, r * r);
 }
 
 struct Quadrant {
@@ -48,10 +75,8 @@ Quadrant Reduce(double x) {
 // atan on [0, 1]: the half-angle formula twice brings z below tan(pi/16), then Taylor.
 double AtanUnit(double z) {
   for (int i = 0; i < 2; ++i) z = z / (1 + Sqrt(1 + z * z));
-  const double zz = z * z;
-  double sum = 0;
-  for (int k = 27; k >= 1; k -= 2) sum = 1.0 / k - zz * sum;
-  return 4 * z * sum;
+  static constexpr auto kTaylor = OddReciprocals<14>(-1);
+  return 4 * z * Polynomial(kTaylor, z * z);
 }
 
 }  // namespace
@@ -90,10 +115,8 @@ double Log(double x) {
   }
   // log m = 2 artanh s with s = (m - 1) / (m + 1), |s| < 0.172
   const double s = (m - 1) / (m + 1);
-  const double ss = s * s;
-  double sum = 0;
-  for (int k = 23; k >= 1; k -= 2) sum = 1.0 / k + ss * sum;
-  return exponent * kLn2High + (2 * s * sum + exponent * kLn2Low);
+  static constexpr auto kTaylor = OddReciprocals<12>(1);
+  return exponent * kLn2High + (2 * s * Polynomial(kTaylor, s * s) + exponent * kLn2Low);
 }
 
 double Exp(double x) {
