@@ -1,7 +1,9 @@
 #include "services/fleetctl/domain_lock.h"
 
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sys/file.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -29,11 +31,32 @@ FileDescriptor OpenLockFile(const std::string& path) {
   return {};
 }
 
+// True if nobody else holds this UDP port on any address.
+bool IsPortFree(std::uint32_t port) {
+  const FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  sockaddr_in any{};
+  any.sin_family = AF_INET;
+  any.sin_port = htons(static_cast<std::uint16_t>(port));
+  return ::bind(socket.Get(), reinterpret_cast<const sockaddr*>(&any), sizeof any) == 0 ||
+         errno != EADDRINUSE;
+}
+
 }  // namespace
 
-DomainLock::DomainLock(std::optional<std::uint32_t> wanted) : DomainLock(wanted, P_tmpdir) {}
+bool IsSpokenIn(std::uint32_t domain) {
+  // RTPS 9.6.2: participant p of domain d hears discovery at 7400 + 250 d + 10 + 2 p. Whoever is
+  // alone has a low number; the first ten tell.
+  for (std::uint32_t participant = 0; participant < 10; ++participant) {
+    if (!IsPortFree(7410 + 250 * domain + 2 * participant)) return true;
+  }
+  return false;
+}
 
-DomainLock::DomainLock(std::optional<std::uint32_t> wanted, const std::filesystem::path& folder) {
+DomainLock::DomainLock(std::optional<std::uint32_t> wanted)
+    : DomainLock(wanted, P_tmpdir, IsSpokenIn) {}
+
+DomainLock::DomainLock(std::optional<std::uint32_t> wanted, const std::filesystem::path& folder,
+                       bool (*is_spoken_in)(std::uint32_t domain)) {
   const std::uint32_t first = wanted.value_or(kFirstDomain);
   const std::uint32_t last = wanted.value_or(kLastDomain);
   std::string trouble;
@@ -45,7 +68,7 @@ DomainLock::DomainLock(std::optional<std::uint32_t> wanted, const std::filesyste
       trouble = path + ": " + std::strerror(errno);
       continue;
     }
-    if (::flock(lock.Get(), LOCK_EX | LOCK_NB) != 0) continue;
+    if (::flock(lock.Get(), LOCK_EX | LOCK_NB) != 0 || is_spoken_in(domain)) continue;
     domain_ = domain;
     lock_ = std::move(lock);
     return;
