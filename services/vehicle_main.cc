@@ -154,7 +154,8 @@ class Loop {
 
 int Run(const app::ServiceFlags& flags) {
   const app::StopSignal stop;
-  app::InitLog("vehicle " + std::to_string(flags.id), flags.log_format, flags.log_level);
+  const std::string name = flags.id == 0 ? "vehicle" : "vehicle " + std::to_string(flags.id);
+  app::InitLog(name, flags.log_format, flags.log_level);
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});

@@ -165,7 +165,8 @@ class WorldLoop {
     link_.SendFigures(figures);
     TellRunState(RunState::kEnded, run_.EndReason());
     link_.Flush(kFlushTimeout);
-    app::LogInfo("ended: " + run_.EndReason() + "; verdict: " + figures.reason);
+    app::LogInfo("ended: " + run_.EndReason() + "; " +
+                 (figures.passed ? "passed" : "failed: " + figures.reason));
     return figures.passed;
   }
 

@@ -1,11 +1,20 @@
 // fleetctl: the operator's command line. Only parses; each verb is a file of its own.
 #include <cstdio>
+#include <string>
 
 #include "services/fleetctl/verbs.h"
 
 namespace {
 
 constexpr int kWrongArguments = 2;
+
+// What was wrong, in words: the parser does not name a verb it does not know.
+std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::string& error) {
+  if (argc < 2 || argv[1][0] == '-' || !fleetctl.get_subcommands().empty()) {
+    return error;
+  }
+  return "there is no verb '" + std::string(argv[1]) + "'; verbs: run";
+}
 
 }  // namespace
 
@@ -21,7 +30,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return fleetctl.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "fleetctl: %s\nTry: fleetctl run --help\n", error.what());
+    std::fprintf(stderr, "fleetctl: %s\nTry: fleetctl run --help\n",
+                 Explain(fleetctl, argc, argv, error.what()).c_str());
     return kWrongArguments;
   }
   return exit_code;

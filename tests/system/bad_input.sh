@@ -96,6 +96,11 @@ refused "unknown interface" 'nowhere0' intersection_yield --interface nowhere0
 refused "picture nowhere" 'no_such_folder' intersection_yield --picture no_such_folder/run.svg
 refused "picture that is a folder" "$SCRATCH" intersection_yield --picture "$SCRATCH"
 
+code=0
+"$FLEETCTL" rum 2>"$SCRATCH/err" || code=$?
+[[ $code -eq 2 ]] && grep -q "no verb 'rum'" "$SCRATCH/err" ||
+  fail "unknown verb: exit code $code, $(cat "$SCRATCH/err")"
+
 # With --json the refusal is data, too.
 "$FLEETCTL" run no_such.textproto --json 2>/dev/null >"$SCRATCH/out" || true
 jq -e '.verdict == "not_run" and .reason == "bad_input"' "$SCRATCH/out" >/dev/null ||
