@@ -33,6 +33,7 @@ Vec2 ToBody(const Pose& world_from_body, Vec2 point_world) {
 }
 
 Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s) {
+  if (twist.forward_m_s == 0 && twist.turn_rad_s == 0) return world_from_body;
   const double turned = twist.turn_rad_s * dt_s;
   const double half = turned / 2;
   // The chord of an arc of length v dt and angle `turned` is v dt sin(half)/half long and points

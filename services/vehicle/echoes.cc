@@ -36,7 +36,7 @@ Vec2 ArcPointNearestAxis(const SensorMount& mount, double half_angle, double ran
 
 std::uint32_t EchoesOf(Vec2 centre_world, double radius_m, const Situation& s) {
   const VehicleProfile& profile = s.options.profile;
-  const Vec2 centre = ToBody(s.world_from_body, centre_world);
+  const Vec2 centre = InBody(s, centre_world);
   std::uint32_t explains = 0;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     const SensorView& view = s.ranges[i];
@@ -60,7 +60,7 @@ std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
   for (const PeerView& peer : s.peers) {
     if ((peer.explains >> sensor & 1U) == 0) continue;
-    return FreeBeforeDisc(ToBody(s.world_from_body, peer.world_from_body.position_world),
+    return FreeBeforeDisc(InBody(s, peer.world_from_body.position_world),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
   const Vec2 echo =

@@ -16,7 +16,7 @@ bool StaysPut(const Beacon& beacon) {
 // Both vehicles' paths, as half-lines; a peer that stays put has none.
 std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
   if (StaysPut(view.peer->beacon)) return std::nullopt;
-  const Path peer_path{view.world_from_body.position_world, Forward(view.world_from_body)};
+  const Path peer_path{view.world_from_body.position_world, view.forward_world};
   const double turn = Dot(s.path.direction_world, peer_path.direction_world);
   constexpr double kSameWay = 0.94;  // within 20 degrees: one follows the other
   if (turn > kSameWay) return std::nullopt;
@@ -50,6 +50,11 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
   return std::max(s.options.gate_enter_m, both + kMargin_m + uncertainty);
 }
 
+Vec2 InBody(const Situation& s, Vec2 point_world) {
+  const Vec2 offset = point_world - s.world_from_body.position_world;
+  return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
+}
+
 PeerView LookAt(Peer* peer, const Situation& s) {
   PeerView view{.peer = peer};
   const Beacon& beacon = peer->beacon;
@@ -60,6 +65,7 @@ PeerView LookAt(Peer* peer, const Situation& s) {
   const double ahead_s =
       view.fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
   view.world_from_body = AdvanceArc(beacon.world_from_body, twist, ahead_s);
+  view.forward_world = Forward(view.world_from_body);
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
   view.goes_first = GoesFirst(beacon.order, s.order);

@@ -17,6 +17,7 @@ namespace giveway {
 struct PeerView {
   Peer* peer = nullptr;
   Pose world_from_body;
+  Vec2 forward_world;    // unit vector of its heading
   double speed_m_s = 0;  // forward, as measured by the peer
   bool fresh = false;
   bool lost = false;
@@ -37,6 +38,7 @@ struct Situation {
   bool leaving = false;
   bool arrived = false;
   Pose world_from_body;
+  Vec2 forward_world;     // unit vector of the own heading
   double speed_m_s = 0;   // forward, measured
   double turn_rad_s = 0;  // measured
   double sigma_position_m = 0;
@@ -65,6 +67,9 @@ double OwnStoppingDistance(const Situation& s);
 // The distance, shell to shell, at which two closing vehicles must begin to stop: both stopping
 // distances, margin and uncertainty; never below the gate.
 double CriticalDistance(const Situation& s, const PeerView& view);
+
+// A point given in the world, in the own body frame.
+Vec2 InBody(const Situation& s, Vec2 point_world);
 
 // Carries `peer` forward to now and relates it to the own path.
 PeerView LookAt(Peer* peer, const Situation& s);

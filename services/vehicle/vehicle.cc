@@ -89,7 +89,8 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.sigma_position_m = state.sigma_position_m;
   s.order = state.order;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
-  s.path = {s.world_from_body.position_world, Forward(s.world_from_body)};
+  s.forward_world = Forward(s.world_from_body);
+  s.path = {s.world_from_body.position_world, s.forward_world};
   s.distance_to_goal_m = kNoGoal_m;
   if (options_.goal.set) {
     const Vec2 to_goal = options_.goal.at_world - s.world_from_body.position_world;

@@ -98,8 +98,8 @@ refused "picture that is a folder" "$SCRATCH" intersection_yield --picture "$SCR
 
 code=0
 "$FLEETCTL" rum 2>"$SCRATCH/err" || code=$?
-[[ $code -eq 2 ]] && grep -q "no verb 'rum'" "$SCRATCH/err" ||
-  fail "unknown verb: exit code $code, $(cat "$SCRATCH/err")"
+[[ $code -eq 2 ]] || fail "unknown verb: exit code $code"
+grep -q "no verb 'rum'" "$SCRATCH/err" || fail "unknown verb: $(cat "$SCRATCH/err")"
 
 # With --json the refusal is data, too.
 "$FLEETCTL" run no_such.textproto --json 2>/dev/null >"$SCRATCH/out" || true
