@@ -32,6 +32,15 @@ Vec2 ArcPointNearestAxis(const SensorMount& mount, double half_angle, double ran
   return mount.position_body + range_m * Vec2{Cos(straight), Sin(straight)};
 }
 
+// Where a peer comes to stand if it brakes as soon as this vehicle does.
+Vec2 WhereItStops(const PeerView& peer, const Situation& s) {
+  const double braking_m =
+      StoppingDistance(std::max(0.0, peer.speed_m_s), ReactionSeconds(s.options),
+                       s.options.profile.deceleration_m_s2);
+  const double on_m = peer.closing_m_s > 0 ? braking_m : 0;
+  return peer.world_from_body.position_world + on_m * peer.forward_world;
+}
+
 }  // namespace
 
 std::uint32_t EchoesOf(Vec2 centre_world, double radius_m, const Situation& s) {
@@ -60,7 +69,7 @@ std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
   for (const PeerView& peer : s.peers) {
     if ((peer.explains >> sensor & 1U) == 0) continue;
-    return FreeBeforeDisc(InBody(s, peer.world_from_body.position_world),
+    return FreeBeforeDisc(InBody(s, WhereItStops(peer, s)),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
   const Vec2 echo =

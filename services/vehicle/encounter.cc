@@ -22,7 +22,7 @@ double NearestEchoOf(const PeerView& view, const Situation& s) {
 // paths conflict, by beacon, or when the ultrasonics do: the union of both.
 bool Begins(const PeerView& view, const Situation& s) {
   if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
-  const bool critically_close = NearestEchoOf(view, s) < s.options.gate_enter_m;
+  const bool critically_close = NearestEchoOf(view, s) < CriticalDistance(s, view);
   if (s.options.behaviour == Behaviour::kLectureYield) {
     const bool parting = !view.conflict && view.closing_m_s <= 0;
     return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
@@ -59,6 +59,15 @@ bool MustBrakeNow(const PeerView& view, const Situation& s) {
          view.conflict->own.begin_m <= OwnStoppingDistance(s);
 }
 
+// Whoever is in the middle of the conflict clears it instead of standing in the way: if it can be
+// out before the other comes, or the other stands behind it and waits for just that.
+bool MustClear(const PeerView& view, const Situation& s) {
+  if (!view.conflict || view.conflict->own.begin_m > 0) return false;
+  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const bool behind = Dot(offset, s.path.direction_world) < 0;
+  return (view.standing && behind) || IsThroughFirst(view, s);
+}
+
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const Situation& s) {
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
@@ -81,7 +90,7 @@ bool Holds(const PeerView& view, const Situation& s) {
     if (view.peer->encounter.released) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
-  if (view.goes_first) return held || SecondMustStop(view, s);
+  if (view.goes_first) return !MustClear(view, s) && (held || SecondMustStop(view, s));
   if (FirstMayGo(view, s)) return false;
   return held || MustBrakeNow(view, s);
 }

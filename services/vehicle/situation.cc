@@ -13,17 +13,31 @@ bool StaysPut(const Beacon& beacon) {
   return beacon.rule == Rule::kArrived || beacon.rule == Rule::kNotRunning;
 }
 
+// How near the two centres may come: both bodies, a margin, and what is not known for sure.
+double Reach(const PeerView& view, const Situation& s) {
+  const Beacon& beacon = view.peer->beacon;
+  return s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m +
+         2 * (s.sigma_position_m + beacon.sigma_position_m);
+}
+
+// True if one drives behind the other in the same lane: that is a matter of distance, not of right
+// of way. Side by side, or coming from another lane, it is not following.
+bool Follows(const PeerView& view, const Situation& s) {
+  constexpr double kSameWay = 0.94;  // the cosine of 20 degrees
+  if (Dot(s.path.direction_world, view.forward_world) < kSameWay) return false;
+  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const double along = Dot(s.path.direction_world, offset);
+  const double across = Cross(s.path.direction_world, offset);
+  const double bodies = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m;
+  const bool same_lane = across < bodies && across > -bodies;
+  return same_lane && (along > bodies || along < -bodies);
+}
+
 // Both vehicles' paths, as half-lines; a peer that stays put has none.
 std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
-  if (StaysPut(view.peer->beacon)) return std::nullopt;
+  if (StaysPut(view.peer->beacon) || Follows(view, s)) return std::nullopt;
   const Path peer_path{view.world_from_body.position_world, view.forward_world};
-  const double turn = Dot(s.path.direction_world, peer_path.direction_world);
-  constexpr double kSameWay = 0.94;  // within 20 degrees: one follows the other
-  if (turn > kSameWay) return std::nullopt;
-  const double reach = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m +
-                       kPassingMargin_m +
-                       2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
-  auto conflict = FindConflict(s.path, peer_path, reach);
+  auto conflict = FindConflict(s.path, peer_path, Reach(view, s));
   if (conflict && conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
   return conflict;
 }

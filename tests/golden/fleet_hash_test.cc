@@ -32,7 +32,7 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
                          testing::Values(Golden{Behaviour::kCooperative, 0xcc81530a636688c4ULL},
-                                         Golden{Behaviour::kLectureAvoid, 0xd57442efa245aea0ULL},
+                                         Golden{Behaviour::kLectureAvoid, 0x2fde35484cc81591ULL},
                                          Golden{Behaviour::kStockAvoid, 0x3461607555bf2fccULL},
                                          Golden{Behaviour::kLectureYield, 0x88a93908ff5515a4ULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });

@@ -1,3 +1,3 @@
 giveway_test(unit virtual
-  SOURCES crossing_test.cc lecture_flaws_test.cc
+  SOURCES crossing_test.cc encounters_test.cc lecture_flaws_test.cc
   LINK giveway::virtual)
