@@ -5,14 +5,12 @@
 // The loop wakes on its own ranges, or when the next beacon is due without them. This file only
 // wires; deciding is services/vehicle, talking is services/link.
 #include <algorithm>
-#include <exception>
 #include <optional>
-#include <variant>
 
-#include "services/app/flags.h"
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
 #include "services/link/vehicle_link.h"
+#include "services/service_main.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/vehicle.h"
 #include "services/vehicle_report.h"
@@ -27,14 +25,6 @@ constexpr Nanoseconds kJoinReminder = std::chrono::seconds(5);
 constexpr Nanoseconds kStatusPeriod = milliseconds(200);
 constexpr Nanoseconds kFlushTimeout = milliseconds(300);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
-
-link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Scenario& scenario) {
-  return {.domain = flags.domain,
-          .interface = flags.interface,
-          .qos_file = flags.qos,
-          .area = scenario.area,
-          .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size())};
-}
 
 // Asks the world for a place and waits for its answer. Empty if asked to stop meanwhile.
 std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,
@@ -176,12 +166,5 @@ int Run(const app::ServiceFlags& flags) {
 }  // namespace giveway
 
 int main(int argc, char** argv) {
-  const auto flags = giveway::app::ParseVehicleFlags(argc, argv);
-  if (const int* exit_code = std::get_if<int>(&flags)) return *exit_code;
-  try {
-    return giveway::Run(std::get<giveway::app::ServiceFlags>(flags));
-  } catch (const std::exception& error) {
-    giveway::app::LogError(error.what());
-    return 2;
-  }
+  return giveway::ServiceMain(giveway::app::ParseVehicleFlags(argc, argv), giveway::Run);
 }

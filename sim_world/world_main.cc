@@ -3,15 +3,13 @@
 //   WorldLink::TakeCommands -> sim::Run::Advance -> WorldLink::SendScan, SendTruth, SendEvent
 //
 // Waits for the roster, runs the scenario on absolute deadlines, and tells everyone why it ended.
-#include <exception>
 #include <map>
-#include <variant>
 #include <vector>
 
-#include "services/app/flags.h"
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
 #include "services/link/world_link.h"
+#include "services/service_main.h"
 #include "sim_world/reaction.h"
 #include "sim_world/roster.h"
 #include "sim_world/run.h"
@@ -21,14 +19,6 @@ namespace {
 
 constexpr Nanoseconds kLockstepPatience = std::chrono::seconds(1);
 constexpr Nanoseconds kFlushTimeout = std::chrono::milliseconds(500);
-
-link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Scenario& scenario) {
-  return {.domain = flags.domain,
-          .interface = flags.interface,
-          .qos_file = flags.qos,
-          .area = scenario.area,
-          .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size())};
-}
 
 // What the world last heard of one vehicle.
 struct Hearing {
@@ -198,12 +188,5 @@ int RunWorld(const app::ServiceFlags& flags) {
 }  // namespace giveway
 
 int main(int argc, char** argv) {
-  const auto flags = giveway::app::ParseWorldFlags(argc, argv);
-  if (const int* exit_code = std::get_if<int>(&flags)) return *exit_code;
-  try {
-    return giveway::RunWorld(std::get<giveway::app::ServiceFlags>(flags));
-  } catch (const std::exception& error) {
-    giveway::app::LogError(error.what());
-    return 2;
-  }
+  return giveway::ServiceMain(giveway::app::ParseWorldFlags(argc, argv), giveway::RunWorld);
 }

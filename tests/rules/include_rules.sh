@@ -30,7 +30,7 @@ room_of() {
     services/app/*) echo app ;;
     services/fleetctl/*) echo fleetctl ;;
     services/*/*) echo nowhere ;;
-    services/*) echo vehicle_main ;; # the wiring of giveway-vehicle
+    services/*) echo vehicle_main ;; # the wiring of giveway-vehicle, and what the mains share
     sim_world/world_main.cc) echo world_main ;;
     sim_world/virtual/*) echo virtual ;;
     sim_world/*) echo sim_world ;;
@@ -50,9 +50,12 @@ may_include() {
     app) [[ $2 == services/@(app|types)/* || $2 == *.pb.h ]] ;;
     fleetctl) [[ $2 == services/@(fleetctl|link|app|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
-      [[ $2 == services/@(vehicle|link|app|types)/* || $2 == services/vehicle_report.h ]]
+      [[ $2 == services/@(vehicle|link|app|types)/* ||
+        $2 == services/@(vehicle_report|service_main).h ]]
       ;;
-    world_main) [[ $2 == services/@(link|app|types)/* || $2 == sim_world/* ]] ;;
+    world_main)
+      [[ $2 == services/@(link|app|types)/* || $2 == sim_world/* || $2 == services/service_main.h ]]
+      ;;
     tests) true ;;
     *) false ;;
   esac

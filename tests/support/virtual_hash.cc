@@ -16,8 +16,7 @@ int main(int argc, char** argv) {
     const auto seed = static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10));
     giveway::sim::VirtualFleet fleet(giveway::app::LoadScenario(argv[1], {.seed = seed}));
     fleet.Finish();
-    std::printf("%016llx\n",
-                static_cast<unsigned long long>(fleet.World().Figures().state_hash));
+    std::printf("%016llx\n", static_cast<unsigned long long>(fleet.World().Figures().state_hash));
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -1,0 +1,36 @@
+// What giveway-vehicle and giveway-world share: flags in, an exit code out, and one place where a
+// start-up error becomes a log line and exit code 2.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <variant>
+
+#include "services/app/flags.h"
+#include "services/app/process.h"
+#include "services/link/link_options.h"
+#include "services/types/scenario.h"
+
+namespace giveway {
+
+inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Scenario& scenario) {
+  return {.domain = flags.domain,
+          .interface = flags.interface,
+          .qos_file = flags.qos,
+          .area = scenario.area,
+          .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size())};
+}
+
+// Runs the service unless the flags asked for help or were wrong.
+inline int ServiceMain(const std::variant<app::ServiceFlags, int>& parsed,
+                       int (*run)(const app::ServiceFlags&)) {
+  if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  try {
+    return run(std::get<app::ServiceFlags>(parsed));
+  } catch (const std::exception& error) {
+    app::LogError(error.what());
+    return 2;
+  }
+}
+
+}  // namespace giveway
