@@ -3,7 +3,7 @@
 #include <google/protobuf/util/json_util.h>
 
 #include <cmath>
-#include <tuple>
+#include <optional>
 
 #include "report.pb.h"
 #include "services/app/utf8.h"
@@ -24,15 +24,20 @@ schema::Report::Verdict ToSchema(Verdict verdict) {
   return schema::Report::not_run;
 }
 
-// JSON has no word for nan and inf: such a value does not exist.
-bool Exists(const std::optional<double>& value) { return value && std::isfinite(*value); }
+// The value to print: micrometres, microseconds and nanoseconds, so that no digit is noise. JSON
+// has no word for nan and inf: such a value does not exist.
+std::optional<double> Printed(const std::optional<double>& value) {
+  if (!value || !std::isfinite(*value)) return std::nullopt;
+  return std::round(*value * 1e6) / 1e6;
+}
 
 void SetReaction(const Report& report, schema::Report* message) {
-  const auto& [p50, p99, max] =
-      std::tie(report.reaction_p50_ms, report.reaction_p99_ms, report.reaction_max_ms);
-  if (Exists(p50)) message->mutable_reaction_ms()->set_p50(*p50);
-  if (Exists(p99)) message->mutable_reaction_ms()->set_p99(*p99);
-  if (Exists(max)) message->mutable_reaction_ms()->set_max(*max);
+  if (const auto p50 = Printed(report.reaction_p50_ms))
+    message->mutable_reaction_ms()->set_p50(*p50);
+  if (const auto p99 = Printed(report.reaction_p99_ms))
+    message->mutable_reaction_ms()->set_p99(*p99);
+  if (const auto max = Printed(report.reaction_max_ms))
+    message->mutable_reaction_ms()->set_max(*max);
 }
 
 schema::Report ToSchema(const Report& report) {
@@ -41,8 +46,10 @@ schema::Report ToSchema(const Report& report) {
   message.set_verdict(ToSchema(report.verdict));
   message.set_reason(WellFormed(report.reason));
   message.set_contacts(report.contacts);
-  if (Exists(report.min_separation_m)) message.set_min_separation_m(*report.min_separation_m);
-  if (Exists(report.time_to_clear_s)) message.set_time_to_clear_s(*report.time_to_clear_s);
+  if (const auto separation_m = Printed(report.min_separation_m)) {
+    message.set_min_separation_m(*separation_m);
+  }
+  if (const auto clear_s = Printed(report.time_to_clear_s)) message.set_time_to_clear_s(*clear_s);
   for (const VehicleId id : report.halted) message.add_halted(Number(id));
   for (const VehicleId id : report.arrived) message.add_arrived(Number(id));
   message.set_beacons_sent(report.beacons_sent);

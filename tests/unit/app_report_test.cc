@@ -64,6 +64,12 @@ TEST(Report, JsonLeavesOutWhatIsNotFinite) {
   EXPECT_THAT(json, HasSubstr(R"("reaction_ms":{"max":3})"));
 }
 
+TEST(Report, JsonPrintsNoDigitsOfRoundingNoise) {
+  Report report;
+  report.min_separation_m = 0.34499999999999886;
+  EXPECT_THAT(ToJson(report), HasSubstr(R"("min_separation_m":0.345)"));
+}
+
 TEST(Report, JsonEscapesAndSurvivesBytesThatAreNoText) {
   Report report;
   report.reason = "a \"quote\"\nand a line";
