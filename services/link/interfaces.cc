@@ -46,6 +46,11 @@ std::vector<std::string> ResolveInterface(const std::string& interface) {
     if (one.name == interface || one.address == interface) addresses.push_back(one.address);
     there += (there.empty() ? "" : ", ") + one.name + " (" + one.address + ")";
   }
+  if (there.empty()) {
+    throw LinkError(
+        "this machine has no IPv4 interface that is up, not even the loopback; as root: "
+        "ip link set lo up");
+  }
   if (addresses.empty()) {
     throw LinkError("interface \"" + interface +
                     "\" is no IPv4 interface of this machine; give a name or an address of: " +
