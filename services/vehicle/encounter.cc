@@ -36,7 +36,8 @@ bool IsOver(const PeerView& view, const Situation& s) {
   return view.gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
 }
 
-// A silent peer's encounter ends only when it had the time to pass and nothing near is heard.
+// A silent peer holds nobody any longer once it had the time to pass and nothing near is heard; or
+// when the table forgets it.
 void UpdateLost(const PeerView& view, const Situation& s) {
   Encounter& encounter = view.peer->encounter;
   if (!encounter.lost) {

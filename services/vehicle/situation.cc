@@ -88,12 +88,12 @@ PeerView LookAt(Peer* peer, const Situation& s) {
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);
   view.gap_m = distance - s.options.profile.body_radius_m - beacon.body_radius_m;
-  const Vec2 velocity =
-      view.speed_m_s * Forward(view.world_from_body) - s.speed_m_s * Forward(s.world_from_body);
+  const Vec2 velocity = view.speed_m_s * view.forward_world - s.speed_m_s * s.forward_world;
   view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
   view.conflict = ConflictWith(view, s);
-  if (view.fresh)
+  if (view.fresh) {
     view.explains = EchoesOf(view.world_from_body.position_world, beacon.body_radius_m, s);
+  }
   return view;
 }
 
