@@ -27,7 +27,7 @@ Scenario Perturbed(Scenario scenario, std::uint32_t seed) {
 class CrossingTest : public testing::TestWithParam<Behaviour> {};
 
 TEST_P(CrossingTest, TheSlowerHaltsTheFasterNeverAndBothArrive) {
-  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 100; ++seed) {
     const auto outcome = Finish(Perturbed(Crossing(GetParam(), 0.4, 0.3), seed));
     ASSERT_EQ(outcome.figures.contacts, 0U) << "seed " << seed;
     ASSERT_EQ(outcome.halted, Ids{2}) << "seed " << seed;
@@ -36,7 +36,7 @@ TEST_P(CrossingTest, TheSlowerHaltsTheFasterNeverAndBothArrive) {
 }
 
 TEST_P(CrossingTest, OfEqualsExactlyTheHigherIdHalts) {
-  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+  for (std::uint32_t seed = 1; seed <= 100; ++seed) {
     const auto outcome = Finish(Perturbed(Crossing(GetParam(), 0.4, 0.4), seed));
     ASSERT_EQ(outcome.figures.contacts, 0U) << "seed " << seed;
     ASSERT_EQ(outcome.halted, Ids{2}) << "seed " << seed;
