@@ -3,6 +3,8 @@
 // 3.1.2 unchanged. Never included outside this room and its tests.
 #pragma once
 
+#include <fastcdr/exceptions/Exception.h>
+
 #include <cstdint>
 #include <fastdds/dds/core/LoanableSequence.hpp>
 #include <fastdds/dds/core/condition/StatusCondition.hpp>
@@ -48,6 +50,7 @@ inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) 
 }  // namespace giveway::link
 
 #define GIVEWAY_IS_PLAIN_PARAMETERS
+#define GIVEWAY_PAYLOAD rtps::SerializedPayload_t*
 #else
 #include <fastdds/rtps/builtin/data/PublicationBuiltinTopicData.hpp>
 #include <fastdds/rtps/common/Guid.hpp>
@@ -72,6 +75,7 @@ inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) 
 }  // namespace giveway::link
 
 #define GIVEWAY_IS_PLAIN_PARAMETERS dds::DataRepresentationId_t
+#define GIVEWAY_PAYLOAD rtps::SerializedPayload_t&
 #endif
 
 namespace giveway::link {
@@ -101,11 +105,19 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 };
 
 // A generated type that is always deserialized. Left to itself the library lends its network buffer
-// for types without strings: unchecked in length and byte order, and misaligned for doubles.
+// for types without strings: unchecked in length and byte order, and misaligned for doubles. The
+// generated code lets most exceptions of spoilt bytes through; here they are no sample.
 template <typename Generated>
 class CheckedType final : public Generated {
  public:
   bool is_plain(GIVEWAY_IS_PLAIN_PARAMETERS) const override { return false; }
+  bool deserialize(GIVEWAY_PAYLOAD payload, void* sample) override {
+    try {
+      return Generated::deserialize(payload, sample);
+    } catch (const eprosima::fastcdr::exception::Exception&) {
+      return false;
+    }
+  }
 };
 
 }  // namespace giveway::link

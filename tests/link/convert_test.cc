@@ -308,5 +308,32 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
   EXPECT_FALSE(FromWire(command, command_back));
 }
 
+// Nobody between the socket and main catches what the type support throws: one spoilt packet from
+// anywhere would end a vehicle.
+TEST(Convert, BytesThatAreNoSampleAreRefusedWithoutAnException) {
+  TopicOf<wire::Roster>::Type type;
+  wire::Roster roster = ToWire(RosterEntry{});
+  rtps::SerializedPayload_t payload(type.m_typeSize);
+  ASSERT_TRUE(type.serialize(&roster, &payload));
+  const std::uint32_t whole = payload.length;
+  wire::Roster arrived;
+  for (std::uint32_t length = 0; length < whole; ++length) {
+    payload.length = length;
+    EXPECT_FALSE(type.deserialize(&payload, &arrived)) << length;
+  }
+  payload.length = whole;
+  ASSERT_TRUE(type.deserialize(&payload, &arrived));
+  for (std::uint32_t i = 0; i < whole; ++i) {
+    const auto kept = payload.data[i];
+    for (const int spoilt : {0x02, 0x80, 0xff}) {
+      payload.data[i] = static_cast<rtps::octet>(spoilt);
+      EXPECT_NO_THROW(type.deserialize(&payload, &arrived)) << i << " is " << spoilt;
+    }
+    payload.data[i] = kept;
+  }
+  payload.data[0] = 1;  // of the representation: there is none with this first byte
+  EXPECT_FALSE(type.deserialize(&payload, &arrived));
+}
+
 }  // namespace
 }  // namespace giveway::link
