@@ -49,12 +49,17 @@ std::string LineOf(const std::string& text, int line) {
   return Shortened(found.substr(first, last - first + 1), kShown);
 }
 
+// The parser's words fit for showing: of a character it did not expect it names one byte only.
+std::string Worded(const std::string& message) {
+  return Shortened(WellFormed(message), 3 * kShown);
+}
+
 // The words are the parser's own: "Message type "T" has no field named "f"."
 Problem UnknownField(const std::string& message) {
   const std::vector<std::string> parts = Quoted(message);
   Problem problem;
   if (parts.size() != 2) {
-    problem.message = Shortened(message, 3 * kShown);
+    problem.message = Worded(message);
     problem.remedy = "remove it";
     return problem;
   }
@@ -72,7 +77,7 @@ Problem ParserProblem(const std::string& file, const std::string& text, int line
   if (unknown_field) {
     problem = UnknownField(message);
   } else {
-    problem.message = fmt::format("column {}: {}", column + 1, Shortened(message, 3 * kShown));
+    problem.message = fmt::format("column {}: {}", column + 1, Worded(message));
     problem.remedy = "correct this first: nothing after it was read";
   }
   problem.file = file;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "services/app/utf8.h"
 #include "tests/unit/app_files.h"
 
 namespace giveway::app {
@@ -36,6 +37,13 @@ TEST(ScenarioRules, AnUnknownMessageIsRefusedOnce) {
 TEST(ScenarioRules, AnErrorOfSyntaxIsToldWithTheUnknownFieldsBeforeIt) {
   EXPECT_THAT(ProblemsOf(Spoilt("wall { from", "abc: 1 wall { from from")),
               ElementsAre(Is(14, "abc", "is no field"), Is(14, "", "column")));
+}
+
+// The parser names a misplaced character by its first byte alone.
+TEST(ScenarioRules, WhatTheParserSaysIsTextWhateverItFound) {
+  const auto problems = ProblemsOf(Spoilt("cruise_m_s: 0.4", "\xc3\xa9 cruise_m_s: 0.4"));
+  ASSERT_FALSE(problems.empty());
+  EXPECT_TRUE(IsText(Format(problems))) << Format(problems);
 }
 
 TEST(ScenarioRules, AFieldWrittenTwiceIsRefused) {
