@@ -1,0 +1,14 @@
+// The promises of a loaded scenario, written down a second time: idl/scenario.proto gives them to
+// whoever writes a file, and every room behind app takes them for granted.
+#pragma once
+
+#include "services/types/scenario.h"
+
+namespace giveway::fuzz {
+
+void CheckScenario(const Scenario& scenario);
+
+// Judged by the C library: the reader's own idea of UTF-8 is on trial here.
+bool IsUtf8(const std::string& text);
+
+}  // namespace giveway::fuzz
