@@ -164,6 +164,15 @@ void PeerTable::Advance(SteadyTime now, Tick tick) {
   count_ = static_cast<std::uint32_t>(kept - peers_.begin());
 }
 
+void PeerTable::LeaveWorld() {
+  for (Peer& peer : Peers()) {
+    peer.known = false;
+    peer.waiting_count = 0;
+    peer.out_of_reach = false;
+    peer.encounter = {};
+  }
+}
+
 Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_period) {
   // One tick behind is what every decision works with; only ticks beyond it are age.
   const std::uint32_t behind = TicksBetween(After(peer.beacon.tick, 1), tick);

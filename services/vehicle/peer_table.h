@@ -67,6 +67,8 @@ class PeerTable {
   void Note(const QosEvent& event, QosCounters* counters);
   // Moves waiting beacons of ticks before `tick` up, and drops peers silent for kForgetAfter.
   void Advance(SteadyTime now, Tick tick);
+  // Forgets where everybody was; who speaks for which id, and how far they counted, stays.
+  void LeaveWorld();
 
   std::span<Peer> Peers() { return {peers_.data(), count_}; }
   std::span<const Peer> Peers() const { return {peers_.data(), count_}; }

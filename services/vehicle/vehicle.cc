@@ -39,18 +39,28 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
 
+// Back to the start pose; what was seen, heard and waited for belongs to the world before.
+void Vehicle::EnterWorld(WorldEpoch epoch) {
+  VehicleState& state = *state_;
+  state.epoch = epoch;
+  state.tick = kNoTick;
+  state.world_from_body = options_.start_world;
+  state.sigma_position_m = 0;
+  state.sigma_heading_rad = 0;
+  state.arrived = false;
+  state.order.waited_ticks = 0;
+  state.waited_ticks = 0;
+  state.encounters = 0;
+  state.deaf = false;
+  state.ranges = {};
+  state.peers.LeaveWorld();
+}
+
 // Dead reckoning: the encoders give the constant wheel speeds since the last tick. Ticks that were
 // lost are taken to have been like this one, and cost certainty.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   VehicleState& state = *state_;
-  if (scan.epoch != state.epoch) {
-    state.epoch = scan.epoch;
-    state.tick = kNoTick;
-    state.world_from_body = options_.start_world;
-    state.sigma_position_m = 0;
-    state.sigma_heading_rad = 0;
-    state.arrived = false;
-  }
+  if (scan.epoch != state.epoch) EnterWorld(scan.epoch);
   if (state.tick != kNoTick && scan.tick <= state.tick) return;  // out of order: older than known
   const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);

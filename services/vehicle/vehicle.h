@@ -62,6 +62,7 @@ class Vehicle {
   std::uint32_t PeersHeard() const { return peers_heard_; }
 
  private:
+  void EnterWorld(WorldEpoch epoch);
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);
   Situation Look(const Inputs& inputs);

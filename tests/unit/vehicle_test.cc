@@ -62,6 +62,32 @@ TEST(Vehicle, ALostTickIsBridgedAndCostsCertainty) {
   EXPECT_GT(bridged.beacon.sigma_position_m, out.beacon.sigma_position_m);
 }
 
+// Ticks begin again with a world; a wait counted in the old one's would be longer than the new one
+// is old, and no peer would believe it.
+TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
+  VehicleOptions options = test::DefaultOptions();
+  options.ageing_limit = 2 * options.tick_period;
+  BrainBench bench(options);
+  const Beacon standing = BeaconOf(2, 11, {{1.0, 0.4}, -kPi / 2});
+  Outputs out;
+  for (int tick = 1; tick <= 12; ++tick) {
+    RangeScan scan = ClearScan(0);
+    test::SetEcho(&scan, 0, 0.95 - 0.02 * tick);  // something comes nearer: deaf
+    out = bench.Step(scan, tick == 12 ? std::vector{standing} : std::vector<Beacon>{});
+  }
+  ASSERT_EQ(out.command.decision.rule, Rule::kDeaf);
+  ASSERT_GT(out.beacon.order.waited_ticks, 2U);
+  Vehicle brain(options, 42);
+  brain.Restore(bench.Brain().State());
+  RangeScan first = ClearScan(1);
+  first.epoch = WorldEpoch{8};
+  out = brain.Step({.now = bench.Now() + options.tick_period, .scan = first});
+  EXPECT_EQ(out.beacon.order.waited_ticks, 0U);
+  EXPECT_TRUE(IsInRange(out.beacon));
+  EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
+  EXPECT_EQ(brain.PeersHeard(), 0U);
+}
+
 TEST(Vehicle, ANewWorldEpochStartsDeadReckoningAnew) {
   BrainBench bench(test::DefaultOptions());
   for (int i = 0; i < 5; ++i) bench.Step(Arc());
