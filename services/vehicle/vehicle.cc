@@ -9,6 +9,7 @@
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
+#include "services/vehicle/scan_check.h"
 
 namespace giveway {
 namespace {
@@ -60,6 +61,10 @@ void Vehicle::EnterWorld(WorldEpoch epoch) {
 // lost are taken to have been like this one, and cost certainty.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   VehicleState& state = *state_;
+  if (!IsBelievable(scan, options_)) {  // as if none had come: the ranges grow old, and it halts
+    ++state.scans_refused;
+    return;
+  }
   if (scan.epoch != state.epoch) EnterWorld(scan.epoch);
   if (state.tick != kNoTick && scan.tick <= state.tick) return;  // out of order: older than known
   const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);

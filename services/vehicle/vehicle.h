@@ -40,6 +40,7 @@ struct VehicleState {
   VehicleId gives_way_to = kNobody;  // as last published
   RangeView ranges;
   PeerTable peers;
+  std::uint32_t scans_refused = 0;
   BeaconCounters beacons;
   QosCounters qos;
 };

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 #include "tests/support/brain_bench.h"
@@ -86,6 +87,33 @@ TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   EXPECT_TRUE(IsInRange(out.beacon));
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
   EXPECT_EQ(brain.PeersHeard(), 0U);
+}
+
+// One number that is none, once in the pose, would never leave it again.
+TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const auto refused = [](auto spoil) {
+    Vehicle brain(test::DefaultOptions(), 42);
+    RangeScan scan = ClearScan(1);
+    brain.Step({.now = std::chrono::milliseconds(50), .scan = scan});
+    const Pose before = brain.State().world_from_body;
+    scan = ClearScan(2);
+    spoil(&scan);
+    const Outputs out = brain.Step({.now = std::chrono::milliseconds(100), .scan = scan});
+    EXPECT_EQ(out.beacon.tick, Tick{1});
+    EXPECT_EQ(out.beacon.world_from_body, before);
+    return brain.State().scans_refused == 1;
+  };
+  EXPECT_FALSE(refused([](RangeScan* scan) { *scan = ClearScan(1); }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->wheels.left_rad_s = kNan; }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->wheels = {1e300, 1e300}; }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->wheels = {-100, 100}; }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { test::SetEcho(scan, 0, kNan); }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { test::SetEcho(scan, 0, -0.1); }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { test::SetEcho(scan, 0, 7); }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->readings[7].tick = Tick{3}; }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->tick = kNoTick; }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->epoch = kNoEpoch; }));
 }
 
 TEST(Vehicle, ANewWorldEpochStartsDeadReckoningAnew) {
