@@ -17,24 +17,24 @@ Stages, by default all of them:
   golden   hashes that must never change
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
-  asan     unit and link under the address and undefined-behaviour sanitizers
+  asan     unit, link and fuzz under the address and undefined-behaviour sanitizers
   tsan     link and one crossing under the thread sanitizer
 
-  --full   more repetitions of the system tests
+  --full   more repetitions of the system tests, and ten minutes of fuzzing a target
 
 The last line counts test cases: N passed, N failed.
 TEXT
 }
 
 stages=()
-export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2
+export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2 GIVEWAY_FUZZ_SECONDS=20
 for argument in "$@"; do
   case $argument in
     --help | -h)
       usage
       exit 0
       ;;
-    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 ;;
+    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 GIVEWAY_FUZZ_SECONDS=600 ;;
     all) stages=("${ALL_STAGES[@]}") ;;
     *)
       [[ " ${ALL_STAGES[*]} " == *" $argument "* ]] ||
@@ -127,6 +127,7 @@ stage_asan() {
   prepare asan
   run_ctest asan unit "$(nproc)"
   run_ctest asan link 1
+  run_ctest asan fuzz "$(nproc)"
 }
 
 stage_tsan() {
