@@ -23,10 +23,13 @@ inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Sce
 
 // Runs the service unless the flags asked for help or were wrong.
 inline int ServiceMain(const std::variant<app::ServiceFlags, int>& parsed,
-                       int (*run)(const app::ServiceFlags&)) {
+                       int (*run)(const app::ServiceFlags&, const app::StopSignal&)) {
   if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  // Never destroyed: a second SIGTERM may come while the process is already leaving, and must not
+  // end it by the default handler then.
+  static const app::StopSignal& stop = *new app::StopSignal;
   try {
-    return run(std::get<app::ServiceFlags>(parsed));
+    return run(std::get<app::ServiceFlags>(parsed), stop);
   } catch (const std::exception& error) {
     app::LogError(error.what());
     return 2;

@@ -142,8 +142,7 @@ class Loop {
   std::vector<ReceivedBeacon> in_lockstep_;
 };
 
-int Run(const app::ServiceFlags& flags) {
-  const app::StopSignal stop;
+int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const std::string name = flags.id == 0 ? "vehicle" : "vehicle " + std::to_string(flags.id);
   app::InitLog(name, flags.log_format, flags.log_level);
   const Scenario scenario = app::LoadScenario(

@@ -174,8 +174,7 @@ class WorldLoop {
   std::uint32_t overruns_ = 0;
 };
 
-int RunWorld(const app::ServiceFlags& flags) {
-  const app::StopSignal stop;
+int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   app::InitLog("world", flags.log_format, flags.log_level);
   const Scenario scenario = app::LoadScenario(
       flags.scenario,

@@ -35,6 +35,21 @@ interrupt() {
   echo "$name: gone after $took ms" >&2
 }
 
+# A vehicle that got a second SIGTERM while it was already leaving died of it instead of exiting 0.
+again_and_again() {
+  local vehicle code
+  for ((try = 0; try < 5; ++try)); do
+    code=0
+    "$(dirname "$FLEETCTL")/giveway-vehicle" --scenario wall_only --id 1 --domain "$1" 2>/dev/null &
+    vehicle=$!
+    sleep 0.3
+    while kill -TERM "$vehicle" 2>/dev/null; do :; done
+    wait "$vehicle" || code=$?
+    [[ $code -eq 0 ]] || fail "SIGTERM again and again: exit code $code"
+  done
+}
+
+again_and_again 98
 interrupt "Ctrl-C at once" 0 INT
 interrupt "Ctrl-C while driving" 4 INT
 interrupt "SIGTERM while driving" 3 TERM
