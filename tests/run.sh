@@ -4,7 +4,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
-ALL_STAGES=(format rules unit golden link system asan tsan)
+ALL_STAGES=(format rules unit golden link system asan fuzz tsan)
 
 usage() {
   cat <<'TEXT'
@@ -18,9 +18,10 @@ Stages, by default all of them:
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
   asan     unit and link under the address and undefined-behaviour sanitizers
+  fuzz     spoilt scenarios, beacons and scans in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
 
-  --full   more repetitions of the system tests
+  --full   more repetitions of the system tests, five minutes a fuzz target
 
 The last line counts test cases: N passed, N failed.
 TEXT
@@ -28,13 +29,14 @@ TEXT
 
 stages=()
 export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2
+fuzz_seconds=20
 for argument in "$@"; do
   case $argument in
     --help | -h)
       usage
       exit 0
       ;;
-    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 ;;
+    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 fuzz_seconds=300 ;;
     all) stages=("${ALL_STAGES[@]}") ;;
     *)
       [[ " ${ALL_STAGES[*]} " == *" $argument "* ]] ||
@@ -44,6 +46,8 @@ for argument in "$@"; do
   esac
 done
 [[ ${#stages[@]} -gt 0 ]] || stages=("${ALL_STAGES[@]}")
+
+export GIVEWAY_FUZZ_SECONDS=${GIVEWAY_FUZZ_SECONDS:-$fuzz_seconds}
 
 warnings=()
 [[ ${CI:-} == true ]] && warnings=(-DGIVEWAY_WERROR=ON)
@@ -128,6 +132,8 @@ stage_asan() {
   run_ctest asan unit "$(nproc)"
   run_ctest asan link 1
 }
+
+stage_fuzz() { prepare asan && run_ctest asan fuzz "$(nproc)"; }
 
 stage_tsan() {
   prepare tsan
