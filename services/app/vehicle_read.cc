@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "services/types/fleet_limits.h"
 #include "services/types/math.h"
 
 namespace giveway::app {
@@ -63,6 +64,19 @@ BraitenbergWeights ReadBraitenberg(const Section& section, const BraitenbergWeig
   return read;
 }
 
+// The wheel on the outside, at top speed and in the tightest turn.
+void CheckWheels(const Section& section, const VehicleProfile& profile) {
+  const double fastest_rad_s =
+      WheelsFromTwist(profile.drive, {profile.max_speed_m_s, profile.max_turn_rad_s}).right_rad_s;
+  if (fastest_rad_s > kMaxWheel_rad_s) {
+    section.Complain("profile",
+                     fmt::format("at top speed in the tightest turn a wheel rolls at {:.1f} rad/s: "
+                                 "peers believe at most {}",
+                                 fastest_rad_s, kMaxWheel_rad_s),
+                     "lower max_speed_m_s or max_turn_rad_s, or raise wheel_radius_m");
+  }
+}
+
 }  // namespace
 
 Vec2 ReadPoint(const Section& section) {
@@ -83,7 +97,7 @@ void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile)
   read("body_radius_m", {0.05, 10, "m"}, &profile->body_radius_m);
   read("wheel_radius_m", {0.01, 5, "m"}, &profile->drive.wheel_radius_m);
   read("axle_m", {0.02, 20, "m"}, &profile->drive.axle_m);
-  read("max_speed_m_s", {0, 20, "m/s", true}, &profile->max_speed_m_s);
+  read("max_speed_m_s", {0, kMaxSpeed_m_s, "m/s", true}, &profile->max_speed_m_s);
   read("max_turn_rad_s", {0, 20, "rad/s", true}, &profile->max_turn_rad_s);
   read("acceleration_m_s2", {0, 20, "m/s^2", true}, &profile->acceleration_m_s2);
   read("deceleration_m_s2", {0, 20, "m/s^2", true}, &profile->deceleration_m_s2);
@@ -97,6 +111,7 @@ VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
   VehicleOptions vehicle = common;
   vehicle.id = VehicleId{section.Whole("id", kId)};
   ReadProfile(section.Sub("profile"), &vehicle.profile);
+  CheckWheels(section, vehicle.profile);
   const auto own = ReadBehaviour(section);  // read even where forced, for its problems
   vehicle.behaviour = forced.value_or(own.value_or(common.behaviour));
   if (const auto start = section.RequiredSub("start")) {
@@ -106,7 +121,8 @@ VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
   }
   // A refused top speed is a problem already; the vehicle's cruise is then judged by its own cap.
   const double top = vehicle.profile.max_speed_m_s;
-  vehicle.cruise_m_s = section.Number("cruise_m_s", {0, top == top ? top : 20, "m/s", true});
+  vehicle.cruise_m_s =
+      section.Number("cruise_m_s", {0, top == top ? top : kMaxSpeed_m_s, "m/s", true});
   if (const auto goal = section.Sub("goal")) {
     vehicle.goal = ReadGoal(*goal, vehicle.cruise_m_s, vehicle.tick_period);
   }

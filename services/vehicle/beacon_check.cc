@@ -2,21 +2,19 @@
 
 #include <cmath>
 
+#include "services/types/fleet_limits.h"
 #include "services/types/math.h"
 
 namespace giveway {
 namespace {
 
-// ARIA's absolute limit for the platform is 2.2 m/s, 22.6 rad/s at the wheel; beyond that with some
-// room nobody is a vehicle of this fleet.
-constexpr double kMaxWheel_rad_s = 30.0;
-constexpr double kMaxCruise_m_s = 2.5;
 constexpr double kMaxCoordinate_m = 100'000.0;
 constexpr double kMaxSigma_m = 1000.0;
 constexpr double kSpeedBucket_m_s = 0.05;
 
-// No part of a vehicle is larger than this.
-bool IsLength(double x) { return x > 0 && x <= 20; }
+// No part of a vehicle is smaller or larger than this. An axle of next to nothing would turn the
+// peer by angles that are no angles any more.
+bool IsLength(double x) { return x >= 0.01 && x <= 20; }
 
 bool Within(double x, double limit) { return x >= -limit && x <= limit; }
 
@@ -35,7 +33,7 @@ bool IsInRange(const Beacon& b) {
   return b.vehicle != kNobody && b.boot_epoch != 0 && b.seq != 0 &&
          Within(b.wheels.left_rad_s, kMaxWheel_rad_s) &&
          Within(b.wheels.right_rad_s, kMaxWheel_rad_s) && b.cruise_m_s >= 0 &&
-         b.cruise_m_s <= kMaxCruise_m_s &&
+         b.cruise_m_s <= kMaxSpeed_m_s &&
          Within(b.world_from_body.position_world.x, kMaxCoordinate_m) &&
          Within(b.world_from_body.position_world.y, kMaxCoordinate_m) &&
          Within(b.world_from_body.heading_rad, kPi + 1e-9) && b.sigma_position_m >= 0 &&

@@ -28,7 +28,7 @@ void CheckProfile(const VehicleProfile& p) {
   GIVEWAY_CHECK(Within(p.body_radius_m, 0.05, 10), p.body_radius_m);
   GIVEWAY_CHECK(Within(p.drive.wheel_radius_m, 0.01, 5), p.drive.wheel_radius_m);
   GIVEWAY_CHECK(Within(p.drive.axle_m, 0.02, 20), p.drive.axle_m);
-  GIVEWAY_CHECK(Positive(p.max_speed_m_s, 20), p.max_speed_m_s);
+  GIVEWAY_CHECK(Positive(p.max_speed_m_s, 2.5), p.max_speed_m_s);
   GIVEWAY_CHECK(Positive(p.max_turn_rad_s, 20), p.max_turn_rad_s);
   GIVEWAY_CHECK(Positive(p.acceleration_m_s2, 20), p.acceleration_m_s2);
   GIVEWAY_CHECK(Positive(p.deceleration_m_s2, 20), p.deceleration_m_s2);

@@ -233,6 +233,18 @@ TEST(ScenarioRules, ATickTheBeaconAgeLimitCannotGuardIsRefused) {
   EXPECT_THAT(ProblemsOf(kGoodScenario + "tick_period_ms: 66"), IsEmpty());
 }
 
+// A vehicle nobody believes is one nobody gives way to.
+TEST(ScenarioRules, AVehicleWhosePeersWouldNotBelieveItIsRefused) {
+  EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 2 profile{max_speed_m_s: 2.4}")),
+              IsEmpty());
+  EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 3 profile{max_speed_m_s: 4}")),
+              ElementsAre(Is(6, "vehicle[0].profile.max_speed_m_s", "at most 2.5"),
+                          Is(6, "vehicle[0].cruise_m_s", "at most 2.5")));
+  EXPECT_THAT(
+      ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 0.4 profile{wheel_radius_m: 0.03}")),
+      ElementsAre(Is(6, "vehicle[0].profile", "42.9 rad/s")));
+}
+
 struct OutOfRange {
   const char* field;
   const char* value;

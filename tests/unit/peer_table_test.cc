@@ -88,6 +88,8 @@ TEST_F(PeerTableTest, EveryRefusalHasItsCounterAndNamesWhoItWas) {
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.body_radius_m = 0; },
           &BeaconCounters::rejected_out_of_range);
+  refused([](ReceivedBeacon* r) { r->beacon.drive.axle_m = 1e-300; },
+          &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.cruise_m_s = -0.1; },
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.order.speed_bucket = 99; },
