@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Ctrl-C is a clean stop: exit code 1, reason "interrupted", everyone leaves in good order within a
-# second. SIGTERM is the same; a second Ctrl-C does not wait.
+# Ctrl-C is a clean stop: exit code 1, reason "interrupted", everyone leaves in good order. SIGTERM is
+# the same; a second Ctrl-C does not wait. The bound on the time is a guard against hanging, not a
+# measurement: a quiet machine takes under half a second, a busy one longer.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
@@ -22,10 +23,10 @@ interrupt() {
     kill -s "$signal" "$run" || true
     sleep 0.05
   done
-  all_gone "$domain" 15 || fail "$name: left over: $(processes_on "$domain" | xargs)"
+  all_gone "$domain" 40 || fail "$name: left over: $(processes_on "$domain" | xargs)"
   local took=$(($(now_ms) - begun))
   wait "$run" || code=$?
-  [[ $took -le 1300 ]] || fail "$name: it took $took ms until all were gone"
+  [[ $took -le 3000 ]] || fail "$name: it took $took ms until all were gone"
   [[ $code -eq 1 ]] || fail "$name: exit code $code"
   jq -e '.verdict == "failed" and .reason == "interrupted"' "$SCRATCH/out.json" >/dev/null ||
     fail "$name: the report says $(cat "$SCRATCH/out.json")"
