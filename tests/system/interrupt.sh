@@ -38,13 +38,16 @@ interrupt() {
 
 # A vehicle that got a second SIGTERM while it was already leaving died of it instead of exiting 0.
 again_and_again() {
-  local vehicle code
+  local vehicle code try signal
   for ((try = 0; try < 5; ++try)); do
     code=0
     "$(dirname "$FLEETCTL")/giveway-vehicle" --scenario wall_only --id 1 --domain "$1" 2>/dev/null &
     vehicle=$!
     sleep 0.3
-    while kill -TERM "$vehicle" 2>/dev/null; do :; done
+    for ((signal = 0; signal < 300; ++signal)); do
+      kill -TERM "$vehicle" 2>/dev/null || break
+      sleep 0.001
+    done
     wait "$vehicle" || code=$?
     [[ $code -eq 0 ]] || fail "SIGTERM again and again: exit code $code"
   done
