@@ -54,6 +54,10 @@ std::string_view Name(Rule rule) {
       return "steer_round";
     case Rule::kAvoid:
       return "avoid";
+    case Rule::kSignal:
+      return "signal";
+    case Rule::kObject:
+      return "object";
     case Rule::kLeaving:
       return "leaving";
   }

@@ -32,6 +32,8 @@ enum class Rule : std::uint8_t {
   kObstacle,     // something stands in the own path
   kSteerRound,   // turning past a halted peer that gives way
   kAvoid,        // Braitenberg weights steer away
+  kSignal,       // a fresh traffic light on the own path says stop
+  kObject,       // radar or lidar: an object whose place and motion make it an obstacle
   kLeaving,      // stopping in good order
 };
 

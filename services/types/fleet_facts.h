@@ -21,6 +21,7 @@ using SessionId = std::array<std::uint32_t, 4>;
 struct JoinRequest {
   SessionId session{};
   VehicleId wanted = kNobody;  // kNobody asks for any free id
+  bool leaving = false;        // gives the id back and takes the body away
 };
 
 struct RosterEntry {
@@ -29,7 +30,8 @@ struct RosterEntry {
   bool accepted = false;
   std::string reason;  // why not, or why the run ended; empty otherwise
   WorldEpoch epoch = kNoEpoch;
-  Pose start_world;
+  Pose start_world;  // where the body stands as the entry is made: start, spawn or checkpoint pose
+  std::uint32_t spawn = 0;  // the scenario's spawn place it drives by, counted from 1; 0: its own
   RunState run_state = RunState::kWaiting;
   std::uint32_t fleet_size = 0;  // vehicles the scenario waits for
 };
@@ -57,6 +59,8 @@ enum class EventKind : std::uint8_t {
   kFaultDue,  // a planned fault is due now; text: "kill"
   kSilent,    // the world hears no command of vehicle any more
   kRemoved,   // the body of a silent vehicle was taken away
+  kJoined,    // vehicle was put on its start pose while the run was under way
+  kLeft,      // vehicle said good-bye; its body was taken away
   kEnded,     // text: why; the verdict follows
   kVerdict,   // passed when value is 1; text: reason
 };

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "services/types/pose.h"
 
@@ -18,20 +19,34 @@ struct SensorMount {
   bool enabled = false;    // fitted but switched off gives "no data"
 };
 
+enum class BodyShape : std::uint8_t { kDisc, kBox };
+
 // P3-DX values: wheel and axle as in common simulator models, body as ARIA's robot radius, caps and
 // accelerations as in the p3dx simulation profile, sonar ring in ARIA's geometry.
 struct VehicleProfile {
   DriveGeometry drive;
-  double body_radius_m = 0.25;  // disc round the axle centre
-  double max_speed_m_s = 1.0;   // forward and backward
+  BodyShape shape = BodyShape::kDisc;
+  // The disc round the axle centre that holds the body: the body itself, or the half diagonal of a
+  // box. Brains and beacons know only this.
+  double body_radius_m = 0.25;
+  Vec2 box_half_m;             // half length and half width of a box centred on the axle
+  double max_speed_m_s = 1.0;  // forward and backward
   double max_turn_rad_s = 1.74;
-  double acceleration_m_s2 = 0.3;                    // of each wheel's rim, away from standstill
-  double deceleration_m_s2 = 0.6;                    // of each wheel's rim, towards standstill
+  double acceleration_m_s2 = 0.3;  // of each wheel's rim, away from standstill
+  double deceleration_m_s2 = 0.6;  // of each wheel's rim, towards standstill
+  // What the wheels do is not what the encoders say. Standard deviations relative to the speed,
+  // drawn anew each tick: the ground's share (slip) and the encoder's (noise).
+  double wheel_slip = 0;
+  double encoder_noise = 0;
   double sonar_half_angle_rad = 0.2617993877991494;  // 30 degree cones
   double sonar_max_range_m = 5.0;                    // beyond it nothing echoes
   // Index 0 is the left side of the front ring, clockwise to 7 on the right side, then 8 at the
   // rear right, clockwise to 15 at the rear left.
   std::array<SensorMount, kSensorCount> sonar{};
+  // Further sensors (sensor_scan.h), fitted at the axle centre looking forward; off by default.
+  bool radar = false;
+  bool lidar = false;
+  bool camera = false;
 };
 
 // The P3-DX: front eight enabled, rear eight fitted and switched off.

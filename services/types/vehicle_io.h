@@ -5,9 +5,12 @@
 #include <span>
 
 #include "services/types/beacon.h"
+#include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/qos_event.h"
 #include "services/types/range_scan.h"
+#include "services/types/sensor_scan.h"
+#include "services/types/signal.h"
 #include "services/types/time.h"
 
 namespace giveway {
@@ -18,6 +21,13 @@ struct Inputs {
   std::optional<RangeScan> scan;
   std::span<const ReceivedBeacon> beacons;
   std::span<const QosEvent> events;
+  // The newest of each further sensor and of each signal head since the last step; null where none.
+  const RadarScan* radar = nullptr;
+  const LidarScan* lidar = nullptr;
+  const CameraScan* camera = nullptr;
+  std::span<const SignalState> signals;
+  // The world's newest word on this vehicle since the last step: a new epoch brings a new pose.
+  std::optional<RosterEntry> roster;
   bool leaving = false;  // the process was asked to stop: halt and say good-bye
 };
 

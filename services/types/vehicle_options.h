@@ -45,8 +45,11 @@ struct VehicleOptions {
   double gate_exit_m = 1.2;                   // a latched encounter is over beyond it
   double emission_radius_m = 5.0;             // beacons stated from farther away are not heard
   Nanoseconds beacon_age_limit{200'000'000};  // receiver's clock; older is not fresh
-  Nanoseconds ranges_age_limit{150'000'000};  // older than this: halt
-  Nanoseconds ageing_limit{20'000'000'000};   // waiting longer moves a vehicle up the order
+  Nanoseconds ranges_age_limit{150'000'000};  // a scan older than this: halt
+  // How long a transducer takes from one firing to the next one's result: 0 where all fire every
+  // tick. A reading may be older than a scan by this much.
+  Nanoseconds sonar_refresh{0};
+  Nanoseconds ageing_limit{20'000'000'000};  // waiting longer moves a vehicle up the order
 };
 
 }  // namespace giveway
