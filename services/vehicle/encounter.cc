@@ -69,11 +69,20 @@ bool MustClear(const PeerView& view, const Situation& s) {
   return (view.standing && behind) || IsThroughFirst(view, s);
 }
 
+// Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going.
+bool IsInTheWay(const PeerView& view, const Situation& s) {
+  const Beacon& beacon = view.peer->beacon;
+  if (beacon.blocked_by == s.options.id) return true;
+  const double room_m = s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m;
+  return Norm(beacon.toward_world - s.world_from_body.position_world) < room_m;
+}
+
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const Situation& s) {
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
-  return view.gap_m <= CriticalDistance(s, view) ||
+  const double critical_m = CriticalDistance(s, view);
+  return (view.gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
          view.conflict->own.begin_m <= OwnStoppingDistance(s);
 }
 
@@ -91,6 +100,7 @@ bool Holds(const PeerView& view, const Situation& s) {
     if (view.peer->encounter.released) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
+  if (view.peer->encounter.clears) return false;
   if (view.goes_first) return !MustClear(view, s) && (held || SecondMustStop(view, s));
   if (FirstMayGo(view, s)) return false;
   return held || MustBrakeNow(view, s);
@@ -131,6 +141,10 @@ void UpdateEncounter(const PeerView& view, const Situation& s) {
     } else if (IsOver(view, s)) {
       encounter = {};
     }
+  }
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  if (cooperative && encounter.active && !view.lost && view.goes_first && IsInTheWay(view, s)) {
+    encounter.clears = true;
   }
   encounter.holds = encounter.active && Holds(view, s);
 }

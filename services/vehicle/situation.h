@@ -27,6 +27,7 @@ struct PeerView {
   double gap_m = 0;        // shell to shell
   double closing_m_s = 0;  // positive while the gap shrinks
   std::optional<Conflict> conflict;
+  double free_m = 0;  // straight on until the own shell is at the peer's claim; huge if never
   std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
@@ -45,6 +46,8 @@ struct Situation {
   Path path;                      // towards the goal, or straight on
   double distance_to_goal_m = 0;  // huge without a goal
   OrderKey order;                 // as last published
+  VehicleId blocked_by = kNobody;  // as last published
+  int steer_side = 0;              // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
   int blind_sensor = -1;        // see RangeView::FirstBlind
   std::uint32_t explained = 0;  // union of the peers' `explains`
@@ -70,6 +73,9 @@ double CriticalDistance(const Situation& s, const PeerView& view);
 
 // A point given in the world, in the own body frame.
 Vec2 InBody(const Situation& s, Vec2 point_world);
+
+// True if the peer's body leaves no room for the own one at that point.
+bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s);
 
 // Carries `peer` forward to now and relates it to the own path.
 PeerView LookAt(Peer* peer, const Situation& s);

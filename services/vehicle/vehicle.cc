@@ -17,8 +17,9 @@ namespace {
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
 // The platform's odometry error as its simulator profile gives it: per metre and per radian.
-constexpr double kOdometryError = 0.0075;
+constexpr double kOdometryError = 0;
 constexpr double kNoGoal_m = 1e6;
+constexpr double kLongestWay_m = 1000;
 // How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
 // not start as one.
 constexpr double kDeafHold_s = 1.0;
@@ -26,6 +27,35 @@ constexpr double kDeafStagger_s = 0.5;
 constexpr std::uint32_t kDeafStaggerSteps = 8;
 
 double Magnitude(double x) { return x < 0 ? -x : x; }
+
+// The own key, or that of the first in the order that is blocked by this vehicle: whoever it waits
+// for would otherwise make that one wait too.
+OrderKey ActingOrder(const VehicleState& state, VehicleId own) {
+  OrderKey acting = state.order;
+  for (const Peer& peer : state.peers.Peers()) {
+    if (peer.known && peer.beacon.blocked_by == own && GoesFirst(peer.beacon.order, acting)) {
+      acting = peer.beacon.order;
+    }
+  }
+  return acting;
+}
+
+// Without a goal: straight on, as far as anybody looks.
+Vec2 Toward(const Situation& s) {
+  if (s.arrived) return s.world_from_body.position_world;
+  const double way_m = std::min(s.distance_to_goal_m, kLongestWay_m);
+  return s.world_from_body.position_world + way_m * s.path.direction_world;
+}
+
+// Who is bodily in the way: stands where this vehicle wants to be, or keeps it from driving.
+VehicleId BlockedBy(const Situation& s, const Decision& decision) {
+  if (s.arrived) return kNobody;
+  for (const PeerView& view : s.peers) {
+    if (view.fresh && view.standing && Occupies(view, Toward(s), s)) return view.peer->id;
+  }
+  const bool blocked = decision.rule == Rule::kKeepClear && s.speed_m_s < kStandingSpeed_m_s;
+  return blocked ? decision.peer : kNobody;
+}
 
 }  // namespace
 
@@ -102,7 +132,8 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
   s.sigma_position_m = state.sigma_position_m;
-  s.order = state.order;
+  s.order = ActingOrder(state, options_.id);
+  s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
   s.forward_world = Forward(s.world_from_body);
   s.path = {s.world_from_body.position_world, s.forward_world};
@@ -170,6 +201,7 @@ void Vehicle::Remember(const Situation& s, const Decision& decision) {
   if (under_way == 0 && !waits) state.waited_ticks = 0;
   state.encounters = under_way;
   state.decision = decision;
+  state.blocked_by = BlockedBy(s, decision);
 }
 
 Beacon Vehicle::Say(const Situation& s) {
@@ -189,10 +221,14 @@ Beacon Vehicle::Say(const Situation& s) {
           .sigma_heading_rad = state.sigma_heading_rad,
           .body_radius_m = options_.profile.body_radius_m,
           .drive = options_.profile.drive,
+          .acceleration_m_s2 = options_.profile.acceleration_m_s2,
+          .deceleration_m_s2 = options_.profile.deceleration_m_s2,
+          .toward_world = Toward(s),
           .mode = state.decision.mode,
           .rule = state.decision.rule,
           .gives_way_to = state.gives_way_to,
-          .order = state.order};
+          .blocked_by = state.blocked_by,
+          .order = s.order};
 }
 
 Outputs Vehicle::Step(const Inputs& inputs) noexcept {
@@ -204,6 +240,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   ListenForMovers(&s);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.decision);
+  state.steer_side = action.steer_side;
   Remember(s, action.decision);
 
   Outputs outputs;

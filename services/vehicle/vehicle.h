@@ -38,6 +38,8 @@ struct VehicleState {
   int deaf_sensor = -1;
   Decision decision;
   VehicleId gives_way_to = kNobody;  // as last published
+  VehicleId blocked_by = kNobody;    // as last published
+  int steer_side = 0;                // 1 left, -1 right, 0 straight on
   RangeView ranges;
   PeerTable peers;
   std::uint32_t scans_refused = 0;
