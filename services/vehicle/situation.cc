@@ -98,6 +98,11 @@ Vec2 InBody(const Situation& s, Vec2 point_world) {
   return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
 }
 
+double RoomBeside(const PeerView& view, const Situation& s) {
+  constexpr double kRoundMargin_m = 0.15;  // between the two shells
+  return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
+}
+
 bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s) {
   const double room_m =
       s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kPassingMargin_m;

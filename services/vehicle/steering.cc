@@ -8,8 +8,6 @@
 namespace giveway {
 namespace {
 
-// Between two shells when one steers round the other.
-constexpr double kRoundMargin_m = 0.15;
 // How far ahead what stands in the way is steered round.
 constexpr double kLookAhead_m = 3;
 // A heading on the side of the last turn is kept although another is this much nearer.
@@ -54,8 +52,7 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
     if (!StandsInTheWay(view, s) || Occupies(view, target, s) || headings.count == headings.of.size()) continue;
     const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
     const double distance_m = Norm(offset);
-    const double clearance_m =
-        s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
+    const double clearance_m = RoomBeside(view, s);
     if (distance_m - clearance_m > way_m) continue;
     const double half_rad =
         distance_m > clearance_m
@@ -109,9 +106,12 @@ double Activation(const BraitenbergWeights& weights, const SensorView& view) {
 
 Steering SteerToGoal(const Situation& s) {
   Steering steering;
-  const double wanted = Atan2(s.path.direction_world.y, s.path.direction_world.x);
+  const Vec2 way = s.detour_world ? *s.detour_world - s.world_from_body.position_world
+                                  : s.path.direction_world;
+  const double wanted = Atan2(way.y, way.x);
   double heading = wanted;
-  const double way_m = std::min(s.distance_to_goal_m, kLookAhead_m);
+  const double way_m =
+      s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
   const BlockedHeadings headings = WhatBlocks(s, way_m);
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {
     heading = FreeHeading(headings, wanted, s.steer_side);

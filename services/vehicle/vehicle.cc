@@ -7,6 +7,7 @@
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
 #include "services/vehicle/decide.h"
+#include "services/vehicle/detour.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
 #include "services/vehicle/scan_check.h"
@@ -20,6 +21,11 @@ static_assert(std::is_trivially_copyable_v<VehicleState>);
 constexpr double kOdometryError = 0;
 constexpr double kNoGoal_m = 1e6;
 constexpr double kLongestWay_m = 1000;
+constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
+// Driving about for so long without coming nearer, a vehicle looks for a way round.
+constexpr double kNoProgress_s = 6;
+constexpr double kProgress_m = 0.1;
+constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
 // How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
 // not start as one.
 constexpr double kDeafHold_s = 1.0;
@@ -51,7 +57,8 @@ Vec2 Toward(const Situation& s) {
 VehicleId BlockedBy(const Situation& s, const Decision& decision) {
   if (s.arrived) return kNobody;
   for (const PeerView& view : s.peers) {
-    if (view.fresh && view.standing && Occupies(view, Toward(s), s)) return view.peer->id;
+    const bool there = view.fresh && view.gap_m < kOccupiedWithin_m;
+    if (there && Occupies(view, Toward(s), s)) return view.peer->id;
   }
   const bool blocked = decision.rule == Rule::kKeepClear && s.speed_m_s < kStandingSpeed_m_s;
   return blocked ? decision.peer : kNobody;
@@ -163,6 +170,34 @@ void Vehicle::LookAtPeers(Situation* s) {
   s->peers = {views_->data(), count};
 }
 
+// Where steering round what stands leads nowhere, the way is looked up on a map of it.
+void Vehicle::Detour(Situation* s) {
+  VehicleState& state = *state_;
+  if (s->distance_to_goal_m < state.nearest_m - kProgress_m) {
+    state.nearest_m = s->distance_to_goal_m;
+    state.aimless_ticks = 0;
+    state.detour_tick = kNoTick;
+  }
+  if (IsGiveWay(state.decision.rule)) return;
+  ++state.aimless_ticks;
+  if (!options_.goal.set || state.arrived) return;
+  if (Seconds(state.aimless_ticks * options_.tick_period) < kNoProgress_s) return;
+  if (state.detour_tick == kNoTick ||
+      TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
+    std::array<KeepOut, 64> discs;
+    std::size_t count = 0;
+    for (const PeerView& view : s->peers) {
+      const double room_m = RoomBeside(view, *s);
+      if (count == discs.size() || !view.standing || Occupies(view, Toward(*s), *s)) continue;
+      discs[count++] = {view.world_from_body.position_world, room_m};
+    }
+    const auto turn = FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
+    state.detour_tick = turn ? s->tick : kNoTick;
+    if (turn) state.detour_world = *turn;
+  }
+  if (state.detour_tick != kNoTick) s->detour_world = state.detour_world;
+}
+
 // Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
 void Vehicle::ListenForMovers(Situation* s) {
   VehicleState& state = *state_;
@@ -238,6 +273,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   Situation s = Look(inputs);
   LookAtPeers(&s);
   ListenForMovers(&s);
+  Detour(&s);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.decision);
   state.steer_side = action.steer_side;

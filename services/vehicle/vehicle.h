@@ -40,6 +40,10 @@ struct VehicleState {
   VehicleId gives_way_to = kNobody;  // as last published
   VehicleId blocked_by = kNobody;    // as last published
   int steer_side = 0;                // 1 left, -1 right, 0 straight on
+  double nearest_m = 1e9;            // the least distance to the goal so far
+  std::uint32_t aimless_ticks = 0;   // driven since without coming nearer
+  Vec2 detour_world;                 // where the way round leads first, if detour_tick is set
+  Tick detour_tick = kNoTick;        // when it was looked for
   RangeView ranges;
   PeerTable peers;
   std::uint32_t scans_refused = 0;
@@ -71,6 +75,7 @@ class Vehicle {
   Situation Look(const Inputs& inputs);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
+  void Detour(Situation* situation);
   void Remember(const Situation& situation, const Decision& decision);
   Beacon Say(const Situation& situation);
 
