@@ -55,6 +55,8 @@ std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
   return conflict;
 }
 
+// Of one that was silent for longer nothing can be said; the ultrasonics and PeerLost see to it.
+constexpr double kClaimLasts_s = 1.0;
 // Kept from a claim on top of what is not known: steering bends the straight way a little.
 constexpr double kClearance_m = 0.05;
 
@@ -62,8 +64,10 @@ constexpr double kClearance_m = 0.05;
 // have done since is unknown up to the end of the tick that this decision moves.
 double FreeOf(const PeerView& view, const Situation& s) {
   const Beacon& beacon = view.peer->beacon;
+  if (view.peer->out_of_reach || view.peer->left) return kFarAway_m;
   const double unknown_s =
       Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
+  if (unknown_s > kClaimLasts_s) return kFarAway_m;
   const Claim claim =
       ClaimOf(beacon, Forward(beacon.world_from_body), unknown_s, ReactionSeconds(s.options));
   const double apart_m = s.options.profile.body_radius_m + kClearance_m +
