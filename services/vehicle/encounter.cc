@@ -71,10 +71,7 @@ bool MustClear(const PeerView& view, const Situation& s) {
 
 // Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going.
 bool IsInTheWay(const PeerView& view, const Situation& s) {
-  const Beacon& beacon = view.peer->beacon;
-  if (beacon.blocked_by == s.options.id) return true;
-  const double room_m = s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m;
-  return Norm(beacon.toward_world - s.world_from_body.position_world) < room_m;
+  return view.peer->beacon.blocked_by == s.options.id || IsOnGoalOf(view, s);
 }
 
 // Whom the order puts second stops at the gate, or where only braking now is early enough.

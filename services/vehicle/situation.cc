@@ -113,6 +113,12 @@ bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s) {
   return SquaredNorm(view.world_from_body.position_world - point_world) < room_m * room_m;
 }
 
+bool IsOnGoalOf(const PeerView& view, const Situation& s) {
+  const Beacon& beacon = view.peer->beacon;
+  const double room_m = s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m;
+  return SquaredNorm(beacon.toward_world - s.world_from_body.position_world) < room_m * room_m;
+}
+
 PeerView LookAt(Peer* peer, const Situation& s) {
   PeerView view{.peer = peer};
   const Beacon& beacon = peer->beacon;

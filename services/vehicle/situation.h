@@ -47,6 +47,7 @@ struct Situation {
   double distance_to_goal_m = 0;  // huge without a goal
   OrderKey order;                 // as last published
   VehicleId blocked_by = kNobody;  // as last published
+  bool aimless = false;              // has driven about for seconds without coming nearer
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   int steer_side = 0;              // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
@@ -77,6 +78,9 @@ Vec2 InBody(const Situation& s, Vec2 point_world);
 
 // How far the two axle centres keep apart when one steers round the other.
 double RoomBeside(const PeerView& view, const Situation& s);
+
+// True if the own body leaves the peer no room where it drives to.
+bool IsOnGoalOf(const PeerView& view, const Situation& s);
 
 // True if the peer's body leaves no room for the own one at that point.
 bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s);

@@ -45,11 +45,13 @@ bool StandsInTheWay(const PeerView& view, const Situation& s) {
 // Headings past which nothing gets within `way_m`.
 BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   BlockedHeadings headings;
-  // Whoever stands on the very goal is waited for: there is no way round to where it stands.
+  // Whoever stands on the very goal is waited for: there is no way round to where it stands. But
+  // not by one that stands on the other's, nor for ever: three can stand so in a ring.
   const Vec2 target =
       s.world_from_body.position_world + s.distance_to_goal_m * s.path.direction_world;
   for (const PeerView& view : s.peers) {
-    if (!StandsInTheWay(view, s) || Occupies(view, target, s) || headings.count == headings.of.size()) continue;
+    const bool waited_for = !s.aimless && Occupies(view, target, s) && !IsOnGoalOf(view, s);
+    if (!StandsInTheWay(view, s) || waited_for || headings.count == headings.of.size()) continue;
     const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
     const double distance_m = Norm(offset);
     const double clearance_m = RoomBeside(view, s);

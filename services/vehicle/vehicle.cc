@@ -181,14 +181,15 @@ void Vehicle::Detour(Situation* s) {
   if (IsGiveWay(state.decision.rule)) return;
   ++state.aimless_ticks;
   if (!options_.goal.set || state.arrived) return;
-  if (Seconds(state.aimless_ticks * options_.tick_period) < kNoProgress_s) return;
+  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
+  if (!s->aimless) return;
   if (state.detour_tick == kNoTick ||
       TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
     std::array<KeepOut, 64> discs;
     std::size_t count = 0;
     for (const PeerView& view : s->peers) {
       const double room_m = RoomBeside(view, *s);
-      if (count == discs.size() || !view.standing || Occupies(view, Toward(*s), *s)) continue;
+      if (count == discs.size() || !view.standing) continue;
       discs[count++] = {view.world_from_body.position_world, room_m};
     }
     const auto turn = FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
