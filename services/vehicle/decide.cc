@@ -50,9 +50,11 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   const VehicleProfile& profile = s.options.profile;
   const Steering steering = SteerToGoal(s);
   Action action;
-  double speed = std::min(s.options.cruise_m_s,
-                          SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
-                                            profile.deceleration_m_s2));
+  double speed = s.options.cruise_m_s;
+  if (s.stops_there) {
+    speed = std::min(speed, SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
+                                              profile.deceleration_m_s2));
+  }
   action.decision.rule = Rule::kCruise;
   if (steering.round != kNobody) {
     speed = std::min(speed, kRoundSpeed_m_s);

@@ -44,7 +44,8 @@ struct Situation {
   double turn_rad_s = 0;  // measured
   double sigma_position_m = 0;
   Path path;                      // towards the goal, or straight on
-  double distance_to_goal_m = 0;  // huge without a goal
+  double distance_to_goal_m = 0;  // or to the next waypoint; huge without either
+  bool stops_there = false;       // at the goal; a waypoint is driven through
   OrderKey order;                 // as last published
   VehicleId blocked_by = kNobody;  // as last published
   bool aimless = false;              // has driven about for seconds without coming nearer

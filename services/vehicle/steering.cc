@@ -66,6 +66,21 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   return headings;
 }
 
+// What nobody has said is there, but echoes near. Only for a vehicle that comes no further: where
+// in its cone the echo lies is not known, and all of it is more than is in the way.
+void AddEchoes(const Situation& s, BlockedHeadings* headings) {
+  constexpr double kNear_m = 0.6;
+  constexpr double kHalf_rad = 0.6;
+  const VehicleProfile& profile = s.options.profile;
+  for (std::size_t i = 0; i < kSensorCount && headings->count < headings->of.size(); ++i) {
+    const SensorView& view = s.ranges[i];
+    if (view.kind != Echo::kEcho || view.range_m > kNear_m || (s.explained >> i & 1U) != 0) continue;
+    headings->of[headings->count++] = {
+        WrapAngle(s.world_from_body.heading_rad + profile.sonar[i].bearing_rad), kHalf_rad,
+        view.range_m, kNobody};
+  }
+}
+
 const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad) {
   const Blocked* nearest = nullptr;
   for (std::size_t i = 0; i < headings.count; ++i) {
@@ -114,7 +129,8 @@ Steering SteerToGoal(const Situation& s) {
   double heading = wanted;
   const double way_m =
       s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
-  const BlockedHeadings headings = WhatBlocks(s, way_m);
+  BlockedHeadings headings = WhatBlocks(s, way_m);
+  if (s.aimless) AddEchoes(s, &headings);
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {
     heading = FreeHeading(headings, wanted, s.steer_side);
     steering.round = blocked->peer;

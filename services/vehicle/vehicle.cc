@@ -23,6 +23,7 @@ constexpr double kNoGoal_m = 1e6;
 constexpr double kLongestWay_m = 1000;
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
 // Driving about for so long without coming nearer, a vehicle looks for a way round.
+constexpr double kPassedAtDistance_m = 1.2;
 constexpr double kNoProgress_s = 6;
 constexpr double kProgress_m = 0.1;
 constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
@@ -64,6 +65,14 @@ VehicleId BlockedBy(const Situation& s, const Decision& decision) {
   return blocked ? decision.peer : kNobody;
 }
 
+// A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
+bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
+  if (state.waypoint >= route.count) return false;
+  const double away_m = Norm(route.waypoints_world[state.waypoint] - position_world);
+  return away_m <= route.radius_m ||
+         (state.detour_tick != kNoTick && away_m <= kPassedAtDistance_m);
+}
+
 }  // namespace
 
 Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
@@ -85,6 +94,8 @@ void Vehicle::EnterWorld(WorldEpoch epoch) {
   state.world_from_body = options_.start_world;
   state.sigma_position_m = 0;
   state.sigma_heading_rad = 0;
+  state.waypoint = 0;
+  state.nearest_m = kNoGoal_m;
   state.arrived = false;
   state.order.waited_ticks = 0;
   state.waited_ticks = 0;
@@ -127,6 +138,30 @@ void Vehicle::TakePeers(const Inputs& inputs) {
   for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
 }
 
+// The straight way to the next waypoint or the goal; straight on without either.
+void Vehicle::LookAhead(Situation* s) {
+  VehicleState& state = *state_;
+  const Route& route = options_.route;
+  const Vec2 position = s->world_from_body.position_world;
+  s->path = {position, s->forward_world};
+  s->distance_to_goal_m = kNoGoal_m;
+  for (std::uint32_t i = 0; i < route.count && PassesWaypoint(state, route, position); ++i) {
+    ++state.waypoint;
+    if (route.loop && state.waypoint == route.count) state.waypoint = 0;
+    state.nearest_m = kNoGoal_m;
+    state.aimless_ticks = 0;
+  }
+  const bool on_route = state.waypoint < route.count;
+  if (!on_route && !options_.goal.set) return;
+  const Vec2 way =
+      (on_route ? route.waypoints_world[state.waypoint] : options_.goal.at_world) - position;
+  s->distance_to_goal_m = Norm(way);
+  s->stops_there = !on_route;
+  if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
+  // Well inside the radius, so that the truth is inside too.
+  if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
+}
+
 Situation Vehicle::Look(const Inputs& inputs) {
   VehicleState& state = *state_;
   const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
@@ -143,15 +178,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
   s.forward_world = Forward(s.world_from_body);
-  s.path = {s.world_from_body.position_world, s.forward_world};
-  s.distance_to_goal_m = kNoGoal_m;
-  if (options_.goal.set) {
-    const Vec2 to_goal = options_.goal.at_world - s.world_from_body.position_world;
-    s.distance_to_goal_m = Norm(to_goal);
-    if (s.distance_to_goal_m > 0) s.path.direction_world = (1 / s.distance_to_goal_m) * to_goal;
-    // Well inside the radius, so that the truth is inside too.
-    if (s.distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
-  }
+  LookAhead(&s);
   s.arrived = state.arrived;
   return s;
 }
@@ -180,7 +207,7 @@ void Vehicle::Detour(Situation* s) {
   }
   if (IsGiveWay(state.decision.rule)) return;
   ++state.aimless_ticks;
-  if (!options_.goal.set || state.arrived) return;
+  if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
   if (!s->aimless) return;
   if (state.detour_tick == kNoTick ||

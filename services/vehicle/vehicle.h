@@ -29,6 +29,7 @@ struct VehicleState {
   WheelSpeeds wheels;  // as last measured
   double sigma_position_m = 0;
   double sigma_heading_rad = 0;
+  std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
   OrderKey order;
   std::uint32_t waited_ticks = 0;  // halted to give way, in the encounters under way
@@ -73,6 +74,7 @@ class Vehicle {
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);
   Situation Look(const Inputs& inputs);
+  void LookAhead(Situation* situation);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
