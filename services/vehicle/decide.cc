@@ -70,6 +70,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                        .sensor = limit->sensor,
                        .cause_tick = limit->cause_tick};
   }
+  action.round = steering.round;
   action.steer_side = steering.side;
   action.target = Drive(profile, steering, speed, may_turn);
   return action;

@@ -93,17 +93,19 @@ class Search {
     Reach(Index(kHalf, kHalf), -1, 0);
   }
 
-  bool Run() {
+  void Run() {
     while (count_ > 0) {
       std::pop_heap(open_.begin(), open_.begin() + count_, Later);
       const Open next = open_[static_cast<std::size_t>(--count_)];
-      if (next.cell == goal_) return true;
+      if (Left(next.cell) < Left(nearest_)) nearest_ = next.cell;
+      if (next.cell == goal_) return;
       const double reached = reached_[static_cast<std::size_t>(next.cell)];
       if (next.total > reached + Left(next.cell) + 1e-9) continue;  // an older, longer way
       for (const Step& step : kSteps) Try(next.cell, step, reached);
     }
-    return false;
   }
+  // The goal, or the cell nearest to it of all that can be reached.
+  int Nearest() const { return nearest_; }
   int Parent(int cell) const { return parents_[static_cast<std::size_t>(cell)]; }
 
  private:
@@ -136,6 +138,7 @@ class Search {
 
   const Cost& cost_;
   const int goal_;
+  int nearest_ = Index(kHalf, kHalf);
   Cost reached_;
   std::array<int, kCells> parents_;
   std::array<Open, 2 * kCells> open_;
@@ -160,8 +163,9 @@ std::optional<Vec2> FirstTurn(Vec2 from_world, Vec2 to_world, std::span<const Ke
   const Cost cost = CostOf(from_world, discs);
   const int goal = CellTowards(to_world - from_world);
   Search search(cost, goal);
-  if (goal == Index(kHalf, kHalf) || !search.Run()) return std::nullopt;
-  int cell = goal;
+  search.Run();
+  int cell = search.Nearest();
+  if (search.Parent(cell) < 0) return std::nullopt;
   while (search.Parent(search.Parent(cell)) >= 0 && !InSight(from_world, CentreOf(cell, from_world), discs)) {
     cell = search.Parent(cell);
   }

@@ -54,15 +54,17 @@ Vec2 Toward(const Situation& s) {
   return s.world_from_body.position_world + way_m * s.path.direction_world;
 }
 
-// Who is bodily in the way: stands where this vehicle wants to be, or keeps it from driving.
-VehicleId BlockedBy(const Situation& s, const Decision& decision) {
+// Who is bodily in the way: stands where this vehicle wants to be, keeps it from driving, or is
+// what it fails to get round.
+VehicleId BlockedBy(const Situation& s, const Action& action) {
   if (s.arrived) return kNobody;
   for (const PeerView& view : s.peers) {
-    const bool there = view.fresh && view.gap_m < kOccupiedWithin_m;
+    const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
     if (there && Occupies(view, Toward(s), s)) return view.peer->id;
   }
-  const bool blocked = decision.rule == Rule::kKeepClear && s.speed_m_s < kStandingSpeed_m_s;
-  return blocked ? decision.peer : kNobody;
+  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
+  if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
+  return s.aimless ? action.round : kNobody;
 }
 
 // A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
@@ -250,7 +252,8 @@ void Vehicle::ListenForMovers(Situation* s) {
 
 // What the next step must know: how long it has waited, and its place in the order, which is
 // sampled when the first of the encounters begins and then stands until the last is over.
-void Vehicle::Remember(const Situation& s, const Decision& decision) {
+void Vehicle::Remember(const Situation& s, const Action& action) {
+  const Decision& decision = action.decision;
   VehicleState& state = *state_;
   const auto under_way = static_cast<std::uint32_t>(
       std::count_if(s.peers.begin(), s.peers.end(),
@@ -264,7 +267,8 @@ void Vehicle::Remember(const Situation& s, const Decision& decision) {
   if (under_way == 0 && !waits) state.waited_ticks = 0;
   state.encounters = under_way;
   state.decision = decision;
-  state.blocked_by = BlockedBy(s, decision);
+  state.steer_side = action.steer_side;
+  state.blocked_by = BlockedBy(s, action);
 }
 
 Beacon Vehicle::Say(const Situation& s) {
@@ -304,8 +308,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   Detour(&s);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.decision);
-  state.steer_side = action.steer_side;
-  Remember(s, action.decision);
+  Remember(s, action);
 
   Outputs outputs;
   outputs.beacon = Say(s);

@@ -10,6 +10,7 @@
 
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle/decide.h"
 #include "services/vehicle/peer_table.h"
 #include "services/vehicle/range_view.h"
 #include "services/vehicle/situation.h"
@@ -78,7 +79,7 @@ class Vehicle {
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
-  void Remember(const Situation& situation, const Decision& decision);
+  void Remember(const Situation& situation, const Action& action);
   Beacon Say(const Situation& situation);
 
   VehicleOptions options_;
