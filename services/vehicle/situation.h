@@ -48,6 +48,7 @@ struct Situation {
   bool stops_there = false;       // at the goal; a waypoint is driven through
   OrderKey order;                 // as last published
   VehicleId blocked_by = kNobody;  // as last published
+  bool very_aimless = false;  // for so long that it does not stay in line any more
   bool aimless = false;              // has driven about for seconds without coming nearer
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   int steer_side = 0;              // the side of the last turn past something: 1 left, -1 right

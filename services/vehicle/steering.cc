@@ -33,13 +33,22 @@ bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
   return Magnitude(WrapAngle(heading_rad - blocked.middle_rad)) < blocked.half_rad - 1e-6;
 }
 
+// Stands ahead on the same way and means to go on: one lines up behind it. Overtaking a queue ends
+// in front of whatever comes the other way.
+bool Queues(const PeerView& view, const Situation& s) {
+  constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
+  const Vec2 way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  const double way_m = Norm(way);
+  return way_m > 0.5 && view.fresh && Dot(way, s.path.direction_world) > kSameWay * way_m;
+}
+
 // Whom to steer round: whoever stands. One that comes first and could start at any time is left to
 // the right of way while it says that it will.
 bool StandsInTheWay(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative) {
     return view.fresh && view.standing && view.grants && !view.goes_first;
   }
-  return view.standing && !view.peer->left;
+  return view.standing && !view.peer->left && !(Queues(view, s) && !s.very_aimless);
 }
 
 // Headings past which nothing gets within `way_m`.

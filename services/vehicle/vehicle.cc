@@ -25,6 +25,7 @@ constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the
 // Driving about for so long without coming nearer, a vehicle looks for a way round.
 constexpr double kPassedAtDistance_m = 1.2;
 constexpr double kNoProgress_s = 6;
+constexpr double kNoPatience_s = 15;
 constexpr double kProgress_m = 0.1;
 constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
 // How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
@@ -211,6 +212,7 @@ void Vehicle::Detour(Situation* s) {
   ++state.aimless_ticks;
   if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
+  s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
   if (!s->aimless) return;
   if (state.detour_tick == kNoTick ||
       TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
