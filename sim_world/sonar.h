@@ -25,12 +25,11 @@
 #include "services/types/range_scan.h"
 #include "services/types/scenario.h"
 #include "sim_world/scene.h"
+#include "sim_world/sonar_crosstalk.h"
 #include "sim_world/sonar_ring.h"
+#include "sim_world/sonar_schedule.h"
 
 namespace giveway::sim {
-
-inline constexpr std::size_t kArrayCount = 2;  // front ring 0-7, rear ring 8-15
-inline constexpr std::size_t kArraySize = kSensorCount / kArrayCount;
 
 // One vehicle's ultrasonics between ticks. Plain data: a copy is a checkpoint. A vehicle that joins
 // starts with an empty one.
@@ -68,8 +67,17 @@ class Sonar {
              const ParallelFor& parallel = OnThisThread);
 
  private:
+  void SenseAtTick(Tick tick, const InstantBefore& instant_before, const ParallelFor& parallel);
+  void SenseAtSlot(std::uint64_t slot, Tick tick, const InstantBefore& instant_before,
+                   const ParallelFor& parallel);
+  void ReadAll(const Scene& scene, Tick tick, const SonarSubject& subject) const;
+  void Fire(std::uint64_t slot, Tick tick, const SonarInstant& instant, std::size_t i) const;
+
   SonarModel model_;
-  Nanoseconds tick_period_;
+  Incidence incidence_;
+  std::uint32_t seed_;
+  FiringSchedule schedule_;
+  Crosstalk crosstalk_;  // of the slot being sensed
 };
 
 }  // namespace giveway::sim
