@@ -43,12 +43,10 @@ bool IsInRange(const Beacon& b) {
          b.sigma_position_m <= kMaxSigma_m && b.sigma_heading_rad >= 0 &&
          b.sigma_heading_rad <= 2 * kPi && IsLength(b.body_radius_m) &&
          IsLength(b.drive.wheel_radius_m) && IsLength(b.drive.axle_m) && b.mode <= Mode::kLeaving &&
-         b.rule <= Rule::kLeaving && b.order.vehicle != kNobody &&
-         b.acceleration_m_s2 > 0 && b.acceleration_m_s2 <= kMaxRate_m_s2 &&
-         b.deceleration_m_s2 > 0 && b.deceleration_m_s2 <= kMaxRate_m_s2 &&
-         Within(b.toward_world.x, kMaxCoordinate_m) &&
-         Within(b.toward_world.y, kMaxCoordinate_m) &&
-         b.order.waited_ticks <= Number(b.tick) &&
+         b.rule <= Rule::kLeaving && b.order.vehicle != kNobody && b.acceleration_m_s2 > 0 &&
+         b.acceleration_m_s2 <= kMaxRate_m_s2 && b.deceleration_m_s2 > 0 &&
+         b.deceleration_m_s2 <= kMaxRate_m_s2 && Within(b.toward_world.x, kMaxCoordinate_m) &&
+         Within(b.toward_world.y, kMaxCoordinate_m) && b.order.waited_ticks <= Number(b.tick) &&
          b.order.speed_bucket <= SpeedBucket(kMaxSpeed_m_s) &&
          (b.order.vehicle != b.vehicle || b.order.speed_bucket == SpeedBucket(b.cruise_m_s));
 }

@@ -9,7 +9,7 @@ struct Action {
   Decision decision;
   WheelSpeeds target;
   VehicleId round = kNobody;  // what it turns past
-  int steer_side = 0;  // which way it turns past something: 1 left, -1 right
+  int steer_side = 0;         // which way it turns past something: 1 left, -1 right
 };
 
 Action Decide(const Situation& s);

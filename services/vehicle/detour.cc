@@ -166,7 +166,8 @@ std::optional<Vec2> FirstTurn(Vec2 from_world, Vec2 to_world, std::span<const Ke
   search.Run();
   int cell = search.Nearest();
   if (search.Parent(cell) < 0) return std::nullopt;
-  while (search.Parent(search.Parent(cell)) >= 0 && !InSight(from_world, CentreOf(cell, from_world), discs)) {
+  while (search.Parent(search.Parent(cell)) >= 0 &&
+         !InSight(from_world, CentreOf(cell, from_world), discs)) {
     cell = search.Parent(cell);
   }
   return CentreOf(cell, from_world);

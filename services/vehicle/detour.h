@@ -16,8 +16,9 @@ struct KeepOut {
 };
 
 // The farthest point in sight, along a shortest way from `from_world` towards `to_world` past all
-// of `discs`, or as near to it as one gets; empty if that is where the vehicle is. Looks 5 m in every direction, in steps of 0.25 m; a way
-// may scrape through the edge of a disc that the vehicle already stands in.
+// of `discs`, or as near to it as one gets; empty if that is where the vehicle is. Looks 5 m in
+// every direction, in steps of 0.25 m; a way may scrape through the edge of a disc that the vehicle
+// already stands in.
 std::optional<Vec2> FirstTurn(Vec2 from_world, Vec2 to_world, std::span<const KeepOut> discs);
 
 }  // namespace giveway

@@ -113,8 +113,8 @@ std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
   static constexpr std::array<RuleFunction, 8> kLecture = {
       Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle};
   static constexpr std::array<RuleFunction, 10> kCooperative = {
-      Leaving,  NotRunning, RangesStale, Arrived,   GiveWay, NotGranted,
-      PeerLost, Deaf,       KeepClear,   Obstacle};
+      Leaving,    NotRunning, RangesStale, Arrived,   GiveWay,
+      NotGranted, PeerLost,   Deaf,        KeepClear, Obstacle};
   switch (behaviour) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:

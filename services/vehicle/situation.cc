@@ -65,8 +65,7 @@ constexpr double kClearance_m = 0.05;
 double FreeOf(const PeerView& view, const Situation& s) {
   const Beacon& beacon = view.peer->beacon;
   if (view.peer->out_of_reach || view.peer->left) return kFarAway_m;
-  const double unknown_s =
-      Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
+  const double unknown_s = Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
   if (unknown_s > kClaimLasts_s) return kFarAway_m;
   const Claim claim =
       ClaimOf(beacon, Forward(beacon.world_from_body), unknown_s, ReactionSeconds(s.options));
@@ -134,8 +133,7 @@ PeerView LookAt(Peer* peer, const Situation& s) {
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
   view.goes_first = ComesFirst(beacon.order, peer->id, s.order, s.options.id);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
-  view.grants =
-      view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted);
+  view.grants = view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted);
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);

@@ -43,15 +43,15 @@ struct Situation {
   double speed_m_s = 0;   // forward, measured
   double turn_rad_s = 0;  // measured
   double sigma_position_m = 0;
-  Path path;                      // towards the goal, or straight on
-  double distance_to_goal_m = 0;  // or to the next waypoint; huge without either
-  bool stops_there = false;       // at the goal; a waypoint is driven through
-  OrderKey order;                 // as last published
-  VehicleId blocked_by = kNobody;  // as last published
-  bool very_aimless = false;  // for so long that it does not stay in line any more
+  Path path;                         // towards the goal, or straight on
+  double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
+  bool stops_there = false;          // at the goal; a waypoint is driven through
+  OrderKey order;                    // as last published
+  VehicleId blocked_by = kNobody;    // as last published
+  bool very_aimless = false;         // for so long that it does not stay in line any more
   bool aimless = false;              // has driven about for seconds without coming nearer
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
-  int steer_side = 0;              // the side of the last turn past something: 1 left, -1 right
+  int steer_side = 0;                // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
   int blind_sensor = -1;        // see RangeView::FirstBlind
   std::uint32_t explained = 0;  // union of the peers' `explains`

@@ -83,7 +83,8 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   const VehicleProfile& profile = s.options.profile;
   for (std::size_t i = 0; i < kSensorCount && headings->count < headings->of.size(); ++i) {
     const SensorView& view = s.ranges[i];
-    if (view.kind != Echo::kEcho || view.range_m > kNear_m || (s.explained >> i & 1U) != 0) continue;
+    if (view.kind != Echo::kEcho || view.range_m > kNear_m || (s.explained >> i & 1U) != 0)
+      continue;
     headings->of[headings->count++] = {
         WrapAngle(s.world_from_body.heading_rad + profile.sonar[i].bearing_rad), kHalf_rad,
         view.range_m, kNobody};
@@ -107,8 +108,8 @@ double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side)
   double best_cost = 1e9;
   for (std::size_t i = 0; i < headings.count; ++i) {
     const Blocked& blocked = headings.of[i];
-    for (const double edge : {blocked.middle_rad + blocked.half_rad,
-                              blocked.middle_rad - blocked.half_rad}) {
+    for (const double edge :
+         {blocked.middle_rad + blocked.half_rad, blocked.middle_rad - blocked.half_rad}) {
       if (BlockedAt(headings, edge) != nullptr) continue;
       const double turn = WrapAngle(edge - wanted_rad);
       // Passing on the right, with the obstacle to the left, where both sides are alike.
@@ -132,12 +133,11 @@ double Activation(const BraitenbergWeights& weights, const SensorView& view) {
 
 Steering SteerToGoal(const Situation& s) {
   Steering steering;
-  const Vec2 way = s.detour_world ? *s.detour_world - s.world_from_body.position_world
-                                  : s.path.direction_world;
+  const Vec2 way =
+      s.detour_world ? *s.detour_world - s.world_from_body.position_world : s.path.direction_world;
   const double wanted = Atan2(way.y, way.x);
   double heading = wanted;
-  const double way_m =
-      s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
+  const double way_m = s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
   BlockedHeadings headings = WhatBlocks(s, way_m);
   if (s.aimless) AddEchoes(s, &headings);
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {

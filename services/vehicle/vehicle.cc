@@ -17,8 +17,6 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
-// The platform's odometry error as its simulator profile gives it: per metre and per radian.
-constexpr double kOdometryError = 0;
 constexpr double kNoGoal_m = 1e6;
 constexpr double kLongestWay_m = 1000;
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
@@ -34,7 +32,11 @@ constexpr double kDeafHold_s = 1.0;
 constexpr double kDeafStagger_s = 0.5;
 constexpr std::uint32_t kDeafStaggerSteps = 8;
 
-double Magnitude(double x) { return x < 0 ? -x : x; }
+// What the wheels do and what the encoders say of it are wrong independently of each other.
+double WheelError(const VehicleProfile& profile) {
+  return Sqrt(profile.wheel_slip * profile.wheel_slip +
+              profile.encoder_noise * profile.encoder_noise);
+}
 
 // The own key, or that of the first in the order that is blocked by this vehicle: whoever it waits
 // for would otherwise make that one wait too.
@@ -85,7 +87,7 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
   GIVEWAY_CHECK(options.id != kNobody);
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->boot_epoch = boot_epoch;
-  state_->world_from_body = options.start_world;
+  state_->odometry = Odometry(options.start_world);
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
 
@@ -94,9 +96,7 @@ void Vehicle::EnterWorld(WorldEpoch epoch) {
   VehicleState& state = *state_;
   state.epoch = epoch;
   state.tick = kNoTick;
-  state.world_from_body = options_.start_world;
-  state.sigma_position_m = 0;
-  state.sigma_heading_rad = 0;
+  state.odometry = Odometry(options_.start_world);
   state.waypoint = 0;
   state.nearest_m = kNoGoal_m;
   state.arrived = false;
@@ -120,11 +120,9 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   if (state.tick != kNoTick && scan.tick <= state.tick) return;  // out of order: older than known
   const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
-  const Twist twist = TwistFromWheels(options_.profile.drive, scan.wheels);
-  state.world_from_body = AdvanceArc(state.world_from_body, twist, dt_s);
-  const double guessed_m = ticks > 1 ? options_.profile.acceleration_m_s2 * dt_s * dt_s : 0;
-  state.sigma_position_m += kOdometryError * Magnitude(twist.forward_m_s) * dt_s + guessed_m;
-  state.sigma_heading_rad += kOdometryError * Magnitude(twist.turn_rad_s) * dt_s;
+  const VehicleProfile& profile = options_.profile;
+  const double guessed_m = ticks > 1 ? profile.acceleration_m_s2 * dt_s * dt_s : 0;
+  state.odometry.Roll(profile.drive, scan.wheels, dt_s, WheelError(profile), guessed_m);
   state.tick = scan.tick;
   state.run_state = scan.run_state;
   state.wheels = scan.wheels;
@@ -133,7 +131,8 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
 
 void Vehicle::TakePeers(const Inputs& inputs) {
   VehicleState& state = *state_;
-  const Self self{options_.id, state.epoch, state.tick, state.world_from_body.position_world};
+  const Self self{options_.id, state.epoch, state.tick,
+                  state.odometry.WorldFromBody().position_world};
   state.peers.Advance(inputs.now, state.tick);
   for (const ReceivedBeacon& received : inputs.beacons) {
     state.peers.Take(received, self, options_, &state.beacons);
@@ -173,10 +172,10 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.tick = state.tick;
   s.run_state = state.run_state;
   s.leaving = inputs.leaving;
-  s.world_from_body = state.world_from_body;
+  s.world_from_body = state.odometry.WorldFromBody();
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
-  s.sigma_position_m = state.sigma_position_m;
+  s.sigma_position_m = state.odometry.SigmaPosition();
   s.order = ActingOrder(state, options_.id);
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
@@ -214,8 +213,7 @@ void Vehicle::Detour(Situation* s) {
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
   s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
   if (!s->aimless) return;
-  if (state.detour_tick == kNoTick ||
-      TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
+  if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
     std::array<KeepOut, 64> discs;
     std::size_t count = 0;
     for (const PeerView& view : s->peers) {
@@ -223,7 +221,8 @@ void Vehicle::Detour(Situation* s) {
       if (count == discs.size() || !view.standing) continue;
       discs[count++] = {view.world_from_body.position_world, room_m};
     }
-    const auto turn = FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
+    const auto turn =
+        FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
     state.detour_tick = turn ? s->tick : kNoTick;
     if (turn) state.detour_world = *turn;
   }
@@ -285,9 +284,9 @@ Beacon Vehicle::Say(const Situation& s) {
           .tick = state.tick,
           .wheels = state.wheels,
           .cruise_m_s = options_.cruise_m_s,
-          .world_from_body = state.world_from_body,
-          .sigma_position_m = state.sigma_position_m,
-          .sigma_heading_rad = state.sigma_heading_rad,
+          .world_from_body = s.world_from_body,
+          .sigma_position_m = s.sigma_position_m,
+          .sigma_heading_rad = state.odometry.SigmaHeading(),
           .body_radius_m = options_.profile.body_radius_m,
           .drive = options_.profile.drive,
           .acceleration_m_s2 = options_.profile.acceleration_m_s2,
@@ -303,6 +302,7 @@ Beacon Vehicle::Say(const Situation& s) {
 Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   VehicleState& state = *state_;
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
+  if (inputs.pose_fix) state.odometry.Fix(*inputs.pose_fix);
   TakePeers(inputs);
   Situation s = Look(inputs);
   LookAtPeers(&s);
@@ -336,12 +336,9 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.epoch);
   hash.Add(state.tick);
   hash.Add(state.run_state);
-  hash.Add(state.world_from_body.position_world.x);
-  hash.Add(state.world_from_body.position_world.y);
-  hash.Add(state.world_from_body.heading_rad);
   hash.Add(state.wheels.left_rad_s);
   hash.Add(state.wheels.right_rad_s);
-  hash.Add(state.sigma_position_m);
+  state.odometry.AddTo(&hash);
   hash.Add(state.arrived);
   hash.Add(state.order.waited_ticks);
   hash.Add(state.waited_ticks);

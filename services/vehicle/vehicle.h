@@ -11,6 +11,7 @@
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/decide.h"
+#include "services/vehicle/odometry.h"
 #include "services/vehicle/peer_table.h"
 #include "services/vehicle/range_view.h"
 #include "services/vehicle/situation.h"
@@ -26,10 +27,8 @@ struct VehicleState {
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   RunState run_state = RunState::kWaiting;
-  Pose world_from_body;
-  WheelSpeeds wheels;  // as last measured
-  double sigma_position_m = 0;
-  double sigma_heading_rad = 0;
+  Odometry odometry;
+  WheelSpeeds wheels;          // as last measured
   std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
   OrderKey order;
