@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#if defined(__x86_64__) && defined(__GLIBC__)
+// Elsewhere, and where the C library's header is not for the compiler, the plain width serves.
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__)
 #include <sys/platform/x86.h>
 #define GIVEWAY_X86_SIMD 1
 #endif
@@ -43,9 +44,9 @@ GIVEWAY_EVERY_WIDTH void HearDisc(const ConeRing& ring, double x, double y, doub
 // Keeps of [low, high] the part of the segment on which at_from + parameter * change >= 0.
 GIVEWAY_EVERY_WIDTH void Clip(double at_from, double change, double* low, double* high) {
   const double parameter = -at_from / change;
-  *low = (change > 0) & (parameter > *low) ? parameter : *low;
-  *high = (change < 0) & (parameter < *high) ? parameter : *high;
-  *high = (change == 0) & (at_from < 0) ? -1 : *high;  // below any low: nothing is left
+  *low = ((change > 0) & (parameter > *low)) ? parameter : *low;
+  *high = ((change < 0) & (parameter < *high)) ? parameter : *high;
+  *high = ((change == 0) & (at_from < 0)) ? -1 : *high;  // below any low: nothing is left
 }
 
 GIVEWAY_EVERY_WIDTH void HearSegment(const ConeRing& ring, Vec2 from, Vec2 to, Incidence incidence,

@@ -110,8 +110,9 @@ void SonarRing::HearDiscs(const Scene& scene, Ear ear, Lanes* range_m) const {
       near.x[near.count] = centre_body.x;
       near.y[near.count] = centre_body.y;
       near.radius_m[near.count] = radius_m;
-      near.count += static_cast<std::size_t>((discs.owner[i] != ear.self) &
-                                             (SquaredNorm(centre_body) <= limit_m * limit_m));
+      const std::size_t foreign = discs.owner[i] != ear.self;
+      const std::size_t in_reach = SquaredNorm(centre_body) <= limit_m * limit_m;
+      near.count += foreign & in_reach;
     }
   };
   scene.DiscsNear(ear.position_world, reach_m, gather);

@@ -303,5 +303,54 @@ TEST(SonarTiers, TransducersSwitchedOffHaveNoDataInEveryTier) {
   }
 }
 
+// A fleet in a tight place with all faults, sensed in the given order and pieces.
+std::vector<Readings> FleetReadings(SonarTier tier, bool backwards, const ParallelFor& parallel) {
+  constexpr std::uint32_t kFleet = 40;
+  const SonarRing ring(WithAllTransducers());
+  Scene scene({});
+  std::vector<SonarState> states(kFleet);
+  std::vector<SonarSubject> subjects;
+  for (std::uint32_t i = 0; i < kFleet; ++i) {
+    const Pose pose = {{0.9 * (i % 7), 0.9 * (i / 7)}, WrapAngle(2.4 * i)};
+    scene.AddDisc(pose.position_world, 0.25, i);
+    subjects.push_back({VehicleId{i + 1}, i, pose, &ring, &states[i]});
+  }
+  scene.Index();
+  if (backwards) std::ranges::reverse(subjects);
+  Sonar sonar(Model(tier), 5, kTickPeriod);
+  for (std::uint32_t tick = 1; tick <= 20; ++tick) {
+    sonar.Sense(
+        Tick{tick},
+        [&](double) {
+          return SonarInstant{&scene, subjects};
+        },
+        parallel);
+  }
+  std::vector<Readings> readings;
+  for (const SonarState& state : states) readings.push_back(state.readings);
+  return readings;
+}
+
+TEST(SonarTiers, NeitherTheOrderOfVehiclesNorTheCutOfTheWorkShows) {
+  const ParallelFor last_first = [](std::size_t count, const ParallelBody& body) {
+    for (std::size_t end = count; end > 0; end -= std::min<std::size_t>(end, 3)) {
+      body(end - std::min<std::size_t>(end, 3), end);
+    }
+  };
+  for (const SonarTier tier :
+       {SonarTier::kIdeal, SonarTier::kTypical, SonarTier::kP3dx, SonarTier::kCrosstalk}) {
+    const std::vector<Readings> forwards = FleetReadings(tier, false, OnThisThread);
+    const std::vector<Readings> backwards = FleetReadings(tier, true, last_first);
+    for (std::size_t v = 0; v < forwards.size(); ++v) {
+      for (std::size_t i = 0; i < kSensorCount; ++i) {
+        ASSERT_EQ(forwards[v][i].kind, backwards[v][i].kind);
+        ASSERT_EQ(forwards[v][i].range_m, backwards[v][i].range_m);
+        ASSERT_EQ(forwards[v][i].tick, backwards[v][i].tick);
+        ASSERT_EQ(forwards[v][i].fired_before_s, backwards[v][i].fired_before_s);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace giveway::sim
