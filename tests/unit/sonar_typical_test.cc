@@ -75,7 +75,7 @@ TEST(SonarTypical, NoiseNeverLeavesTheRangeOfTheSensor) {
   }
 }
 
-// A wall before the transducer at `tilt_rad`, so far to the side that the cone's edge meets it.
+// What transducer 3 says of a wall that leans away from the ray to its near end by this angle.
 Echo HeardOfWallAt(double incidence_rad) {
   // Transducer 3 looks along 10 degrees; the ray along its left edge, 25 degrees, meets the wall's
   // near end and everything else of the wall lies outside the cone or farther away.
