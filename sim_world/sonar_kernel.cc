@@ -2,9 +2,8 @@
 
 #include <cmath>
 
-// Elsewhere, and where the C library's header is not for the compiler, the plain width serves.
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__)
-#include <sys/platform/x86.h>
+// With other compilers and on other machines the plain width serves.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define GIVEWAY_X86_SIMD 1
 #endif
 
@@ -130,11 +129,9 @@ GIVEWAY_KERNEL(Avx512, [[gnu::target("avx512f,avx512dq,avx512vl,prefer-vector-wi
 bool HasSimd(SimdWidth width) {
   if (width == SimdWidth::kPlain) return true;
 #ifdef GIVEWAY_X86_SIMD
-  // Asked of the C library, not of the CPU, so that what is hidden from it is hidden from us.
-  if (!CPU_FEATURE_ACTIVE(AVX2)) return false;
-  return width == SimdWidth::kAvx2 ||
-         (CPU_FEATURE_ACTIVE(AVX512F) && CPU_FEATURE_ACTIVE(AVX512DQ) &&
-          CPU_FEATURE_ACTIVE(AVX512VL));
+  if (width == SimdWidth::kAvx2) return __builtin_cpu_supports("avx2") != 0;
+  return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+         __builtin_cpu_supports("avx512vl") != 0;
 #else
   return false;
 #endif

@@ -176,7 +176,7 @@ Readings SonarRing::Sense(const Pose& world_from_body, Tick tick, std::span<cons
 }
 
 const SonarRing& SonarRings::Of(const VehicleProfile& profile) {
-  auto ring = std::make_unique<const SonarRing>(profile);
+  auto ring = std::make_unique<const SonarRing>(profile, width_);
   const auto same = std::ranges::find_if(rings_, [&](const auto& held) { return *held == *ring; });
   return same != rings_.end() ? **same : *rings_.emplace_back(std::move(ring));
 }

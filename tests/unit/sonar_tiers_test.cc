@@ -127,9 +127,11 @@ TEST(SonarTiers, TransducersSwitchedOffHaveNoDataInEveryTier) {
 }
 
 // A fleet in a tight place with all faults, sensed in the given order and pieces.
-std::vector<Readings> FleetReadings(SonarTier tier, bool backwards, const ParallelFor& parallel) {
+std::vector<Readings> FleetReadings(SonarTier tier, bool backwards, const ParallelFor& parallel,
+                                    SimdWidth width = FastestSimd()) {
   constexpr std::uint32_t kFleet = 40;
-  const SonarRing ring(WithAllTransducers());
+  SonarRings rings(width);
+  const SonarRing& ring = rings.Of(WithAllTransducers());
   Scene scene({});
   std::vector<SonarState> states(kFleet);
   std::vector<SonarSubject> subjects;
@@ -154,6 +156,18 @@ std::vector<Readings> FleetReadings(SonarTier tier, bool backwards, const Parall
   return readings;
 }
 
+void ExpectSameBits(const std::vector<Readings>& a, const std::vector<Readings>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    for (std::size_t i = 0; i < kSensorCount; ++i) {
+      ASSERT_EQ(a[v][i].kind, b[v][i].kind);
+      ASSERT_EQ(a[v][i].range_m, b[v][i].range_m);
+      ASSERT_EQ(a[v][i].tick, b[v][i].tick);
+      ASSERT_EQ(a[v][i].fired_before_s, b[v][i].fired_before_s);
+    }
+  }
+}
+
 TEST(SonarTiers, NeitherTheOrderOfVehiclesNorTheCutOfTheWorkShows) {
   const ParallelFor last_first = [](std::size_t count, const ParallelBody& body) {
     for (std::size_t end = count; end > 0; end -= std::min<std::size_t>(end, 3)) {
@@ -164,13 +178,17 @@ TEST(SonarTiers, NeitherTheOrderOfVehiclesNorTheCutOfTheWorkShows) {
        {SonarTier::kIdeal, SonarTier::kTypical, SonarTier::kP3dx, SonarTier::kCrosstalk}) {
     const std::vector<Readings> forwards = FleetReadings(tier, false, OnThisThread);
     const std::vector<Readings> backwards = FleetReadings(tier, true, last_first);
-    for (std::size_t v = 0; v < forwards.size(); ++v) {
-      for (std::size_t i = 0; i < kSensorCount; ++i) {
-        ASSERT_EQ(forwards[v][i].kind, backwards[v][i].kind);
-        ASSERT_EQ(forwards[v][i].range_m, backwards[v][i].range_m);
-        ASSERT_EQ(forwards[v][i].tick, backwards[v][i].tick);
-        ASSERT_EQ(forwards[v][i].fired_before_s, backwards[v][i].fired_before_s);
-      }
+    ExpectSameBits(forwards, backwards);
+  }
+}
+
+TEST(SonarTiers, TheWidthOfTheRegistersDoesNotShow) {
+  for (const SonarTier tier :
+       {SonarTier::kIdeal, SonarTier::kTypical, SonarTier::kP3dx, SonarTier::kCrosstalk}) {
+    const auto plain = FleetReadings(tier, false, OnThisThread, SimdWidth::kPlain);
+    for (const SimdWidth width : {SimdWidth::kAvx2, SimdWidth::kAvx512}) {
+      if (!HasSimd(width)) continue;
+      ExpectSameBits(FleetReadings(tier, false, OnThisThread, width), plain);
     }
   }
 }
