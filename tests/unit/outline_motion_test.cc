@@ -179,6 +179,13 @@ TEST(OutlineMotion, ABoxSlidesAlongAWall) {
   EXPECT_FALSE(FirstContact(box, Wall{{-5, 0.2}, {0.1, 0.2}}, 0, kDt_s).has_value());
 }
 
+TEST(OutlineMotion, ABoxFlatOnAWallMayTurnNeitherWay) {
+  const Wall wall = {{-5, 0.2 + 5e-7}, {5, 0.2 + 5e-7}};
+  for (const double turn : {-1.0, 1.0}) {
+    EXPECT_EQ(FirstContact(BoxAt({0.3, 0.2}, {{0, 0}, 0}, {0, turn}), wall, 0, kDt_s), 0.0);
+  }
+}
+
 // Beyond the end of the wall the side comes nearer to the wall's line: that is no contact.
 TEST(OutlineMotion, ABoxTurnsAwayFromAWallsEndItTouches) {
   const Motion box = BoxAt({0.3, 0.2}, {{0, 0}, 0}, {0, -1});
