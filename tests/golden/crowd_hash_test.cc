@@ -27,6 +27,7 @@ VehicleOptions VehicleOf(std::uint32_t id) {
   options.profile = PioneerP3dx();
   options.profile.wheel_slip = id % 4 == 0 ? 0.05 : 0;
   options.profile.encoder_noise = id % 5 == 0 ? 0.02 : 0;
+  options.profile.sonar_max_range_m = 0.5;  // ultrasonics are not pinned here and take their time
   if (id % 3 == 0) {
     options.profile.shape = BodyShape::kBox;
     options.profile.box_half_m = {0.25, 0.19};

@@ -179,10 +179,19 @@ TEST(OutlineMotion, ABoxSlidesAlongAWall) {
   EXPECT_FALSE(FirstContact(box, Wall{{-5, 0.2}, {0.1, 0.2}}, 0, kDt_s).has_value());
 }
 
-TEST(OutlineMotion, ABoxFlatOnAWallMayTurnNeitherWay) {
-  const Wall wall = {{-5, 0.2 + 5e-7}, {5, 0.2 + 5e-7}};
-  for (const double turn : {-1.0, 1.0}) {
-    EXPECT_EQ(FirstContact(BoxAt({0.3, 0.2}, {{0, 0}, 0}, {0, turn}), wall, 0, kDt_s), 0.0);
+// However long the wall: its far ends must not tilt what counts as flat.
+TEST(OutlineMotion, ABoxFlatOnAWallMayTurnNeitherWayButSlideAndLeave) {
+  for (int i = 0; i < 200; ++i) {
+    const double heading = -3 + 0.03 * i;
+    const Pose pose = {{3, -2}, heading};
+    const Wall wall = {ToWorld(pose, {-30.0 - i, 0.2 + 5e-7}),
+                       ToWorld(pose, {0.1 + 0.5 * i, 0.2 + 5e-7})};
+    const auto contact = [&](Twist twist) {
+      return FirstContact(BoxAt({0.3, 0.2}, pose, twist), wall, 0, kDt_s);
+    };
+    EXPECT_EQ(contact({0, 1}), 0.0) << i;
+    EXPECT_EQ(contact({0, -1}), 0.0) << i;
+    EXPECT_FALSE(contact({1, 0})) << i;
   }
 }
 
