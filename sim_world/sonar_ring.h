@@ -45,12 +45,21 @@ class SonarRing {
   friend bool operator==(const SonarRing& a, const SonarRing& b);
 
  private:
-  void HearDiscs(const Scene& scene, const Pose& world_from_body, Owner self, Incidence incidence,
-                 Lanes* range_m) const;
-  void HearSegments(const Scene& scene, const Pose& world_from_body, Owner self,
-                    Incidence incidence, Lanes* range_m) const;
-  void HearFromInBoxes(const Scene& scene, const Pose& world_from_body, Owner self,
-                       Lanes* range_m) const;
+  // Who senses, from where, with one sine and cosine for all that is near.
+  struct Ear {
+    Vec2 position_world;
+    Vec2 x_axis_world;
+    Owner self = kNoOwner;
+    Incidence incidence;
+
+    Vec2 ToBody(Vec2 point_world) const;
+    Vec2 ToWorld(Vec2 point_body) const;
+  };
+
+  void HearDiscs(const Scene& scene, Ear ear, Lanes* range_m) const;
+  void HearSegments(const Scene& scene, Ear ear, Lanes* range_m) const;
+  void HearFromInBoxes(const Scene& scene, Ear ear, Lanes* range_m) const;
+  double Reach() const;
 
   const SonarKernel* kernel_;
   ConeRing cones_;  // the same as below, as the kernel wants it
@@ -63,10 +72,14 @@ class SonarRing {
 // The rings of a fleet: vehicles with equal ultrasonics share one.
 class SonarRings {
  public:
+  // The width changes the speed and not a bit of the result.
+  explicit SonarRings(SimdWidth width = FastestSimd()) : width_(width) {}
+
   // Stays where it is as long as this object lives.
   const SonarRing& Of(const VehicleProfile& profile);
 
  private:
+  SimdWidth width_;
   std::vector<std::unique_ptr<const SonarRing>> rings_;
 };
 
