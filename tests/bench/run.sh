@@ -84,8 +84,9 @@ if wanted world; then
   done
 fi
 
-# The world against general engines that cast seven rays a cone over the same bodies: how many times
-# their time a vehicle-step takes ours, and ranges that the sampling does not explain.
+# Against general engines that cast seven rays a cone over the same bodies: their time over ours, of
+# the whole world against Box2D and of its sensing alone against Embree, which only senses; and how
+# many ranges differ by what the sampling does not explain.
 if wanted peers; then
   if [[ ! -x $bin/giveway-peers-bench ]]; then
     mapfile -t packages < <(bench_packages)
@@ -94,8 +95,9 @@ if wanted peers; then
   fi
   build release giveway-peers-bench
   interleaved giveway-peers-bench WorldAgainstPeers
-  figure_at_least world_vs_box2d "$(counter box2d_ratio 1)" 30
-  figure_at_least sonar_vs_embree "$(counter embree_ratio 2)" 5
+  figure_at_least world_vs_box2d "$(counter world_vs_box2d 1)" 30
+  figure_at_least sonar_vs_embree "$(counter sonar_vs_embree 2)" 5
+  figure_alone world_vs_embree "$(counter world_vs_embree 2)"
   for peer in Box2d Embree; do
     interleaved giveway-peers-bench "Agree/$peer"
     figure "range_disagreements_${peer,}" "$(counter disagreements 0)" 0

@@ -2,10 +2,10 @@
 //
 // A turn is a few ticks of 1000 vehicles: first the world makes them, then each peer follows the
 // poses the world came to. What is timed a vehicle-step:
-// - world:  Advance(driving): motors, motion, contacts, walls and all 16 ultrasonics. Its sensing
-//           cannot be called alone, so all of it stands against a part of the work.
-// - Box2D:  velocities, Step() and 112 rays a vehicle.
-// - Embree: new bounds, refit of its tree and 112 rays a vehicle; there is no motion to make.
+// - world:  Advance(driving): motors, motion, contacts, walls and all 16 ultrasonics.
+// - sonar:  the world's sensing alone: every shape put into the scene, its index, 16 ranges.
+// - Box2D:  velocities, Step() and 112 rays a vehicle: stands against the world.
+// - Embree: new bounds, its tree and 112 rays a vehicle, no motion: stands against the sonar.
 // Turns alternate in one loop on one core; a figure is the ratio of the medians over the turns.
 // That peer and world sensed the same is counted over placements of their own (world_agreement.h).
 #include <benchmark/benchmark.h>
@@ -14,6 +14,8 @@
 #include <memory>
 #include <vector>
 
+#include "sim_world/scene.h"
+#include "sim_world/sonar_ring.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/world_agreement.h"
 #include "tests/bench/world_field.h"
@@ -33,40 +35,92 @@ std::vector<Pose> PosesOf(std::span<const sim::Body> bodies) {
   return poses;
 }
 
-void WorldAgainstPeers(benchmark::State& state) {
-  const Scenario field = FieldOf(kThousand, SonarTier::kIdeal);
-  BusyWorld world(field);
-  world.WarmUp();
-  const std::unique_ptr<Peer> peers[] = {MakeBox2dPeer(field), MakeEmbreePeer(field)};
-  for (const std::unique_ptr<Peer>& peer : peers) peer->Move(PosesOf(world.Bodies()));
-  std::vector<double> world_s;
-  std::vector<double> peer_s[2];
-  const auto take_turn = [&] {
-    std::vector<std::vector<Pose>> poses;
-    world_s.push_back(0);
-    for (std::uint32_t tick = 0; tick < kTicksATurn; ++tick) {
-      world.Command();
-      world_s.back() += CpuSecondsOf([&] { world.Advance(); });
-      poses.push_back(PosesOf(world.Bodies()));
+// The part of Advance that Embree has its like of.
+class SonarAlone {
+ public:
+  explicit SonarAlone(const Scenario& scenario)
+      : radius_m_(scenario.vehicles.front().profile.body_radius_m),
+        scene_(scenario.walls),
+        ring_(scenario.vehicles.front().profile) {}
+
+  void Sense(std::span<const Pose> poses) {
+    scene_.Clear();
+    for (sim::Owner i = 0; i < poses.size(); ++i) {
+      scene_.AddDisc(poses[i].position_world, radius_m_, i);
     }
-    for (std::size_t i = 0; i < 2; ++i) {
-      peer_s[i].push_back(CpuSecondsOf([&] {
-        for (const std::vector<Pose>& tick : poses) {
-          peers[i]->Move(tick);
-          peers[i]->Sense();
-        }
-      }));
-    }
-  };
-  for (auto _ : state) {
-    for (int turn = 0; turn < kTurns; ++turn) take_turn();
+    scene_.Index();
+    ranges_.resize(poses.size());
+    for (sim::Owner i = 0; i < poses.size(); ++i) ranges_[i] = ring_.Hear(scene_, poses[i], i);
   }
-  const double vehicle_steps_us = 1e-6 * kTicksATurn * kThousand.Vehicles();
-  state.counters["world_us"] = Median(world_s) / vehicle_steps_us;
-  state.counters["box2d_us"] = Median(peer_s[0]) / vehicle_steps_us;
-  state.counters["embree_us"] = Median(peer_s[1]) / vehicle_steps_us;
-  state.counters["box2d_ratio"] = Median(peer_s[0]) / Median(world_s);
-  state.counters["embree_ratio"] = Median(peer_s[1]) / Median(world_s);
+
+ private:
+  double radius_m_;
+  sim::Scene scene_;
+  sim::SonarRing ring_;
+  std::vector<sim::Lanes> ranges_;
+};
+
+// What each contestant's turns took, seconds.
+struct Turns {
+  std::vector<double> world, sonar, box2d, embree;
+};
+
+class Match {
+ public:
+  Match() {
+    world_.WarmUp();
+    for (Peer* peer : {box2d_.get(), embree_.get()}) peer->Move(PosesOf(world_.Bodies()));
+  }
+
+  void TakeTurns() {
+    turns_.world.push_back(0);
+    poses_.clear();
+    for (std::uint32_t tick = 0; tick < kTicksATurn; ++tick) {
+      world_.Command();
+      turns_.world.back() += CpuSecondsOf([&] { world_.Advance(); });
+      poses_.push_back(PosesOf(world_.Bodies()));
+    }
+    turns_.sonar.push_back(CpuSecondsOf([&] {
+      for (const std::vector<Pose>& tick : poses_) sonar_.Sense(tick);
+    }));
+    turns_.embree.push_back(TurnOf(*embree_));
+    turns_.box2d.push_back(TurnOf(*box2d_));
+  }
+  const Turns& Taken() const { return turns_; }
+
+ private:
+  double TurnOf(Peer& peer) const {
+    return CpuSecondsOf([&] {
+      for (const std::vector<Pose>& tick : poses_) {
+        peer.Move(tick);
+        peer.Sense();
+      }
+    });
+  }
+
+  Scenario field_ = FieldOf(kThousand, SonarTier::kIdeal);
+  BusyWorld world_{field_};
+  SonarAlone sonar_{field_};
+  std::unique_ptr<Peer> box2d_ = MakeBox2dPeer(field_);
+  std::unique_ptr<Peer> embree_ = MakeEmbreePeer(field_);
+  std::vector<std::vector<Pose>> poses_;  // of the turn's ticks
+  Turns turns_;
+};
+
+void WorldAgainstPeers(benchmark::State& state) {
+  Match match;
+  for (auto _ : state) {
+    for (int turn = 0; turn < kTurns; ++turn) match.TakeTurns();
+  }
+  const Turns& turns = match.Taken();
+  const double vehicle_steps = kTicksATurn * kThousand.Vehicles();
+  state.counters["world_us"] = 1e6 * Median(turns.world) / vehicle_steps;
+  state.counters["sonar_us"] = 1e6 * Median(turns.sonar) / vehicle_steps;
+  state.counters["box2d_us"] = 1e6 * Median(turns.box2d) / vehicle_steps;
+  state.counters["embree_us"] = 1e6 * Median(turns.embree) / vehicle_steps;
+  state.counters["world_vs_box2d"] = Median(turns.box2d) / Median(turns.world);
+  state.counters["world_vs_embree"] = Median(turns.embree) / Median(turns.world);
+  state.counters["sonar_vs_embree"] = Median(turns.embree) / Median(turns.sonar);
 }
 BENCHMARK(WorldAgainstPeers)->Iterations(1);
 
