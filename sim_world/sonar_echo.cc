@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "sim_world/sonar_kernel.h"
-
 namespace giveway::sim {
 namespace {
 
@@ -23,14 +21,6 @@ double Measured(double range_m, const SonarModel& model, double max_range_m, Ran
   const double rim_m = std::min(model.blind_m, max_range_m);
   if (range_m < rim_m) return rim_m;
   return std::clamp(range_m + random.Gaussian(model.noise * range_m), rim_m, max_range_m);
-}
-
-RangeReading ReadingOf(double range_m, Tick tick, double fired_before_s) {
-  const bool silent = range_m == kSilence_m;
-  return {.kind = silent ? Echo::kClear : Echo::kEcho,
-          .range_m = silent ? 0 : range_m,
-          .tick = tick,
-          .fired_before_s = fired_before_s};
 }
 
 }  // namespace giveway::sim

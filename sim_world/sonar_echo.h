@@ -7,6 +7,7 @@
 #include "services/types/random.h"
 #include "services/types/range_scan.h"
 #include "services/types/scenario.h"
+#include "sim_world/sonar_kernel.h"
 
 namespace giveway::sim {
 
@@ -21,6 +22,12 @@ Random FiringRandom(std::uint32_t seed, VehicleId vehicle, std::uint64_t when,
 double Measured(double range_m, const SonarModel& model, double max_range_m, Random random);
 
 // What one firing says: an echo at `range_m`, or clear if that is kSilence_m.
-RangeReading ReadingOf(double range_m, Tick tick, double fired_before_s = 0);
+inline RangeReading ReadingOf(double range_m, Tick tick, double fired_before_s = 0) {
+  const bool silent = range_m == kSilence_m;
+  return {.kind = silent ? Echo::kClear : Echo::kEcho,
+          .range_m = silent ? 0 : range_m,
+          .tick = tick,
+          .fired_before_s = fired_before_s};
+}
 
 }  // namespace giveway::sim

@@ -14,24 +14,6 @@ namespace {
 // loses nothing.
 constexpr double kSlack_m = 1e-9;
 
-// A world point in the body frame; one sine and cosine for many points.
-class ToBodyFrame {
- public:
-  explicit ToBodyFrame(const Pose& world_from_body)
-      : origin_world_(world_from_body.position_world), x_axis_world_(Forward(world_from_body)) {}
-  Vec2 operator()(Vec2 point_world) const {
-    const Vec2 offset_world = point_world - origin_world_;
-    return {Dot(x_axis_world_, offset_world), Cross(x_axis_world_, offset_world)};
-  }
-  Vec2 Back(Vec2 point_body) const {
-    return origin_world_ + point_body.x * x_axis_world_ + point_body.y * Left(x_axis_world_);
-  }
-
- private:
-  Vec2 origin_world_;
-  Vec2 x_axis_world_;
-};
-
 // Tells walls named again from new ones, among the last few: hearing one twice costs time only.
 class NewWalls {
  public:
@@ -83,89 +65,97 @@ bool operator==(const SonarRing& a, const SonarRing& b) {
          a.max_range_m_ == b.max_range_m_;
 }
 
+Vec2 SonarRing::Ear::ToBody(Vec2 point_world) const {
+  const Vec2 offset_world = point_world - position_world;
+  return {Dot(x_axis_world, offset_world), Cross(x_axis_world, offset_world)};
+}
+
+Vec2 SonarRing::Ear::ToWorld(Vec2 point_body) const {
+  return position_world + point_body.x * x_axis_world + point_body.y * Left(x_axis_world);
+}
+
+double SonarRing::Reach() const { return apex_reach_m_ + max_range_m_ + kSlack_m; }
+
 Lanes SonarRing::Hear(const Scene& scene, const Pose& world_from_body, Owner self,
                       Incidence incidence) const {
+  const Ear ear = {.position_world = world_from_body.position_world,
+                   .x_axis_world = Forward(world_from_body),
+                   .self = self,
+                   .incidence = incidence};
   Lanes range_m;
   range_m.of.fill(kSilence_m);
-  HearDiscs(scene, world_from_body, self, incidence, &range_m);
-  HearSegments(scene, world_from_body, self, incidence, &range_m);
-  HearFromInBoxes(scene, world_from_body, self, &range_m);
+  HearDiscs(scene, ear, &range_m);
+  HearSegments(scene, ear, &range_m);
+  HearFromInBoxes(scene, ear, &range_m);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (!enabled_[i] || range_m.of[i] > max_range_m_) range_m.of[i] = kSilence_m;
   }
   return range_m;
 }
 
-void SonarRing::HearDiscs(const Scene& scene, const Pose& world_from_body, Owner self,
-                          Incidence incidence, Lanes* range_m) const {
+void SonarRing::HearDiscs(const Scene& scene, Ear ear, Lanes* range_m) const {
   const SceneDiscs discs = scene.Discs();
-  const Vec2 here = world_from_body.position_world;
-  const ToBodyFrame to_body(world_from_body);
-  const double reach_m = apex_reach_m_ + max_range_m_ + kSlack_m;
+  const double reach_m = Reach();
   NearDiscs near;
   const auto gather = [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i < end; ++i) {
       if (near.count == kNearListSize) {
-        kernel_->hear_discs(cones_, near, incidence, range_m);
+        kernel_->hear_discs(cones_, near, ear.incidence, range_m);
         near.count = 0;
       }
       // Written in any case and counted if wanted: half are, and a branch would guess badly.
-      const Vec2 centre = {discs.x_world[i], discs.y_world[i]};
+      const Vec2 centre_body = ear.ToBody({discs.x_world[i], discs.y_world[i]});
       const double radius_m = discs.radius_m[i];
       const double limit_m = reach_m + radius_m;
-      const Vec2 centre_body = to_body(centre);
       near.x[near.count] = centre_body.x;
       near.y[near.count] = centre_body.y;
       near.radius_m[near.count] = radius_m;
-      near.count += static_cast<std::size_t>((discs.owner[i] != self) &
-                                             (SquaredNorm(centre - here) <= limit_m * limit_m));
+      near.count += static_cast<std::size_t>((discs.owner[i] != ear.self) &
+                                             (SquaredNorm(centre_body) <= limit_m * limit_m));
     }
   };
-  scene.DiscsNear(here, reach_m, gather);
-  kernel_->hear_discs(cones_, near, incidence, range_m);
+  scene.DiscsNear(ear.position_world, reach_m, gather);
+  kernel_->hear_discs(cones_, near, ear.incidence, range_m);
 }
 
-void SonarRing::HearSegments(const Scene& scene, const Pose& world_from_body, Owner self,
-                             Incidence incidence, Lanes* range_m) const {
-  const Vec2 here = world_from_body.position_world;
-  const ToBodyFrame to_body(world_from_body);
-  const double reach_m = apex_reach_m_ + max_range_m_ + kSlack_m;
+void SonarRing::HearSegments(const Scene& scene, Ear ear, Lanes* range_m) const {
+  const double reach_m = Reach();
   NearSegments near;
   const auto take = [&](const SceneSegment& segment) {
-    const Vec2 nearest = NearestOnSegment(segment.from_world, segment.to_world, here);
-    if (SquaredNorm(nearest - here) > reach_m * reach_m) return;
+    const Vec2 from = ear.ToBody(segment.from_world);
+    const Vec2 to = ear.ToBody(segment.to_world);
+    if (SquaredNorm(NearestOnSegment(from, to, {})) > reach_m * reach_m) return;
     if (near.count == kNearListSize) {
-      kernel_->hear_segments(cones_, near, incidence, range_m);
+      kernel_->hear_segments(cones_, near, ear.incidence, range_m);
       near.count = 0;
     }
-    near.from[near.count] = to_body(segment.from_world);
-    near.to[near.count] = to_body(segment.to_world);
+    near.from[near.count] = from;
+    near.to[near.count] = to;
     ++near.count;
   };
   NewWalls is_new;
-  scene.WallsNear(here, reach_m, [&](std::uint32_t wall) {
+  scene.WallsNear(ear.position_world, reach_m, [&](std::uint32_t wall) {
     if (is_new(wall)) take(scene.Walls()[wall]);
   });
-  scene.LooseSegmentsNear(here, reach_m, [&](const SceneSegment& segment) {
-    if (segment.owner != self) take(segment);
+  scene.LooseSegmentsNear(ear.position_world, reach_m, [&](const SceneSegment& segment) {
+    if (segment.owner != ear.self) take(segment);
   });
-  kernel_->hear_segments(cones_, near, incidence, range_m);
+  if (near.count > 0) kernel_->hear_segments(cones_, near, ear.incidence, range_m);
 }
 
-void SonarRing::HearFromInBoxes(const Scene& scene, const Pose& world_from_body, Owner self,
-                                Lanes* range_m) const {
-  const ToBodyFrame to_body(world_from_body);
-  scene.BoxesNear(world_from_body.position_world, apex_reach_m_, [&](const SceneBox& box) {
-    if (box.owner == self) return;
+void SonarRing::HearFromInBoxes(const Scene& scene, Ear ear, Lanes* range_m) const {
+  scene.BoxesNear(ear.position_world, apex_reach_m_, [&](const SceneBox& box) {
+    if (box.owner == ear.self) return;
     for (std::size_t i = 0; i < kSensorCount; ++i) {
-      if (box.Holds(to_body.Back(cones_body_[i].apex))) range_m->of[i] = 0;
+      if (box.Holds(ear.ToWorld(cones_body_[i].apex))) range_m->of[i] = 0;
     }
   });
 }
 
 Readings SonarRing::Sense(const Pose& world_from_body, Tick tick, std::span<const Disc> bodies,
                           std::size_t self, std::span<const Wall> walls) const {
-  const ToBodyFrame to_body(world_from_body);
+  const Ear ear = {.position_world = world_from_body.position_world,
+                   .x_axis_world = Forward(world_from_body)};
   Readings readings{};
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (!enabled_[i]) continue;
@@ -174,10 +164,11 @@ Readings SonarRing::Sense(const Pose& world_from_body, Tick tick, std::span<cons
     for (std::size_t body = 0; body < bodies.size(); ++body) {
       if (body == self) continue;
       Keep(&readings[i],
-           RangeToDisc(cone, to_body(bodies[body].centre_world), bodies[body].radius_m));
+           RangeToDisc(cone, ear.ToBody(bodies[body].centre_world), bodies[body].radius_m));
     }
     for (const Wall& wall : walls) {
-      Keep(&readings[i], RangeToSegment(cone, to_body(wall.from_world), to_body(wall.to_world)));
+      Keep(&readings[i],
+           RangeToSegment(cone, ear.ToBody(wall.from_world), ear.ToBody(wall.to_world)));
     }
   }
   return readings;

@@ -45,12 +45,21 @@ class SonarRing {
   friend bool operator==(const SonarRing& a, const SonarRing& b);
 
  private:
-  void HearDiscs(const Scene& scene, const Pose& world_from_body, Owner self, Incidence incidence,
-                 Lanes* range_m) const;
-  void HearSegments(const Scene& scene, const Pose& world_from_body, Owner self,
-                    Incidence incidence, Lanes* range_m) const;
-  void HearFromInBoxes(const Scene& scene, const Pose& world_from_body, Owner self,
-                       Lanes* range_m) const;
+  // Who senses, from where, with one sine and cosine for all that is near.
+  struct Ear {
+    Vec2 position_world;
+    Vec2 x_axis_world;
+    Owner self = kNoOwner;
+    Incidence incidence;
+
+    Vec2 ToBody(Vec2 point_world) const;
+    Vec2 ToWorld(Vec2 point_body) const;
+  };
+
+  void HearDiscs(const Scene& scene, Ear ear, Lanes* range_m) const;
+  void HearSegments(const Scene& scene, Ear ear, Lanes* range_m) const;
+  void HearFromInBoxes(const Scene& scene, Ear ear, Lanes* range_m) const;
+  double Reach() const;
 
   const SonarKernel* kernel_;
   ConeRing cones_;  // the same as below, as the kernel wants it
