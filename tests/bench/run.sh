@@ -85,8 +85,8 @@ if wanted world; then
 fi
 
 # Against general engines that cast seven rays a cone over the same bodies: their time over ours, of
-# the whole world against Box2D and of its sensing alone against Embree, which only senses; and how
-# many ranges differ by what the sampling does not explain.
+# the whole world against Box2D and of its sensing alone against Embree, which only senses; how many
+# ranges differ by what the sampling does not explain, and by what only grazing does.
 if wanted peers; then
   if [[ ! -x $bin/giveway-peers-bench ]]; then
     mapfile -t packages < <(bench_packages)
@@ -101,6 +101,7 @@ if wanted peers; then
   for peer in Box2d Embree; do
     interleaved giveway-peers-bench "Agree/$peer"
     figure "range_disagreements_${peer,}" "$(counter disagreements 0)" 0
+    figure "range_grazing_ppm_${peer,}" "$(counter grazing_ppm 0)" 1000
   done
 fi
 

@@ -13,7 +13,8 @@
 //   which could hide between rays.
 //
 // Peers round where the world does not. A reading outside these bounds only because a cone's edge
-// grazes something is recognised by the world's own answer for cones a hair wider and narrower.
+// grazes something is recognised by the world's own answer for cones a hair wider and narrower. Few
+// may need that: an error of the cone's edges would make them many.
 #pragma once
 
 #include <cstdint>
