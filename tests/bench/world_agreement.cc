@@ -76,9 +76,9 @@ void Compare(const SensedBodies& world, std::span<const RayRanges> peer,
     for (std::size_t cone = 0; cone < kSensorCount; ++cone) {
       const Ear ear = {ToWorld(body.world_from_body, body.profile.sonar[cone].position_body),
                        body.profile.body_radius_m, max_range_m, walls};
-      CompareReading(ear, RangeOf(body.readings[cone], max_range_m),
-                     RangeOf(world.wider[i].readings[cone], max_range_m),
-                     RangeOf(world.narrower[i].readings[cone], max_range_m),
+      CompareReading(ear, RangeOf(body.sonar.readings[cone], max_range_m),
+                     RangeOf(world.wider[i].sonar.readings[cone], max_range_m),
+                     RangeOf(world.narrower[i].sonar.readings[cone], max_range_m),
                      std::min(static_cast<double>(peer[i][cone]), max_range_m), agreement);
     }
   }
