@@ -37,6 +37,9 @@ test_packages() {
   printf '%s\n' clang-format jq shellcheck librsvg2-bin clang "$clang_rt"
 }
 
+# What the world is measured against. Only tests/bench/run.sh asks for them.
+bench_packages() { printf '%s\n' libbox2d-dev libembree-dev; }
+
 as_root() {
   if [[ $(id -u) -eq 0 ]]; then
     "$@"
