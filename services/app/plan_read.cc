@@ -76,6 +76,15 @@ std::vector<VehicleId> ReadIds(const Section& section, const char* field, const 
   return {ids.begin(), ids.end()};
 }
 
+// True if a set of ids is not judged; then there is none to name.
+bool ReadAny(const Section& section, const char* field, const char* ids) {
+  const bool any = section.FlagOr(false, field);
+  if (any && section.Has(ids)) {
+    section.Complain(field, fmt::format("is given beside {}", ids), "remove one of the two");
+  }
+  return any;
+}
+
 // Whoever is expected to arrive needs a goal; one that joins may get any of the spawn places.
 void CheckGoals(const Section& section, const KnownIds& known, const Scenario& scenario,
                 const std::vector<VehicleId>& arrived) {
@@ -122,6 +131,8 @@ Expectation ReadExpectation(const Section& section, const KnownIds& known,
   expect.contacts = section.WholeOr(0, "contacts", kWholeNumber);
   expect.halted = ReadIds(section, "halted", known);
   expect.arrived = ReadIds(section, "arrived", known);
+  expect.any_halted = ReadAny(section, "any_halted", "halted");
+  expect.any_arrived = ReadAny(section, "any_arrived", "arrived");
   expect.parted = section.FlagOr(false, "parted");
   if (section.Has("min_separation_m")) {
     expect.min_separation_m = section.Number("min_separation_m", {0, 10000, "m"});

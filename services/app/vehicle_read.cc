@@ -173,8 +173,9 @@ void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile)
 
 VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
                            std::optional<Behaviour> forced) {
+  const VehicleId id{section.Whole("id", kId)};
   VehicleOptions vehicle = ReadDriver(section, common, forced);
-  vehicle.id = VehicleId{section.Whole("id", kId)};
+  vehicle.id = id;
   return vehicle;
 }
 
