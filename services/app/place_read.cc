@@ -29,9 +29,8 @@ Ends ReadEnds(const Section& section, const char* what) {
   const Ends ends{end("from"), end("to")};
   const double length_m = Norm(ends.to_world - ends.from_world);
   if (length_m < kShortest_m) {
-    section.Complain("",
-                     fmt::format("the {} has no length: from and to are {} m apart, at least {} "
-                                 "is needed",
+    section.Complain("to",
+                     fmt::format("the {} has no length: from is {} m away, at least {} is needed",
                                  what, length_m, kShortest_m),
                      fmt::format("move one end, or remove the {}", what));
   }

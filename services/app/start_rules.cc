@@ -118,7 +118,7 @@ void ComplainOfLine(const ReadScenario& read, const Starts& starts, std::size_t 
 // A leaf that would cut through a wall or another leaf. Meeting at a jamb is what doors do.
 void CheckDoors(const ReadScenario& read, const Starts& starts) {
   const auto complain = [&](std::size_t door, const char* what, std::size_t other) {
-    read.doors[door].Complain("", fmt::format("the leaf crosses {}[{}]", what, other),
+    read.doors[door].Complain("to", fmt::format("the leaf crosses {}[{}]", what, other),
                               "let it end at the wall, or move it");
   };
   const auto meet_doors = [&](std::size_t a, std::size_t b) {

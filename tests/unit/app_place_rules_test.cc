@@ -59,11 +59,11 @@ TEST(PlaceRules, ABodyHasOneShape) {
 TEST(PlaceRules, WallsLeavesAndStopLinesHaveALength) {
   const std::string ends = "from { x_m: 8 y_m: 1 } to { x_m: 8 y_m: 1.0001 }";
   EXPECT_THAT(With("wall { " + ends + " }"),
-              ElementsAre(Is(17, "wall[1]", "the wall has no length")));
+              ElementsAre(Is(17, "wall[1].to", "the wall has no length")));
   EXPECT_THAT(With("door { " + ends + " }"),
-              ElementsAre(Is(17, "door[0]", "the door has no length")));
+              ElementsAre(Is(17, "door[0].to", "the door has no length")));
   EXPECT_THAT(With("signal { id: 1 line { " + ends + " } heading_deg: 0 }"),
-              ElementsAre(Is(17, "signal[0].line", "the stop line has no length")));
+              ElementsAre(Is(17, "signal[0].line.to", "the stop line has no length")));
 }
 
 TEST(PlaceRules, AnObstacleHasOneShapeAndAPlace) {
@@ -108,10 +108,10 @@ TEST(PlaceRules, ALeafFasterThanTenMetresASecondIsRefused) {
 
 TEST(PlaceRules, ALeafDoesNotCutThroughWallsOrOtherLeaves) {
   EXPECT_THAT(With("door { from { x_m: 0 y_m: 2 } to { x_m: 0 y_m: 4 } }"),
-              ElementsAre(Is(17, "door[0]", "crosses wall[0]")));
+              ElementsAre(Is(17, "door[0].to", "crosses wall[0]")));
   EXPECT_THAT(With("door { from { x_m: 8 y_m: 0 } to { x_m: 9 y_m: 0 } } "
                    "door { from { x_m: 8.5 y_m: -1 } to { x_m: 8.5 y_m: 1 } }"),
-              ElementsAre(Is(17, "door[1]", "crosses door[0]")));
+              ElementsAre(Is(17, "door[1].to", "crosses door[0]")));
   EXPECT_THAT(With("door { from { x_m: 5 y_m: 3 } to { x_m: 6 y_m: 3 } } "
                    "door { from { x_m: 7 y_m: 3 } to { x_m: 6 y_m: 3 } }"),
               IsEmpty());

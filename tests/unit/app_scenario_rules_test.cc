@@ -157,7 +157,7 @@ TEST(ScenarioRules, AWallNeedsTwoPointsThatDiffer) {
   EXPECT_THAT(ProblemsOf(kGoodScenario + "wall { from { x_m: 1 y_m: 1 } }"),
               ElementsAre(Is(17, "wall[1].to", "missing")));
   EXPECT_THAT(ProblemsOf(kGoodScenario + "wall { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 1 } }"),
-              ElementsAre(Is(17, "wall[1]", "no length")));
+              ElementsAre(Is(17, "wall[1].to", "no length")));
 }
 
 TEST(ScenarioRules, AFaultNeedsAKnownVehicleAndACondition) {
