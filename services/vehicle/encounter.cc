@@ -87,7 +87,8 @@ bool FirstMayGo(const PeerView& view, const Situation& s) {
 // it goes through, whatever the peer's light and the order say meanwhile.
 bool HasEntered(const PeerView& view, const Situation& s) {
   if (!view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s)) return false;
-  return view.peer->encounter.entered || (view.at_signal && view.grants && !s.at_signal);
+  const bool let_go = view.at_signal && view.grants && !s.at_signal && !s.stop_line;
+  return view.peer->encounter.entered || let_go;
 }
 
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the

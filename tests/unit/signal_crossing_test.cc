@@ -11,7 +11,7 @@ namespace {
 
 using test::SmallFleet;
 
-constexpr double kLine_m = 1.0;  // from the crossing's middle
+constexpr double kLine_m = 0.7;  // from the crossing's middle
 
 SignalPlan Head(std::uint32_t id, Vec2 along, double offset_s, double cycle_s) {
   const Vec2 middle = -kLine_m * along;
@@ -26,9 +26,11 @@ SignalPlan Head(std::uint32_t id, Vec2 along, double offset_s, double cycle_s) {
           .offset_s = offset_s};
 }
 
-// Vehicle 1 comes from the west and has green first, vehicle 2 from the south; they would meet.
+// Vehicle 1 comes from the west and has green first; vehicle 2 comes from the south and stands at
+// its line when vehicle 1 is there.
 Scenario LitCrossing(double cruise_1_m_s, double cruise_2_m_s, double cycle_s) {
   Scenario scenario = test::Crossing(Behaviour::kCooperative, cruise_1_m_s, cruise_2_m_s);
+  scenario.vehicles[0].start_world.position_world.x -= 1;
   scenario.signals = {Head(1, {1, 0}, 0, cycle_s), Head(2, {0, 1}, cycle_s / 2, cycle_s)};
   return scenario;
 }

@@ -1,5 +1,6 @@
 giveway_test(unit vehicle
-  SOURCES conflict_test.cc decide_test.cc peer_table_test.cc range_view_test.cc steering_test.cc
+  SOURCES conflict_test.cc decide_test.cc peer_table_test.cc range_view_test.cc
+          signals_obeyed_test.cc steering_test.cc
           vehicle_test.cc
   LINK giveway::vehicle)
 
