@@ -8,6 +8,9 @@ namespace giveway {
 namespace {
 
 constexpr double kFar_m = 1e6;
+// From inside a claim: how much the way out may lead inwards at first. It comes nearer by no more
+// than a thousandth of the distance, and a way square to it is not lost to rounding.
+constexpr double kAlong = 0.045;
 // Faster than it says it cruises nobody goes but by slip and rounding.
 constexpr double kSpeedSlack = 1.1;
 // The brain's own limit on turning while it drives (steering.cc) is half of what a body can do.
@@ -44,7 +47,7 @@ double FreeBefore(const Claim& claim, const Path& path, double radius_m) {
   const double reach_m = radius_m + claim.radius_m;
   const Vec2 away = path.from_world - NearestOnAxis(claim, path.from_world);
   if (SquaredNorm(away) < reach_m * reach_m) {
-    return Dot(away, path.direction_world) > 0 ? kFar_m : 0;
+    return Dot(away, path.direction_world) > -kAlong * Norm(away) ? kFar_m : 0;
   }
   const Path tail = {claim.axis.from_world + claim.length_m * claim.axis.direction_world,
                      -1.0 * claim.axis.direction_world};

@@ -8,6 +8,9 @@
 namespace giveway {
 namespace {
 
+// Nearer to a body than one passes it, every way that does not lead nearer still is free: between
+// two bodies there would be none otherwise.
+constexpr double kBesideIt_rad = kPi / 2 - 0.03;
 // How far ahead what stands in the way is steered round.
 constexpr double kLookAhead_m = 3;
 // A heading on the side of the last turn is kept although another is this much nearer.
@@ -48,7 +51,8 @@ bool StandsInTheWay(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative) {
     return view.fresh && view.standing && view.grants && !view.goes_first;
   }
-  return view.standing && !view.peer->left && !(Queues(view, s) && !s.very_aimless);
+  if (!view.standing || view.peer->left) return false;
+  return !Queues(view, s) || (s.very_aimless && !view.at_signal);
 }
 
 // Headings past which nothing gets within `way_m`.
@@ -68,7 +72,7 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
     const double half_rad =
         distance_m > clearance_m
             ? Atan2(clearance_m, Sqrt(distance_m * distance_m - clearance_m * clearance_m))
-            : kPi / 2 + Radians(10);
+            : kBesideIt_rad;
     headings.of[headings.count++] = {Atan2(offset.y, offset.x), half_rad, distance_m,
                                      view.peer->id};
   }

@@ -105,6 +105,8 @@ void Vehicle::EnterWorld(WorldEpoch epoch) {
   state.encounters = 0;
   state.deaf = false;
   state.ranges = {};
+  state.signals.LeaveWorld();
+  state.objects = {};
   state.peers.LeaveWorld();
 }
 
@@ -126,7 +128,14 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   state.tick = scan.tick;
   state.run_state = scan.run_state;
   state.wheels = scan.wheels;
-  state.ranges.Take(scan, now, options_.tick_period);
+  if (HasImperfectSonar(options_)) {
+    const Twist twist = TwistFromWheels(profile.drive, scan.wheels);
+    const double turned_rad = twist.turn_rad_s * dt_s;
+    const OwnWay moved{twist.forward_m_s * dt_s, turned_rad < 0 ? -turned_rad : turned_rad};
+    state.ranges.TakeImperfect(scan, now, options_.tick_period, moved);
+  } else {
+    state.ranges.Take(scan, now, options_.tick_period);
+  }
 }
 
 void Vehicle::TakePeers(const Inputs& inputs) {
@@ -164,10 +173,19 @@ void Vehicle::LookAhead(Situation* s) {
   if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
 }
 
+void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  for (const SignalState& signal : inputs.signals) {
+    state.signals_refused += state.signals.Take(signal, state.epoch, inputs.now) ? 0 : 1;
+  }
+  const Observer observer{state.epoch, state.tick, state.odometry.WorldFromBody(), SpeedMps()};
+  state.scans_refused += TakeObjects(inputs, observer, &state.objects);
+}
+
 Situation Vehicle::Look(const Inputs& inputs) {
   VehicleState& state = *state_;
   const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
-  Situation s{.options = options_, .ranges = state.ranges};
+  Situation s{.options = options_, .ranges = state.ranges, .objects = state.objects};
   s.now = inputs.now;
   s.tick = state.tick;
   s.run_state = state.run_state;
@@ -183,6 +201,20 @@ Situation Vehicle::Look(const Inputs& inputs) {
   LookAhead(&s);
   s.arrived = state.arrived;
   return s;
+}
+
+// Lights are for cooperative vehicles; the lecture's behaviours know none.
+void Vehicle::LookAtSignals(Situation* s) {
+  if (options_.behaviour != Behaviour::kCooperative || s->run_state != RunState::kRunning) return;
+  const VehicleProfile& profile = options_.profile;
+  const double stopping_m = StoppingDistance(std::max(0.0, s->speed_m_s), ReactionSeconds(options_),
+                                             profile.deceleration_m_s2);
+  s->stop_line = state_->signals.MustStopAt({.path = s->path,
+                                             .distance_to_goal_m = s->distance_to_goal_m,
+                                             .body_radius_m = profile.body_radius_m,
+                                             .stopping_m = stopping_m},
+                                            s->now);
+  s->at_signal = state_->decision.rule == Rule::kSignal;
 }
 
 void Vehicle::LookAtPeers(Situation* s) {
@@ -207,7 +239,7 @@ void Vehicle::Detour(Situation* s) {
     state.aimless_ticks = 0;
     state.detour_tick = kNoTick;
   }
-  if (IsGiveWay(state.decision.rule)) return;
+  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
   ++state.aimless_ticks;
   if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
@@ -304,7 +336,9 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
   if (inputs.pose_fix) state.odometry.Fix(*inputs.pose_fix);
   TakePeers(inputs);
+  TakeSignalsAndObjects(inputs);
   Situation s = Look(inputs);
+  LookAtSignals(&s);
   LookAtPeers(&s);
   ListenForMovers(&s);
   Detour(&s);
@@ -349,6 +383,8 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.gives_way_to);
   state.ranges.AddTo(&hash);
   state.peers.AddTo(&hash);
+  state.signals.AddTo(&hash);
+  AddTo(state.objects, &hash);
   return hash.Value();
 }
 

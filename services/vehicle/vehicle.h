@@ -47,7 +47,10 @@ struct VehicleState {
   Tick detour_tick = kNoTick;        // when it was looked for
   RangeView ranges;
   PeerTable peers;
-  std::uint32_t scans_refused = 0;
+  SignalTable signals;
+  SeenObjects objects;
+  std::uint32_t scans_refused = 0;  // of any sensor
+  std::uint32_t signals_refused = 0;
   BeaconCounters beacons;
   QosCounters qos;
 };
@@ -73,8 +76,10 @@ class Vehicle {
   void EnterWorld(WorldEpoch epoch);
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);
+  void TakeSignalsAndObjects(const Inputs& inputs);
   Situation Look(const Inputs& inputs);
   void LookAhead(Situation* situation);
+  void LookAtSignals(Situation* situation);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);

@@ -1,6 +1,7 @@
 // A brain on a table: feed it scans and beacons tick by tick, read what it decides. No world.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "services/types/math.h"
@@ -60,6 +61,14 @@ inline ReceivedBeacon Received(const Beacon& beacon, SteadyTime at) {
           .writer = 1000 + Number(beacon.vehicle)};
 }
 
+// What else comes with one tick; epoch and tick are set by the bench.
+struct MoreInputs {
+  std::vector<SignalState> signals;
+  std::optional<RadarScan> radar;
+  std::optional<LidarScan> lidar;
+  std::optional<CameraScan> camera;
+};
+
 // Runs one brain through ticks 1, 2, 3 … of 50 ms.
 class BrainBench {
  public:
@@ -77,6 +86,8 @@ class BrainBench {
     for (RangeReading& reading : scan.readings) reading.tick = scan.tick;
     return StepWith(scan, beacons, events);
   }
+  // What comes with the next step beside scan and beacons.
+  MoreInputs& WithNext() { return more_; }
   // One tick's time passes and no scan comes.
   Outputs StepBlind() {
     ++tick_;
@@ -93,11 +104,26 @@ class BrainBench {
     inputs.scan = scan;
     inputs.beacons = received;
     inputs.events = events;
-    return vehicle_.Step(inputs);
+    inputs.signals = more_.signals;
+    for (SignalState& signal : more_.signals) Stamp(&signal);
+    if (more_.radar) inputs.radar = Stamp(&*more_.radar);
+    if (more_.lidar) inputs.lidar = Stamp(&*more_.lidar);
+    if (more_.camera) inputs.camera = Stamp(&*more_.camera);
+    const Outputs outputs = vehicle_.Step(inputs);
+    more_ = {};
+    return outputs;
+  }
+
+  template <typename Sample>
+  const Sample* Stamp(Sample* sample) const {
+    sample->epoch = kEpoch;
+    sample->tick = Tick{tick_};
+    return sample;
   }
 
   VehicleOptions options_;
   Vehicle vehicle_;
+  MoreInputs more_;
   std::uint32_t tick_ = 0;
 };
 
