@@ -48,8 +48,8 @@ TEST(Expectation, ABoundIsKeptOrNamedWithTheFigure) {
 
 TEST(Expectation, WhoHaltsOrArrivesCanBeLeftOpen) {
   Outcome outcome;
-  outcome.halted = {VehicleId{1}};
-  outcome.arrived = {VehicleId{2}};
+  outcome.halted = {kOne};
+  outcome.arrived = {kTwo};
   Expectation expect;
   expect.any_halted = true;
   EXPECT_EQ(Unmet(expect, outcome), "arrived: expected nobody, got 2");
