@@ -86,7 +86,7 @@ class BrainBench {
     return StepWith(scan, beacons, events);
   }
   // The same with readings as old as they are: only those that changed have fired now.
-  Outputs StepAsFired(RangeScan scan) {
+  Outputs StepAsFired(RangeScan scan, const std::vector<Beacon>& beacons = {}) {
     ++tick_;
     scan.tick = Tick{tick_};
     for (std::size_t i = 0; i < kSensorCount; ++i) {
@@ -96,7 +96,7 @@ class BrainBench {
       scan.readings[i].tick = repeated && !clear ? readings_[i].tick : scan.tick;
     }
     readings_ = scan.readings;
-    return StepWith(scan, {}, {});
+    return StepWith(scan, beacons, {});
   }
   const std::array<RangeReading, kSensorCount>& LastReadings() const { return readings_; }
   // What comes with the next step beside scan and beacons.

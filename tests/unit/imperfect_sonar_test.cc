@@ -12,6 +12,7 @@ namespace giveway {
 namespace {
 
 using std::chrono::milliseconds;
+using test::BeaconOf;
 using test::BrainBench;
 using test::ClearScan;
 
@@ -22,9 +23,9 @@ VehicleOptions Slow() {
   return options;
 }
 
-VehicleOptions Noisy() {
+VehicleOptions Noisy(double noise = 0.01) {
   VehicleOptions options = test::DefaultOptions();
-  options.sonar_noise = 0.01;
+  options.sonar_noise = noise;
   return options;
 }
 
@@ -137,7 +138,7 @@ TEST(SlowSonar, ADropOutDoesNotReleaseAHold) {
 }
 
 TEST(NoisySonar, AWallDroveUpToDoesNotMoveByItself) {
-  for (const VehicleOptions& options : {Noisy(), Slow()}) {
+  for (const VehicleOptions& options : {Noisy(), Noisy(0.03), Slow()}) {
     Random random(11);
     BrainBench bench(options);
     const std::uint32_t every = options.sonar_refresh.count() > 0 ? 7 : 1;
@@ -152,8 +153,8 @@ TEST(NoisySonar, AWallDroveUpToDoesNotMoveByItself) {
       scan.wheels = {speed / 0.0975, speed / 0.0975};
       if (i % every == 0) {
         const double range = 1.1 - at_m;
-        test::SetEcho(&scan, 3, range + random.Gaussian(0.01 * range));
-        test::SetEcho(&scan, 4, range + random.Gaussian(0.01 * range));
+        test::SetEcho(&scan, 3, range + random.Gaussian(options.sonar_noise * range));
+        test::SetEcho(&scan, 4, range + random.Gaussian(options.sonar_noise * range));
       }
       const Outputs out = bench.StepAsFired(scan);
       EXPECT_NE(out.command.decision.rule, Rule::kDeaf) << i;
@@ -176,6 +177,23 @@ TEST(NoisySonar, WhatMovesByItselfIsStillHeard) {
       scan.readings = bench.LastReadings();
     }
     EXPECT_TRUE(deaf);
+  }
+}
+
+// What was heard 300 ms ago is where the peer was then, not where it is now.
+TEST(SlowSonar, AnOldEchoOfAPeerIsStillThatPeer) {
+  BrainBench bench(Slow());
+  RangeScan scan = ClearScan(0);
+  for (std::uint32_t i = 0; i < 30; ++i) {
+    const double away_m = 2.6 - 1.2 * 0.05 * i;
+    if (i % 7 == 0) test::SetEcho(&scan, 3, away_m - 0.25 - 0.17);
+    const std::uint32_t tick = bench.NextTick();
+    Beacon peer = BeaconOf(2, tick - 1, {.position_world = {away_m + 0.06, 0}, .heading_rad = kPi});
+    peer.wheels = {1.2 / 0.0975, 1.2 / 0.0975};
+    std::vector<Beacon> beacons;
+    if (tick > 1) beacons = {peer};
+    EXPECT_NE(bench.StepAsFired(scan, beacons).command.decision.rule, Rule::kDeaf) << i;
+    scan.readings = bench.LastReadings();
   }
 }
 
