@@ -76,6 +76,15 @@ void Keep(double free_m, Tick tick, std::optional<ObjectAhead>* nearest) {
   if (!*nearest || free_m < (*nearest)->free_m) *nearest = ObjectAhead{free_m, tick};
 }
 
+// How far straight on until the own shell touches the point; empty if it passes. What is within
+// the margin already is judged without one: along a wall the vehicle may go on.
+std::optional<double> FreeBefore(Vec2 point_body, double body_radius_m) {
+  const auto free_m = FreeBeforeDisc(point_body, body_radius_m);
+  const bool beside = point_body.y >= body_radius_m || point_body.y <= -body_radius_m;
+  if (free_m && *free_m <= 0 && beside) return std::nullopt;
+  return free_m;
+}
+
 // Carries the object at `seen_world` on by `moved_m` towards where the sensor was, and keeps it if
 // it is in the corridor then.
 template <typename Scan>
@@ -85,7 +94,7 @@ void Judge(const SeenObjects& seen, const HeldScan<Scan>& held, double range_m, 
   const double nearest_m = std::min(range_m, s.options.profile.body_radius_m);
   const Vec2 then_body = At(std::max(nearest_m, range_m - moved_m), bearing_rad);
   const Vec2 then = InBody(s, ToWorld(held.world_from_body, then_body));
-  const auto free_m = FreeBeforeDisc(then, s.options.profile.body_radius_m);
+  const auto free_m = FreeBefore(then, s.options.profile.body_radius_m);
   if (!free_m || (*nearest && (*nearest)->free_m <= *free_m)) return;
   const Vec2 now_world = ToWorld(held.world_from_body, At(range_m, bearing_rad));
   if (!IsKnownPeer(seen, now_world, s)) Keep(*free_m, held.scan.tick, nearest);

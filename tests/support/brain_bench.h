@@ -86,6 +86,20 @@ class BrainBench {
     for (RangeReading& reading : scan.readings) reading.tick = scan.tick;
     return StepWith(scan, beacons, events);
   }
+  // The same with readings as old as they are: only those that changed have fired now.
+  Outputs StepAsFired(RangeScan scan, const std::vector<Beacon>& beacons = {}) {
+    ++tick_;
+    scan.tick = Tick{tick_};
+    for (std::size_t i = 0; i < kSensorCount; ++i) {
+      const bool repeated = tick_ > 1 && scan.readings[i].kind == readings_[i].kind &&
+                            scan.readings[i].range_m == readings_[i].range_m;
+      const bool clear = scan.readings[i].kind != Echo::kEcho;
+      scan.readings[i].tick = repeated && !clear ? readings_[i].tick : scan.tick;
+    }
+    readings_ = scan.readings;
+    return StepWith(scan, beacons, {});
+  }
+  const std::array<RangeReading, kSensorCount>& LastReadings() const { return readings_; }
   // What comes with the next step beside scan and beacons.
   MoreInputs& WithNext() { return more_; }
   // One tick's time passes and no scan comes.
@@ -124,6 +138,7 @@ class BrainBench {
   VehicleOptions options_;
   Vehicle vehicle_;
   MoreInputs more_;
+  std::array<RangeReading, kSensorCount> readings_{};
   std::uint32_t tick_ = 0;
 };
 
