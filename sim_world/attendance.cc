@@ -31,7 +31,7 @@ Attendance::Entry* Attendance::Find(VehicleId vehicle) {
 }
 
 void Attendance::Join(VehicleId vehicle, Tick tick) {
-  const Entry entry{.vehicle = vehicle, .joined = tick, .heard = tick};
+  const Entry entry{.vehicle = vehicle, .heard = tick};
   if (Entry* known = Find(vehicle)) {
     *known = entry;
   } else {

@@ -15,7 +15,6 @@ class Attendance {
  public:
   struct Entry {
     VehicleId vehicle = kNobody;
-    Tick joined = kNoTick;
     Tick heard = kNoTick;  // or joined, or the start signal
     bool spoke = false;    // since it joined
     std::optional<Tick> silent_since;

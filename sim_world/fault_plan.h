@@ -1,5 +1,5 @@
-// Says when a scenario's planned faults are due. Whoever runs the vehicles and the signal heads makes
-// them happen.
+// Says when a scenario's planned faults are due. Whoever runs the vehicles and the signal heads
+// makes them happen.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,7 @@ class FaultPlan {
   // Logs each fault once, in the first tick in which all its conditions hold. The vehicle's true
   // pose decides; a fault of a vehicle that is not present waits. Valid until the next call: those
   // that are due now.
-  std::span<const PlannedFault> Observe(double time_s, std::span<const Body> bodies,
-                                        EventLog* log);
+  std::span<const PlannedFault> Observe(double time_s, std::span<const Body> bodies, EventLog* log);
 
   // True once a kill of the vehicle was due, until it is back: its silence is planned.
   bool IsKilled(VehicleId vehicle) const;

@@ -22,8 +22,8 @@ RosterEntry Roster::Admit(const JoinRequest& request, const SeatQuestions& ask) 
   if (request.wanted == kNobody) return AdmitAny(request, ask);
   if (Seat* seat = Find(request.wanted)) return AdmitTo(seat, request, ask);
   if (open_) return AdmitBySpawn(request.wanted, request, ask);
-  return Refuse(request,
-                "id " + std::to_string(Number(request.wanted)) + " is not in the scenario", false);
+  return Refuse(request, "id " + std::to_string(Number(request.wanted)) + " is not in the scenario",
+                false);
 }
 
 RosterEntry Roster::AdmitAny(const JoinRequest& request, const SeatQuestions& ask) {
