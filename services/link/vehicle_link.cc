@@ -153,7 +153,7 @@ struct VehicleLink::Impl {
 VehicleLink::VehicleLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 VehicleLink::~VehicleLink() = default;
 
-// Only here: the events take room, and most scenarios have no signals.
+// An endpoint that every world discovers: not made where no signal is.
 void VehicleLink::Impl::OpenSignals() {
   auto reader = participant.MakeReader<wire::SignalState>(
       kWorld, Participant::kProfileDepth, &signal_events.emplace(),

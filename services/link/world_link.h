@@ -1,5 +1,5 @@
-// The world's side: drains joins and motor commands, sends what they sense, the roster, signals,
-// truth and events.
+// The world's side: drains joins and motor commands, sends what the vehicles sense, the roster,
+// signals, truth and events.
 #pragma once
 
 #include <memory>
