@@ -9,7 +9,8 @@
 namespace giveway::sim {
 namespace {
 
-// Long enough for a process that died to fall silent before another is told that its id is taken.
+// Long enough for a process that died to fall silent, and its body to stand, before another is told
+// that its id is taken; and for who waits to ask again.
 constexpr Nanoseconds kPatience{3'000'000'000};
 constexpr double kStandstill_m_s = 1e-9;
 
@@ -29,7 +30,11 @@ void Admission::Take(const JoinRequest& request) {
   if (request.leaving) return Leave(request.session);
   const auto waiting = std::ranges::find_if(
       waiting_, [&](const Waiting& w) { return w.request.session == request.session; });
-  if (waiting == waiting_.end()) waiting_.push_back({request, run_.Now(), ""});
+  if (waiting == waiting_.end()) {
+    waiting_.push_back({request, run_.Now(), run_.Now(), ""});
+  } else {
+    waiting->asked = run_.Now();
+  }
 }
 
 void Admission::Leave(const SessionId& session) {
@@ -40,12 +45,14 @@ void Admission::Leave(const SessionId& session) {
   run_.Leave(vehicle);
   roster_.Free(vehicle);
   told_.erase(vehicle);
+  gone_.push_back(vehicle);
 }
 
 void Admission::FollowRun() {
   for (const WorldEvent& event : run_.Events()) {
     if (event.kind != EventKind::kRemoved) continue;
     roster_.Free(event.vehicle);
+    gone_.push_back(event.vehicle);
     const auto told = told_.find(event.vehicle);
     if (told == told_.end()) continue;
     // Should it still be there, deaf until now, it may ask anew.
@@ -57,6 +64,8 @@ void Admission::FollowRun() {
     told_.erase(told);
   }
 }
+
+std::vector<VehicleId> Admission::TakeGone() { return std::exchange(gone_, {}); }
 
 std::vector<RosterEntry> Admission::Answer() {
   for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
@@ -80,9 +89,14 @@ Admission::Result Admission::Try(Waiting* waiting) {
   RosterEntry entry = roster_.Admit(
       request, {.is_silent = [this](VehicleId vehicle) { return MayTakeOver(vehicle); },
                 .is_free = [this](const VehicleOptions& options) { return IsFree(options); }});
-  if (entry.accepted) return {.waits = false, .tell = LetIn(std::move(entry))};
+  if (entry.accepted) {
+    LetIn(std::move(entry));
+    return {.waits = false, .tell = {}};
+  }
   // In an open fleet a place may come free at any time; an id of one's own is worth no such wait.
   const bool forever = open_ && request.wanted == kNobody;
+  const bool forgotten = TicksBetween(waiting->asked, run_.Now()) >= patience_ticks_;
+  if (forever && forgotten) return {.waits = false, .tell = {}};
   const bool over = !forever && TicksBetween(waiting->since, run_.Now()) >= patience_ticks_;
   if (over) entry.waiting = false;
   if (entry.waiting && entry.reason == waiting->told) return {.waits = true, .tell = {}};
@@ -90,18 +104,17 @@ Admission::Result Admission::Try(Waiting* waiting) {
   return {.waits = entry.waiting, .tell = std::move(entry)};
 }
 
-RosterEntry Admission::LetIn(RosterEntry entry) {
+void Admission::LetIn(RosterEntry entry) {
   run_.Join(roster_.OptionsOf(*roster_.SeatOf(entry.session)));
   entry.start_world = run_.BodyOf(entry.vehicle)->world_from_body;
+  to_tell_.push_back(entry);
   const auto before = told_.find(entry.vehicle);
   if (before != told_.end()) {
-    RosterEntry replaced = before->second;
-    replaced.accepted = false;
-    replaced.reason = "another session took its place after a silence";
-    to_tell_.push_back(std::move(replaced));
+    to_tell_.push_back(before->second);
+    to_tell_.back().accepted = false;
+    to_tell_.back().reason = "another session took its place after a silence";
   }
-  told_[entry.vehicle] = entry;
-  return entry;
+  told_[entry.vehicle] = std::move(entry);
 }
 
 bool Admission::MayTakeOver(VehicleId vehicle) const {

@@ -20,10 +20,13 @@ class Admission {
   // `run` outlives this object.
   Admission(const Scenario& scenario, WorldEpoch epoch, Run* run);
 
-  // Asks, or leaves.
+  // Asks, or leaves. Who waits asks again and again: whoever does not is forgotten.
   void Take(const JoinRequest& request);
   // Once a tick, after the run's Advance: seats of bodies that were taken away are free again.
   void FollowRun();
+  // Whose bodies were taken away since the last call: they are told nothing else any more than what
+  // Answer says after it.
+  std::vector<VehicleId> TakeGone();
   // What there is to tell since the last call, in this order. Before the run's Advance.
   std::vector<RosterEntry> Answer();
   // Everyone in is told anew, with the run's present state and this reason.
@@ -43,7 +46,8 @@ class Admission {
   struct Waiting {
     JoinRequest request;
     Tick since = kNoTick;
-    std::string told;  // the last reason it was told
+    Tick asked = kNoTick;  // last
+    std::string told;      // the last reason it was told
   };
   // What became of a request in this tick; nothing if there is nothing to tell.
   struct Result {
@@ -52,7 +56,7 @@ class Admission {
   };
 
   Result Try(Waiting* waiting);
-  RosterEntry LetIn(RosterEntry entry);
+  void LetIn(RosterEntry entry);
   bool MayTakeOver(VehicleId vehicle) const;
   bool IsFree(const VehicleOptions& options) const;
   void Leave(const SessionId& session);
@@ -63,6 +67,7 @@ class Admission {
   Roster roster_;
   std::vector<Waiting> waiting_;  // in order of asking
   std::map<VehicleId, RosterEntry> told_;
+  std::vector<VehicleId> gone_;
   std::vector<RosterEntry> to_tell_;
 };
 

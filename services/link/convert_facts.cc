@@ -129,6 +129,7 @@ wire::Roster ToWire(const RosterEntry& entry) {
   sent.session(entry.session);
   sent.vehicle(Number(entry.vehicle));
   sent.accepted(entry.accepted);
+  sent.waiting(entry.waiting);
   sent.reason(CutText(entry.reason));
   sent.world_epoch(Number(entry.epoch));
   sent.start_world(ToWirePart(entry.start_world));
@@ -142,6 +143,7 @@ bool FromWire(const wire::Roster& sample, RosterEntry& entry) {
   entry.session = sample.session();
   entry.vehicle = VehicleId{sample.vehicle()};
   entry.accepted = sample.accepted();
+  entry.waiting = sample.waiting();
   entry.reason = sample.reason().c_str();
   entry.epoch = WorldEpoch{sample.world_epoch()};
   entry.start_world = FromWirePart(sample.start_world());
