@@ -33,6 +33,7 @@ class CommandLine {
       Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
+      Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
     }
     Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
     Add("--behaviour", "NAME", "cooperative, lecture_avoid, stock_avoid or lecture_yield");
@@ -95,6 +96,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
   if (service == Service::kVehicle) flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
+    flags.checkpoint = values->TextOr("", "--checkpoint");
   }
   flags.seed = values->Whole("--seed", {0, kMaxWhole});
   const auto behaviour =

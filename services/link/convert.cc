@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "services/link/convert_parts.h"
@@ -154,6 +155,7 @@ wire::RangeScan ToWire(const RangeScan& scan) {
     sent.echo()[i] = ToWireEnum<wire::EchoKind>(scan.readings[i].kind);
     sent.range_m()[i] = scan.readings[i].range_m;
     sent.fired_tick()[i] = Number(scan.readings[i].tick);
+    sent.fired_before_s()[i] = scan.readings[i].fired_before_s;
   }
   return sent;
 }
@@ -168,6 +170,8 @@ bool FromWire(const wire::RangeScan& sample, RangeScan& scan) {
     known &= FromWirePart(sample.echo()[i], scan.readings[i].kind);
     scan.readings[i].range_m = sample.range_m()[i];
     scan.readings[i].tick = Tick{sample.fired_tick()[i]};
+    scan.readings[i].fired_before_s = sample.fired_before_s()[i];
+    known &= std::isfinite(scan.readings[i].fired_before_s);
   }
   return known;
 }

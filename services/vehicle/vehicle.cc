@@ -1,6 +1,7 @@
 #include "services/vehicle/vehicle.h"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "services/types/check.h"
@@ -91,12 +92,21 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
 
-// Back to the start pose; what was seen, heard and waited for belongs to the world before.
-void Vehicle::EnterWorld(WorldEpoch epoch) {
+void Vehicle::Reseat(const VehicleOptions& options) {
+  GIVEWAY_CHECK(options.id == options_.id, Number(options.id));
+  options_ = options;
+  state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
+  state_->placed_in = kNoEpoch;
+}
+
+// What was seen, heard and waited for belongs to the world before.
+void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   VehicleState& state = *state_;
   state.epoch = epoch;
   state.tick = kNoTick;
-  state.odometry = Odometry(options_.start_world);
+  state.run_state = RunState::kWaiting;
+  state.odometry = Odometry(world_from_body);
+  state.wheels = {};
   state.waypoint = 0;
   state.nearest_m = kNoGoal_m;
   state.arrived = false;
@@ -110,6 +120,18 @@ void Vehicle::EnterWorld(WorldEpoch epoch) {
   state.peers.LeaveWorld();
 }
 
+// Only the first entry of an epoch says something new: later ones are repeated, or tell of the run.
+void Vehicle::TakeRoster(const RosterEntry& entry) {
+  VehicleState& state = *state_;
+  const Pose& pose = entry.start_world;
+  const bool sound = std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
+                     std::isfinite(pose.heading_rad);
+  if (!entry.accepted || entry.epoch == kNoEpoch || entry.epoch == state.placed_in || !sound)
+    return;
+  EnterWorld(entry.epoch, pose);
+  state.placed_in = entry.epoch;
+}
+
 // Dead reckoning: the encoders give the constant wheel speeds since the last tick. Ticks that were
 // lost are taken to have been like this one, and cost certainty.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
@@ -118,7 +140,9 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
     ++state.scans_refused;
     return;
   }
-  if (scan.epoch != state.epoch) EnterWorld(scan.epoch);
+  // A world that has not said where the vehicle stands in it, or one that is gone.
+  if (state.placed_in != kNoEpoch && scan.epoch != state.placed_in) return;
+  if (scan.epoch != state.epoch) EnterWorld(scan.epoch, options_.start_world);
   if (state.tick != kNoTick && scan.tick <= state.tick) return;  // out of order: older than known
   const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
@@ -333,6 +357,7 @@ Beacon Vehicle::Say(const Situation& s) {
 
 Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   VehicleState& state = *state_;
+  if (inputs.roster) TakeRoster(*inputs.roster);
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
   if (inputs.pose_fix) state.odometry.Fix(*inputs.pose_fix);
   TakePeers(inputs);

@@ -26,6 +26,7 @@ struct VehicleState {
   std::uint32_t seq = 0;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
+  WorldEpoch placed_in = kNoEpoch;  // the epoch of the last roster entry that said where it stands
   RunState run_state = RunState::kWaiting;
   Odometry odometry;
   WheelSpeeds wheels;          // as last measured
@@ -66,6 +67,9 @@ class Vehicle {
   const VehicleState& State() const { return *state_; }
   // Continues from a snapshot taken with the same options.
   void Restore(const VehicleState& state) { *state_ = state; }
+  // Drives by other options of the same vehicle id from its next roster entry on. Peers take it for
+  // the same life: sequence numbers go on.
+  void Reseat(const VehicleOptions& options);
   std::uint64_t Hash() const;
   // Forward speed as last measured, m/s.
   double SpeedMps() const;
@@ -73,7 +77,8 @@ class Vehicle {
   std::uint32_t PeersHeard() const { return peers_heard_; }
 
  private:
-  void EnterWorld(WorldEpoch epoch);
+  void EnterWorld(WorldEpoch epoch, const Pose& world_from_body);
+  void TakeRoster(const RosterEntry& entry);
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);
   void TakeSignalsAndObjects(const Inputs& inputs);
