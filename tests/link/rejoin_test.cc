@@ -1,8 +1,9 @@
 // Leaving, coming back, and a world that is followed by another.
 #include <gmock/gmock.h>
-#include <signal.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <fstream>
 
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
@@ -245,6 +246,40 @@ TEST(Leaving, ALatecomerIsNotToldOfThoseThatLeftOrWereRefusedLongAgo) {
   for (const RosterEntry& entry : accepted) EXPECT_GT(entry.session[0], 400U);
   EXPECT_EQ(accepted.size(), 100U);
   EXPECT_LE(refused, 64U);
+}
+
+// Resident memory of this process, kB.
+long ResidentKb() {
+  std::ifstream file("/proc/self/statm");
+  long total = 0;
+  long resident = 0;
+  file >> total >> resident;
+  return resident * (sysconf(_SC_PAGESIZE) / 1024);
+}
+
+TEST(Leaving, AndComingAThousandTimesLeavesNothingBehind) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  link::VehicleLink onlooker(OptionsIn(domain));
+  onlooker.Open(VehicleId{1000});
+  const auto come_and_go = [&](std::uint32_t times) {
+    for (std::uint32_t i = 1; i <= times; ++i) {
+      const VehicleId vehicle{i % 5 + 1};
+      VehicleProfile profile;
+      profile.radar = profile.lidar = profile.camera = true;
+      world.OpenVehicle(vehicle, profile);
+      world.SendRoster(Accepted({times, i, 0, 0}, vehicle));
+      world.IsMatched(vehicle);
+      world.CloseVehicle(vehicle);
+      onlooker.Take(SteadyTime{0});
+    }
+    world.Flush(seconds(5));
+  };
+  come_and_go(300);
+  const long before = ResidentKb();
+  come_and_go(1000);
+  RecordProperty("grown_kb", static_cast<int>(ResidentKb() - before));
+  EXPECT_LT(ResidentKb() - before, 4096);
 }
 
 }  // namespace
