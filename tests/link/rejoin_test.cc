@@ -83,8 +83,9 @@ TEST(Rejoining, ASecondWorldFindsTheVehicleUnderItsIdAndIsHeard) {
     return told && scan_came;
   }));
   EXPECT_EQ(told->epoch, WorldEpoch{2});
-  RecordProperty("rejoined_ms",
-                 static_cast<int>((std::chrono::steady_clock::now() - begin) / milliseconds(1)));
+  const auto took = std::chrono::steady_clock::now() - begin;
+  // Usually a fifth of a second; a first match that is missed waits for the next announcement.
+  EXPECT_LT(took, seconds(2));
   EXPECT_EQ(vehicle.Counters().old_world_entries, 0U);
 }
 
@@ -278,7 +279,6 @@ TEST(Leaving, AndComingAThousandTimesLeavesNothingBehind) {
   come_and_go(300);
   const long before = ResidentKb();
   come_and_go(1000);
-  RecordProperty("grown_kb", static_cast<int>(ResidentKb() - before));
   EXPECT_LT(ResidentKb() - before, 4096);
 }
 
