@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#if defined(__x86_64__) && defined(__GLIBC__)
-#include <sys/platform/x86.h>
+// With other compilers and on other machines the plain width serves.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #define GIVEWAY_X86_SIMD 1
 #endif
 
@@ -43,9 +43,9 @@ GIVEWAY_EVERY_WIDTH void HearDisc(const ConeRing& ring, double x, double y, doub
 // Keeps of [low, high] the part of the segment on which at_from + parameter * change >= 0.
 GIVEWAY_EVERY_WIDTH void Clip(double at_from, double change, double* low, double* high) {
   const double parameter = -at_from / change;
-  *low = (change > 0) & (parameter > *low) ? parameter : *low;
-  *high = (change < 0) & (parameter < *high) ? parameter : *high;
-  *high = (change == 0) & (at_from < 0) ? -1 : *high;  // below any low: nothing is left
+  *low = ((change > 0) & (parameter > *low)) ? parameter : *low;
+  *high = ((change < 0) & (parameter < *high)) ? parameter : *high;
+  *high = ((change == 0) & (at_from < 0)) ? -1 : *high;  // below any low: nothing is left
 }
 
 GIVEWAY_EVERY_WIDTH void HearSegment(const ConeRing& ring, Vec2 from, Vec2 to, Incidence incidence,
@@ -129,11 +129,9 @@ GIVEWAY_KERNEL(Avx512, [[gnu::target("avx512f,avx512dq,avx512vl,prefer-vector-wi
 bool HasSimd(SimdWidth width) {
   if (width == SimdWidth::kPlain) return true;
 #ifdef GIVEWAY_X86_SIMD
-  // Asked of the C library, not of the CPU, so that what is hidden from it is hidden from us.
-  if (!CPU_FEATURE_ACTIVE(AVX2)) return false;
-  return width == SimdWidth::kAvx2 ||
-         (CPU_FEATURE_ACTIVE(AVX512F) && CPU_FEATURE_ACTIVE(AVX512DQ) &&
-          CPU_FEATURE_ACTIVE(AVX512VL));
+  if (width == SimdWidth::kAvx2) return __builtin_cpu_supports("avx2") != 0;
+  return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+         __builtin_cpu_supports("avx512vl") != 0;
 #else
   return false;
 #endif

@@ -62,7 +62,7 @@ struct SonarKernel {
 
 enum class SimdWidth { kPlain, kAvx2, kAvx512 };
 
-// Whether this CPU, as far as the C library lets us see it, has what the width needs.
+// Whether this CPU has what the width needs. What is hidden from the C library is not hidden here.
 bool HasSimd(SimdWidth width);
 const SonarKernel& KernelOf(SimdWidth width);
 // The widest this CPU has.

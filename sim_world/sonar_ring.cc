@@ -110,8 +110,9 @@ void SonarRing::HearDiscs(const Scene& scene, Ear ear, Lanes* range_m) const {
       near.x[near.count] = centre_body.x;
       near.y[near.count] = centre_body.y;
       near.radius_m[near.count] = radius_m;
-      near.count += static_cast<std::size_t>((discs.owner[i] != ear.self) &
-                                             (SquaredNorm(centre_body) <= limit_m * limit_m));
+      const std::size_t foreign = discs.owner[i] != ear.self;
+      const std::size_t in_reach = SquaredNorm(centre_body) <= limit_m * limit_m;
+      near.count += foreign & in_reach;
     }
   };
   scene.DiscsNear(ear.position_world, reach_m, gather);
@@ -175,7 +176,7 @@ Readings SonarRing::Sense(const Pose& world_from_body, Tick tick, std::span<cons
 }
 
 const SonarRing& SonarRings::Of(const VehicleProfile& profile) {
-  auto ring = std::make_unique<const SonarRing>(profile);
+  auto ring = std::make_unique<const SonarRing>(profile, width_);
   const auto same = std::ranges::find_if(rings_, [&](const auto& held) { return *held == *ring; });
   return same != rings_.end() ? **same : *rings_.emplace_back(std::move(ring));
 }

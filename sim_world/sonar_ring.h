@@ -72,10 +72,14 @@ class SonarRing {
 // The rings of a fleet: vehicles with equal ultrasonics share one.
 class SonarRings {
  public:
+  // The width changes the speed and not a bit of the result.
+  explicit SonarRings(SimdWidth width = FastestSimd()) : width_(width) {}
+
   // Stays where it is as long as this object lives.
   const SonarRing& Of(const VehicleProfile& profile);
 
  private:
+  SimdWidth width_;
   std::vector<std::unique_ptr<const SonarRing>> rings_;
 };
 

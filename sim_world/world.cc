@@ -13,6 +13,13 @@ bool IsFinite(WheelSpeeds wheels) {
   return std::isfinite(wheels.left_rad_s) && std::isfinite(wheels.right_rad_s);
 }
 
+// Null where no body has that id.
+template <typename Bodies>
+auto* FindIn(Bodies& bodies, VehicleId vehicle) {
+  const auto found = std::ranges::lower_bound(bodies, vehicle, {}, &Body::vehicle);
+  return found == bodies.end() || found->vehicle != vehicle ? nullptr : &*found;
+}
+
 void AddTo(StateHash* hash, Vec2 position_world) {
   hash->Add(position_world.x);
   hash->Add(position_world.y);
@@ -40,14 +47,8 @@ World::World(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
   new_contacts_.reserve(bodies_.size());
 }
 
-Body* World::Find(VehicleId vehicle) {
-  return const_cast<Body*>(std::as_const(*this).Find(vehicle));
-}
-
-const Body* World::Find(VehicleId vehicle) const {
-  const auto found = std::ranges::lower_bound(bodies_, vehicle, {}, &Body::vehicle);
-  return found == bodies_.end() || found->vehicle != vehicle ? nullptr : &*found;
-}
+Body* World::Find(VehicleId vehicle) { return FindIn(bodies_, vehicle); }
+const Body* World::Find(VehicleId vehicle) const { return FindIn(bodies_, vehicle); }
 
 std::uint32_t World::ThingOf(const Body& body) const {
   return static_cast<std::uint32_t>(&body - bodies_.data());

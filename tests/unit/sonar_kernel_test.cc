@@ -123,12 +123,9 @@ INSTANTIATE_TEST_SUITE_P(Widths, SonarKernelOf,
                          testing::Values(SimdWidth::kPlain, SimdWidth::kAvx2, SimdWidth::kAvx512),
                          NameOf);
 
-TEST(SonarKernel, WhatTheCLibraryHidesIsNotUsed) {
+TEST(SonarKernel, TheFastestWidthIsOneThisCpuHas) {
   EXPECT_TRUE(HasSimd(SimdWidth::kPlain));
   EXPECT_TRUE(HasSimd(FastestSimd()));
-  if (HasSimd(SimdWidth::kAvx512)) {
-    EXPECT_TRUE(HasSimd(SimdWidth::kAvx2));
-  }
 }
 
 // Ten times more objects than a list holds, in a scene: nothing is lost between lists or in a grid.

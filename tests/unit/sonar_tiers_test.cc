@@ -1,4 +1,4 @@
-// Tiers typical and p3dx, each against its own reference.
+// The firing schedule of tier p3dx, and what holds in every tier.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,187 +6,10 @@
 #include <map>
 
 #include "services/types/math.h"
-#include "sim_world/sonar.h"
-#include "sim_world/sonar_echo.h"
+#include "tests/unit/sonar_vehicle.h"
 
 namespace giveway::sim {
 namespace {
-
-constexpr Nanoseconds kTickPeriod{50'000'000};
-
-VehicleProfile WithAllTransducers() {
-  VehicleProfile profile = PioneerP3dx();
-  for (SensorMount& mount : profile.sonar) mount.enabled = true;
-  return profile;
-}
-
-SonarModel Model(SonarTier tier) {
-  SonarModel model;
-  model.tier = tier;
-  return model;
-}
-
-SonarModel Faultless(SonarTier tier) {
-  SonarModel model = Model(tier);
-  model.noise = 0;
-  model.drop_out = 0;
-  return model;
-}
-
-// One vehicle at the origin, looking along x, and what stands round it.
-class OneVehicle {
- public:
-  explicit OneVehicle(const SonarModel& model, std::span<const Wall> walls = {},
-                      std::uint32_t id = 1, Nanoseconds tick_period = kTickPeriod)
-      : scene(walls), id_(id), sonar_(model, 9, tick_period) {}
-
-  const Readings& Sense(std::uint32_t tick) {
-    const SonarSubject subject = {VehicleId{id_}, 0, pose, &ring_, &state_};
-    sonar_.Sense(Tick{tick}, [&](double before_s) {
-      asked_s.push_back(before_s);
-      return SonarInstant{&scene, {&subject, 1}};
-    });
-    return state_.readings;
-  }
-
-  Scene scene;
-  Pose pose;
-  std::vector<double> asked_s;
-
- private:
-  std::uint32_t id_;
-  SonarRing ring_{WithAllTransducers()};
-  SonarState state_;
-  Sonar sonar_;
-};
-
-void AddDiscAhead(Scene* scene, double range_m) {
-  scene->AddDisc({0.166 + range_m + 0.25, 0.027}, 0.25, 1);  // straight before transducer 3's apex
-  scene->Index();
-}
-
-TEST(SonarTypical, NoiseIsAShareOfTheRangeWithoutBias) {
-  SonarModel model = Faultless(SonarTier::kTypical);
-  model.noise = 0.01;
-  for (const double range_m : {0.5, 2.0, 4.0}) {
-    OneVehicle vehicle(model);
-    AddDiscAhead(&vehicle.scene, range_m);
-    OneVehicle exact(Faultless(SonarTier::kIdeal));
-    AddDiscAhead(&exact.scene, range_m);
-    const double true_m = exact.Sense(1)[3].range_m;
-    constexpr int kDraws = 20'000;
-    double sum = 0;
-    double sum_of_squares = 0;
-    for (std::uint32_t tick = 1; tick <= kDraws; ++tick) {
-      const double error = vehicle.Sense(tick)[3].range_m / true_m - 1;
-      sum += error;
-      sum_of_squares += error * error;
-    }
-    EXPECT_NEAR(sum / kDraws, 0, 4 * 0.01 / std::sqrt(kDraws)) << range_m;
-    EXPECT_NEAR(std::sqrt(sum_of_squares / kDraws), 0.01, 0.01 * 4 / std::sqrt(2.0 * kDraws));
-  }
-}
-
-TEST(SonarTypical, AShareOfFiringsHearsNothingWhichIsClearAndNotNoData) {
-  SonarModel model = Faultless(SonarTier::kTypical);
-  model.drop_out = 0.2;
-  OneVehicle vehicle(model);
-  AddDiscAhead(&vehicle.scene, 1);
-  constexpr int kDraws = 20'000;
-  int lost = 0;
-  for (std::uint32_t tick = 1; tick <= kDraws; ++tick) {
-    const RangeReading reading = vehicle.Sense(tick)[3];
-    ASSERT_NE(reading.kind, Echo::kNoData);
-    ASSERT_EQ(reading.tick, Tick{tick});
-    lost += reading.kind == Echo::kClear;
-  }
-  EXPECT_NEAR(lost / static_cast<double>(kDraws), 0.2, 4 * std::sqrt(0.2 * 0.8 / kDraws));
-}
-
-TEST(SonarTypical, InTheBlindZoneEveryRangeReadsAsItsRim) {
-  SonarModel model = Model(SonarTier::kTypical);
-  model.drop_out = 0;
-  for (const double range_m : {0.0, 0.05, 0.0999}) {
-    OneVehicle vehicle(model);
-    AddDiscAhead(&vehicle.scene, range_m);
-    for (std::uint32_t tick = 1; tick < 50; ++tick) ASSERT_EQ(vehicle.Sense(tick)[3].range_m, 0.1);
-  }
-}
-
-TEST(SonarTypical, NoiseNeverLeavesTheRangeOfTheSensor) {
-  SonarModel model = Model(SonarTier::kTypical);
-  model.noise = 2;
-  for (const double range_m : {0.11, 1.0, 4.999}) {
-    OneVehicle vehicle(model);
-    AddDiscAhead(&vehicle.scene, range_m);
-    for (std::uint32_t tick = 1; tick < 2000; ++tick) {
-      for (const RangeReading& reading : vehicle.Sense(tick)) {
-        if (reading.kind != Echo::kEcho) continue;
-        ASSERT_GE(reading.range_m, 0.1);
-        ASSERT_LE(reading.range_m, 5);
-      }
-    }
-  }
-}
-
-// A wall before the transducer at `tilt_rad`, so far to the side that the cone's edge meets it.
-Echo HeardOfWallAt(double incidence_rad) {
-  // Transducer 3 looks along 10 degrees; the ray along its left edge, 25 degrees, meets the wall's
-  // near end and everything else of the wall lies outside the cone or farther away.
-  const Vec2 apex = {0.166, 0.027};
-  const double edge = Radians(24.9);
-  const Vec2 end = apex + 2.0 * Vec2{Cos(edge), Sin(edge)};
-  const double along = edge + kPi / 2 - incidence_rad;
-  const Wall wall = {end, end + 2.0 * Vec2{Cos(along), Sin(along)}};
-  OneVehicle vehicle(Faultless(SonarTier::kTypical), {&wall, 1});
-  return vehicle.Sense(1)[3].kind;
-}
-
-TEST(SonarTypical, AWallAnswersUpTo25DegreesOffItsNormal) {
-  EXPECT_EQ(HeardOfWallAt(Radians(24.99)), Echo::kEcho);
-  EXPECT_EQ(HeardOfWallAt(Radians(25.01)), Echo::kClear);
-}
-
-TEST(SonarTypical, ADiscAnswersUpTo25DegreesOffItsNormal) {
-  const Cone cone = {.axis = {1, 0}, .cos_half = Cos(0.2), .sin_half = Sin(0.2), .max_range_m = 5};
-  const Incidence incidence = IncidenceUpTo(Radians(25));
-  // The cone's edge meets the rim where the normal is `off` degrees from it.
-  const auto heard = [&](double off) {
-    const double radius_m = 0.4;
-    const double across = radius_m * Sin(Radians(off));
-    const Vec2 edge = {Cos(0.2), Sin(0.2)};
-    return RangeToDisc(cone, 2.0 * edge + across * Left(edge), radius_m, incidence).has_value();
-  };
-  EXPECT_TRUE(heard(24.99));
-  EXPECT_FALSE(heard(25.01));
-}
-
-TEST(SonarTypical, WhatIsCutOffDoesNotHideWhatIsBehindIt) {
-  // Nearly edge on, right before the transducer; a disc behind it.
-  const Wall wall = {{1.0, 0.0}, {2.0, 0.2}};
-  OneVehicle vehicle(Faultless(SonarTier::kTypical), {&wall, 1});
-  AddDiscAhead(&vehicle.scene, 3);
-  EXPECT_NEAR(vehicle.Sense(1)[3].range_m, 3, 1e-9);
-}
-
-TEST(SonarTypical, NumbersHangOnVehicleTickAndTransducerOnly) {
-  std::map<double, int> seen;
-  for (const std::uint32_t id : {1U, 2U}) {
-    for (const std::uint32_t seed : {1U, 2U}) {
-      for (const std::uint64_t tick : {1U, 2U}) {
-        for (const std::size_t transducer : {0U, 1U, 15U}) {
-          const auto draw = [&] {
-            return Measured(2, Model(SonarTier::kTypical), 5,
-                            FiringRandom(seed, VehicleId{id}, tick, transducer));
-          };
-          ++seen[draw()];
-          EXPECT_EQ(draw(), draw());
-        }
-      }
-    }
-  }
-  EXPECT_EQ(seen.size(), 24U);
-}
 
 TEST(SonarP3dx, EachTransducerFiresEvery320MillisecondsAndItsAgeIsRight) {
   OneVehicle vehicle(Faultless(SonarTier::kP3dx));
@@ -299,6 +122,73 @@ TEST(SonarTiers, TransducersSwitchedOffHaveNoDataInEveryTier) {
     }
     for (std::size_t i = 0; i < kSensorCount; ++i) {
       EXPECT_EQ(state.readings[i].kind, i < 8 ? Echo::kClear : Echo::kNoData) << i;
+    }
+  }
+}
+
+// A fleet in a tight place with all faults, sensed in the given order and pieces.
+std::vector<Readings> FleetReadings(SonarTier tier, bool backwards, const ParallelFor& parallel,
+                                    SimdWidth width = FastestSimd()) {
+  constexpr std::uint32_t kFleet = 40;
+  SonarRings rings(width);
+  const SonarRing& ring = rings.Of(WithAllTransducers());
+  Scene scene({});
+  std::vector<SonarState> states(kFleet);
+  std::vector<SonarSubject> subjects;
+  for (std::uint32_t i = 0; i < kFleet; ++i) {
+    const Pose pose = {{0.9 * (i % 7), 0.9 * (i / 7)}, WrapAngle(2.4 * i)};
+    scene.AddDisc(pose.position_world, 0.25, i);
+    subjects.push_back({VehicleId{i + 1}, i, pose, &ring, &states[i]});
+  }
+  scene.Index();
+  if (backwards) std::ranges::reverse(subjects);
+  Sonar sonar(Model(tier), 5, kTickPeriod);
+  for (std::uint32_t tick = 1; tick <= 20; ++tick) {
+    sonar.Sense(
+        Tick{tick},
+        [&](double) {
+          return SonarInstant{&scene, subjects};
+        },
+        parallel);
+  }
+  std::vector<Readings> readings;
+  for (const SonarState& state : states) readings.push_back(state.readings);
+  return readings;
+}
+
+void ExpectSameBits(const std::vector<Readings>& a, const std::vector<Readings>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t v = 0; v < a.size(); ++v) {
+    for (std::size_t i = 0; i < kSensorCount; ++i) {
+      ASSERT_EQ(a[v][i].kind, b[v][i].kind);
+      ASSERT_EQ(a[v][i].range_m, b[v][i].range_m);
+      ASSERT_EQ(a[v][i].tick, b[v][i].tick);
+      ASSERT_EQ(a[v][i].fired_before_s, b[v][i].fired_before_s);
+    }
+  }
+}
+
+TEST(SonarTiers, NeitherTheOrderOfVehiclesNorTheCutOfTheWorkShows) {
+  const ParallelFor last_first = [](std::size_t count, const ParallelBody& body) {
+    for (std::size_t end = count; end > 0; end -= std::min<std::size_t>(end, 3)) {
+      body(end - std::min<std::size_t>(end, 3), end);
+    }
+  };
+  for (const SonarTier tier :
+       {SonarTier::kIdeal, SonarTier::kTypical, SonarTier::kP3dx, SonarTier::kCrosstalk}) {
+    const std::vector<Readings> forwards = FleetReadings(tier, false, OnThisThread);
+    const std::vector<Readings> backwards = FleetReadings(tier, true, last_first);
+    ExpectSameBits(forwards, backwards);
+  }
+}
+
+TEST(SonarTiers, TheWidthOfTheRegistersDoesNotShow) {
+  for (const SonarTier tier :
+       {SonarTier::kIdeal, SonarTier::kTypical, SonarTier::kP3dx, SonarTier::kCrosstalk}) {
+    const auto plain = FleetReadings(tier, false, OnThisThread, SimdWidth::kPlain);
+    for (const SimdWidth width : {SimdWidth::kAvx2, SimdWidth::kAvx512}) {
+      if (!HasSimd(width)) continue;
+      ExpectSameBits(FleetReadings(tier, false, OnThisThread, width), plain);
     }
   }
 }
