@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace giveway::sim {
 namespace {
 
 // Cells for what moves: about the distance between vehicles in a dense fleet.
 constexpr double kCell_m = 1.5;
+// Entries behind the last disc; SceneDiscs says why.
+constexpr std::size_t kBehind = 3;
 
 }  // namespace
 
@@ -17,7 +20,8 @@ bool SceneBox::Holds(Vec2 point_world) const {
          std::abs(Cross(x_axis_world, offset)) <= half_m.y;
 }
 
-Scene::Scene(std::span<const Wall> walls) : wall_grid_(walls) {
+Scene::Scene(std::span<const Wall> walls)
+    : wall_grid_(walls), listed_walls_(walls, kListedReach_m) {
   walls_.reserve(walls.size());
   for (const Wall& wall : walls) walls_.push_back({wall.from_world, wall.to_world, kNoOwner});
   Index();
@@ -69,10 +73,14 @@ void Scene::Index() {
   box_grid_.Rebuild(box_centres_, kCell_m);
   leaf_grid_.Rebuild(leaf_middles_, kCell_m);
   const std::span<const std::uint32_t> order = disc_grid_.Order();
-  sorted_x_.resize(order.size());
-  sorted_y_.resize(order.size());
-  sorted_radius_m_.resize(order.size());
-  sorted_owner_.resize(order.size());
+  sorted_x_.resize(order.size() + kBehind);
+  sorted_y_.resize(order.size() + kBehind);
+  sorted_radius_m_.resize(order.size() + kBehind);
+  sorted_owner_.resize(order.size() + kBehind);
+  for (std::size_t i = order.size(); i < sorted_x_.size(); ++i) {
+    sorted_x_[i] = std::numeric_limits<double>::infinity();
+    sorted_radius_m_[i] = 0;
+  }
   for (std::size_t i = 0; i < order.size(); ++i) {
     sorted_x_[i] = disc_centres_[order[i]].x;
     sorted_y_[i] = disc_centres_[order[i]].y;
@@ -82,10 +90,11 @@ void Scene::Index() {
 }
 
 SceneDiscs Scene::Discs() const {
-  return {.x_world = sorted_x_,
-          .y_world = sorted_y_,
-          .radius_m = sorted_radius_m_,
-          .owner = sorted_owner_};
+  const std::size_t count = sorted_x_.size() - kBehind;
+  return {.x_world = std::span(sorted_x_).first(count),
+          .y_world = std::span(sorted_y_).first(count),
+          .radius_m = std::span(sorted_radius_m_).first(count),
+          .owner = std::span(sorted_owner_).first(count)};
 }
 
 Owner Scene::BoxAround(Vec2 point_world, Owner self) const {

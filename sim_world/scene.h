@@ -21,7 +21,8 @@ namespace giveway::sim {
 using Owner = std::uint32_t;
 inline constexpr Owner kNoOwner = 0xffffffff;
 
-// Structure of arrays, in the order of the grid.
+// Structure of arrays, in the order of the grid. Behind the last are three more, too far away to
+// be sensed, so that discs may be read four at a time.
 struct SceneDiscs {
   std::span<const double> x_world;
   std::span<const double> y_world;
@@ -86,6 +87,11 @@ class Scene {
     wall_grid_.Near(centre_world, reach_m, visit);
   }
   std::span<const SceneSegment> Walls() const { return walls_; }
+  // WallsNear for a reach of up to kListedReach_m, found at once, each wall once.
+  static constexpr double kListedReach_m = 5.5;  // the ultrasonics of a P3-DX and more
+  std::span<const std::uint32_t> WallsListedAt(Vec2 centre_world) const {
+    return listed_walls_.At(centre_world);
+  }
   template <typename Visit>
   void LooseSegmentsNear(Vec2 centre_world, double reach_m, Visit&& visit) const {
     BoxesNear(centre_world, reach_m, [&](const SceneBox& box) {
@@ -113,6 +119,7 @@ class Scene {
  private:
   std::vector<SceneSegment> walls_;
   WallGrid wall_grid_;
+  WallGrid listed_walls_;
 
   // As added; the sorted copies below are what is read.
   std::vector<Vec2> disc_centres_;

@@ -86,8 +86,10 @@ void Sonar::Fire(std::uint64_t slot, Tick tick, const SonarInstant& instant, std
   const SonarSubject& subject = instant.subjects[i];
   const SonarRing& ring = *subject.ring;
   PublishHeard(subject.state);
-  const Lanes heard = ring.Hear(scene, subject.world_from_body, subject.owner, incidence_);
   const auto transducers = schedule_.Firing(subject.vehicle, slot);
+  SectorSet sectors = 0;
+  for (const std::size_t transducer : transducers) sectors |= SectorOf(transducer);
+  const Lanes heard = ring.Hear(scene, subject.world_from_body, subject.owner, incidence_, sectors);
   for (std::size_t array = 0; array < kArrayCount; ++array) {
     const std::size_t transducer = transducers[array];
     if (!ring.Enabled(transducer)) continue;

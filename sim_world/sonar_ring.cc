@@ -14,21 +14,6 @@ namespace {
 // loses nothing.
 constexpr double kSlack_m = 1e-9;
 
-// Tells walls named again from new ones, among the last few: hearing one twice costs time only.
-class NewWalls {
- public:
-  bool operator()(std::uint32_t wall) {
-    const auto end = last_.begin() + static_cast<std::ptrdiff_t>(std::min(count_, last_.size()));
-    if (std::find(last_.begin(), end, wall) != end) return false;
-    last_[count_++ % last_.size()] = wall;
-    return true;
-  }
-
- private:
-  std::array<std::uint32_t, 32> last_;
-  std::size_t count_ = 0;
-};
-
 void Keep(RangeReading* reading, std::optional<double> range_m) {
   if (!range_m || (reading->kind == Echo::kEcho && reading->range_m <= *range_m)) return;
   reading->kind = Echo::kEcho;
@@ -41,23 +26,21 @@ SonarRing::SonarRing(const VehicleProfile& profile, SimdWidth width)
     : kernel_(&KernelOf(width)), max_range_m_(profile.sonar_max_range_m) {
   GIVEWAY_CHECK(profile.sonar_half_angle_rad > 0 && profile.sonar_half_angle_rad < kPi / 2,
                 profile.sonar_half_angle_rad);
-  cones_.cos_half = Cos(profile.sonar_half_angle_rad);
-  cones_.sin_half = Sin(profile.sonar_half_angle_rad);
+  const double cos_half = Cos(profile.sonar_half_angle_rad);
+  const double sin_half = Sin(profile.sonar_half_angle_rad);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     const SensorMount& mount = profile.sonar[i];
-    const Cone cone = {.apex = mount.position_body,
-                       .axis = {Cos(mount.bearing_rad), Sin(mount.bearing_rad)},
-                       .cos_half = cones_.cos_half,
-                       .sin_half = cones_.sin_half,
-                       .max_range_m = max_range_m_};
-    cones_body_[i] = cone;
-    cones_.apex_x.of[i] = cone.apex.x;
-    cones_.apex_y.of[i] = cone.apex.y;
-    cones_.axis_x.of[i] = cone.axis.x;
-    cones_.axis_y.of[i] = cone.axis.y;
+    cones_body_[i] = {.apex = mount.position_body,
+                      .axis = {Cos(mount.bearing_rad), Sin(mount.bearing_rad)},
+                      .cos_half = cos_half,
+                      .sin_half = sin_half,
+                      .max_range_m = max_range_m_};
     enabled_[i] = mount.enabled;
-    if (mount.enabled) apex_reach_m_ = std::max(apex_reach_m_, Norm(cone.apex));
+    if (!mount.enabled) continue;
+    sectors_ |= SectorOf(i);
+    apex_reach_m_ = std::max(apex_reach_m_, Norm(mount.position_body));
   }
+  cones_ = RingOf(cones_body_);
 }
 
 bool operator==(const SonarRing& a, const SonarRing& b) {
@@ -65,23 +48,14 @@ bool operator==(const SonarRing& a, const SonarRing& b) {
          a.max_range_m_ == b.max_range_m_;
 }
 
-Vec2 SonarRing::Ear::ToBody(Vec2 point_world) const {
-  const Vec2 offset_world = point_world - position_world;
-  return {Dot(x_axis_world, offset_world), Cross(x_axis_world, offset_world)};
-}
-
-Vec2 SonarRing::Ear::ToWorld(Vec2 point_body) const {
-  return position_world + point_body.x * x_axis_world + point_body.y * Left(x_axis_world);
-}
-
-double SonarRing::Reach() const { return apex_reach_m_ + max_range_m_ + kSlack_m; }
-
 Lanes SonarRing::Hear(const Scene& scene, const Pose& world_from_body, Owner self,
-                      Incidence incidence) const {
+                      Incidence incidence, SectorSet sectors) const {
   const Ear ear = {.position_world = world_from_body.position_world,
                    .x_axis_world = Forward(world_from_body),
                    .self = self,
-                   .incidence = incidence};
+                   .reach_m = apex_reach_m_ + max_range_m_ + kSlack_m,
+                   .incidence = incidence,
+                   .sectors = sectors & sectors_};
   Lanes range_m;
   range_m.of.fill(kSilence_m);
   HearDiscs(scene, ear, &range_m);
@@ -93,58 +67,52 @@ Lanes SonarRing::Hear(const Scene& scene, const Pose& world_from_body, Owner sel
   return range_m;
 }
 
-void SonarRing::HearDiscs(const Scene& scene, Ear ear, Lanes* range_m) const {
+void SonarRing::HearDiscs(const Scene& scene, const Ear& ear, Lanes* range_m) const {
   const SceneDiscs discs = scene.Discs();
-  const double reach_m = Reach();
   NearDiscs near;
-  const auto gather = [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      if (near.count == kNearListSize) {
-        kernel_->hear_discs(cones_, near, ear.incidence, range_m);
-        near.count = 0;
-      }
-      // Written in any case and counted if wanted: half are, and a branch would guess badly.
-      const Vec2 centre_body = ear.ToBody({discs.x_world[i], discs.y_world[i]});
-      const double radius_m = discs.radius_m[i];
-      const double limit_m = reach_m + radius_m;
-      near.x[near.count] = centre_body.x;
-      near.y[near.count] = centre_body.y;
-      near.radius_m[near.count] = radius_m;
-      const std::size_t foreign = discs.owner[i] != ear.self;
-      const std::size_t in_reach = SquaredNorm(centre_body) <= limit_m * limit_m;
-      near.count += foreign & in_reach;
+  scene.DiscsNear(ear.position_world, ear.reach_m, [&](std::size_t begin, std::size_t end) {
+    while (begin < end) {
+      begin += kernel_->gather_discs(ear, discs, begin, end, &near);
+      if (begin >= end) return;
+      kernel_->hear_discs(cones_, ear, near, range_m);
+      near.Clear();
     }
-  };
-  scene.DiscsNear(ear.position_world, reach_m, gather);
-  kernel_->hear_discs(cones_, near, ear.incidence, range_m);
+  });
+  kernel_->hear_discs(cones_, ear, near, range_m);
 }
 
-void SonarRing::HearSegments(const Scene& scene, Ear ear, Lanes* range_m) const {
-  const double reach_m = Reach();
+void SonarRing::HearSegments(const Scene& scene, const Ear& ear, Lanes* range_m) const {
   NearSegments near;
-  const auto take = [&](const SceneSegment& segment) {
+  const auto hear = [&] {
+    kernel_->hear_segments(cones_, ear, near, range_m);
+    near.Clear();
+  };
+  const auto take_walls = [&](std::span<const std::uint32_t> walls) {
+    while (!walls.empty()) {
+      walls = walls.subspan(kernel_->gather_walls(ear, scene.Walls(), walls, &near));
+      if (!walls.empty()) hear();
+    }
+  };
+  if (ear.reach_m <= Scene::kListedReach_m) {
+    take_walls(scene.WallsListedAt(ear.position_world));
+  } else {
+    // Long walls come more than once: that costs time only.
+    scene.WallsNear(ear.position_world, ear.reach_m, [&](std::uint32_t wall) {
+      take_walls({&wall, 1});
+    });
+  }
+  scene.LooseSegmentsNear(ear.position_world, ear.reach_m, [&](const SceneSegment& segment) {
+    if (segment.owner == ear.self) return;
     const Vec2 from = ear.ToBody(segment.from_world);
     const Vec2 to = ear.ToBody(segment.to_world);
-    if (SquaredNorm(NearestOnSegment(from, to, {})) > reach_m * reach_m) return;
-    if (near.count == kNearListSize) {
-      kernel_->hear_segments(cones_, near, ear.incidence, range_m);
-      near.count = 0;
-    }
-    near.from[near.count] = from;
-    near.to[near.count] = to;
-    ++near.count;
-  };
-  NewWalls is_new;
-  scene.WallsNear(ear.position_world, reach_m, [&](std::uint32_t wall) {
-    if (is_new(wall)) take(scene.Walls()[wall]);
+    if (SquaredNorm(NearestOnSegment(from, to, {})) > ear.reach_m * ear.reach_m) return;
+    if (near.count == kNearListSize) hear();
+    near.Add(from, to);
   });
-  scene.LooseSegmentsNear(ear.position_world, reach_m, [&](const SceneSegment& segment) {
-    if (segment.owner != ear.self) take(segment);
-  });
-  if (near.count > 0) kernel_->hear_segments(cones_, near, ear.incidence, range_m);
+  if (near.count > 0) hear();
 }
 
-void SonarRing::HearFromInBoxes(const Scene& scene, Ear ear, Lanes* range_m) const {
+void SonarRing::HearFromInBoxes(const Scene& scene, const Ear& ear, Lanes* range_m) const {
   scene.BoxesNear(ear.position_world, apex_reach_m_, [&](const SceneBox& box) {
     if (box.owner == ear.self) return;
     for (std::size_t i = 0; i < kSensorCount; ++i) {

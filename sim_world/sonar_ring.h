@@ -29,9 +29,9 @@ class SonarRing {
 
   // Metres from each transducer; kSilence_m where nothing answers within range and where the
   // transducer is switched off. Shapes of `self` are not heard. A box is four flat surfaces; in it
-  // the range is 0.
-  Lanes Hear(const Scene& scene, const Pose& world_from_body, Owner self,
-             Incidence incidence = {}) const;
+  // the range is 0. Only the transducers of `sectors` are asked for; others may give silence.
+  Lanes Hear(const Scene& scene, const Pose& world_from_body, Owner self, Incidence incidence = {},
+             SectorSet sectors = kEverySector) const;
 
   // The same over every body and wall one by one, with the reference formulas: slow and plain.
   // bodies[self] is the own body, which no transducer hears.
@@ -45,26 +45,15 @@ class SonarRing {
   friend bool operator==(const SonarRing& a, const SonarRing& b);
 
  private:
-  // Who senses, from where, with one sine and cosine for all that is near.
-  struct Ear {
-    Vec2 position_world;
-    Vec2 x_axis_world;
-    Owner self = kNoOwner;
-    Incidence incidence;
-
-    Vec2 ToBody(Vec2 point_world) const;
-    Vec2 ToWorld(Vec2 point_body) const;
-  };
-
-  void HearDiscs(const Scene& scene, Ear ear, Lanes* range_m) const;
-  void HearSegments(const Scene& scene, Ear ear, Lanes* range_m) const;
-  void HearFromInBoxes(const Scene& scene, Ear ear, Lanes* range_m) const;
-  double Reach() const;
+  void HearDiscs(const Scene& scene, const Ear& ear, Lanes* range_m) const;
+  void HearSegments(const Scene& scene, const Ear& ear, Lanes* range_m) const;
+  void HearFromInBoxes(const Scene& scene, const Ear& ear, Lanes* range_m) const;
 
   const SonarKernel* kernel_;
   ConeRing cones_;  // the same as below, as the kernel wants it
   std::array<Cone, kSensorCount> cones_body_{};
   std::array<bool, kSensorCount> enabled_{};
+  SectorSet sectors_ = 0;  // with a transducer that is enabled
   double max_range_m_ = 0;
   double apex_reach_m_ = 0;  // farthest transducer from the axle centre
 };

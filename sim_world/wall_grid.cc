@@ -8,13 +8,15 @@ namespace {
 
 constexpr double kSmallestCell_m = 4;
 constexpr double kCellsPerWall = 4;
-constexpr double kFewestCells = 1024;
+constexpr double kEntriesPerWall = 24;
+constexpr double kFewest = 1024;
 // A wall is listed where it comes this near, as a share of the cell, so that rounding loses none.
 constexpr double kMargin = 1e-6;
 
 }  // namespace
 
-WallGrid::WallGrid(std::span<const Wall> walls) {
+WallGrid::WallGrid(std::span<const Wall> walls, double listed_reach_m)
+    : listed_reach_m_(listed_reach_m) {
   if (walls.empty()) return;
   Span(walls);
   starts_.assign(columns_ * rows_ + 1, 0);
@@ -40,20 +42,31 @@ std::size_t WallGrid::Cell(double offset_m, std::size_t count) const {
 // Neither a wide place with few walls nor long walls side by side may cost a huge table.
 void WallGrid::Span(std::span<const Wall> walls) {
   low_ = walls.front().from_world;
-  Vec2 high = low_;
+  high_ = low_;
   double length_m = 0;
   for (const Wall& wall : walls) {
     for (const Vec2 end : {wall.from_world, wall.to_world}) {
       low_ = {std::min(low_.x, end.x), std::min(low_.y, end.y)};
-      high = {std::max(high.x, end.x), std::max(high.y, end.y)};
+      high_ = {std::max(high_.x, end.x), std::max(high_.y, end.y)};
     }
     length_m += Norm(wall.to_world - wall.from_world);
   }
-  const double most = kFewestCells + kCellsPerWall * static_cast<double>(walls.size());
+  if (listed_reach_m_ > 0) {
+    const double margin_m = listed_reach_m_ + kMargin * kSmallestCell_m;
+    low_ = low_ - Vec2{margin_m, margin_m};
+    high_ = high_ + Vec2{margin_m, margin_m};
+  }
+  const auto count = static_cast<double>(walls.size());
   const auto cells = [&](double extent_m) { return std::floor(extent_m / cell_m_) + 1; };
-  const Vec2 extent = high - low_;
+  const Vec2 extent = high_ - low_;
+  const auto too_many = [&] {
+    const double across = 1 + 2 * listed_reach_m_ / cell_m_;  // cells a point is listed in, a row
+    const double entries = across * (across * count + length_m / cell_m_);
+    return cells(extent.x) * cells(extent.y) > kFewest + kCellsPerWall * count ||
+           entries > kFewest + kEntriesPerWall * count;
+  };
   cell_m_ = kSmallestCell_m;
-  while (cells(extent.x) * cells(extent.y) > most || length_m / cell_m_ > most) cell_m_ *= 2;
+  while (too_many()) cell_m_ *= 2;
   columns_ = static_cast<std::size_t>(cells(extent.x));
   rows_ = static_cast<std::size_t>(cells(extent.y));
 }
@@ -64,7 +77,7 @@ void WallGrid::CellsOf(const Wall& wall, const Visit& visit) const {
   const bool rises = wall.from_world.y <= wall.to_world.y;
   const Vec2 from = rises ? wall.from_world : wall.to_world;
   const Vec2 along = (rises ? wall.to_world : wall.from_world) - from;
-  const double margin_m = kMargin * cell_m_;
+  const double margin_m = listed_reach_m_ + kMargin * cell_m_;
   const auto x_at = [&](double y) {
     return along.y > 0 ? from.x + std::clamp((y - from.y) / along.y, 0.0, 1.0) * along.x : from.x;
   };

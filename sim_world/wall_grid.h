@@ -1,5 +1,6 @@
-// Which walls are near: every wall listed in each square cell it passes through, built once.
-// Knows indices only. A long wall lies in many cells, so a search may name it more than once.
+// Which walls are near: every wall listed in each square cell that it passes within a reach of,
+// built once. Knows indices only. With a reach, one cell's list answers for any point in the cell;
+// without, a search may ask for any distance, and may name a long wall more than once.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,17 @@ namespace giveway::sim {
 
 class WallGrid {
  public:
-  explicit WallGrid(std::span<const Wall> walls);
+  // Within listed_reach_m along either axis, that is.
+  explicit WallGrid(std::span<const Wall> walls, double listed_reach_m = 0);
+
+  // Each wall within the listed reach of `point`, and others near them, once.
+  std::span<const std::uint32_t> At(Vec2 point) const {
+    const bool outside = point.x < low_.x || point.x > high_.x || point.y < low_.y ||
+                         point.y > high_.y || walls_.empty();
+    if (outside) return {};
+    const std::size_t cell = Row(point.y) * columns_ + Column(point.x);
+    return std::span(walls_).subspan(starts_[cell], starts_[cell + 1] - starts_[cell]);
+  }
 
   // Calls visit(index) for every wall within reach_m of `centre` along either axis, and others
   // near them; row by row, so always in the same order.
@@ -37,7 +48,9 @@ class WallGrid {
   template <typename Visit>
   void CellsOf(const Wall& wall, const Visit& visit) const;
 
-  Vec2 low_;
+  double listed_reach_m_;
+  Vec2 low_;  // farther than the listed reach from any wall; so is high_
+  Vec2 high_;
   double cell_m_ = 1;
   std::size_t columns_ = 1;
   std::size_t rows_ = 1;

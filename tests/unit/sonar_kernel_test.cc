@@ -22,20 +22,15 @@ struct Ring {
 Ring RandomRing(Random* random) {
   Ring ring;
   const double half = random->Uniform(0.05, 1.5);
-  ring.lanes.cos_half = Cos(half);
-  ring.lanes.sin_half = Sin(half);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     const double bearing = random->Uniform(-kPi, kPi);
     ring.cones[i] = {.apex = {random->Uniform(-0.3, 0.3), random->Uniform(-0.3, 0.3)},
                      .axis = {Cos(bearing), Sin(bearing)},
-                     .cos_half = ring.lanes.cos_half,
-                     .sin_half = ring.lanes.sin_half,
+                     .cos_half = Cos(half),
+                     .sin_half = Sin(half),
                      .max_range_m = kSilence_m};
-    ring.lanes.apex_x.of[i] = ring.cones[i].apex.x;
-    ring.lanes.apex_y.of[i] = ring.cones[i].apex.y;
-    ring.lanes.axis_x.of[i] = ring.cones[i].axis.x;
-    ring.lanes.axis_y.of[i] = ring.cones[i].axis.y;
   }
+  ring.lanes = RingOf(ring.cones);
   return ring;
 }
 
@@ -57,18 +52,17 @@ TEST_P(SonarKernelOf, HearsDiscsAsTheReferenceToTheBit) {
     const Ring ring = RandomRing(&random);
     const Incidence incidence = RandomIncidence(&random);
     NearDiscs discs;
-    discs.count = 1 + random.Next() % 3;
+    const std::uint64_t count = 1 + random.Next() % 3;
     Lanes range_m;
     range_m.of.fill(kSilence_m);
-    for (std::size_t i = 0; i < discs.count; ++i) {
-      discs.x[i] = random.Uniform(-6, 6);
-      discs.y[i] = random.Uniform(-6, 6);
-      discs.radius_m[i] = random.Uniform(0.01, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec2 centre = {random.Uniform(-6, 6), random.Uniform(-6, 6)};
+      discs.Add(centre, random.Uniform(0.01, 1));
     }
-    KernelOf(GetParam()).hear_discs(ring.lanes, discs, incidence, &range_m);
+    KernelOf(GetParam()).hear_discs(ring.lanes, {.incidence = incidence}, discs, &range_m);
     for (std::size_t i = 0; i < kSensorCount; ++i) {
       double expected_m = kSilence_m;
-      for (std::size_t d = 0; d < discs.count; ++d) {
+      for (std::size_t d = 0; d < count; ++d) {
         const auto one =
             RangeToDisc(ring.cones[i], {discs.x[d], discs.y[d]}, discs.radius_m[d], incidence);
         expected_m = std::min(expected_m, one.value_or(kSilence_m));
@@ -88,22 +82,25 @@ TEST_P(SonarKernelOf, HearsSegmentsAsTheReferenceToTheBit) {
     const Ring ring = RandomRing(&random);
     const Incidence incidence = RandomIncidence(&random);
     NearSegments segments;
-    segments.count = 1 + random.Next() % 3;
+    const std::uint64_t count = 1 + random.Next() % 3;
     Lanes range_m;
     range_m.of.fill(kSilence_m);
-    for (std::size_t i = 0; i < segments.count; ++i) {
-      segments.from[i] = {random.Uniform(-6, 6), random.Uniform(-6, 6)};
-      segments.to[i] = {random.Uniform(-6, 6), random.Uniform(-6, 6)};
+    std::vector<SceneSegment> all(count);
+    for (SceneSegment& one : all) {
+      one.from_world = {random.Uniform(-6, 6), random.Uniform(-6, 6)};
+      one.to_world = {random.Uniform(-6, 6), random.Uniform(-6, 6)};
       const std::uint64_t kind = random.Next() % 8;
-      if (kind == 0) segments.to[i] = segments.from[i];                       // a point
-      if (kind == 1) segments.from[i] = ring.cones[random.Next() % 16].apex;  // on a transducer
-      if (kind == 2) segments.to[i].x = segments.from[i].x;
+      if (kind == 0) one.to_world = one.from_world;                         // a point
+      if (kind == 1) one.from_world = ring.cones[random.Next() % 16].apex;  // on a transducer
+      if (kind == 2) one.to_world.x = one.from_world.x;
+      segments.Add(one.from_world, one.to_world);
     }
-    KernelOf(GetParam()).hear_segments(ring.lanes, segments, incidence, &range_m);
+    KernelOf(GetParam()).hear_segments(ring.lanes, {.incidence = incidence}, segments, &range_m);
     for (std::size_t i = 0; i < kSensorCount; ++i) {
       double expected_m = kSilence_m;
-      for (std::size_t s = 0; s < segments.count; ++s) {
-        const auto one = RangeToSegment(ring.cones[i], segments.from[s], segments.to[s], incidence);
+      for (const SceneSegment& segment : all) {
+        const auto one =
+            RangeToSegment(ring.cones[i], segment.from_world, segment.to_world, incidence);
         expected_m = std::min(expected_m, one.value_or(kSilence_m));
       }
       ASSERT_EQ(range_m.of[i], expected_m);
@@ -129,11 +126,11 @@ TEST(SonarKernel, TheFastestWidthIsOneThisCpuHas) {
 }
 
 // Ten times more objects than a list holds, in a scene: nothing is lost between lists or in a grid.
-TEST(SonarRing, ACrowdedSceneIsHeardAsOneByOne) {
+TEST_P(SonarKernelOf, ACrowdedSceneIsHeardAsOneByOne) {
   Random random(43);
   VehicleProfile profile = PioneerP3dx();
   for (SensorMount& mount : profile.sonar) mount.enabled = true;
-  const SonarRing ring(profile);
+  const SonarRing ring(profile, GetParam());
   for (int round = 0; round < 20; ++round) {
     std::vector<Wall> walls(round % 2 == 0 ? 700 : 5);
     for (Wall& wall : walls) {
