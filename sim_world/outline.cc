@@ -99,7 +99,8 @@ struct Front {
   double SpeedAt(double place) const {
     const double width = across.high - across.low;
     if (width <= 0) return speed_at_low;
-    return speed_at_low + (place - across.low) / width * (speed_at_high - speed_at_low);
+    const double share = std::clamp((place - across.low) / width, 0.0, 1.0);
+    return speed_at_low + share * (speed_at_high - speed_at_low);
   }
 };
 
@@ -127,12 +128,14 @@ Nearest NearestBetween(const Outline& a, const Outline& b) {
   best.Keep(of_b.apart_m, -1 * of_b.axis_world);
   const Way way = ShortestWay(a, b);
   const double distance = Sqrt(way.squared_m2);
-  // Apart along any side means apart; discs have no sides.
-  const bool apart = best.apart_m > kNoDirection_m || best.apart_m == -kInfinity;
+  // Where a side is nearest its own direction is exact, the way's is only as good as it is long.
+  // Only corners are nearer to each other than any side tells.
+  const bool corners = best.apart_m > 0 && distance > best.apart_m + kNoDirection_m;
+  const bool discs = best.apart_m == -kInfinity;
   Nearest nearest = {best.apart_m, best.axis_world, {}};
-  if (apart && distance > kNoDirection_m) {
+  if (corners || (discs && distance > kNoDirection_m)) {
     nearest = {distance, (1 / distance) * (way.to_b_world - way.from_a_world), {}};
-  } else if (best.apart_m == -kInfinity) {
+  } else if (discs) {
     nearest = {distance, {1, 0}, {}};  // one place: any direction is as good
   }
   nearest.gap_m -= a.radius_m + b.radius_m;

@@ -115,8 +115,10 @@ void World::FindPairs(bool driving) {
 // they move, what is nearest in this tick is no farther than they are now.
 void World::FindFirstPairs() {
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (double margin_m = 1; nearest_m > margin_m; margin_m = std::min(4 * margin_m, nearest_m)) {
+  double searched_m = 0;
+  for (double margin_m = 1; nearest_m > searched_m; margin_m = std::min(4 * margin_m, nearest_m)) {
     neighbours_.Find(balls_, margin_m, parallel_);
+    searched_m = margin_m;
     for (const NearPair& pair : neighbours_.Pairs()) {
       if (!things_.IsBody(pair.a)) continue;
       nearest_m = std::min(nearest_m, GapAt(things_.motions[pair.a], things_.motions[pair.b], 0));

@@ -179,6 +179,22 @@ TEST(OutlineMotion, ABoxSlidesAlongAWall) {
   EXPECT_FALSE(FirstContact(box, Wall{{-5, 0.2}, {0.1, 0.2}}, 0, kDt_s).has_value());
 }
 
+// However long the wall: its far ends must not tilt what counts as flat.
+TEST(OutlineMotion, ABoxFlatOnAWallMayTurnNeitherWayButSlideAndLeave) {
+  for (int i = 0; i < 200; ++i) {
+    const double heading = -3 + 0.03 * i;
+    const Pose pose = {{3, -2}, heading};
+    const Wall wall = {ToWorld(pose, {-30.0 - i, 0.2 + 5e-7}),
+                       ToWorld(pose, {0.1 + 0.5 * i, 0.2 + 5e-7})};
+    const auto contact = [&](Twist twist) {
+      return FirstContact(BoxAt({0.3, 0.2}, pose, twist), wall, 0, kDt_s);
+    };
+    EXPECT_EQ(contact({0, 1}), 0.0) << i;
+    EXPECT_EQ(contact({0, -1}), 0.0) << i;
+    EXPECT_FALSE(contact({1, 0})) << i;
+  }
+}
+
 // Beyond the end of the wall the side comes nearer to the wall's line: that is no contact.
 TEST(OutlineMotion, ABoxTurnsAwayFromAWallsEndItTouches) {
   const Motion box = BoxAt({0.3, 0.2}, {{0, 0}, 0}, {0, -1});

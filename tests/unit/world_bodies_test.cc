@@ -1,6 +1,7 @@
 // Boxes, slip and encoder noise, symmetry, and independence of how the work is cut.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "services/types/math.h"
@@ -55,6 +56,17 @@ TEST(WorldBodies, BoxesPassWhereTheirDiscsWouldNot) {
   DriveAll(&world, 4, 4, 150);
   EXPECT_EQ(world.Contacts(), 0U);
   EXPECT_NEAR(world.Approaches().Closest()->gap_m, 0.12, kTouch_m);
+}
+
+// Long boxes flank to flank look near by their discs; the two discs farther off are nearer.
+TEST(WorldBodies, TheFirstRecordIsOfTheNearestShellsNotOfTheNearestDiscs) {
+  Scenario scenario = ScenarioOf({BoxAt(1, {}), BoxAt(2, {{0, 1.9}, 0}), VehicleAt(3, {{9, 0}, 0}),
+                                  VehicleAt(4, {{9, 1.7}, 0})});
+  for (std::size_t i = 0; i < 2; ++i) scenario.vehicles[i].profile.box_half_m = {0.5, 0.1};
+  World world = WorldOf(scenario);
+  world.Advance(true);
+  EXPECT_EQ(world.Approaches().Closest()->vehicle, VehicleId{3});
+  EXPECT_NEAR(world.Approaches().Closest()->gap_m, 1.2, 1e-9);
 }
 
 TEST(WorldBodies, ABoxTurningInPlaceIsStoppedByAWallAndCountsOnce) {
@@ -154,15 +166,20 @@ TEST(WorldBodies, MotionNeverExceedsTheCapsHoweverMuchWheelsSlip) {
   Scenario scenario = ScenarioOf({VehicleAt(1, {})});
   scenario.vehicles[0].profile.wheel_slip = 0.5;
   World world = WorldOf(scenario);
-  Random random(9);
-  for (int i = 0; i < 5000; ++i) {
+  constexpr WheelSpeeds kFull[] = {{20, 20}, {-20, 20}, {-20, -20}, {25, 12}};
+  double fastest_m = 0;
+  for (int i = 0; i < 2000; ++i) {
     const Pose before = world.Bodies()[0].world_from_body;
-    world.Take(Drive(1, world.Now(), random.Uniform(-20, 20), random.Uniform(-20, 20)));
+    const WheelSpeeds target = kFull[i / 200 % 4];
+    world.Take(Drive(1, world.Now(), target.left_rad_s, target.right_rad_s));
     world.Advance(true);
     const Pose after = world.Bodies()[0].world_from_body;
-    ASSERT_LE(Norm(after.position_world - before.position_world), 1.0 * kDt_s + 1e-12);
+    const double driven_m = Norm(after.position_world - before.position_world);
+    fastest_m = std::max(fastest_m, driven_m);
+    ASSERT_LE(driven_m, 1.0 * kDt_s + 1e-12);
     ASSERT_LE(std::abs(WrapAngle(after.heading_rad - before.heading_rad)), 1.74 * kDt_s + 1e-12);
   }
+  EXPECT_NEAR(fastest_m, 1.0 * kDt_s, 1e-9);  // the caps were reached
 }
 
 // Mostly forward, anew every second, by id and tick alone.

@@ -64,6 +64,18 @@ TEST(WorldFleet, JoiningDuringARunDisturbsNobody) {
   EXPECT_GT(world.Bodies()[0].world_from_body.position_world.x, 0.5);
 }
 
+TEST(WorldFleet, JoiningDoesNotBringBackTheRemoved) {
+  World world(ScenarioOf({VehicleAt(3, {{1, 0}, 0}), VehicleAt(5, {})}), kEpoch);
+  world.Join(VehicleId{3});
+  world.Join(VehicleId{5});
+  world.Advance(true);
+  world.Remove(VehicleId{3});
+  world.Join(VehicleAt(1, {{0, 5}, 0}));
+  DriveAll(&world, 4, 4, 100);
+  EXPECT_EQ(world.Contacts(), 0U);
+  EXPECT_GT(world.Bodies()[2].world_from_body.position_world.x, 1);
+}
+
 TEST(WorldFleet, ASecondJoinStartsAfresh) {
   World world(ScenarioOf({VehicleAt(1, {{1, 2}, 0.5})}), kEpoch);
   world.Join(VehicleId{1});
