@@ -100,6 +100,7 @@ void WorldLoop::Tick() {
   sim::Run& run = fleet_->run;
   Admit();
   TakeCommands();
+  CountSpeaking();
   if (run.State() == RunState::kWaiting) StartIfReady();
   run.Advance(commands_);
   commands_.clear();
@@ -117,6 +118,7 @@ void WorldLoop::Admit() {
                       entry.reason);
     } else if (const sim::Body* body = fleet_->run.BodyOf(entry.vehicle)) {
       link_.OpenVehicle(entry.vehicle, body->profile);
+      next_checkpoint_ = {};
       if (entry.run_state == RunState::kRunning) Welcome(entry);
     }
     link_.SendRoster(entry);
@@ -136,6 +138,7 @@ void WorldLoop::Welcome(const RosterEntry& entry) {
 void WorldLoop::Close() {
   for (const VehicleId vehicle : fleet_->admission.TakeGone()) {
     link_.CloseVehicle(vehicle);
+    next_checkpoint_ = {};
     heard_.erase(vehicle);
     newcomers_.erase(vehicle);
   }
@@ -152,12 +155,18 @@ void WorldLoop::TakeCommands() {
   }
 }
 
-// It is matched with the world, and with every other vehicle's beacons.
+// It is matched with the world, and with the beacons of every other vehicle that lives.
 bool WorldLoop::IsReady(VehicleId vehicle) const {
   const auto hearing = heard_.find(vehicle);
   const auto& told = fleet_->admission.Told();
   return hearing != heard_.end() && told.contains(vehicle) && link_.IsMatched(vehicle) &&
-         hearing->second.matched_peers + 1 >= told.size();
+         hearing->second.matched_peers + 1 >= speaking_;
+}
+
+void WorldLoop::CountSpeaking() {
+  speaking_ = static_cast<std::size_t>(std::ranges::count_if(
+      fleet_->admission.Told(),
+      [this](const auto& told) { return !fleet_->run.IsAbandoned(told.first); }));
 }
 
 // Who is still waited for; empty if nobody is.
@@ -193,6 +202,7 @@ void WorldLoop::StartIfReady() {
   }
   if (!missing.empty()) app::LogWarning("goes on without: " + missing);
   fleet_->run.Start();
+  next_checkpoint_ = {};
   for (const RosterEntry& entry : fleet_->admission.TellAll("")) link_.SendRoster(entry);
   app::LogInfo("started with " + std::to_string(fleet_->admission.Told().size()) + " vehicles");
 }
@@ -256,7 +266,8 @@ bool WorldLoop::Unanswered() const {
   return false;
 }
 
-// After the tick's scans are out: the vehicles think meanwhile.
+// After the tick's scans are out: the vehicles think meanwhile. At once where somebody came or
+// went.
 void WorldLoop::KeepCheckpoint() {
   const SteadyTime begun = app::SteadyNow();
   if (options_.checkpoint_file.empty() || begun < next_checkpoint_) return;

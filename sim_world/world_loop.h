@@ -57,6 +57,7 @@ class WorldLoop {
   void Welcome(const RosterEntry& entry);
   void Close();
   void TakeCommands();
+  void CountSpeaking();
   bool IsReady(VehicleId vehicle) const;
   std::string Missing() const;
   void StartIfReady();
@@ -78,6 +79,7 @@ class WorldLoop {
   SteadyTime start_by_;
   std::map<VehicleId, Hearing> heard_;
   std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
+  std::size_t speaking_ = 0;                 // of those that are in
   std::vector<MotorCommand> commands_;
   std::uint32_t overruns_ = 0;
   SteadyTime next_checkpoint_{0};

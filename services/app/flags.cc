@@ -96,7 +96,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
   if (service == Service::kVehicle) flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
-    flags.checkpoint = values->TextOr("", "--checkpoint");
+    if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");
   }
   flags.seed = values->Whole("--seed", {0, kMaxWhole});
   const auto behaviour =

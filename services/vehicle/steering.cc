@@ -39,6 +39,8 @@ bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
 // Stands ahead on the same way and means to go on: one lines up behind it. Overtaking a queue ends
 // in front of whatever comes the other way.
 bool Queues(const PeerView& view, const Situation& s) {
+  const Rule rule = view.peer->beacon.rule;
+  if (rule == Rule::kArrived || rule == Rule::kNotRunning) return false;
   constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
   const Vec2 way = view.peer->beacon.toward_world - view.world_from_body.position_world;
   const double way_m = Norm(way);

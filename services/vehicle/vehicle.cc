@@ -24,6 +24,9 @@ constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the
 // Driving about for so long without coming nearer, a vehicle looks for a way round.
 constexpr double kPassedAtDistance_m = 1.2;
 constexpr double kNoProgress_s = 6;
+// Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
+constexpr double kSharpTurn_rad_s = 0.25;
+constexpr std::uint32_t kTurnEchoTicks = 6;
 constexpr double kNoPatience_s = 15;
 constexpr double kProgress_m = 0.1;
 constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
@@ -289,7 +292,13 @@ void Vehicle::Detour(Situation* s) {
 void Vehicle::ListenForMovers(Situation* s) {
   VehicleState& state = *state_;
   bool moving = false;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
+  // A cone that swings along a wall makes its echo come nearer faster than any of the formulas say.
+  if (s->turn_rad_s > kSharpTurn_rad_s || s->turn_rad_s < -kSharpTurn_rad_s) {
+    state.turned_tick = s->tick;
+  }
+  const bool turns = state.turned_tick != kNoTick &&
+                     TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
+  for (std::size_t i = 0; i < kSensorCount && !turns; ++i) {
     const bool near =
         s->ranges[i].kind == Echo::kEcho &&
         s->ranges[i].range_m < (state.deaf ? options_.gate_exit_m : options_.gate_enter_m);

@@ -10,7 +10,7 @@ declare -A PID # of each member, by its name; its log is $SCRATCH/NAME.log
 end_members() {
   local name
   for name in "${!PID[@]}"; do kill -9 "${PID[$name]}" 2>/dev/null || true; done
-  rm -rf "$SCRATCH"
+  [[ -n ${KEEP:-} ]] || rm -rf "$SCRATCH"
 }
 trap end_members EXIT
 

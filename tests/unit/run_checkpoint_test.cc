@@ -32,7 +32,7 @@ Scenario Busy() {
 }
 
 // Straights and turns by vehicle and time; vehicle 3 says nothing in every third tick.
-std::vector<MotorCommand> Script(const Run& run, WorldEpoch epoch, int tick) {
+std::vector<MotorCommand> Script(const sim::Run& run, WorldEpoch epoch, int tick) {
   constexpr WheelSpeeds kPhases[] = {{4, 4}, {2, 4.5}, {-3, -3}, {5, 1}, {6, 6.3}};
   std::vector<MotorCommand> commands;
   for (std::uint32_t id = 1; id <= 4; ++id) {
@@ -53,12 +53,12 @@ FleetCheckpoint Through(const FleetCheckpoint& checkpoint) {
 TEST(RunCheckpoint, ARestoredRunGoesOnBitForBit) {
   for (const int taken_at : {1, 37, 90, 150}) {
     const Scenario scenario = Busy();
-    Run original(scenario, kEpoch);
+    sim::Run original(scenario, kEpoch);
     for (const VehicleOptions& options : scenario.vehicles) original.Join(options.id);
     original.Start();
     for (int tick = 0; tick < taken_at; ++tick) original.Advance(Script(original, kEpoch, tick));
 
-    Run restored(scenario, kNext);
+    sim::Run restored(scenario, kNext);
     ASSERT_TRUE(restored.Restore(Through({.run = original.Save()}).run, {}));
     EXPECT_EQ(restored.State(), RunState::kWaiting);
     restored.Start();
@@ -85,11 +85,11 @@ TEST(RunCheckpoint, ARestoredRunGoesOnBitForBit) {
 
 TEST(RunCheckpoint, ARestoredRunWaitsAndItsBodiesBrake) {
   const Scenario scenario = Busy();
-  Run original(scenario, kEpoch);
+  sim::Run original(scenario, kEpoch);
   for (const VehicleOptions& options : scenario.vehicles) original.Join(options.id);
   original.Start();
   for (int tick = 0; tick < 30; ++tick) original.Advance(Script(original, kEpoch, tick));
-  Run restored(scenario, kNext);
+  sim::Run restored(scenario, kNext);
   ASSERT_TRUE(restored.Restore(original.Save(), {}));
   for (int tick = 0; tick < 60; ++tick) restored.Advance({});
   EXPECT_DOUBLE_EQ(restored.TimeSeconds(), original.TimeSeconds());
@@ -98,17 +98,17 @@ TEST(RunCheckpoint, ARestoredRunWaitsAndItsBodiesBrake) {
 }
 
 TEST(RunCheckpoint, DoesNotFitAnotherScenario) {
-  Run original(Busy(), kEpoch);
+  sim::Run original(Busy(), kEpoch);
   Scenario other = Busy();
   other.faults.clear();
-  EXPECT_FALSE(Run(other, kNext).Restore(original.Save(), {}));
+  EXPECT_FALSE(sim::Run(other, kNext).Restore(original.Save(), {}));
   other = Busy();
   other.obstacles.clear();
-  EXPECT_FALSE(Run(other, kNext).Restore(original.Save(), {}));
+  EXPECT_FALSE(sim::Run(other, kNext).Restore(original.Save(), {}));
 }
 
 std::string SomeBytes() {
-  Run run(Busy(), kEpoch);
+  sim::Run run(Busy(), kEpoch);
   run.Join(VehicleId{1});
   run.Advance({});
   return ToBytes({.scenario = 42,

@@ -249,7 +249,8 @@ TEST(SignalsOfOthers, OfTwoThatLightsStoppedNeitherCountsOnTheOthersLight) {
     bench.WithNext().signals = {Head(SignalPhase::kRed, 1.17)};
     EXPECT_EQ(bench.Step(Driving(0), {other}).command.decision.rule, Rule::kSignal);
   }
-  const Beacon other = Southern(bench.NextTick() - 1, Rule::kSignal, 0.8);
+  Beacon other = Southern(bench.NextTick() - 1, Rule::kSignal, 0.8);
+  other.wheels = {0.3, 0.3};  // creeps: one that stands would be a body and no path
   bench.WithNext().signals = {Head(SignalPhase::kDark, 1.17)};
   const Outputs out = bench.Step(Driving(0), {other});
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
