@@ -156,6 +156,7 @@ void ReadFleet(const Section& root, const ScenarioOverrides& overrides, ReadScen
   scenario.tick_period = common.tick_period;
   scenario.sonar = ReadSonar(root.Sub("sonar"), common.tick_period);
   common.sonar_refresh = SonarRefresh(scenario.sonar, common.tick_period);
+  common.sonar_noise = scenario.sonar.tier == SonarTier::kIdeal ? 0 : scenario.sonar.noise;
   if (!root.Has("vehicle") && !root.Has("spawn")) {
     root.ComplainMissing("vehicle", "write vehicle { ... } or spawn { ... } at least once");
   }
