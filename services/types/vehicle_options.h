@@ -49,6 +49,8 @@ struct VehicleOptions {
   // How long a transducer takes from one firing to the next one's result: 0 where all fire every
   // tick. A reading may be older than a scan by this much.
   Nanoseconds sonar_refresh{0};
+  // Standard deviation of a reading, share of its range; 0: readings are exact and miss nothing.
+  double sonar_noise = 0;
   Nanoseconds ageing_limit{20'000'000'000};  // waiting longer moves a vehicle up the order
 };
 

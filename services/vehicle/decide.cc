@@ -72,6 +72,31 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   return action;
 }
 
+// A light ahead that says stop is told to the others whatever else slows the vehicle down just now:
+// they count on it that it will not come on. Only what makes it stand anyhow stays named.
+bool IsToldBeforeLight(Rule rule) {
+  switch (rule) {
+    case Rule::kCruise:
+    case Rule::kGiveWay:
+    case Rule::kNotGranted:
+    case Rule::kObstacle:
+    case Rule::kObject:
+    case Rule::kSteerRound:
+      return false;
+    default:
+      return true;
+  }
+}
+
+// True if the line is near enough to tell, and no conflict with anybody known lies before it.
+bool StandsAtLine(const StopLine& line, const Situation& s) {
+  constexpr double kTellWithin_m = 2.5;
+  return line.free_m < kTellWithin_m &&
+         std::none_of(s.peers.begin(), s.peers.end(), [&line](const PeerView& view) {
+           return view.conflict && view.conflict->own.begin_m < line.free_m;
+         });
+}
+
 }  // namespace
 
 Action Decide(const Situation& s) {
@@ -81,6 +106,9 @@ Action Decide(const Situation& s) {
     action = AvoidingAction(s);
   } else {
     action = DrivingAction(s, limit);
+  }
+  if (s.stop_line && !IsToldBeforeLight(action.decision.rule) && StandsAtLine(*s.stop_line, s)) {
+    action.decision = {.rule = Rule::kSignal, .cause_tick = s.stop_line->tick};
   }
   action.decision.mode = ModeOf(s);
   return action;

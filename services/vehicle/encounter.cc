@@ -83,6 +83,14 @@ bool FirstMayGo(const PeerView& view, const Situation& s) {
   return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
 }
 
+// A peer that a light held let this vehicle go: once it cannot stop before the conflict any more
+// it goes through, whatever the peer's light and the order say meanwhile.
+bool HasEntered(const PeerView& view, const Situation& s) {
+  if (!view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s)) return false;
+  const bool let_go = view.at_signal && view.grants && !s.at_signal && !s.stop_line;
+  return view.peer->encounter.entered || let_go;
+}
+
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
 bool Holds(const PeerView& view, const Situation& s) {
@@ -91,6 +99,7 @@ bool Holds(const PeerView& view, const Situation& s) {
     if (view.peer->encounter.released) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
+  if (view.peer->encounter.entered) return false;
   if (view.goes_first) return !MustClear(view, s) && (held || SecondMustStop(view, s));
   if (FirstMayGo(view, s)) return false;
   return held || MustBrakeNow(view, s);
@@ -110,7 +119,7 @@ bool IsThroughFirst(const PeerView& view, const Situation& s) {
 }
 
 bool CanGiveWay(const PeerView& view, const Situation& s) {
-  if (!view.goes_first) return false;
+  if (!view.goes_first || view.peer->encounter.entered) return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
 }
@@ -132,6 +141,7 @@ void UpdateEncounter(const PeerView& view, const Situation& s) {
       encounter = {};
     }
   }
+  encounter.entered = encounter.active && HasEntered(view, s);
   encounter.holds = encounter.active && Holds(view, s);
 }
 

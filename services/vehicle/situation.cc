@@ -33,6 +33,23 @@ bool Follows(const PeerView& view, const Situation& s) {
   return same_lane && (along > bodies || along < -bodies);
 }
 
+// By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
+// it stands before its line, and would only block the ones with green.
+bool ComesFirst(const PeerView& view, const Situation& s) {
+  if (view.at_signal != s.at_signal) return s.at_signal;
+  return GoesFirst(view.peer->beacon.order, s.order);
+}
+
+// The light's word counts only while the peer could still keep it: it stands, or can stop before
+// the conflict. Of two that lights stopped until now neither may count on the other's.
+bool WaitsAtSignal(const PeerView& view, const Situation& s) {
+  if (!view.at_signal || s.at_signal) return false;
+  const double stopping_m =
+      StoppingDistance(std::max(0.0, view.speed_m_s), ReactionSeconds(s.options),
+                       s.options.profile.deceleration_m_s2);
+  return view.standing || !view.conflict || view.conflict->peer.begin_m >= stopping_m;
+}
+
 // Both vehicles' paths, as half-lines; a peer that stays put has none.
 std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
   if (StaysPut(view.peer->beacon) || Follows(view, s)) return std::nullopt;
@@ -44,7 +61,9 @@ std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
 
 }  // namespace
 
-double ReactionSeconds(const VehicleOptions& options) { return 2 * Seconds(options.tick_period); }
+double ReactionSeconds(const VehicleOptions& options) {
+  return 2 * Seconds(options.tick_period) + Seconds(options.sonar_refresh);
+}
 
 double OwnStoppingDistance(const Situation& s) {
   const double speed = std::max(0.0, s.speed_m_s);
@@ -82,8 +101,9 @@ PeerView LookAt(Peer* peer, const Situation& s) {
   view.forward_world = Forward(view.world_from_body);
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
-  view.goes_first = GoesFirst(beacon.order, s.order);
-  view.grants = view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon));
+  const bool knows_lights = s.options.behaviour == Behaviour::kCooperative;
+  view.at_signal = knows_lights && view.fresh && beacon.rule == Rule::kSignal;
+  view.goes_first = ComesFirst(view, s);
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);
@@ -91,8 +111,11 @@ PeerView LookAt(Peer* peer, const Situation& s) {
   const Vec2 velocity = view.speed_m_s * view.forward_world - s.speed_m_s * s.forward_world;
   view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
   view.conflict = ConflictWith(view, s);
+  view.grants = view.fresh &&
+                (beacon.gives_way_to == s.options.id || StaysPut(beacon) || WaitsAtSignal(view, s));
   if (view.fresh) {
-    view.explains = EchoesOf(view.world_from_body.position_world, beacon.body_radius_m, s);
+    view.explains = EchoesOf(view.world_from_body.position_world,
+                             view.speed_m_s * view.forward_world, beacon.body_radius_m, s);
   }
   return view;
 }

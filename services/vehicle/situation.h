@@ -8,8 +8,10 @@
 #include "services/types/range_scan.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/conflict.h"
+#include "services/vehicle/objects.h"
 #include "services/vehicle/peer_table.h"
 #include "services/vehicle/range_view.h"
+#include "services/vehicle/signals.h"
 
 namespace giveway {
 
@@ -24,6 +26,7 @@ struct PeerView {
   bool standing = false;    // below kStandingSpeed
   bool goes_first = false;  // before this vehicle, by both keys as published
   bool grants = false;     // fresh, and says that it gives way to this vehicle or stays where it is
+  bool at_signal = false;  // fresh, and says that a light stops it
   double gap_m = 0;        // shell to shell
   double closing_m_s = 0;  // positive while the gap shrinks
   std::optional<Conflict> conflict;
@@ -46,9 +49,12 @@ struct Situation {
   double distance_to_goal_m = 0;  // huge without a goal
   OrderKey order;                 // as last published
   const RangeView& ranges;
-  int blind_sensor = -1;        // see RangeView::FirstBlind
-  std::uint32_t explained = 0;  // union of the peers' `explains`
-  bool deaf = false;            // something near moves and no fresh beacon explains it
+  const SeenObjects& objects;
+  std::optional<StopLine> stop_line;  // a light ahead that says stop
+  bool at_signal = false;             // a light stops this vehicle, as last published
+  int blind_sensor = -1;              // see RangeView::FirstBlind
+  std::uint32_t explained = 0;        // union of the peers' `explains`
+  bool deaf = false;                  // something near moves and no fresh beacon explains it
   int deaf_sensor = -1;
   std::span<const PeerView> peers;
 };
@@ -58,7 +64,8 @@ inline constexpr double kStandingSpeed_m_s = 0.01;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
 
-// From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old.
+// From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old, of
+// readings that may be older by the ultrasonics' refresh.
 double ReactionSeconds(const VehicleOptions& options);
 
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.

@@ -21,6 +21,7 @@ const PeerView* Blocking(const Situation& s) {
   for (const PeerView& view : s.peers) {
     const double clearance_m = Clearance(view, s);
     if (!view.fresh || !view.standing || !view.grants || view.goes_first) continue;
+    if (view.at_signal) continue;  // a queue at a light is no place to overtake
     const Vec2 offset = view.world_from_body.position_world - s.path.from_world;
     const double along = Dot(offset, s.path.direction_world);
     const double across = Cross(s.path.direction_world, offset);

@@ -64,6 +64,8 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.encounters = 0;
   state.deaf = false;
   state.ranges = {};
+  state.signals.LeaveWorld();
+  state.objects = {};
   state.peers.LeaveWorld();
 }
 
@@ -101,7 +103,12 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   state.tick = scan.tick;
   state.run_state = scan.run_state;
   state.wheels = scan.wheels;
-  state.ranges.Take(scan, now, options_.tick_period);
+  if (HasImperfectSonar(options_)) {
+    const OwnWay moved{twist.forward_m_s * dt_s, Magnitude(twist.turn_rad_s) * dt_s};
+    state.ranges.TakeImperfect(scan, now, options_.tick_period, moved);
+  } else {
+    state.ranges.Take(scan, now, options_.tick_period);
+  }
 }
 
 void Vehicle::TakePeers(const Inputs& inputs) {
@@ -114,10 +121,19 @@ void Vehicle::TakePeers(const Inputs& inputs) {
   for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
 }
 
+void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  for (const SignalState& signal : inputs.signals) {
+    state.signals_refused += state.signals.Take(signal, state.epoch, inputs.now) ? 0 : 1;
+  }
+  const Observer observer{state.epoch, state.tick, state.world_from_body, SpeedMps()};
+  state.scans_refused += TakeObjects(inputs, observer, &state.objects);
+}
+
 Situation Vehicle::Look(const Inputs& inputs) {
   VehicleState& state = *state_;
   const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
-  Situation s{.options = options_, .ranges = state.ranges};
+  Situation s{.options = options_, .ranges = state.ranges, .objects = state.objects};
   s.now = inputs.now;
   s.tick = state.tick;
   s.run_state = state.run_state;
@@ -140,6 +156,20 @@ Situation Vehicle::Look(const Inputs& inputs) {
   }
   s.arrived = state.arrived;
   return s;
+}
+
+// Lights are for cooperative vehicles; the lecture's behaviours know none.
+void Vehicle::LookAtSignals(Situation* s) {
+  if (options_.behaviour != Behaviour::kCooperative || s->run_state != RunState::kRunning) return;
+  const VehicleProfile& profile = options_.profile;
+  const double stopping_m = StoppingDistance(std::max(0.0, s->speed_m_s), ReactionSeconds(options_),
+                                             profile.deceleration_m_s2);
+  s->stop_line = state_->signals.MustStopAt({.path = s->path,
+                                             .distance_to_goal_m = s->distance_to_goal_m,
+                                             .body_radius_m = profile.body_radius_m,
+                                             .stopping_m = stopping_m},
+                                            s->now);
+  s->at_signal = state_->decision.rule == Rule::kSignal;
 }
 
 void Vehicle::LookAtPeers(Situation* s) {
@@ -224,7 +254,9 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   if (inputs.roster) TakeRoster(*inputs.roster);
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
   TakePeers(inputs);
+  TakeSignalsAndObjects(inputs);
   Situation s = Look(inputs);
+  LookAtSignals(&s);
   LookAtPeers(&s);
   ListenForMovers(&s);
   const Action action = Decide(s);
@@ -271,6 +303,8 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.gives_way_to);
   state.ranges.AddTo(&hash);
   state.peers.AddTo(&hash);
+  state.signals.AddTo(&hash);
+  AddTo(state.objects, &hash);
   return hash.Value();
 }
 

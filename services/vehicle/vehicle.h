@@ -41,7 +41,10 @@ struct VehicleState {
   VehicleId gives_way_to = kNobody;  // as last published
   RangeView ranges;
   PeerTable peers;
-  std::uint32_t scans_refused = 0;
+  SignalTable signals;
+  SeenObjects objects;
+  std::uint32_t scans_refused = 0;  // of any sensor
+  std::uint32_t signals_refused = 0;
   BeaconCounters beacons;
   QosCounters qos;
 };
@@ -71,7 +74,9 @@ class Vehicle {
   void TakeRoster(const RosterEntry& entry);
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);
+  void TakeSignalsAndObjects(const Inputs& inputs);
   Situation Look(const Inputs& inputs);
+  void LookAtSignals(Situation* situation);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Remember(const Situation& situation, const Decision& decision);
