@@ -37,7 +37,9 @@ void DrawRoute(Canvas* canvas, const Obstacle& obstacle) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     const Pixel a = points[i - 1];
     const Pixel b = points[i];
-    canvas->KeepClear({(a.x + b.x) / 2, (a.y + b.y) / 2});
+    for (int k = 0; k <= 20; ++k) {
+      canvas->KeepClear({a.x + (b.x - a.x) * k / 20, a.y + (b.y - a.y) * k / 20});
+    }
     if (obstacle.loop && Distance(a, b) > 30) {
       Arrow(canvas, a, b, {(a.x + b.x) / 2, (a.y + b.y) / 2},
             "fill=\"none\" stroke=\"#9a6b3f\" stroke-width=\"1.5\"");
@@ -94,7 +96,10 @@ void DrawSignal(Canvas* canvas, const SignalPlan& signal) {
   const Pixel head{end.x + (end.x - middle.x) / length * 40,
                    end.y + (end.y - middle.y) / length * 40};
   DrawHead(canvas, head);
-  for (const double y : {-10.0, 0.0, 10.0}) canvas->KeepClear({head.x, head.y + y});
+  for (const double y : {-10.0, 0.0, 10.0}) {
+    canvas->KeepClear({head.x, head.y + y});
+    canvas->KeepClear({head.x + 16, head.y + y});
+  }
   canvas->Text({head.x + 8, head.y + 4}, fmt::format("s{}", Number(signal.id)), "class=\"time\"");
 }
 

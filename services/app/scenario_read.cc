@@ -9,8 +9,8 @@
 
 #include "services/app/place_read.h"
 #include "services/app/plan_read.h"
-#include "services/app/signal_conflict.h"
 #include "services/app/vehicle_read.h"
+#include "services/types/signal_plan.h"
 
 namespace giveway::app {
 namespace {
@@ -110,8 +110,8 @@ void ReadSettings(const Section& root, const ScenarioOverrides& overrides, Scena
 std::vector<Section> Elements(const Section& root, const char* field, int most) {
   const int count = root.Count(field);
   if (count <= most) return root.Subs(field);
-  root.Complain("", fmt::format("has {} of {}; at most {} are allowed", count, field, most),
-                "leave some out");
+  root.Complain(field, fmt::format("is one of {}; at most {} are allowed", count, most),
+                "leave some out", most);
   return {};
 }
 
@@ -189,7 +189,7 @@ void CheckGroups(const std::vector<SignalPlan>& signals, const std::vector<Secti
     }
     auto& heads = groups[signal.group];
     const auto other = std::find_if(heads.begin(), heads.end(), [&](const SignalPlan* head) {
-      return GoTogether(*head, signal);
+      return ShowGreenTogether(*head, signal);
     });
     if (other != heads.end()) {
       sections[i].Complain(

@@ -233,10 +233,11 @@ std::string Times(int count, const std::string& text) {
 
 TEST(PlaceRules, CountsHaveALimit) {
   EXPECT_THAT(With(Times(65537, "wall {}\n")),
-              ElementsAre(Is(1, "", "65538 of wall; at most 65536")));
-  EXPECT_THAT(With(Times(16385, "obstacle {}\n")), Contains(Is(1, "", "at most 16384")));
-  EXPECT_THAT(With(Times(1025, "door {}\n")), Contains(Is(1, "", "at most 1024")));
-  EXPECT_THAT(With(Times(1025, "signal {}\n")), Contains(Is(1, "", "at most 1024")));
+              ElementsAre(Is(65552, "wall[65536]", "is one of 65538; at most 65536")));
+  EXPECT_THAT(With(Times(16385, "obstacle {}\n")),
+              Contains(Is(16401, "obstacle[16384]", "at most 16384")));
+  EXPECT_THAT(With(Times(1025, "door {}\n")), Contains(Is(1041, "door[1024]", "at most 1024")));
+  EXPECT_THAT(With(Times(1025, "signal {}\n")), Contains(Is(1041, "signal[1024]", "at most 1024")));
   EXPECT_THAT(With(Times(16383, "spawn {}\n")), Contains(Is(1, "", "16385 of vehicle and spawn")));
 }
 
@@ -249,7 +250,7 @@ TEST(PlaceRules, AMillionWallsAreTooLargeAFile) {
 
 TEST(PlaceRules, AMillionWallsInFewBytesAreTooMany) {
   EXPECT_THAT(With(Times(1'000'000, "wall{}")),
-              ElementsAre(Is(1, "", "1000001 of wall; at most 65536")));
+              ElementsAre(Is(17, "wall[65536]", "is one of 1000001; at most 65536")));
 }
 
 // A fleet as large as allowed, in rank and file with walls between: compared pair by pair this

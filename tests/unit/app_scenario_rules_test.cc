@@ -287,7 +287,8 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(ScenarioRules, AtMost16384VehiclesAreRead) {
   std::string text = "name: \"many\" expect {}\n";
   for (int i = 0; i < 16385; ++i) text += "vehicle {}\n";
-  EXPECT_THAT(ProblemsOf(text), ElementsAre(Is(1, "", "16385 of vehicle; at most 16384")));
+  EXPECT_THAT(ProblemsOf(text),
+              ElementsAre(Is(16386, "vehicle[16384]", "is one of 16385; at most 16384")));
 }
 
 TEST(ScenarioRules, AListOfIdsHasAnEnd) {
