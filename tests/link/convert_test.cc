@@ -7,10 +7,13 @@
 #include <bit>
 #include <limits>
 
-#include "services/link/topics.h"
+#include "tests/link/travel.h"
 
 namespace giveway::link {
 namespace {
+
+using test::RoundTrip;
+using test::Travelled;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -19,27 +22,6 @@ constexpr double kHuge = std::numeric_limits<double>::max();
 constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
-
-// `wire` serialized and deserialized.
-template <typename Wire>
-Wire Travelled(Wire wire) {
-  typename TopicOf<Wire>::Type type;
-  rtps::SerializedPayload_t payload(type.m_typeSize);
-  EXPECT_TRUE(type.serialize(&wire, &payload));
-  Wire arrived;
-  EXPECT_TRUE(type.deserialize(&payload, &arrived));
-  return arrived;
-}
-
-bool IsReadable(bool readable) { return readable; }
-bool IsReadable(Arrival arrival) { return arrival.readable; }
-
-template <typename Ours>
-Ours RoundTrip(const Ours& value) {
-  Ours back;
-  EXPECT_TRUE(IsReadable(FromWire(Travelled(ToWire(value)), back)));
-  return back;
-}
 
 TEST(Convert, BeaconComesBackBitForBit) {
   Beacon sent;
@@ -98,7 +80,7 @@ TEST(Convert, ScanComesBackWithEverySensor) {
   sent.wheels = {-1, kNan};
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     sent.readings[i] = {static_cast<Echo>(i % 3), 0.25 * static_cast<double>(i),
-                        Tick{static_cast<std::uint32_t>(100 + i)}};
+                        Tick{static_cast<std::uint32_t>(100 + i)}, 0.001 * static_cast<double>(i)};
   }
   const RangeScan back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
@@ -111,6 +93,7 @@ TEST(Convert, ScanComesBackWithEverySensor) {
     EXPECT_EQ(back.readings[i].kind, sent.readings[i].kind) << i;
     EXPECT_EQ(back.readings[i].range_m, sent.readings[i].range_m) << i;
     EXPECT_EQ(back.readings[i].tick, sent.readings[i].tick) << i;
+    EXPECT_EQ(back.readings[i].fired_before_s, sent.readings[i].fired_before_s) << i;
   }
 }
 
@@ -133,9 +116,10 @@ TEST(Convert, CommandComesBack) {
 }
 
 TEST(Convert, JoinAndRosterComeBack) {
-  const JoinRequest join{{1, 2, 3, kMax}, VehicleId{9}};
+  const JoinRequest join{{1, 2, 3, kMax}, VehicleId{9}, true};
   EXPECT_EQ(RoundTrip(join).session, join.session);
   EXPECT_EQ(RoundTrip(join).wanted, join.wanted);
+  EXPECT_TRUE(RoundTrip(join).leaving);
 
   const RosterEntry sent{.session = {kMax, 0, 1, 2},
                          .vehicle = VehicleId{3},
@@ -144,6 +128,7 @@ TEST(Convert, JoinAndRosterComeBack) {
                          .reason = "vehicle 3 is taken",
                          .epoch = WorldEpoch{4},
                          .start_world = {{-1, 2}, 3},
+                         .spawn = 6,
                          .run_state = RunState::kRunning,
                          .fleet_size = 5};
   const RosterEntry back = RoundTrip(sent);
@@ -154,6 +139,7 @@ TEST(Convert, JoinAndRosterComeBack) {
   EXPECT_EQ(back.reason, sent.reason);
   EXPECT_EQ(back.epoch, sent.epoch);
   EXPECT_EQ(back.start_world, sent.start_world);
+  EXPECT_EQ(back.spawn, sent.spawn);
   EXPECT_EQ(back.run_state, sent.run_state);
   EXPECT_EQ(back.fleet_size, sent.fleet_size);
 }
