@@ -132,6 +132,7 @@ TEST(Convert, JoinAndRosterComeBack) {
   const RosterEntry sent{.session = {kMax, 0, 1, 2},
                          .vehicle = VehicleId{3},
                          .accepted = true,
+                         .waiting = true,
                          .reason = "vehicle 3 is taken",
                          .epoch = WorldEpoch{4},
                          .start_world = {{-1, 2}, 3},
@@ -142,6 +143,7 @@ TEST(Convert, JoinAndRosterComeBack) {
   EXPECT_EQ(back.session, sent.session);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_TRUE(back.accepted);
+  EXPECT_TRUE(back.waiting);
   EXPECT_EQ(back.reason, sent.reason);
   EXPECT_EQ(back.epoch, sent.epoch);
   EXPECT_EQ(back.start_world, sent.start_world);

@@ -81,6 +81,15 @@ TEST(Flags, EveryFlagReachesItsPlace) {
   EXPECT_EQ(flags.log_level, "debug");
 }
 
+TEST(Flags, OnlyTheWorldKeepsACheckpointAndOnlyIfAsked) {
+  const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
+  EXPECT_EQ(std::get<ServiceFlags>(World(least)).checkpoint, "");
+  std::vector<const char*> words = least;
+  words.insert(words.end(), {"--checkpoint", "state"});
+  EXPECT_EQ(std::get<ServiceFlags>(World(words)).checkpoint, "state");
+  EXPECT_THAT(Refusal(words), HasSubstr("--checkpoint"));
+}
+
 TEST(Flags, OnlyTheWorldSharesItsWorkAmongThreads) {
   const auto threads = [](std::vector<const char*> words) {
     words.insert(words.begin(), {"--scenario", "s", "--domain", "1"});
