@@ -14,11 +14,12 @@
 namespace giveway {
 
 inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Scenario& scenario) {
-  return {.domain = flags.domain,
-          .interface = flags.interface,
-          .qos_file = flags.qos,
-          .area = scenario.area,
-          .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size())};
+  return {
+      .domain = flags.domain,
+      .interface = flags.interface,
+      .qos_file = flags.qos,
+      .area = scenario.area,
+      .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size())};
 }
 
 // Runs the service unless the flags asked for help or were wrong.

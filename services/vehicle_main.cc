@@ -6,6 +6,8 @@
 // wires; deciding is services/vehicle, talking is services/link.
 #include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
@@ -21,38 +23,80 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr Nanoseconds kJoinPoll = milliseconds(20);
+constexpr Nanoseconds kAskAgain =
+    std::chrono::seconds(1);  // who waits and does not ask is forgotten
 constexpr Nanoseconds kJoinReminder = std::chrono::seconds(5);
 constexpr Nanoseconds kStatusPeriod = milliseconds(200);
 constexpr Nanoseconds kFlushTimeout = milliseconds(300);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
 
-// Asks the world for a place and waits for its answer. Empty if asked to stop meanwhile.
+// Asks the world for a place, again and again, until it is given or refused for good.
+class Asking {
+ public:
+  Asking(link::VehicleLink* link, VehicleId wanted) : link_(*link) {
+    request_.wanted = wanted;
+    for (std::uint32_t& word : request_.session) word = app::RandomNonZero();
+    Ask();
+  }
+
+  const SessionId& Session() const { return request_.session; }
+  bool Answered() const { return answered_; }
+
+  void AskAgainIfDue() {
+    if (app::SteadyNow() >= again_) Ask();
+  }
+  // True if this is the last word on the request; a reason to wait is only logged.
+  bool IsFinal(const RosterEntry& entry) {
+    answered_ = true;
+    if (!entry.accepted && entry.waiting)
+      app::LogWarning("the world lets it wait: " + entry.reason);
+    return entry.accepted || !entry.waiting;
+  }
+
+ private:
+  void Ask() {
+    link_.SendJoin(request_);
+    again_ = app::SteadyNow() + kAskAgain;
+  }
+
+  link::VehicleLink& link_;
+  JoinRequest request_;
+  SteadyTime again_{0};
+  bool answered_ = false;
+};
+
+// Empty if asked to stop meanwhile.
 std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,
                                 VehicleId wanted) {
-  JoinRequest request{.wanted = wanted};
-  for (std::uint32_t& word : request.session) word = app::RandomNonZero();
-  link->SendJoin(request);
+  Asking asking(link, wanted);
   SteadyTime remind = app::SteadyNow() + kJoinReminder;
   while (!stop.IsSet()) {
-    if (auto entry = link->TakeRoster(request.session)) return entry;
+    const auto entry = link->TakeRoster(asking.Session());
+    if (entry && asking.IsFinal(*entry)) return entry;
+    asking.AskAgainIfDue();
     app::SleepUntil(app::SteadyNow() + kJoinPoll);
     if (app::SteadyNow() < remind) continue;
-    app::LogWarning("no answer from a world yet: is giveway-world running in this domain?");
     remind += kJoinReminder;
+    if (asking.Answered()) continue;
+    app::LogWarning("no answer from a world yet: is giveway-world running in this domain?");
   }
+  link->SendLeave(asking.Session());
   return std::nullopt;
 }
 
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
-  const auto found =
-      std::find_if(scenario.vehicles.begin(), scenario.vehicles.end(),
-                   [&entry](const VehicleOptions& options) { return options.id == entry.vehicle; });
-  if (found == scenario.vehicles.end()) {
-    throw link::LinkError("the world gave this vehicle an id its scenario does not have: " +
+  const auto& known = entry.spawn == 0 ? scenario.vehicles : scenario.spawns;
+  const auto found = entry.spawn == 0 ? std::ranges::find(known, entry.vehicle, &VehicleOptions::id)
+                                      : known.begin() + std::min<std::ptrdiff_t>(entry.spawn - 1,
+                                                                                 std::ssize(known));
+  if (found == known.end()) {
+    throw link::LinkError("the world gave this vehicle a place its scenario does not have: id " +
                           std::to_string(Number(entry.vehicle)) +
+                          (entry.spawn == 0 ? "" : ", spawn " + std::to_string(entry.spawn)) +
                           "; start both with the same scenario file");
   }
   VehicleOptions options = *found;
+  options.id = entry.vehicle;
   options.start_world = entry.start_world;
   return options;
 }
@@ -60,26 +104,52 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
 // The loop and what it must remember between two turns.
 class Loop {
  public:
-  Loop(link::VehicleLink* link, const VehicleOptions& options, const SessionId& session,
-       bool lockstep)
+  Loop(link::VehicleLink* link, const Scenario& scenario, const RosterEntry& entry, bool lockstep)
       : link_(*link),
-        options_(options),
-        session_(session),
+        scenario_(scenario),
         lockstep_(lockstep),
-        vehicle_(options, app::RandomNonZero()) {}
+        place_(entry),
+        options_(OptionsOf(scenario, entry)),
+        vehicle_(options_, app::RandomNonZero()),
+        news_(entry) {}
 
-  // Until the run has ended or `stop` is set. Says good-bye in the second case.
-  void Drive(const app::StopSignal& stop) {
-    while (!stop.IsSet() && !RunEnded()) Turn(false);
+  // Until the run has ended, `stop` is set, or the world refuses it: false in that case. Says
+  // good-bye in the second.
+  bool Drive(const app::StopSignal& stop) {
+    while (!stop.IsSet() && !RunEnded() && !refused_) Turn(false);
     for (int i = 0; stop.IsSet() && i < kGoodByes; ++i) Turn(true);
     report_.SendFinal(vehicle_, link_);
     link_.FlushStatus(kFlushTimeout);
+    if (stop.IsSet() && !RunEnded()) link_.SendLeave(place_.session);
+    return !refused_;
   }
 
  private:
-  bool RunEnded() {
-    const auto entry = link_.TakeRoster(session_);
-    return entry && entry->run_state == RunState::kEnded;
+  bool RunEnded() const { return place_.run_state == RunState::kEnded; }
+
+  // A world that was restarted, or that gives the vehicle another place, says where it stands now.
+  void Follow(const RosterEntry& entry) {
+    if (asking_ && !asking_->IsFinal(entry)) return;
+    if (!entry.accepted && entry.waiting) return AskAnew(entry);
+    if (!entry.accepted) {
+      app::LogError("the world refused this vehicle: " + entry.reason);
+      refused_ = true;
+      return;
+    }
+    const bool elsewhere = asking_ || entry.epoch != place_.epoch;
+    place_ = entry;
+    news_ = entry;
+    if (!elsewhere) return;
+    asking_.reset();
+    options_ = OptionsOf(scenario_, entry);
+    vehicle_.Reseat(options_);
+    app::LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
+  }
+
+  // Its place is gone; its id stays if it can, since everything it says is named after it.
+  void AskAnew(const RosterEntry& entry) {
+    app::LogWarning("lost its place: " + entry.reason);
+    asking_.emplace(&link_, options_.id);
   }
 
   // A scan is awaited half a period longer than it should take; blind, beacons keep their rate.
@@ -94,10 +164,13 @@ class Loop {
     const SteadyTime woke = app::SteadyNow();
     link::Taken taken = link_.Take(woke);
     Inputs& inputs = taken.inputs;
+    if (inputs.roster) Follow(*inputs.roster);
+    if (asking_) asking_->AskAgainIfDue();
     inputs.leaving = leaving;
     if (inputs.scan) last_scan_ = woke;
     if (lockstep_ && !leaving && !KeepWorldTime(&inputs)) return;
 
+    inputs.roster = std::exchange(news_, std::nullopt);
     const SteadyTime before = app::SteadyNow();
     Outputs outputs = vehicle_.Step(inputs);
     const SteadyTime after = app::SteadyNow();
@@ -130,10 +203,14 @@ class Loop {
   }
 
   link::VehicleLink& link_;
-  const VehicleOptions options_;
-  const SessionId session_;
+  const Scenario& scenario_;
   const bool lockstep_;
+  RosterEntry place_;
+  VehicleOptions options_;
   Vehicle vehicle_;
+  std::optional<RosterEntry> news_;  // that the brain has yet to hear
+  std::optional<Asking> asking_;     // for another place
+  bool refused_ = false;
   VehicleReport report_;
   SteadyTime last_scan_{0};
   SteadyTime last_beacon_{0};
@@ -155,10 +232,10 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
     app::LogError("the world refused this vehicle: " + entry->reason);
     return 2;
   }
+  if (flags.id == 0) app::LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   const VehicleOptions options = OptionsOf(scenario, *entry);
-  link.Open(options.id);
-  Loop(&link, options, entry->session, flags.lockstep).Drive(stop);
-  return 0;
+  link.Open(options.id, options.profile, !scenario.signals.empty());
+  return Loop(&link, scenario, *entry, flags.lockstep).Drive(stop) ? 0 : 2;
 }
 
 }  // namespace

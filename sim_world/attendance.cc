@@ -1,6 +1,7 @@
 #include "sim_world/attendance.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "sim_world/ticks.h"
 
@@ -8,36 +9,71 @@ namespace giveway::sim {
 namespace {
 
 constexpr Nanoseconds kSilence{1'000'000'000};
+// From joining to the first command: its endpoints must be made and found first.
+constexpr Nanoseconds kFirstWords{5'000'000'000};
 
 }  // namespace
 
 Attendance::Attendance(const Scenario& scenario)
     : silence_ticks_(TicksCovering(kSilence, scenario.tick_period)),
-      removal_ticks_(TicksCovering(FromSeconds(scenario.remove_after_s), scenario.tick_period)) {
+      removal_ticks_(TicksCovering(FromSeconds(scenario.remove_after_s), scenario.tick_period)),
+      first_words_ticks_(TicksCovering(kFirstWords, scenario.tick_period)) {
   entries_.reserve(scenario.vehicles.size());
 }
 
+const Attendance::Entry* Attendance::Find(VehicleId vehicle) const {
+  const auto entry = std::ranges::lower_bound(entries_, vehicle, {}, &Entry::vehicle);
+  return entry == entries_.end() || entry->vehicle != vehicle ? nullptr : &*entry;
+}
+
+Attendance::Entry* Attendance::Find(VehicleId vehicle) {
+  return const_cast<Entry*>(std::as_const(*this).Find(vehicle));
+}
+
 void Attendance::Join(VehicleId vehicle, Tick tick) {
-  entries_.push_back({.vehicle = vehicle, .heard = tick});
+  const Entry entry{.vehicle = vehicle, .heard = tick};
+  if (Entry* known = Find(vehicle)) {
+    *known = entry;
+  } else {
+    entries_.insert(std::ranges::lower_bound(entries_, vehicle, {}, &Entry::vehicle), entry);
+  }
+}
+
+void Attendance::Leave(VehicleId vehicle) {
+  std::erase_if(entries_, [&](const Entry& entry) { return entry.vehicle == vehicle; });
 }
 
 void Attendance::Start(Tick tick) {
-  for (Entry& entry : entries_) entry.heard = tick;
+  for (Entry& entry : entries_) {
+    entry.heard = tick;
+    entry.spoke = true;
+  }
 }
 
 void Attendance::Heard(VehicleId vehicle, Tick tick) {
-  const auto entry = std::ranges::find(entries_, vehicle, &Entry::vehicle);
-  if (entry != entries_.end()) entry->heard = tick;
+  Entry* entry = Find(vehicle);
+  if (entry == nullptr) return;
+  entry->heard = tick;
+  entry->spoke = true;
 }
 
 bool Attendance::IsSilent(VehicleId vehicle) const {
-  const auto entry = std::ranges::find(entries_, vehicle, &Entry::vehicle);
-  return entry != entries_.end() && entry->silent_since.has_value();
+  const Entry* entry = Find(vehicle);
+  return entry != nullptr && entry->silent_since.has_value();
+}
+
+bool Attendance::IsAbandoned(VehicleId vehicle, Tick tick) const {
+  const Entry* entry = Find(vehicle);
+  return entry == nullptr || entry->silent_since || IsUnheard(*entry, tick);
+}
+
+bool Attendance::IsUnheard(const Entry& entry, Tick tick) const {
+  return TicksBetween(entry.heard, tick) >= (entry.spoke ? silence_ticks_ : first_words_ticks_);
 }
 
 VehicleId Attendance::TakeNewlySilent(Tick tick) {
   for (Entry& entry : entries_) {
-    if (entry.silent_since || TicksBetween(entry.heard, tick) < silence_ticks_) continue;
+    if (entry.silent_since || !IsUnheard(entry, tick)) continue;
     entry.silent_since = tick;
     return entry.vehicle;
   }

@@ -1,9 +1,10 @@
 // Who still speaks: notes when each vehicle was last heard, names those that fall silent, and says
-// when the body of a planned casualty is to be taken away. Silence is for good within a run.
+// when the body of a silent vehicle is to be taken away.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "services/types/scenario.h"
@@ -12,30 +13,44 @@ namespace giveway::sim {
 
 class Attendance {
  public:
-  explicit Attendance(const Scenario& scenario);
-
-  void Join(VehicleId vehicle, Tick tick);
-  // From `tick` on silence counts; everybody who joined counts as heard then.
-  void Start(Tick tick);
-  void Heard(VehicleId vehicle, Tick tick);
-  bool IsSilent(VehicleId vehicle) const;
-
-  // The next vehicle that has been unheard for a second at `tick`, now silent; kNobody when none.
-  VehicleId TakeNewlySilent(Tick tick);
-  // The next silent vehicle whose body's time is over at `tick`, each once; kNobody when none.
-  VehicleId TakeOverdueBody(Tick tick);
-
- private:
   struct Entry {
     VehicleId vehicle = kNobody;
-    Tick heard = kNoTick;
+    Tick heard = kNoTick;  // or joined, or the start signal
+    bool spoke = false;    // since it joined
     std::optional<Tick> silent_since;
     bool removed = false;
   };
 
+  explicit Attendance(const Scenario& scenario);
+
+  // Joins, or joins again: what it was before is forgotten.
+  void Join(VehicleId vehicle, Tick tick);
+  void Leave(VehicleId vehicle);
+  // From `tick` on silence counts; everybody who joined counts as heard then.
+  void Start(Tick tick);
+  void Heard(VehicleId vehicle, Tick tick);
+  bool IsSilent(VehicleId vehicle) const;
+  // True if nobody seems to speak for the vehicle at `tick`, before the start too: unheard for a
+  // second; for five if it has joined and not yet spoken, for its endpoints must be found first.
+  bool IsAbandoned(VehicleId vehicle, Tick tick) const;
+
+  // The next vehicle that has been unheard for so long at `tick`, now silent; kNobody when none.
+  VehicleId TakeNewlySilent(Tick tick);
+  // The next silent vehicle whose body's time is over at `tick`, each once; kNobody when none.
+  VehicleId TakeOverdueBody(Tick tick);
+
+  std::span<const Entry> Entries() const { return entries_; }
+  void Restore(std::span<const Entry> entries) { entries_.assign(entries.begin(), entries.end()); }
+
+ private:
+  bool IsUnheard(const Entry& entry, Tick tick) const;
+  const Entry* Find(VehicleId vehicle) const;
+  Entry* Find(VehicleId vehicle);
+
   std::uint32_t silence_ticks_;
   std::uint32_t removal_ticks_;
-  std::vector<Entry> entries_;
+  std::uint32_t first_words_ticks_;
+  std::vector<Entry> entries_;  // sorted by id
 };
 
 }  // namespace giveway::sim

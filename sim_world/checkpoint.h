@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "services/types/ids.h"
+#include "services/types/motor_command.h"
 #include "services/types/pose.h"
 #include "sim_world/obstacles.h"
+#include "sim_world/separation.h"
+#include "sim_world/touching.h"
 
 namespace giveway::sim {
 
@@ -15,6 +18,7 @@ struct BodyState {
   VehicleId vehicle = kNobody;
   Pose world_from_body;
   WheelSpeeds wheels;
+  MotorCommand command;  // the one held
 };
 
 struct Checkpoint {
@@ -24,6 +28,8 @@ struct Checkpoint {
   std::vector<BodyState> bodies;         // of those present
   std::vector<ObstacleState> obstacles;  // in the order of the scenario
   std::vector<double> door_openings;     // in the order of the scenario, [0, 1]
+  std::vector<TouchingPair> touching;
+  SeparationRecord separation;
 };
 
 }  // namespace giveway::sim

@@ -30,10 +30,28 @@ void Judge::Observe(double time_s, std::span<const Body> bodies, std::span<const
               .other_position_world = contact.other_position_world});
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].present || tracks_[i].arrived_s) continue;
-    WatchGoal(time_s, bodies[i], &tracks_[i], log);
-    if (!tracks_[i].arrived_s) WatchHalt(bodies[i], &tracks_[i], log);
+    Track& track = TrackOf(i, bodies[i].vehicle);
+    if (!bodies[i].present || track.arrived_s) continue;
+    WatchGoal(time_s, bodies[i], &track, log);
+    if (!track.arrived_s) WatchHalt(bodies[i], &track, log);
   }
+}
+
+// Bodies may have come among those that are known; none goes from the list.
+Judge::Track& Judge::TrackOf(std::size_t body, VehicleId vehicle) {
+  if (body == tracks_.size() || tracks_[body].vehicle != vehicle) {
+    const auto place = tracks_.begin() + static_cast<std::ptrdiff_t>(body);
+    return *tracks_.insert(place, Track{.vehicle = vehicle});
+  }
+  return tracks_[body];
+}
+
+void Judge::BeginAnew(VehicleId vehicle) {
+  const auto track = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
+  if (track == tracks_.end() || track->vehicle != vehicle) return;
+  track->still_ticks = 0;
+  track->halted = false;
+  track->arrived_s.reset();
 }
 
 void Judge::WatchGoal(double time_s, const Body& body, Track* track, EventLog* log) const {
@@ -41,6 +59,7 @@ void Judge::WatchGoal(double time_s, const Body& body, Track* track, EventLog* l
   const Vec2 position = body.world_from_body.position_world;
   if (Norm(body.goal.at_world - position) > body.goal.radius_m) return;
   track->arrived_s = time_s;
+  track->arrived_once = true;
   log->Add({.kind = EventKind::kArrived,
             .vehicle = body.vehicle,
             .position_world = position,
@@ -85,7 +104,7 @@ std::vector<VehicleId> Judge::Halted() const {
 std::vector<VehicleId> Judge::Arrived() const {
   std::vector<VehicleId> arrived;
   for (const Track& track : tracks_) {
-    if (track.arrived_s) arrived.push_back(track.vehicle);
+    if (track.arrived_once) arrived.push_back(track.vehicle);
   }
   return arrived;
 }

@@ -30,20 +30,29 @@ class Judge {
   // Seconds from the start to the last arrival so far; none before the first.
   std::optional<double> LastArrival() const;
 
- private:
+  // The vehicle is put on its start pose anew: it has yet to arrive. What it did before still
+  // counts among Halted and Arrived.
+  void BeginAnew(VehicleId vehicle);
+
+  // What is remembered of one vehicle.
   struct Track {
     VehicleId vehicle = kNobody;
     std::uint32_t still_ticks = 0;  // in a row, standing for a give-way reason
     bool halted = false;            // stands, after a halt that was logged
     bool halted_once = false;
+    bool arrived_once = false;
     std::optional<double> arrived_s;
   };
+  std::span<const Track> Tracks() const { return tracks_; }
+  void Restore(std::span<const Track> tracks) { tracks_.assign(tracks.begin(), tracks.end()); }
 
+ private:
+  Track& TrackOf(std::size_t body, VehicleId vehicle);
   void WatchGoal(double time_s, const Body& body, Track* track, EventLog* log) const;
   void WatchHalt(const Body& body, Track* track, EventLog* log) const;
 
   std::uint32_t halt_ticks_;
-  std::vector<Track> tracks_;  // in the scenario's order, as the bodies are
+  std::vector<Track> tracks_;  // by id, as the bodies are
 };
 
 }  // namespace giveway::sim

@@ -1,7 +1,10 @@
-// Who may be which vehicle: answers join requests from the scenario's list of vehicles. An id given
-// to a session stays with it for the whole run.
+// Who has which place: one seat a vehicle id, with the session that has it. Answers join requests
+// by the scenario's list of vehicles and, in an open fleet, by its spawn places. Knows no bodies:
+// whether a place is free and who still speaks it asks its caller.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "services/types/fleet_facts.h"
@@ -9,27 +12,64 @@
 
 namespace giveway::sim {
 
+// A fleet is open where the scenario has spawn places.
+inline bool IsOpen(const Scenario& scenario) { return !scenario.spawns.empty(); }
+
+struct Seat {
+  VehicleId vehicle = kNobody;
+  std::uint32_t spawn = 0;  // as RosterEntry::spawn
+  bool taken = false;
+  SessionId session{};
+};
+
+// What must be known of the world to give a seat.
+struct SeatQuestions {
+  // Whether whoever has the vehicle's seat has fallen silent: then another session may have it.
+  std::function<bool(VehicleId)> is_silent = [](VehicleId) { return false; };
+  // Whether a body could be put where these options start.
+  std::function<bool(const VehicleOptions&)> is_free = [](const VehicleOptions&) { return true; };
+};
+
 class Roster {
  public:
+  // Of an open fleet at any one time.
+  static constexpr std::size_t kMaxSeats = 1024;
+
   Roster(const Scenario& scenario, WorldEpoch epoch);
 
-  // Accepted with id and start pose, or refused with a reason. A session that was accepted gets the
-  // same answer however often and for whatever id it asks again. run_state is the caller's to set.
-  RosterEntry Admit(const JoinRequest& request);
+  // Accepted with id and start pose; or `waiting` with the reason, where a seat may still come
+  // free; or refused for good with a reason. A session that has a seat gets the same answer however
+  // often and for whatever id it asks again. run_state is the caller's to set.
+  RosterEntry Admit(const JoinRequest& request, const SeatQuestions& ask = {});
+  // Gives the vehicle's seat back.
+  void Free(VehicleId vehicle);
+
+  // The seat of the session; null if it has none.
+  const Seat* SeatOf(const SessionId& session) const;
+  // By what the vehicle of a seat drives.
+  VehicleOptions OptionsOf(const Seat& seat) const;
+
+  // By id: those of the scenario's vehicles, taken or not, and those of others that are taken.
+  std::span<const Seat> Seats() const { return seats_; }
+  // False, and nothing is done, where a seat is not of this scenario.
+  bool Restore(std::span<const Seat> seats);
 
  private:
-  struct Place {
-    VehicleId vehicle = kNobody;
-    Pose start_world;
-    bool taken = false;
-    SessionId session{};
-  };
-
-  RosterEntry Accept(const Place& place) const;
-  RosterEntry Refuse(const JoinRequest& request, std::string reason) const;
+  bool IsNamed(VehicleId vehicle) const;
+  Seat* Find(VehicleId vehicle);
+  RosterEntry AdmitAny(const JoinRequest& request, const SeatQuestions& ask);
+  RosterEntry AdmitTo(Seat* seat, const JoinRequest& request, const SeatQuestions& ask);
+  RosterEntry AdmitBySpawn(VehicleId vehicle, const JoinRequest& request, const SeatQuestions& ask);
+  VehicleId LowestFree() const;
+  RosterEntry Accept(const Seat& seat) const;
+  RosterEntry Refuse(const JoinRequest& request, std::string reason, bool waiting) const;
 
   WorldEpoch epoch_;
-  std::vector<Place> places_;  // sorted by id
+  bool open_;
+  std::uint32_t fleet_size_;
+  std::vector<VehicleOptions> named_;   // sorted by id
+  std::vector<VehicleOptions> spawns_;  // without id
+  std::vector<Seat> seats_;             // sorted by id
 };
 
 }  // namespace giveway::sim

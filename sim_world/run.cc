@@ -13,10 +13,12 @@ constexpr double kBeforeStart_s = -1;  // Truth::time_s while the start is still
 
 }  // namespace
 
-Run::Run(const Scenario& scenario, WorldEpoch epoch)
+Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
     : scenario_(scenario),
+      open_(!scenario.spawns.empty()),
       epoch_(epoch),
-      world_(scenario, epoch),
+      world_(scenario, epoch, std::move(parallel)),
+      signals_(scenario),
       faults_(scenario),
       judge_(scenario),
       attendance_(scenario),
@@ -31,6 +33,37 @@ void Run::Join(VehicleId vehicle) {
   attendance_.Join(vehicle, world_.Now());
 }
 
+void Run::Join(const VehicleOptions& options) {
+  if (BodyOf(options.id) == nullptr) {
+    world_.Join(options);
+    judge_.BeginAnew(options.id);
+  }
+  attendance_.Join(options.id, world_.Now());
+  faults_.Return(options.id);
+  if (state_ == RunState::kRunning) Announce(EventKind::kJoined, options.id);
+}
+
+void Run::Leave(VehicleId vehicle) {
+  attendance_.Leave(vehicle);
+  if (BodyOf(vehicle) == nullptr) return;
+  Announce(EventKind::kLeft, vehicle);
+  world_.Remove(vehicle);
+  if (!open_ && state_ == RunState::kRunning) End("vehicle_left");
+}
+
+void Run::Announce(EventKind kind, VehicleId vehicle) {
+  comings_and_goings_.push_back(
+      {.kind = kind,
+       .vehicle = vehicle,
+       .position_world = BodyOf(vehicle)->world_from_body.position_world});
+}
+
+const Body* Run::BodyOf(VehicleId vehicle) const {
+  const auto body = std::ranges::lower_bound(world_.Bodies(), vehicle, {}, &Body::vehicle);
+  const bool there = body != world_.Bodies().end() && body->vehicle == vehicle && body->present;
+  return there ? &*body : nullptr;
+}
+
 bool Run::EveryoneJoined() const {
   return std::ranges::all_of(world_.Bodies(), [](const Body& body) { return body.joined; });
 }
@@ -38,8 +71,8 @@ bool Run::EveryoneJoined() const {
 void Run::Start() {
   GIVEWAY_CHECK(state_ == RunState::kWaiting);
   state_ = RunState::kRunning;
-  start_ = world_.Now();
-  attendance_.Start(*start_);
+  started_ = true;
+  attendance_.Start(world_.Now());
 }
 
 void Run::End(std::string reason) {
@@ -47,41 +80,58 @@ void Run::End(std::string reason) {
   if (state_ != RunState::kEnded) asked_end_ = std::move(reason);
 }
 
-std::uint32_t Run::TicksRun() const {
-  return start_ ? TicksBetween(*start_, end_.value_or(world_.Now())) : 0;
-}
-
-double Run::TimeSeconds() const { return TicksRun() * Seconds(scenario_.tick_period); }
+double Run::TimeSeconds() const { return ticks_run_ * Seconds(scenario_.tick_period); }
 
 void Run::Advance(std::span<const MotorCommand> commands) {
   Take(commands);
-  world_.Advance(state_ == RunState::kRunning);
+  const bool running = state_ == RunState::kRunning;
+  world_.Advance(running);
+  if (running) ++ticks_run_;
   log_.BeginTick(world_.Now(), TimeSeconds());
-  if (state_ == RunState::kRunning) {
-    if (TicksRun() == 1) {
-      log_.Add(
-          {.kind = EventKind::kStarted, .value = static_cast<double>(scenario_.vehicles.size())});
-    }
-    judge_.Observe(TimeSeconds(), world_.Bodies(), world_.NewContacts(), &log_);
-    FollowFaults();
-  }
+  for (WorldEvent& event : comings_and_goings_) log_.Add(std::move(event));
+  comings_and_goings_.clear();
+  if (running) Observe();
   if (state_ != RunState::kEnded) CheckEnd();
   Publish();
 }
 
+void Run::Observe() {
+  if (ticks_run_ == 1) {
+    const auto fleet = std::ranges::count_if(world_.Bodies(), &Body::joined);
+    log_.Add({.kind = EventKind::kStarted, .value = static_cast<double>(fleet)});
+  }
+  judge_.Observe(TimeSeconds(), world_.Bodies(), world_.NewContacts(), &log_);
+  FollowFaults();
+  FollowAttendance();
+}
+
 void Run::Take(std::span<const MotorCommand> commands) {
   for (const MotorCommand& command : commands) {
-    if (attendance_.IsSilent(command.vehicle)) continue;
-    if (world_.Take(command)) attendance_.Heard(command.vehicle, After(world_.Now(), 1));
+    const bool silent = attendance_.IsSilent(command.vehicle);
+    if (silent && !MayReturn(command.vehicle)) continue;
+    if (!world_.Take(command)) continue;
+    if (silent) {
+      attendance_.Join(command.vehicle, world_.Now());
+      Announce(EventKind::kJoined, command.vehicle);
+    }
+    attendance_.Heard(command.vehicle, After(world_.Now(), 1));
   }
 }
 
+// In a closed run silence is for good. In an open one the network may have been away for a while.
+bool Run::MayReturn(VehicleId vehicle) const { return open_ && BodyOf(vehicle) != nullptr; }
+
 void Run::FollowFaults() {
-  faults_.Observe(TimeSeconds(), world_.Bodies(), &log_);
+  for (const PlannedFault& fault : faults_.Observe(TimeSeconds(), world_.Bodies(), &log_)) {
+    signals_.Fail(fault.signal, fault.kind);
+  }
+}
+
+void Run::FollowAttendance() {
   const Tick now = world_.Now();
   for (VehicleId silent; (silent = attendance_.TakeNewlySilent(now)) != kNobody;) {
     log_.Add({.kind = EventKind::kSilent, .vehicle = silent});
-    if (!faults_.IsKilled(silent)) end_reason_ = "process_died";
+    if (!open_ && !faults_.IsKilled(silent)) end_reason_ = "process_died";
   }
   for (VehicleId gone; (gone = attendance_.TakeOverdueBody(now)) != kNobody;) {
     world_.Remove(gone);
@@ -92,9 +142,9 @@ void Run::FollowFaults() {
 void Run::CheckEnd() {
   if (end_reason_.empty() && !asked_end_.empty()) end_reason_ = asked_end_;
   if (end_reason_.empty() && state_ == RunState::kRunning) {
-    if (EveryoneLivingArrived()) {
+    if (!open_ && EveryoneLivingArrived()) {
       end_reason_ = "all_arrived";
-    } else if (TicksRun() >= duration_ticks_) {
+    } else if (ticks_run_ >= duration_ticks_) {
       end_reason_ = "duration_over";
     }
   }
@@ -147,9 +197,8 @@ void Run::Finish() {
               .contacts = outcome.contacts,
               .min_separation_m = outcome.min_separation_m,
               .time_to_clear_s = outcome.time_to_clear_s,
-              .ticks = TicksRun(),
+              .ticks = ticks_run_,
               .state_hash = Hash()};
-  end_ = world_.Now();
   state_ = RunState::kEnded;
   log_.Add({.kind = EventKind::kEnded, .text = end_reason_});
   log_.Add(
@@ -159,7 +208,9 @@ void Run::Finish() {
 void Run::Publish() {
   scans_.clear();
   truths_.clear();
-  const double time_s = start_ ? TimeSeconds() : kBeforeStart_s;
+  further_.Sense(epoch_, &world_);
+  const double time_s = started_ ? TimeSeconds() : kBeforeStart_s;
+  signals_.Advance(time_s, epoch_, world_.Now());
   for (const Body& body : world_.Bodies()) {
     if (!body.joined) continue;
     truths_.push_back({.vehicle = body.vehicle,
@@ -183,7 +234,7 @@ void Run::Publish() {
 
 std::uint64_t Run::Hash() const {
   StateHash hash;
-  hash.Add(TicksRun());
+  hash.Add(ticks_run_);
   world_.AddTo(&hash);
   return hash.Value();
 }

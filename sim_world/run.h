@@ -1,6 +1,9 @@
 // One run of a scenario: the world, its faults and its judge, advanced tick by tick. Pure: the
 // caller brings commands and takes scans, truths and events away. world_main wires it to DDS, the
 // virtual fleet wires it to brains in memory.
+//
+// A closed run knows everybody from the start and ends when its vehicles have arrived or one dies.
+// In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +14,31 @@
 
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
+#include "services/types/parallel.h"
 #include "services/types/range_scan.h"
 #include "services/types/scenario.h"
 #include "sim_world/attendance.h"
 #include "sim_world/event_log.h"
 #include "sim_world/fault_plan.h"
+#include "sim_world/further_sensing.h"
 #include "sim_world/judge.h"
+#include "sim_world/run_checkpoint.h"
+#include "sim_world/signals.h"
 #include "sim_world/world.h"
 
 namespace giveway::sim {
 
 class Run {
  public:
-  Run(const Scenario& scenario, WorldEpoch epoch);
+  Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel = OnThisThread);
 
-  // Puts the vehicle's body on its start pose. Its id is one of the scenario's.
+  // Puts the body of one of the scenario's vehicles on its start pose.
   void Join(VehicleId vehicle);
+  // The same for any vehicle, also while the run is under way. A body that still stands, since the
+  // vehicle had fallen silent, stays where it is and is the vehicle's again.
+  void Join(const VehicleOptions& options);
+  // The vehicle said good-bye: its body is taken away. Ends a closed run that is under way.
+  void Leave(VehicleId vehicle);
   bool EveryoneJoined() const;
   // The start signal: from the next tick on bodies move and time counts.
   void Start();
@@ -35,19 +47,24 @@ class Run {
   void End(std::string reason);
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
-  // when everyone living has arrived, the duration is over, or a vehicle fell silent unplanned.
-  // After the end bodies brake, scans go on, and nothing is judged any more.
+  // when the duration is over; a closed run also when everyone living has arrived, or a vehicle
+  // fell silent unplanned. After the end bodies brake, scans go on, and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
   Tick Now() const { return world_.Now(); }
   RunState State() const { return state_; }
-  double TimeSeconds() const;  // since the start signal; 0 before it
+  double TimeSeconds() const;  // since the start signal, without pauses; 0 before it
   // What the last Advance produced; valid until the next. Scans are of the bodies present, truths
   // of everyone who joined.
   std::span<const RangeScan> Scans() const { return scans_; }
+  std::span<const RadarScan> Radars() const { return further_.Radars(); }
+  std::span<const LidarScan> Lidars() const { return further_.Lidars(); }
+  std::span<const CameraScan> Cameras() const { return further_.Cameras(); }
+  std::span<const SignalState> Signals() const { return signals_.States(); }
   std::span<const Truth> Truths() const { return truths_; }
   std::span<const WorldEvent> Events() const { return log_.Events(); }
-  // "all_arrived", "duration_over", "process_died" or what End was given; empty while it runs.
+  // "all_arrived", "duration_over", "process_died", "vehicle_left" or what End was given; empty
+  // while it runs.
   const std::string& EndReason() const { return end_reason_; }
   // Verdict and figures; complete once State() is kEnded. Reaction times are the caller's.
   RunFigures Figures() const { return figures_; }
@@ -56,10 +73,26 @@ class Run {
   // however long they waited.
   std::uint64_t Hash() const;
 
+  // Null if no body of the vehicle is in the world.
+  const Body* BodyOf(VehicleId vehicle) const;
+  bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
+  // True if nobody speaks for the vehicle any more, or yet.
+  bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
+
+  // All that a run of the same scenario in a new epoch needs to go on from here.
+  RunCheckpoint Save() const;
+  // Goes on from there, paused: bodies brake and time stands still until Start. `joined` are the
+  // vehicles the checkpoint names that are not the scenario's. False, and this run is of no use any
+  // more, if the checkpoint is not of this scenario.
+  bool Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined);
+
  private:
-  std::uint32_t TicksRun() const;
   void Take(std::span<const MotorCommand> commands);
+  bool MayReturn(VehicleId vehicle) const;
+  void Announce(EventKind kind, VehicleId vehicle);
+  void Observe();
   void FollowFaults();
+  void FollowAttendance();
   void CheckEnd();
   bool EveryoneLivingArrived() const;
   void Finish();
@@ -67,16 +100,20 @@ class Run {
   void Publish();
 
   Scenario scenario_;
+  bool open_;
   WorldEpoch epoch_;
   World world_;
+  FurtherSensing further_;
+  SignalHeads signals_;
   FaultPlan faults_;
   Judge judge_;
   Attendance attendance_;
   EventLog log_;
   RunState state_ = RunState::kWaiting;
   std::uint32_t duration_ticks_;
-  std::optional<Tick> start_;  // the last tick before bodies move
-  std::optional<Tick> end_;    // the tick the run ended with
+  bool started_ = false;                        // the start signal was given
+  std::uint32_t ticks_run_ = 0;                 // since then, without pauses
+  std::vector<WorldEvent> comings_and_goings_;  // since the last tick
   std::string asked_end_;
   std::string end_reason_;
   RunFigures figures_;

@@ -97,6 +97,11 @@ class Scene {
     BoxesNear(centre_world, reach_m, [&](const SceneBox& box) {
       for (std::size_t side = 0; side < box.corners_world.size(); ++side) visit(box.Side(side));
     });
+    LeavesNear(centre_world, reach_m, visit);
+  }
+  // The same of what was given to AddSegment alone.
+  template <typename Visit>
+  void LeavesNear(Vec2 centre_world, double reach_m, Visit&& visit) const {
     leaf_grid_.Near(centre_world, reach_m + longest_half_leaf_m_,
                     [&](std::uint32_t begin, std::uint32_t end) {
                       for (; begin != end; ++begin) visit(leaves_[leaf_grid_.Order()[begin]]);

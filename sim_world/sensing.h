@@ -8,21 +8,13 @@
 
 #include "services/types/parallel.h"
 #include "services/types/scenario.h"
-#include "services/types/sensor_scan.h"
 #include "sim_world/body.h"
 #include "sim_world/scene.h"
+#include "sim_world/sensor.h"
 #include "sim_world/sonar.h"
 #include "sim_world/things.h"
 
 namespace giveway::sim {
-
-// What a sensor may learn of the owner of a shape, at the end of the tick. Owners are numbered as
-// in things.h; walls have none.
-struct OwnerFacts {
-  Vec2 velocity_world;    // m/s, of the axle centre or of a leaf's tip
-  double turn_rad_s = 0;  // counter-clockwise
-  SeenClass seen_class = SeenClass::kUnknown;
-};
 
 class Sensing {
  public:

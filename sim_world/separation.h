@@ -22,6 +22,12 @@ struct ClosestApproach {
   Vec2 other_position_world;
 };
 
+// All that a Separation remembers.
+struct SeparationRecord {
+  std::optional<ClosestApproach> closest;
+  std::map<std::pair<VehicleId, VehicleId>, double> closest_of_pair_m;  // lower id first
+};
+
 class Separation {
  public:
   // `every_pair` keeps a record for each pair of vehicles, for Parted; that costs the square of
@@ -41,6 +47,12 @@ class Separation {
   // True if every pair still present is now farther apart than at its closest, by more than 1 cm;
   // always without records of every pair.
   bool Parted(std::span<const Body> bodies) const;
+
+  SeparationRecord Save() const { return {closest_, closest_of_pair_m_}; }
+  void Restore(const SeparationRecord& record) {
+    closest_ = record.closest;
+    closest_of_pair_m_ = record.closest_of_pair_m;
+  }
 
  private:
   void ObserveEveryPair(std::span<const Body> bodies, const Things& things, double dt_s);

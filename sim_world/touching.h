@@ -33,6 +33,8 @@ class Touching {
   void EndIf(const Parted& parted) {
     std::erase_if(pairs_, parted);
   }
+  const std::vector<TouchingPair>& Pairs() const { return pairs_; }
+  void Restore(const std::vector<TouchingPair>& pairs) { pairs_ = pairs; }
 
  private:
   std::vector<TouchingPair> pairs_;  // sorted

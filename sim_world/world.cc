@@ -151,13 +151,16 @@ Checkpoint World::Save() const {
   Checkpoint checkpoint{.now = now_, .driven_ticks = driven_ticks_, .contacts = contact_count_};
   for (const Body& body : bodies_) {
     if (body.present) {
-      checkpoint.bodies.push_back({body.vehicle, body.world_from_body, body.wheels});
+      checkpoint.bodies.push_back(
+          {body.vehicle, body.world_from_body, body.wheels, body.command});
     }
   }
   for (const MovingObstacle& obstacle : obstacles_) {
     checkpoint.obstacles.push_back(obstacle.State());
   }
   for (const SlidingDoor& door : doors_) checkpoint.door_openings.push_back(door.Opening());
+  checkpoint.touching = touching_.Pairs();
+  checkpoint.separation = separation_.Save();
   return checkpoint;
 }
 
@@ -179,11 +182,14 @@ bool World::Restore(const Checkpoint& checkpoint) {
     Appear(body);
     body->world_from_body = state.world_from_body;
     body->wheels = state.wheels;
+    body->command = state.command;
   }
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {
     obstacles_[i].Restore(checkpoint.obstacles[i]);
   }
   for (std::size_t i = 0; i < doors_.size(); ++i) doors_[i].Restore(checkpoint.door_openings[i]);
+  touching_.Restore(checkpoint.touching);
+  separation_.Restore(checkpoint.separation);
   return true;
 }
 

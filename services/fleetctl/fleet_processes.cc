@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 
 namespace giveway::fleetctl {
@@ -30,6 +31,14 @@ std::string LogFile(const RunOptions& options, const std::string& name) {
 
 }  // namespace
 
+std::uint32_t NewcomerCount(const RunOptions& options, const Scenario& scenario) {
+  if (scenario.spawns.empty()) return 0;
+  if (options.vehicles) return *options.vehicles;
+  const auto named = static_cast<std::uint32_t>(scenario.vehicles.size());
+  if (scenario.start_with == 0) return static_cast<std::uint32_t>(scenario.spawns.size());
+  return scenario.start_with - std::min(named, scenario.start_with);
+}
+
 std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCommand& command,
                                        const Scenario& scenario) {
   const std::vector<std::string> flags = SharedFlags(options, command);
@@ -47,11 +56,15 @@ std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCom
     commands.push_back(make("vehicle " + id, "giveway-vehicle", "vehicle-" + id));
     commands.back().words.insert(commands.back().words.end(), {"--id", id});
   }
+  for (std::uint32_t i = 1; i <= NewcomerCount(options, scenario); ++i) {
+    const std::string number = std::to_string(i);
+    commands.push_back(make("newcomer " + number, "giveway-vehicle", "newcomer-" + number));
+  }
   return commands;
 }
 
-FleetProcesses::FleetProcesses(const std::vector<ChildCommand>& commands,
-                               const Scenario& scenario) {
+FleetProcesses::FleetProcesses(const std::vector<ChildCommand>& commands, const Scenario& scenario)
+    : open_(!scenario.spawns.empty()) {
   for (const ChildCommand& command : commands) children_.emplace_back(command);
   for (const VehicleOptions& vehicle : scenario.vehicles) vehicles_.push_back(vehicle.id);
 }
@@ -72,16 +85,31 @@ void FleetProcesses::Kill(VehicleId vehicle) {
 }
 
 const ChildProcess* FleetProcesses::FirstUnplannedEnd() const {
+  const auto ended = [this](const ChildProcess& child) {
+    return !child.IsRunning() && !killed_.contains(&child);
+  };
+  const auto first = std::ranges::find_if(children_, ended);
+  if (first == children_.end()) return nullptr;
+  const bool any_vehicle = std::any_of(children_.begin() + 1, children_.end(),
+                                       [](const ChildProcess& child) { return child.IsRunning(); });
+  return open_ && first != children_.begin() && any_vehicle ? nullptr : &*first;
+}
+
+std::vector<const ChildProcess*> FleetProcesses::TakeNewlyEnded() {
+  std::vector<const ChildProcess*> ended;
   for (const ChildProcess& child : children_) {
-    if (!child.IsRunning() && !killed_.contains(&child)) return &child;
+    const bool is_world = &child == &children_.front();
+    if (!open_ || is_world || child.IsRunning() || !told_ended_.insert(&child).second) continue;
+    ended.push_back(&child);
   }
-  return nullptr;
+  return ended;
 }
 
 const ChildProcess* FleetProcesses::FirstBadEnd() const {
   for (const ChildProcess& child : children_) {
     if (child.IsRunning() || killed_.contains(&child)) continue;
     const bool is_world = &child == &children_.front();
+    if (open_ && !is_world) continue;
     if (child.End()->by_signal || (!is_world && child.End()->number != 0)) return &child;
   }
   return nullptr;

@@ -24,7 +24,10 @@ struct FleetCommand {
   int lock_fd = -1;  // inherited: the domain stays taken until the last process is gone
 };
 
-// The command lines, the world's first. Pure; what the tests look at.
+// How many vehicles the scenario does not name are to be started: 0 of a closed fleet.
+std::uint32_t NewcomerCount(const RunOptions& options, const Scenario& scenario);
+// The command lines: the world's first, then the named vehicles', then the others'. Pure; what the
+// tests look at.
 std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCommand& command,
                                        const Scenario& scenario);
 
@@ -37,18 +40,23 @@ class FleetProcesses {
   void Kill(VehicleId vehicle);
 
   ChildProcess& World() { return children_.front(); }
-  // The first child that has ended otherwise than by a planned kill; nullptr if there is none.
+  // The first child whose end is the end of the run: in a closed fleet any that was not killed by
+  // plan, in an open one the world, or a vehicle if none is left. nullptr if there is none.
   const ChildProcess* FirstUnplannedEnd() const;
-  // The first child that ended by a signal that was not planned, or a vehicle whose exit code is
-  // not 0 (the world's own code carries the verdict); nullptr if there is none.
+  // Vehicles of an open fleet that have ended since the last call.
+  std::vector<const ChildProcess*> TakeNewlyEnded();
+  // The first child that ended by a signal that was not planned, or a vehicle of a closed fleet
+  // whose exit code is not 0 (the world's own code carries the verdict); nullptr if there is none.
   const ChildProcess* FirstBadEnd() const;
   bool AnyRunning() const;
   void SignalAll(int signal_number);
 
  private:
+  bool open_;
   std::deque<ChildProcess> children_;  // the world, then the vehicles in the scenario's order
   std::vector<VehicleId> vehicles_;
   std::set<const ChildProcess*> killed_;
+  std::set<const ChildProcess*> told_ended_;
 };
 
 }  // namespace giveway::fleetctl

@@ -38,12 +38,14 @@ void AddStatus(const VehicleStatus& status, app::Report* report) {
 }  // namespace
 
 FleetWatch::FleetWatch(const Scenario& scenario, bool keep_tracks)
-    : scenario_(scenario), keep_tracks_(keep_tracks) {}
+    : scenario_(scenario), open_(!scenario.spawns.empty()), keep_tracks_(keep_tracks) {
+  for (const VehicleOptions& vehicle : scenario.vehicles) vehicles_.insert(vehicle.id);
+}
 
 void FleetWatch::Fold(const link::Observed& observed) {
   for (const WorldEvent& event : observed.events) FoldEvent(event);
   for (const Truth& truth : observed.truths) FoldTruth(truth);
-  for (const VehicleStatus& status : observed.statuses) statuses_[status.vehicle] = status;
+  for (const VehicleStatus& status : observed.statuses) FoldStatus(status);
   for (const RosterEntry& entry : observed.roster) {
     if (entry.run_state == RunState::kEnded) ended_ = true;
   }
@@ -56,11 +58,25 @@ void FleetWatch::FoldEvent(const WorldEvent& event) {
   if (event.kind == EventKind::kStarted) started_ = true;
   if (event.kind == EventKind::kEnded) ended_ = true;
   if (event.kind == EventKind::kSilent) silent_.insert(event.vehicle);
-  if (event.kind == EventKind::kFaultDue) {
+  if (event.kind == EventKind::kJoined) {
+    vehicles_.insert(event.vehicle);
+    silent_.erase(event.vehicle);
+  }
+  if (open_ && (event.kind == EventKind::kLeft || event.kind == EventKind::kRemoved)) {
+    vehicles_.erase(event.vehicle);
+    silent_.erase(event.vehicle);
+  }
+  if (event.kind == EventKind::kFaultDue && event.vehicle != kNobody) {
     due_kills_.push_back(event.vehicle);
     killed_.push_back(event.vehicle);
     silent_.insert(event.vehicle);
   }
+}
+
+// The last words of a vehicle that left may come after the world's word of it.
+void FleetWatch::FoldStatus(const VehicleStatus& status) {
+  statuses_[status.vehicle] = status;
+  if (open_ && !status.final) vehicles_.insert(status.vehicle);
 }
 
 void FleetWatch::FoldTruth(const Truth& truth) {
@@ -74,9 +90,10 @@ void FleetWatch::FoldTruth(const Truth& truth) {
 std::vector<VehicleId> FleetWatch::TakeDueKills() { return std::exchange(due_kills_, {}); }
 
 bool FleetWatch::HasAllFinalStatuses() const {
-  return std::ranges::all_of(scenario_.vehicles, [this](const VehicleOptions& vehicle) {
-    if (std::ranges::find(killed_, vehicle.id) != killed_.end()) return true;
-    const auto status = statuses_.find(vehicle.id);
+  return std::ranges::all_of(vehicles_, [this](VehicleId vehicle) {
+    if (std::ranges::find(killed_, vehicle) != killed_.end()) return true;
+    if (open_ && silent_.contains(vehicle)) return true;
+    const auto status = statuses_.find(vehicle);
     return status != statuses_.end() && status->second.final;
   });
 }

@@ -37,9 +37,12 @@ class FleetWatch {
   // Seconds since the start signal; 0 before it.
   double TimeSeconds() const { return time_s_; }
   const std::map<VehicleId, VehicleStatus>& Statuses() const { return statuses_; }
+  // Everyone the scenario names, and in an open fleet who is in it now.
+  const std::set<VehicleId>& Vehicles() const { return vehicles_; }
   // Vehicles killed as planned, or that the world hears no more.
   const std::set<VehicleId>& Silent() const { return silent_; }
-  // True once every vehicle but those killed as planned has sent its last status.
+  // True once every vehicle but those killed as planned has sent its last status; in an open fleet
+  // those that fell silent are not waited for either.
   bool HasAllFinalStatuses() const;
 
   app::Report MakeReport(const std::optional<Overruled>& overruled) const;
@@ -47,14 +50,17 @@ class FleetWatch {
 
  private:
   void FoldEvent(const WorldEvent& event);
+  void FoldStatus(const VehicleStatus& status);
   void FoldTruth(const Truth& truth);
   std::vector<VehicleId> VehiclesOf(EventKind kind) const;
 
   const Scenario& scenario_;
+  bool open_;
   bool keep_tracks_;
   bool started_ = false;
   bool ended_ = false;
   double time_s_ = 0;
+  std::set<VehicleId> vehicles_;
   std::map<VehicleId, VehicleStatus> statuses_;
   std::map<VehicleId, app::Track> tracks_;
   std::vector<WorldEvent> events_;

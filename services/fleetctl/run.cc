@@ -47,6 +47,11 @@ int RefuseToRun(const RunOptions& options, const char* reason, const std::except
 int StartAndWatch(const RunOptions& options) {
   const app::ScenarioOverrides overrides{options.seed, options.behaviour, options.duration_s};
   const Scenario scenario = app::LoadScenario(options.scenario, overrides);
+  if (options.vehicles && scenario.spawns.empty()) {
+    throw app::InputError({{options.scenario, 0, "", "",
+                            "--vehicles was given, but the scenario names all of its vehicles",
+                            "leave --vehicles out, or write spawn { ... } in the scenario"}});
+  }
   if (!options.picture_file.empty()) CheckWritable(options.picture_file);
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
 

@@ -16,6 +16,9 @@ struct RunOptions {
   std::optional<double> duration_s;
   std::optional<std::uint32_t> seed;
   std::optional<Behaviour> behaviour;
+  // Of an open fleet: how many are started that nobody named. Absent: as many as the scenario waits
+  // for, or one a spawn place where it waits for none.
+  std::optional<std::uint32_t> vehicles;
   std::optional<std::uint32_t> domain;  // absent: the first free one
   std::string interface = "127.0.0.1";
   std::string qos_file;  // empty: the shipped one

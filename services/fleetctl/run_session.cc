@@ -36,7 +36,7 @@ Nanoseconds TimeLimit(const Scenario& scenario, bool lockstep) {
 link::LinkOptions ObserverOptions(const RunOptions& options, const Scenario& scenario,
                                   const FleetCommand& command) {
   return {command.domain, options.interface, command.qos_file, scenario.area,
-          static_cast<std::uint32_t>(scenario.vehicles.size())};
+          static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size())};
 }
 
 TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWatch& watch) {
@@ -46,7 +46,7 @@ TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWa
   view.state = watch.HasStarted() ? "running" : "waiting";
   view.time_s = watch.TimeSeconds();
   view.duration_s = scenario.duration_s;
-  for (const VehicleOptions& vehicle : scenario.vehicles) view.vehicles.push_back(vehicle.id);
+  view.vehicles.assign(watch.Vehicles().begin(), watch.Vehicles().end());
   view.statuses = watch.Statuses();
   view.silent = watch.Silent();
   return view;
@@ -154,6 +154,9 @@ void RunSession::Turn() {
   watch_.Fold(observer_.Take());
   for (const VehicleId vehicle : watch_.TakeDueKills()) processes_.Kill(vehicle);
   processes_.Poll();
+  for (const ChildProcess* child : processes_.TakeNewlyEnded()) {
+    if (!stopping_ && !watch_.HasEnded()) ShowTrouble(*child, "ended");
+  }
   TableView view = MakeView(scenario_, domain_, watch_);
   if (stopping_) view.state = "stopping";
   screen_.Show(view, app::SteadyNow());

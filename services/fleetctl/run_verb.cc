@@ -20,10 +20,13 @@ Examples
   fleetctl run intersection_yield
   fleetctl run intersection_equal --picture equal.svg
   fleetctl run intersection_yield --seed 7 --json | jq .min_separation_m
+  fleetctl run open_fleet --vehicles 4
   fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
 
 Exit code: 0 passed, 1 failed or interrupted, 2 could not run.
 )";
+
+constexpr std::uint32_t kMostVehicles = 1024;
 
 // CLI11's own range check lets "nan" pass.
 std::string CheckDuration(const std::string& text) {
@@ -61,6 +64,10 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("--seed", options->seed, "Moves start poses and cruise speeds; 0 moves nothing")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->envname("GIVEWAY_SEED");
+  verb->add_option("--vehicles", options->vehicles,
+                   "Of an open fleet: start so many that the scenario does not name")
+      ->check(CLI::Range(0U, kMostVehicles))
+      ->envname("GIVEWAY_VEHICLES");
   verb->add_flag("--lockstep", options->lockstep, "The world waits for every command of a tick")
       ->envname("GIVEWAY_LOCKSTEP");
 }

@@ -1,6 +1,7 @@
-// Our values to wire types and back, field by field, nothing judged: NaN goes through as NaN. Text
-// longer than its bound is cut. FromWire is false if the sample has an enumerator this build does
-// not know; those fields keep their value, the others are set.
+// Our values to wire types and back, field by field. Text longer than its bound is cut. FromWire is
+// false if the sample has an enumerator this build does not know, more elements than its bound, or
+// NaN or infinity where the IDL says "finite". Nothing else is judged: NaN goes through as NaN.
+// Of a sample refused, the fields that could not be told keep their value.
 #pragma once
 
 #include "services/link/fastdds_version.h"
@@ -8,11 +9,17 @@
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
+#include "services/types/sensor_scan.h"
+#include "services/types/signal.h"
 
 namespace giveway::link {
 
 wire::Beacon ToWire(const Beacon& beacon);
 wire::RangeScan ToWire(const RangeScan& scan);
+wire::RadarScan ToWire(const RadarScan& scan);
+wire::LidarScan ToWire(const LidarScan& scan);
+wire::CameraScan ToWire(const CameraScan& scan);
+wire::SignalState ToWire(const SignalState& state);
 wire::MotorCommand ToWire(const MotorCommand& command);
 wire::Status ToWire(const VehicleStatus& status);
 wire::Join ToWire(const JoinRequest& request);
@@ -29,6 +36,10 @@ struct Arrival {
 
 Arrival FromWire(const wire::Beacon& sample, Beacon& beacon);
 bool FromWire(const wire::RangeScan& sample, RangeScan& scan);
+bool FromWire(const wire::RadarScan& sample, RadarScan& scan);
+bool FromWire(const wire::LidarScan& sample, LidarScan& scan);
+bool FromWire(const wire::CameraScan& sample, CameraScan& scan);
+bool FromWire(const wire::SignalState& sample, SignalState& state);
 bool FromWire(const wire::MotorCommand& sample, MotorCommand& command);
 bool FromWire(const wire::Status& sample, VehicleStatus& status);
 bool FromWire(const wire::Join& sample, JoinRequest& request);

@@ -113,12 +113,14 @@ wire::Join ToWire(const JoinRequest& request) {
   wire::Join sent;
   sent.session(request.session);
   sent.wanted(Number(request.wanted));
+  sent.leaving(request.leaving);
   return sent;
 }
 
 bool FromWire(const wire::Join& sample, JoinRequest& request) {
   request.session = sample.session();
   request.wanted = VehicleId{sample.wanted()};
+  request.leaving = sample.leaving();
   return true;
 }
 
@@ -127,9 +129,11 @@ wire::Roster ToWire(const RosterEntry& entry) {
   sent.session(entry.session);
   sent.vehicle(Number(entry.vehicle));
   sent.accepted(entry.accepted);
+  sent.waiting(entry.waiting);
   sent.reason(CutText(entry.reason));
   sent.world_epoch(Number(entry.epoch));
   sent.start_world(ToWirePart(entry.start_world));
+  sent.spawn(entry.spawn);
   sent.run_state(ToWireEnum<wire::RunPhase>(entry.run_state));
   sent.fleet_size(entry.fleet_size);
   return sent;
@@ -139,9 +143,11 @@ bool FromWire(const wire::Roster& sample, RosterEntry& entry) {
   entry.session = sample.session();
   entry.vehicle = VehicleId{sample.vehicle()};
   entry.accepted = sample.accepted();
+  entry.waiting = sample.waiting();
   entry.reason = sample.reason().c_str();
   entry.epoch = WorldEpoch{sample.world_epoch()};
   entry.start_world = FromWirePart(sample.start_world());
+  entry.spawn = sample.spawn();
   entry.fleet_size = sample.fleet_size();
   return FromWirePart(sample.run_state(), entry.run_state);
 }

@@ -10,6 +10,8 @@
 #include "services/types/decision.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/pose.h"
+#include "services/types/sensor_scan.h"
+#include "services/types/signal.h"
 
 namespace giveway::link {
 
@@ -21,6 +23,8 @@ constexpr bool SameOrder(Wire wire_last, Ours last) {
 static_assert(SameOrder(wire::DriveMode::MODE_LEAVING, Mode::kLeaving));
 static_assert(SameOrder(wire::DriveRule::RULE_LEAVING, Rule::kLeaving));
 static_assert(SameOrder(wire::EchoKind::ECHO_HEARD, Echo::kEcho));
+static_assert(SameOrder(wire::SeenClass::SEEN_SIGNAL, SeenClass::kSignal));
+static_assert(SameOrder(wire::SignalPhase::PHASE_GREEN, SignalPhase::kGreen));
 static_assert(SameOrder(wire::RunPhase::RUN_ENDED, RunState::kEnded));
 static_assert(SameOrder(wire::EventKind::EVENT_VERDICT, giveway::EventKind::kVerdict));
 
@@ -46,6 +50,12 @@ inline bool FromWirePart(wire::DriveRule sent, Rule& rule) {
 }
 inline bool FromWirePart(wire::EchoKind sent, Echo& echo) {
   return FromWireEnum(sent, Echo::kEcho, echo);
+}
+inline bool FromWirePart(wire::SeenClass sent, SeenClass& seen_class) {
+  return FromWireEnum(sent, SeenClass::kSignal, seen_class);
+}
+inline bool FromWirePart(wire::SignalPhase sent, SignalPhase& phase) {
+  return FromWireEnum(sent, SignalPhase::kGreen, phase);
 }
 inline bool FromWirePart(wire::RunPhase sent, RunState& state) {
   return FromWireEnum(sent, RunState::kEnded, state);

@@ -27,6 +27,10 @@ class Writer {
 
   // False if the library refused the sample. It takes a pointer to non-const and never writes.
   bool Write(const Wire& sample) { return Ok(writer_->write(const_cast<Wire*>(&sample))); }
+  // Takes back what was written of the sample's instance: readers that come later are not told.
+  bool Retire(const Wire& sample) {
+    return Ok(writer_->unregister_instance(const_cast<Wire*>(&sample), dds::HANDLE_NIL));
+  }
   // True once every matched reliable reader has every sample; false after `timeout`.
   bool WaitUntilHeard(Nanoseconds timeout) {
     return Ok(writer_->wait_for_acknowledgments(ToDuration(timeout)));

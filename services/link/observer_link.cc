@@ -27,6 +27,7 @@ struct ObserverLink::Impl {
         truth_reader(participant.MakeReader<wire::Truth>(kWorld)),
         event_reader(participant.MakeReader<wire::Event>(kWorld, EventDepth(options.fleet_size))),
         roster_reader(participant.MakeReader<wire::Roster>(kWorld)),
+        signal_reader(participant.MakeReader<wire::SignalState>(kWorld)),
         figures_reader(participant.MakeReader<wire::Figures>(kWorld)) {}
 
   void TakeStatuses(Observed& observed) {
@@ -48,6 +49,7 @@ struct ObserverLink::Impl {
   Reader<wire::Truth> truth_reader;
   Reader<wire::Event> event_reader;
   Reader<wire::Roster> roster_reader;
+  Reader<wire::SignalState> signal_reader;
   Reader<wire::Figures> figures_reader;
 };
 
@@ -61,6 +63,7 @@ Observed ObserverLink::Take() {
   Append(impl_->truth_reader, observed.truths);
   Append(impl_->event_reader, observed.events);
   Append(impl_->roster_reader, observed.roster);
+  Append(impl_->signal_reader, observed.signals);
   std::vector<RunFigures> figures;
   Append(impl_->figures_reader, figures);
   if (!figures.empty()) observed.figures = figures.back();

@@ -8,6 +8,7 @@
 
 #include "services/link/link_options.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/signal.h"
 
 namespace giveway::link {
 
@@ -16,6 +17,7 @@ struct Observed {
   std::vector<WorldEvent> events;
   std::vector<VehicleStatus> statuses;
   std::vector<RosterEntry> roster;
+  std::vector<SignalState> signals;
   std::optional<RunFigures> figures;
   std::uint32_t refused = 0;  // statuses whose id is not the one of their writer's partition
 };
@@ -28,7 +30,7 @@ class ObserverLink {
   ObserverLink& operator=(const ObserverLink&) = delete;
 
   // Everything that came since the last call: events in order, the other kinds in order of arrival
-  // for each vehicle (roster: session).
+  // for each vehicle (roster: session; signals: head).
   Observed Take();
 
  private:

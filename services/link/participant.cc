@@ -75,7 +75,7 @@ const Duration kHeartbeatPeriod(0, 100'000'000);
 
 std::string VehiclePartition(VehicleId vehicle) { return "v" + std::to_string(Number(vehicle)); }
 
-void Participant::Delete::operator()(dds::DomainParticipant* participant) const {
+void Participant::DeleteAll::operator()(dds::DomainParticipant* participant) const {
   participant->delete_contained_entities();
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
 }
@@ -118,6 +118,13 @@ dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& p
   auto* writer = publisher->create_datawriter(&topic, qos, nullptr, dds::StatusMask::none());
   if (writer == nullptr) ThrowNotMade("writer of profile \"" + profile + "\"");
   return *writer;
+}
+
+void Participant::Delete(dds::DataWriter& writer) {
+  // The library shows a writer its publisher only as const; it was made for this writer alone.
+  auto* publisher = const_cast<dds::Publisher*>(writer.get_publisher());
+  publisher->delete_datawriter(&writer);
+  participant_->delete_publisher(publisher);
 }
 
 dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& profile,

@@ -36,11 +36,13 @@ class Participant {
     return Reader<Wire>(
         MakeReader(MakeTopic<Wire>(), TopicOf<Wire>::kReader, partition, depth, listener, mask));
   }
+  // Deletes a writer made here, and its publisher. What is left goes with the participant.
+  void Delete(dds::DataWriter& writer);
 
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
 
  private:
-  struct Delete {
+  struct DeleteAll {
     void operator()(dds::DomainParticipant* participant) const;
   };
 
@@ -55,7 +57,7 @@ class Participant {
                               const std::string& partition, std::int32_t depth,
                               dds::DataReaderListener* listener, const dds::StatusMask& mask);
 
-  std::unique_ptr<dds::DomainParticipant, Delete> participant_;
+  std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
 };
 
 // The partition that names a vehicle's own endpoints: "v7".

@@ -3,17 +3,6 @@
 #include <utility>
 
 namespace giveway::link {
-namespace {
-
-// A 4-byte key lies readable in the handle, big-endian in bytes 0 to 3.
-VehicleId KeyOf(const dds::InstanceHandle_t& instance) {
-  std::uint32_t key = 0;
-  for (std::size_t i = 0; i < 4; ++i) key = key << 8U | instance.value[i];
-  return VehicleId{key};
-}
-
-}  // namespace
-
 PeerEvents::PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own)
     : names_(names), own_(own) {}
 
@@ -46,7 +35,7 @@ void PeerEvents::Translate(std::span<const ReaderEvent> events, SteadyTime now,
       continue;
     }
     if (event.kind == ReaderEvent::Kind::kDeadlineMissed) {
-      const VehicleId vehicle = KeyOf(event.handle);
+      const VehicleId vehicle{KeyOf(event.handle)};
       if (IsNewMiss(vehicle)) told.push_back({QosEventKind::kDeadlineMissed, vehicle, now});
       continue;
     }

@@ -5,6 +5,12 @@
 
 namespace giveway::link {
 
+std::uint32_t KeyOf(const dds::InstanceHandle_t& instance) {
+  std::uint32_t key = 0;
+  for (std::size_t i = 0; i < 4; ++i) key = key << 8U | instance.value[i];
+  return key;
+}
+
 dds::StatusMask ReaderEvents::Mask() {
   return dds::StatusMask::requested_deadline_missed()
          << dds::StatusMask::liveliness_changed() << dds::StatusMask::subscription_matched()

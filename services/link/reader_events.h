@@ -26,6 +26,10 @@ struct ReaderEvent {
   dds::InstanceHandle_t handle;
 };
 
+// The key of an instance whose key is one uint32: it lies readable in the handle, big-endian in
+// bytes 0 to 3.
+std::uint32_t KeyOf(const dds::InstanceHandle_t& instance);
+
 class ReaderEvents final : public dds::DataReaderListener {
  public:
   // The statuses to listen for: all of the above.

@@ -1,5 +1,5 @@
 // The topics of the fleet: what each is called, what travels on it, and which profiles of the QoS
-// file its endpoints take. Partitions are chosen where an endpoint is made.
+// file its endpoints take. Partitions, noted beside each, are chosen where an endpoint is made.
 #pragma once
 
 #include "services/link/fastdds_version.h"
@@ -18,15 +18,24 @@ struct TopicOf;
     static constexpr const char* kReader = profile "_reader"; \
   }
 
-GIVEWAY_TOPIC(Beacon, "fleet/beacon", "fleet_beacon");
-GIVEWAY_TOPIC(MotorCommand, "fleet/motor_command", "fleet_motor_command");
-GIVEWAY_TOPIC(Status, "fleet/status", "fleet_status");
-GIVEWAY_TOPIC(Join, "fleet/join", "fleet_join");
+// From each vehicle; keyed by vehicle, joins by session.
+GIVEWAY_TOPIC(Beacon, "fleet/beacon", "fleet_beacon");                      // <area>/v<id>
+GIVEWAY_TOPIC(MotorCommand, "fleet/motor_command", "fleet_motor_command");  // v<id>
+GIVEWAY_TOPIC(Status, "fleet/status", "fleet_status");                      // v<id>
+GIVEWAY_TOPIC(Join, "fleet/join", "fleet_join");                            // fleet
+
+// From the world to one vehicle, in its partition v<id>; but for ranges only where fitted.
 GIVEWAY_TOPIC(RangeScan, "world/ranges", "world_ranges");
-GIVEWAY_TOPIC(Roster, "world/roster", "world_roster");
-GIVEWAY_TOPIC(Truth, "world/truth", "world_truth");
-GIVEWAY_TOPIC(Event, "world/event", "world_event");
-GIVEWAY_TOPIC(Figures, "world/figures", "world_figures");
+GIVEWAY_TOPIC(RadarScan, "world/radar", "world_radar");
+GIVEWAY_TOPIC(LidarScan, "world/lidar", "world_lidar");
+GIVEWAY_TOPIC(CameraScan, "world/camera", "world_camera");
+
+// From the world to all, in the partition world.
+GIVEWAY_TOPIC(Roster, "world/roster", "world_roster");       // keyed by session
+GIVEWAY_TOPIC(SignalState, "world/signal", "world_signal");  // keyed by signal head
+GIVEWAY_TOPIC(Truth, "world/truth", "world_truth");          // keyed by vehicle; observers only
+GIVEWAY_TOPIC(Event, "world/event", "world_event");          // observers only
+GIVEWAY_TOPIC(Figures, "world/figures", "world_figures");    // observers only
 
 #undef GIVEWAY_TOPIC
 

@@ -5,84 +5,100 @@
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
 #include "services/link/reader_events.h"
+#include "services/link/roster_inbox.h"
+#include "services/link/scan_inbox.h"
+#include "services/link/signal_inbox.h"
 #include "services/link/writer_names.h"
 #include "services/types/check.h"
 
 namespace giveway::link {
 namespace {
 
+constexpr char kWorld[] = "world";
 constexpr std::size_t kExpectedBeacons = 256;  // a drain; more only costs an allocation, once
 
-// The world's scans of this vehicle. One writer, so its statuses are polled.
-class RangesInbox {
- public:
-  RangesInbox(Reader<wire::RangeScan> reader, VehicleId own) : reader_(reader), own_(own) {}
+// Closing waits this long for the good-bye to have been heard.
+constexpr Nanoseconds kLeaveTimeout = std::chrono::milliseconds(300);
 
-  // The newest scan, if any; counts what it skips and refuses.
-  std::optional<RangeScan> Take(WriterNames& names, std::uint32_t& skipped,
-                                VehicleLinkCounters& counters) {
-    std::optional<RangeScan> newest;
-    reader_.TakeEach([&](const wire::RangeScan& sample, const dds::SampleInfo& info) {
-      const WriterEntry* const entry = names.Find(info.sample_identity.writer_guid());
-      RangeScan scan;
-      if (entry == nullptr) {
-        ++counters.unbound_samples;
-      } else if (entry->vehicle != own_ || VehicleId{sample.vehicle()} != own_) {
-        ++counters.wrong_name_scans;
-      } else if (!FromWire(sample, scan)) {
-        ++counters.unreadable_samples;
-      } else {
-        skipped += newest.has_value() ? 1 : 0;
-        newest = scan;
-      }
-    });
-    CountMisses(newest.has_value(), counters);
-    return newest;
+template <typename Wire, typename Ours>
+using OptionalInbox = std::optional<ScanInbox<Wire, Ours>>;
+
+template <typename Wire, typename Ours>
+OptionalInbox<Wire, Ours> MakeIf(bool fitted, Participant& participant, VehicleId id) {
+  if (!fitted) return std::nullopt;
+  return ScanInbox<Wire, Ours>(participant.MakeReader<Wire>(VehiclePartition(id)), id);
+}
+
+// Null if the sensor is not fitted, or says nothing new.
+template <typename Wire, typename Ours>
+const Ours* NewestOf(OptionalInbox<Wire, Ours>& inbox, const WriterNames& names) {
+  return inbox.has_value() ? inbox->Take(names) : nullptr;
+}
+
+// The sensors beside the ultrasonics.
+struct FittedSensors {
+  FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant)
+      : radar(MakeIf<wire::RadarScan, RadarScan>(profile.radar, participant, id)),
+        lidar(MakeIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id)),
+        camera(MakeIf<wire::CameraScan, CameraScan>(profile.camera, participant, id)) {}
+
+  void Take(const WriterNames& names, Inputs& inputs) {
+    inputs.radar = NewestOf(radar, names);
+    inputs.lidar = NewestOf(lidar, names);
+    inputs.camera = NewestOf(camera, names);
+  }
+  // Calls visit(counters) of each.
+  template <typename Visit>
+  void ForEachCounters(Visit&& visit) const {
+    if (radar) visit(radar->Counters());
+    if (lidar) visit(lidar->Counters());
+    if (camera) visit(camera->Counters());
   }
 
- private:
-  // An edge, and only while a world is there: the library repeats misses of a gone one for ever.
-  void CountMisses(bool scan_came, VehicleLinkCounters& counters) {
-    dds::RequestedDeadlineMissedStatus missed;
-    dds::SubscriptionMatchedStatus matched;
-    if (!Ok(reader_.Entity().get_requested_deadline_missed_status(missed)) ||
-        !Ok(reader_.Entity().get_subscription_matched_status(matched))) {
-      return;
-    }
-    if (missed.total_count_change > 0 && matched.current_count > 0 && !missing_) {
-      ++counters.ranges_deadline_missed;
-      missing_ = true;
-    }
-    if (scan_came) missing_ = false;
-  }
-
-  Reader<wire::RangeScan> reader_;
-  VehicleId own_;
-  bool missing_ = false;
+  OptionalInbox<wire::RadarScan, RadarScan> radar;
+  OptionalInbox<wire::LidarScan, LidarScan> lidar;
+  OptionalInbox<wire::CameraScan, CameraScan> camera;
 };
 
 // Everything that is named after the vehicle.
 struct OwnEndpoints {
-  OwnEndpoints(const LinkOptions& options, VehicleId id, Participant& participant,
-               WriterNames& names, ReaderEvents& events)
+  OwnEndpoints(const LinkOptions& options, VehicleId id, const VehicleProfile& profile,
+               Participant& participant, WriterNames& names, ReaderEvents& events)
       : beacon_writer(
             participant.MakeWriter<wire::Beacon>(options.area + '/' + VehiclePartition(id))),
         beacon_reader(participant.MakeReader<wire::Beacon>(
             options.area + "/*", Participant::kProfileDepth, &events, ReaderEvents::Mask())),
-        ranges_reader(participant.MakeReader<wire::RangeScan>(VehiclePartition(id))),
         command_writer(participant.MakeWriter<wire::MotorCommand>(VehiclePartition(id))),
         status_writer(participant.MakeWriter<wire::Status>(VehiclePartition(id))),
         beacons(beacon_reader, names, participant.Prefix()),
-        ranges(ranges_reader, id),
-        scan_wait(ranges_reader.Entity()) {}
+        ranges(participant.MakeReader<wire::RangeScan>(VehiclePartition(id)), id),
+        sensors(id, profile, participant),
+        scan_wait(ranges.Entity()) {}
+
+  void AddTo(VehicleLinkCounters& counters) {
+    counters.beacons_superseded = beacons.Superseded();
+    counters.unbound_samples += beacons.Unbound();
+    counters.unreadable_samples += beacons.Unreadable();
+    counters.ranges_deadline_missed = ranges.Counters().deadline_missed;
+    const auto add = [&counters](const ScanCounters& scans) {
+      counters.unbound_samples += scans.unbound;
+      counters.unreadable_samples += scans.unreadable;
+      counters.wrong_name_scans += scans.wrong_name;
+    };
+    add(ranges.Counters());
+    sensors.ForEachCounters([&](const ScanCounters& scans) {
+      add(scans);
+      counters.sensors_deadline_missed += scans.deadline_missed;
+    });
+  }
 
   Writer<wire::Beacon> beacon_writer;
   Reader<wire::Beacon> beacon_reader;
-  Reader<wire::RangeScan> ranges_reader;
   Writer<wire::MotorCommand> command_writer;
   Writer<wire::Status> status_writer;
   BeaconInbox beacons;
-  RangesInbox ranges;
+  ScanInbox<wire::RangeScan, RangeScan> ranges;
+  FittedSensors sensors;
   DataWait scan_wait;
 };
 
@@ -93,12 +109,22 @@ struct VehicleLink::Impl {
       : options(link_options),
         participant(options, "giveway-vehicle", names),
         join_writer(participant.MakeWriter<wire::Join>("fleet")),
-        roster_reader(participant.MakeReader<wire::Roster>("world")),
+        roster(participant.MakeReader<wire::Roster>(kWorld)),
         peers(names, participant.Prefix()) {
     taken_beacons.reserve(kExpectedBeacons);
     qos_events.reserve(kExpectedBeacons);
   }
 
+  ~Impl() {
+    if (left) join_writer.WaitUntilHeard(kLeaveTimeout);
+  }
+
+  void SendJoin(const JoinRequest& request) {
+    joined = request;
+    roster.Follow(request.session);
+    CountWrite(join_writer.Write(ToWire(request)));
+  }
+  void OpenSignals();
   OwnEndpoints& Own() {
     GIVEWAY_CHECK(own.has_value(), "VehicleLink used before Open");
     return *own;
@@ -106,13 +132,19 @@ struct VehicleLink::Impl {
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
   LinkOptions options;
-  WriterNames names;    // the library calls these two until the participant is gone, so they are
+  WriterNames names;    // the library calls these three until the participant is gone, so they are
   ReaderEvents events;  // declared before it
+  std::optional<ReaderEvents> signal_events;
   Participant participant;
   Writer<wire::Join> join_writer;
-  Reader<wire::Roster> roster_reader;
+  RosterInbox roster;
+  RosterInbox::Mark told_to_join = 0;
+  RosterInbox::Mark told_to_step = 0;
+  std::optional<JoinRequest> joined;  // the last request
+  bool left = false;
   PeerEvents peers;
   std::optional<OwnEndpoints> own;
+  std::optional<SignalInbox> signals;
   std::vector<ReceivedBeacon> taken_beacons;
   std::vector<QosEvent> qos_events;
   VehicleLinkCounters counters;
@@ -121,27 +153,38 @@ struct VehicleLink::Impl {
 VehicleLink::VehicleLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 VehicleLink::~VehicleLink() = default;
 
-void VehicleLink::SendJoin(const JoinRequest& request) {
-  impl_->CountWrite(impl_->join_writer.Write(ToWire(request)));
+// An endpoint that every world discovers: not made where no signal is.
+void VehicleLink::Impl::OpenSignals() {
+  auto reader = participant.MakeReader<wire::SignalState>(
+      kWorld, Participant::kProfileDepth, &signal_events.emplace(),
+      dds::StatusMask::requested_deadline_missed());
+  signals.emplace(reader, *signal_events);
 }
+
+void VehicleLink::SendJoin(const JoinRequest& request) { impl_->SendJoin(request); }
 
 std::optional<RosterEntry> VehicleLink::TakeRoster(const SessionId& session) {
-  std::optional<RosterEntry> newest;
-  impl_->roster_reader.TakeEach([&](const wire::Roster& sample, const dds::SampleInfo&) {
-    RosterEntry entry;
-    if (!FromWire(sample, entry)) {
-      ++impl_->counters.unreadable_samples;
-    } else if (entry.session == session) {
-      newest = entry;
-    }
-  });
-  return newest;
+  GIVEWAY_CHECK(impl_->joined && impl_->joined->session == session, "not the session that joined");
+  impl_->names.Update();
+  return impl_->roster.NewestAfter(impl_->told_to_join, impl_->names);
 }
 
-void VehicleLink::Open(VehicleId id) {
-  GIVEWAY_CHECK(!impl_->own.has_value(), "VehicleLink opened twice");
+void VehicleLink::SendLeave(const SessionId& session) {
+  impl_->SendJoin({.session = session,
+                   .wanted = impl_->joined ? impl_->joined->wanted : kNobody,
+                   .leaving = true});
+  impl_->left = true;
+}
+
+void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals) {
+  Impl& link = *impl_;
+  GIVEWAY_CHECK(!link.own.has_value(), "VehicleLink opened twice");
   GIVEWAY_CHECK(id != kNobody);
-  impl_->own.emplace(impl_->options, id, impl_->participant, impl_->names, impl_->events);
+  link.own.emplace(link.options, id, profile, link.participant, link.names, link.events);
+  if (signals) link.OpenSignals();
+  link.told_to_step = link.told_to_join;
+  // A world that starts anew must not give another id to a vehicle that already drives as this one.
+  if (link.joined && link.joined->wanted != id) link.SendJoin({link.joined->session, id});
 }
 
 bool VehicleLink::WaitForScan(Nanoseconds timeout) { return impl_->Own().scan_wait.Wait(timeout); }
@@ -159,7 +202,12 @@ Taken VehicleLink::Take(SteadyTime now) {
 
   Taken taken;
   taken.inputs.now = now;
-  taken.inputs.scan = own.ranges.Take(link.names, taken.scans_skipped, link.counters);
+  const std::uint32_t skipped = own.ranges.Counters().skipped;
+  if (const RangeScan* scan = own.ranges.Take(link.names)) taken.inputs.scan = *scan;
+  taken.scans_skipped = own.ranges.Counters().skipped - skipped;
+  own.sensors.Take(link.names, taken.inputs);
+  if (link.signals) taken.inputs.signals = link.signals->Take();
+  taken.inputs.roster = link.roster.NewestAfter(link.told_to_step, link.names);
   own.beacons.Drain(now, link.taken_beacons);
   for (const ReceivedBeacon& received : link.taken_beacons) {
     if (received.crc_valid && received.name_valid) link.peers.Heard(received.beacon.vehicle);
@@ -188,12 +236,13 @@ VehicleLinkCounters VehicleLink::Counters() const {
   VehicleLinkCounters counters = impl_->counters;
   counters.events_dropped = impl_->events.Dropped();
   counters.matched_peers = impl_->peers.MatchedWriters();
-  if (impl_->own.has_value()) {
-    BeaconInbox& beacons = impl_->own->beacons;
-    counters.beacons_superseded = beacons.Superseded();
-    counters.unbound_samples += beacons.Unbound();
-    counters.unreadable_samples += beacons.Unreadable();
+  counters.unreadable_samples = impl_->roster.Unreadable();
+  counters.old_world_entries = impl_->roster.FromOldWorlds();
+  if (impl_->signals) {
+    counters.unreadable_samples += impl_->signals->Unreadable();
+    counters.signals_deadline_missed = impl_->signals->DeadlineMissed();
   }
+  if (impl_->own) impl_->own->AddTo(counters);
   return counters;
 }
 

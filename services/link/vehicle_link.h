@@ -1,5 +1,6 @@
-// A vehicle's side of the fleet: joins, then drains beacons, ranges and QoS events into Inputs and
-// sends Outputs. Knows Fast DDS, decides nothing. One thread; Fast DDS's own threads only queue.
+// A vehicle's side of the fleet: joins, then drains beacons, sensors, signals and QoS events into
+// Inputs and sends Outputs. Knows Fast DDS, decides nothing. One thread; Fast DDS's own threads
+// only queue.
 #pragma once
 
 #include <memory>
@@ -12,7 +13,7 @@
 
 namespace giveway::link {
 
-// What one drain found. The spans of `inputs` point into the link and hold until the next Take.
+// What one drain found. What `inputs` points to is in the link and holds until the next Take.
 struct Taken {
   Inputs inputs;
   std::uint32_t scans_skipped = 0;  // scans overwritten by a newer one in the same drain
@@ -24,12 +25,16 @@ struct VehicleLinkCounters {
   // own sequence numbers less what the library's sample-lost status says never arrived.
   std::uint32_t beacons_superseded = 0;
   std::uint32_t unbound_samples = 0;     // writer's partition not yet known: dropped
-  std::uint32_t unreadable_samples = 0;  // sound, but with an enumerator unknown here: dropped
-  std::uint32_t wrong_name_scans = 0;    // ranges whose id is not this vehicle's
+  std::uint32_t unreadable_samples = 0;  // arrived, but say what cannot be told: dropped
+  std::uint32_t wrong_name_scans = 0;    // of a sensor, whose id is not this vehicle's
+  std::uint32_t old_world_entries = 0;   // roster of a world after another had taken over
   std::uint32_t events_dropped = 0;      // the event queue was full
   std::uint32_t write_failures = 0;
-  std::uint32_t matched_peers = 0;           // beacon writers matched now, own excluded
-  std::uint32_t ranges_deadline_missed = 0;  // edges: once until the next scan
+  std::uint32_t matched_peers = 0;  // beacon writers matched now, own excluded
+  // Edges: once until the next scan; of signals, once a head until it is heard again.
+  std::uint32_t ranges_deadline_missed = 0;
+  std::uint32_t sensors_deadline_missed = 0;  // radar, lidar, camera
+  std::uint32_t signals_deadline_missed = 0;
 };
 
 // QoS of the beacon endpoints as the library resolved it, milliseconds.
@@ -47,12 +52,19 @@ class VehicleLink {
   VehicleLink(const VehicleLink&) = delete;
   VehicleLink& operator=(const VehicleLink&) = delete;
 
+  // Kept for worlds that start later: each of them finds the newest request of a session.
   void SendJoin(const JoinRequest& request);
-  // The newest roster entry of this session, if one has come since the last call.
+  // The newest roster entry of this session, if one has come since the last call. `session` is that
+  // of the last request.
   std::optional<RosterEntry> TakeRoster(const SessionId& session);
+  // Gives the id back. Closing the link waits a moment for a world to have heard it.
+  void SendLeave(const SessionId& session);
 
-  // Makes every other endpoint, named after `id`. Once. Throws LinkError.
-  void Open(VehicleId id);
+  // Makes every other endpoint, named after `id`: readers for the sensors the profile is fitted
+  // with, and for signals if there are any. Once. Throws LinkError. From now on the join request
+  // kept for later worlds asks for `id`, and Take tells what the world says about the session.
+  void Open(VehicleId id, const VehicleProfile& profile, bool signals);
+  void Open(VehicleId id) { Open(id, VehicleProfile{}, false); }
 
   // Waits until a scan is there or `timeout` has passed. True if a scan is there.
   bool WaitForScan(Nanoseconds timeout);

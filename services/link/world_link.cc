@@ -1,5 +1,6 @@
 #include "services/link/world_link.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -7,6 +8,8 @@
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
 #include "services/link/reader_events.h"
+#include "services/link/roster_outbox.h"
+#include "services/link/vehicle_writers.h"
 #include "services/link/writer_names.h"
 #include "services/types/check.h"
 
@@ -27,7 +30,8 @@ struct WorldLink::Impl {
         join_reader(participant.MakeReader<wire::Join>("fleet")),
         command_reader(participant.MakeReader<wire::MotorCommand>(
             "v*", Participant::kProfileDepth, &events, dds::StatusMask::subscription_matched())),
-        roster_writer(participant.MakeWriter<wire::Roster>(kWorld)),
+        roster(participant.MakeWriter<wire::Roster>(kWorld)),
+        signal_writer(participant.MakeWriter<wire::SignalState>(kWorld)),
         truth_writer(participant.MakeWriter<wire::Truth>(kWorld)),
         event_writer(participant.MakeWriter<wire::Event>(kWorld, EventDepth(options.fleet_size))),
         figures_writer(participant.MakeWriter<wire::Figures>(kWorld)),
@@ -41,6 +45,8 @@ struct WorldLink::Impl {
     vehicles.Translate(queued, SteadyTime{0}, discarded);
   }
   void Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info);
+  template <typename Scan>
+  void Send(const Scan& scan);
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
   WriterNames names;    // the library calls these two until the participant is gone, so they are
@@ -48,11 +54,12 @@ struct WorldLink::Impl {
   Participant participant;
   Reader<wire::Join> join_reader;
   Reader<wire::MotorCommand> command_reader;
-  Writer<wire::Roster> roster_writer;
+  RosterOutbox roster;
+  Writer<wire::SignalState> signal_writer;
   Writer<wire::Truth> truth_writer;
   Writer<wire::Event> event_writer;
   Writer<wire::Figures> figures_writer;
-  std::unordered_map<VehicleId, Writer<wire::RangeScan>> ranges_writers;
+  std::unordered_map<VehicleId, VehicleWriters> writers;
   PeerEvents vehicles;  // by their command writers
   DataWait command_wait;
   std::vector<MotorCommand> commands;
@@ -78,17 +85,27 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
 WorldLink::WorldLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 WorldLink::~WorldLink() = default;
 
-void WorldLink::OpenRanges(VehicleId vehicle) {
+template <typename Scan>
+void WorldLink::Impl::Send(const Scan& scan) {
+  const auto found = writers.find(scan.vehicle);
+  GIVEWAY_CHECK(found != writers.end(), Number(scan.vehicle));
+  CountWrite(found->second.Write(ToWire(scan)));
+}
+
+void WorldLink::OpenVehicle(VehicleId vehicle, const VehicleProfile& profile) {
   GIVEWAY_CHECK(vehicle != kNobody);
-  if (impl_->ranges_writers.contains(vehicle)) return;
-  impl_->ranges_writers.emplace(
-      vehicle, impl_->participant.MakeWriter<wire::RangeScan>(VehiclePartition(vehicle)));
+  impl_->writers.try_emplace(vehicle, impl_->participant, vehicle, profile);
+}
+
+void WorldLink::CloseVehicle(VehicleId vehicle) {
+  impl_->writers.erase(vehicle);
+  impl_->roster.Retire(vehicle);
 }
 
 bool WorldLink::IsMatched(VehicleId vehicle) const {
   impl_->FollowDiscovery();
-  const auto writer = impl_->ranges_writers.find(vehicle);
-  return writer != impl_->ranges_writers.end() && writer->second.HasReader() &&
+  const auto found = impl_->writers.find(vehicle);
+  return found != impl_->writers.end() && found->second.HaveReaders() &&
          impl_->vehicles.IsMatched(vehicle);
 }
 
@@ -97,6 +114,8 @@ std::vector<JoinRequest> WorldLink::TakeJoins() {
   impl_->join_reader.TakeEach([&](const wire::Join& sample, const dds::SampleInfo&) {
     FromWire(sample, joins.emplace_back());
   });
+  std::stable_partition(joins.begin(), joins.end(),
+                        [](const JoinRequest& request) { return request.leaving; });
   return joins;
 }
 
@@ -113,14 +132,17 @@ std::span<const MotorCommand> WorldLink::TakeCommands() {
 bool WorldLink::WaitForCommands(Nanoseconds timeout) { return impl_->command_wait.Wait(timeout); }
 
 void WorldLink::SendRoster(const RosterEntry& entry) {
-  impl_->CountWrite(impl_->roster_writer.Write(ToWire(entry)));
+  impl_->CountWrite(impl_->roster.Send(entry));
 }
 
-void WorldLink::SendScan(const RangeScan& scan) {
-  const auto writer = impl_->ranges_writers.find(scan.vehicle);
-  GIVEWAY_CHECK(writer != impl_->ranges_writers.end(), Number(scan.vehicle));
-  impl_->CountWrite(writer->second.Write(ToWire(scan)));
+void WorldLink::SendSignal(const SignalState& state) {
+  impl_->CountWrite(impl_->signal_writer.Write(ToWire(state)));
 }
+
+void WorldLink::SendRadar(const RadarScan& scan) { impl_->Send(scan); }
+void WorldLink::SendLidar(const LidarScan& scan) { impl_->Send(scan); }
+void WorldLink::SendCamera(const CameraScan& scan) { impl_->Send(scan); }
+void WorldLink::SendScan(const RangeScan& scan) { impl_->Send(scan); }
 
 void WorldLink::SendTruth(const Truth& truth) {
   impl_->CountWrite(impl_->truth_writer.Write(ToWire(truth)));
@@ -136,7 +158,7 @@ void WorldLink::SendFigures(const RunFigures& figures) {
 
 void WorldLink::Flush(Nanoseconds timeout) {
   // One after the other: each usually returns at once, so the sum stays near one `timeout`.
-  impl_->roster_writer.WaitUntilHeard(timeout);
+  impl_->roster.WaitUntilHeard(timeout);
   impl_->event_writer.WaitUntilHeard(timeout);
   impl_->figures_writer.WaitUntilHeard(timeout);
 }

@@ -1,4 +1,5 @@
-// The world's side: drains joins and motor commands, sends ranges, roster, truth and events.
+// The world's side: drains joins and motor commands, sends what the vehicles sense, the roster,
+// signals, truth and events.
 #pragma once
 
 #include <memory>
@@ -9,6 +10,8 @@
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
+#include "services/types/sensor_scan.h"
+#include "services/types/signal.h"
 #include "services/types/time.h"
 
 namespace giveway::link {
@@ -28,11 +31,17 @@ class WorldLink {
   WorldLink(const WorldLink&) = delete;
   WorldLink& operator=(const WorldLink&) = delete;
 
-  // Makes the vehicle's ranges publisher and writer; kept until the world ends.
-  void OpenRanges(VehicleId vehicle);
-  // True once the vehicle's ranges reader and command writer are both matched.
+  // Makes the writers of the vehicle's ranges and of the sensors its profile is fitted with.
+  // Nothing if they are there.
+  void OpenVehicle(VehicleId vehicle, const VehicleProfile& profile);
+  void OpenRanges(VehicleId vehicle) { OpenVehicle(vehicle, VehicleProfile{}); }
+  // The vehicle left: ends its writers and takes its roster entry back. It may come again, and may
+  // not be sent scans until then. Nothing if it is not open.
+  void CloseVehicle(VehicleId vehicle);
+  // True once each of the vehicle's writers has a reader and its command writer is matched.
   bool IsMatched(VehicleId vehicle) const;
 
+  // The newest request of each session, those that leave first: whoever comes may want their ids.
   std::vector<JoinRequest> TakeJoins();
   // Everything that came since the last call, each vehicle's in order of arrival; the span holds
   // until the next call.
@@ -41,6 +50,11 @@ class WorldLink {
   bool WaitForCommands(Nanoseconds timeout);
 
   void SendRoster(const RosterEntry& entry);
+  // A vehicle wakes on its ranges, so they go last of what belongs to one tick.
+  void SendSignal(const SignalState& state);
+  void SendRadar(const RadarScan& scan);
+  void SendLidar(const LidarScan& scan);
+  void SendCamera(const CameraScan& scan);
   void SendScan(const RangeScan& scan);
   void SendTruth(const Truth& truth);
   void SendEvent(const WorldEvent& event);

@@ -63,6 +63,7 @@ void WriterNames::Update() {
   for (const Queued& queued : batch_) {
     WriterEntry& entry = writers_[queued.identity];
     entry.identity = queued.identity;
+    if (entry.found == 0) entry.found = ++found_;
     entry.gone = queued.change == Change::kGone;
     if (entry.gone) {
       gone_.push_back(queued.identity);
@@ -82,7 +83,11 @@ WriterEntry* WriterNames::Find(const rtps::GUID_t& writer) {
 }
 
 const WriterEntry* WriterNames::Find(const rtps::GUID_t& writer) const {
-  const auto found = writers_.find(Identity(writer));
+  return Find(Identity(writer));
+}
+
+const WriterEntry* WriterNames::Find(std::uint64_t identity) const {
+  const auto found = writers_.find(identity);
   return found == writers_.end() ? nullptr : &found->second;
 }
 

@@ -32,6 +32,7 @@ struct WriterEntry {
   std::uint64_t identity = 0;
   std::uint64_t last_sequence = 0;  // of the last sample taken from it; 0 before the first
   bool gone = false;                // left; may be found again
+  std::uint64_t found = 0;          // 1, 2, 3 ... in the order of first discovery
 };
 
 class WriterNames final : public DiscoveryListener {
@@ -46,6 +47,7 @@ class WriterNames final : public DiscoveryListener {
   // Null if the writer is not known. Valid until the next Update.
   WriterEntry* Find(const rtps::GUID_t& writer);
   const WriterEntry* Find(const rtps::GUID_t& writer) const;
+  const WriterEntry* Find(std::uint64_t identity) const;
 
  private:
   struct Queued {
@@ -57,6 +59,7 @@ class WriterNames final : public DiscoveryListener {
   std::vector<Queued> queue_;  // guarded by mutex_
   std::vector<Queued> batch_;
   std::unordered_map<std::uint64_t, WriterEntry> writers_;  // by identity
+  std::uint64_t found_ = 0;                                 // writers ever discovered
   std::deque<std::uint64_t> gone_;                          // still in writers_, oldest first
 };
 

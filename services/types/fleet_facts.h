@@ -28,7 +28,8 @@ struct RosterEntry {
   SessionId session{};
   VehicleId vehicle = kNobody;
   bool accepted = false;
-  std::string reason;  // why not, or why the run ended; empty otherwise
+  bool waiting = false;  // not accepted yet, but may be later: the world keeps the request
+  std::string reason;    // why not, or why the run ended; empty otherwise
   WorldEpoch epoch = kNoEpoch;
   Pose start_world;  // where the body stands as the entry is made: start, spawn or checkpoint pose
   std::uint32_t spawn = 0;  // the scenario's spawn place it drives by, counted from 1; 0: its own

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "services/types/decision.h"
 #include "services/types/ids.h"
@@ -15,6 +17,17 @@ struct Goal {
   bool set = false;
   Vec2 at_world;          // m
   double radius_m = 0.1;  // arrived when the axle centre is this near
+};
+
+inline constexpr std::size_t kMaxWaypoints = 16;
+
+// Points passed in turn on the way to the goal, each within radius_m; a loop begins anew after the
+// last and never comes to the goal.
+struct Route {
+  std::array<Vec2, kMaxWaypoints> waypoints_world{};
+  std::uint32_t count = 0;
+  bool loop = false;
+  double radius_m = 0.3;
 };
 
 // Wheel speed = v0 + sum of weight * activation, activation 1 at the near gate and 0 at the far
@@ -38,6 +51,7 @@ struct VehicleOptions {
   VehicleProfile profile;
   double cruise_m_s = 0.3;  // 0 < cruise <= profile.max_speed_m_s
   Goal goal;
+  Route route;
   Pose start_world;                // given by the world's roster
   BraitenbergWeights braitenberg;  // of the avoiding behaviours
   Nanoseconds tick_period{50'000'000};
@@ -49,6 +63,8 @@ struct VehicleOptions {
   // How long a transducer takes from one firing to the next one's result: 0 where all fire every
   // tick. A reading may be older than a scan by this much.
   Nanoseconds sonar_refresh{0};
+  // Standard deviation of a reading, share of its range; 0: readings are exact and miss nothing.
+  double sonar_noise = 0;
   Nanoseconds ageing_limit{20'000'000'000};  // waiting longer moves a vehicle up the order
 };
 

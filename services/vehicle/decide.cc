@@ -50,9 +50,11 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   const VehicleProfile& profile = s.options.profile;
   const Steering steering = SteerToGoal(s);
   Action action;
-  double speed = std::min(s.options.cruise_m_s,
-                          SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
-                                            profile.deceleration_m_s2));
+  double speed = s.options.cruise_m_s;
+  if (s.stops_there) {
+    speed = std::min(speed, SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
+                                              profile.deceleration_m_s2));
+  }
   action.decision.rule = Rule::kCruise;
   if (steering.round != kNobody) {
     speed = std::min(speed, kRoundSpeed_m_s);
@@ -68,8 +70,35 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                        .sensor = limit->sensor,
                        .cause_tick = limit->cause_tick};
   }
+  action.round = steering.round;
+  action.steer_side = steering.side;
   action.target = Drive(profile, steering, speed, may_turn);
   return action;
+}
+
+// A light ahead that says stop is told to the others whatever else slows the vehicle down just now:
+// they count on it that it will not come on. Only what makes it stand anyhow stays named.
+bool IsToldBeforeLight(Rule rule) {
+  switch (rule) {
+    case Rule::kCruise:
+    case Rule::kGiveWay:
+    case Rule::kNotGranted:
+    case Rule::kObstacle:
+    case Rule::kObject:
+    case Rule::kSteerRound:
+      return false;
+    default:
+      return true;
+  }
+}
+
+// True if the line is near enough to tell, and no conflict with anybody known lies before it.
+bool StandsAtLine(const StopLine& line, const Situation& s) {
+  constexpr double kTellWithin_m = 2.5;
+  return line.free_m < kTellWithin_m &&
+         std::none_of(s.peers.begin(), s.peers.end(), [&line](const PeerView& view) {
+           return view.conflict && view.conflict->own.begin_m < line.free_m;
+         });
 }
 
 }  // namespace
@@ -81,6 +110,9 @@ Action Decide(const Situation& s) {
     action = AvoidingAction(s);
   } else {
     action = DrivingAction(s, limit);
+  }
+  if (s.stop_line && !IsToldBeforeLight(action.decision.rule) && StandsAtLine(*s.stop_line, s)) {
+    action.decision = {.rule = Rule::kSignal, .cause_tick = s.stop_line->tick};
   }
   action.decision.mode = ModeOf(s);
   return action;

@@ -7,21 +7,16 @@
 namespace giveway {
 namespace {
 
-constexpr double kPathMargin_m = 0.05;      // on either side of the body
-constexpr double kSameBody_m = 0.25;        // an echo this near to the expected range is that body
-constexpr double kOwnMotion_m_s = 0.15;     // closing speed the own motion may leave unexplained
-constexpr std::uint32_t kMotionStreak = 4;  // readings in a row before a closing speed counts
+constexpr double kPathMargin_m = 0.05;   // on either side of the body
+constexpr double kSameBody_m = 0.25;     // an echo this near to the expected range is that body
+constexpr double kOwnMotion_m_s = 0.15;  // closing speed the own motion may leave unexplained
+// Readings in a row before a closing speed counts; where each takes its time, fewer must do.
+constexpr std::uint32_t kMotionStreak = 4;
+constexpr std::uint32_t kSlowMotionStreak = 2;
+// Standard deviations of a closing speed that the readings' noise may leave unexplained.
+constexpr double kNoiseSigmas = 4;
 
 double Magnitude(double x) { return x < 0 ? -x : x; }
-
-// How far straight on until the own disc touches a disc at `centre_body`; empty if it passes.
-std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
-  if (centre_body.x <= 0) return std::nullopt;
-  const double half = (sum_of_radii + kPathMargin_m) * (sum_of_radii + kPathMargin_m) -
-                      centre_body.y * centre_body.y;
-  if (half <= 0) return std::nullopt;
-  return std::max(0.0, centre_body.x - Sqrt(half));
-}
 
 // The point of the cone's arc at `range_m` that lies nearest to the body's x axis.
 Vec2 ArcPointNearestAxis(const SensorMount& mount, double half_angle, double range_m) {
@@ -41,15 +36,35 @@ Vec2 WhereItStops(const PeerView& peer, const Situation& s) {
   return peer.world_from_body.position_world + on_m * peer.forward_world;
 }
 
+// The echo's range less what the vehicle has driven towards it since, as far as the reaction time
+// does not allow for it already.
+double RangeAhead(const SensorView& view, const Situation& s) {
+  const double since_s =
+      EchoAge(view, s.tick, s.options.tick_period) - Seconds(s.options.sonar_refresh);
+  return std::max(0.0, view.range_m - std::max(0.0, s.speed_m_s) * std::max(0.0, since_s));
+}
+
 }  // namespace
 
-std::uint32_t EchoesOf(Vec2 centre_world, double radius_m, const Situation& s) {
+std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
+  if (centre_body.x <= 0) return std::nullopt;
+  const double half = (sum_of_radii + kPathMargin_m) * (sum_of_radii + kPathMargin_m) -
+                      centre_body.y * centre_body.y;
+  if (half <= 0) return std::nullopt;
+  return std::max(0.0, centre_body.x - Sqrt(half));
+}
+
+std::uint32_t EchoesOf(Vec2 centre_world, Vec2 velocity_world, double radius_m,
+                       const Situation& s) {
   const VehicleProfile& profile = s.options.profile;
-  const Vec2 centre = InBody(s, centre_world);
   std::uint32_t explains = 0;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     const SensorView& view = s.ranges[i];
     if (view.kind != Echo::kEcho) continue;
+    // Both bodies where they were when it fired, for their turning is slow against that.
+    const double age_s = EchoAge(view, s.tick, s.options.tick_period);
+    const Vec2 centre =
+        InBody(s, centre_world - age_s * velocity_world) + Vec2{age_s * s.speed_m_s, 0};
     const Vec2 to_centre = centre - profile.sonar[i].position_body;
     const double distance = Norm(to_centre);
     const double expected = distance - radius_m;
@@ -58,7 +73,8 @@ std::uint32_t EchoesOf(Vec2 centre_world, double radius_m, const Situation& s) {
     const double off_axis =
         Magnitude(WrapAngle(Atan2(to_centre.y, to_centre.x) - profile.sonar[i].bearing_rad));
     const double half_width = distance > 1.5 * radius_m ? 1.5 * radius_m / distance : kPi;
-    if (off_axis <= profile.sonar_half_angle_rad + half_width) explains |= 1U << i;
+    const double turned = age_s * Magnitude(s.turn_rad_s);
+    if (off_axis <= profile.sonar_half_angle_rad + half_width + turned) explains |= 1U << i;
   }
   return explains;
 }
@@ -69,23 +85,36 @@ std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
   for (const PeerView& peer : s.peers) {
     if ((peer.explains >> sensor & 1U) == 0) continue;
+    // Its claim says more than its echo: rules.cc, KeepClear.
+    if (s.options.behaviour == Behaviour::kCooperative && peer.fresh) return std::nullopt;
     return FreeBeforeDisc(InBody(s, WhereItStops(peer, s)),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
   const Vec2 echo =
-      ArcPointNearestAxis(profile.sonar[sensor], profile.sonar_half_angle_rad, view.range_m);
+      ArcPointNearestAxis(profile.sonar[sensor], profile.sonar_half_angle_rad, RangeAhead(view, s));
   return FreeBeforeDisc(echo, profile.body_radius_m);
 }
 
 bool MovesByItself(std::size_t sensor, const Situation& s) {
   const SensorView& view = s.ranges[sensor];
-  if (view.kind != Echo::kEcho || view.streak < kMotionStreak) return false;
+  const bool slow = s.options.sonar_refresh.count() > 0;
+  if (view.kind != Echo::kEcho || view.streak < (slow ? kSlowMotionStreak : kMotionStreak)) {
+    return false;
+  }
   const VehicleProfile& profile = s.options.profile;
   const double off_axis =
       std::max(0.0, Magnitude(profile.sonar[sensor].bearing_rad) - profile.sonar_half_angle_rad);
-  const double by_driving = std::max(0.0, s.speed_m_s * Cos(off_axis));
-  const double by_turning = Magnitude(s.turn_rad_s) * (profile.body_radius_m + 0.3 * view.range_m);
-  return view.closing_m_s > by_driving + by_turning + kOwnMotion_m_s;
+  // The closing speed is of the past, and so is the motion that explains it.
+  const double driving = std::max(s.speed_m_s, view.own.forward_m_s);
+  const double turning = std::max(Magnitude(s.turn_rad_s), view.own.turn_rad_s);
+  const double by_noise = kNoiseSigmas * s.options.sonar_noise * view.range_m / kClosingTime_s;
+  // The edge of a cone that looks ahead runs along a wall ahead faster than the vehicle drives; one
+  // that looks to the side meets what it passes.
+  const double cosine = Cos(off_axis);
+  const double faster = cosine > 0.5 ? 1 / cosine : cosine;
+  const double by_driving = std::max(0.0, driving * faster);
+  const double by_turning = turning * (profile.body_radius_m + 0.3 * view.range_m);
+  return view.closing_m_s > by_driving + by_turning + by_noise + kOwnMotion_m_s;
 }
 
 }  // namespace giveway

@@ -9,8 +9,13 @@
 
 namespace giveway {
 
-// Bit i is set if the echo of sensor i is where a disc centred there would echo.
-std::uint32_t EchoesOf(Vec2 centre_world, double radius_m, const Situation& s);
+// Bit i is set if the echo of sensor i is where a disc centred there, moving on at that velocity,
+// would have echoed when the sensor fired.
+std::uint32_t EchoesOf(Vec2 centre_world, Vec2 velocity_world, double radius_m, const Situation& s);
+
+// How far straight on until the own disc touches a disc at `centre_body`; empty if it passes with
+// a margin to spare. `sum_of_radii` is that of both.
+std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii);
 
 // How far the own shell may still go before it touches what sensor `sensor` hears, if that can be
 // in the swept path; a known peer's body counts by its place, anything else anywhere on the arc of

@@ -69,11 +69,17 @@ bool MustClear(const PeerView& view, const Situation& s) {
   return (view.standing && behind) || IsThroughFirst(view, s);
 }
 
+// Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going.
+bool IsInTheWay(const PeerView& view, const Situation& s) {
+  return view.peer->beacon.blocked_by == s.options.id || IsOnGoalOf(view, s);
+}
+
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const Situation& s) {
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
-  return view.gap_m <= CriticalDistance(s, view) ||
+  const double critical_m = CriticalDistance(s, view);
+  return (view.gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
          view.conflict->own.begin_m <= OwnStoppingDistance(s);
 }
 
@@ -81,6 +87,14 @@ bool SecondMustStop(const PeerView& view, const Situation& s) {
 // behaviour trusts the order alone.
 bool FirstMayGo(const PeerView& view, const Situation& s) {
   return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
+}
+
+// A peer that a light held let this vehicle go: once it cannot stop before the conflict any more
+// it goes through, whatever the peer's light and the order say meanwhile.
+bool HasEntered(const PeerView& view, const Situation& s) {
+  if (!view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s)) return false;
+  const bool let_go = view.at_signal && view.grants && !s.at_signal && !s.stop_line;
+  return view.peer->encounter.entered || let_go;
 }
 
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
@@ -91,6 +105,8 @@ bool Holds(const PeerView& view, const Situation& s) {
     if (view.peer->encounter.released) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
+  if (view.peer->encounter.clears) return false;
+  if (view.peer->encounter.entered) return false;
   if (view.goes_first) return !MustClear(view, s) && (held || SecondMustStop(view, s));
   if (FirstMayGo(view, s)) return false;
   return held || MustBrakeNow(view, s);
@@ -110,7 +126,7 @@ bool IsThroughFirst(const PeerView& view, const Situation& s) {
 }
 
 bool CanGiveWay(const PeerView& view, const Situation& s) {
-  if (!view.goes_first) return false;
+  if (!view.goes_first || view.peer->encounter.entered) return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
 }
@@ -132,6 +148,11 @@ void UpdateEncounter(const PeerView& view, const Situation& s) {
       encounter = {};
     }
   }
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  if (cooperative && encounter.active && !view.lost && view.goes_first && IsInTheWay(view, s)) {
+    encounter.clears = true;
+  }
+  encounter.entered = encounter.active && HasEntered(view, s);
   encounter.holds = encounter.active && Holds(view, s);
 }
 

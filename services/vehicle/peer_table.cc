@@ -213,6 +213,7 @@ void PeerTable::AddTo(StateHash* hash) const {
     hash->Add(peer.encounter.holds);
     hash->Add(peer.encounter.lost);
     hash->Add(peer.encounter.released);
+    if (peer.encounter.entered) hash->Add(peer.encounter.entered);
   }
 }
 

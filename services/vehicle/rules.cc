@@ -7,6 +7,9 @@
 namespace giveway {
 namespace {
 
+constexpr double kLookAhead_m = 10;
+constexpr double kStandOff_m = 0.15;  // left between the shell and what stands in the path
+
 Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
 
 // A dead stop for the nearest peer that this vehicle holds for and `applies` to.
@@ -63,6 +66,26 @@ std::optional<Proposal> PeerLost(const Situation& s) {
   return HoldFor(Rule::kPeerLost, s, [](const PeerView& view) { return view.lost; });
 }
 
+std::optional<Proposal> Signal(const Situation& s) {
+  if (!s.stop_line) return std::nullopt;
+  return Proposal{
+      .max_speed_m_s = SpeedToStopWithin(s.stop_line->free_m, ReactionSeconds(s.options),
+                                         s.options.profile.deceleration_m_s2),
+      .may_turn = false,
+      .rule = Rule::kSignal,
+      .cause_tick = s.stop_line->tick};
+}
+
+std::optional<Proposal> Object(const Situation& s) {
+  const std::optional<ObjectAhead> object = NearestObstacle(s.objects, s);
+  if (!object) return std::nullopt;
+  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, ReactionSeconds(s.options),
+                                         s.options.profile.deceleration_m_s2);
+  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  return Proposal{
+      .max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObject, .cause_tick = object->tick};
+}
+
 std::optional<Proposal> Deaf(const Situation& s) {
   if (!s.deaf) return std::nullopt;
   Proposal proposal = DeadStop(Rule::kDeaf);
@@ -72,7 +95,6 @@ std::optional<Proposal> Deaf(const Situation& s) {
 }
 
 std::optional<Proposal> Obstacle(const Situation& s) {
-  constexpr double kStandOff_m = 0.15;  // left between the shell and what stands in the path
   std::optional<Proposal> nearest;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     const std::optional<double> free_m = FreeAhead(i, s);
@@ -89,13 +111,30 @@ std::optional<Proposal> Obstacle(const Situation& s) {
   return nearest;
 }
 
+std::optional<Proposal> KeepClear(const Situation& s) {
+  std::optional<Proposal> lowest;
+  for (const PeerView& view : s.peers) {
+    if (view.peer->left || view.free_m > kLookAhead_m) continue;
+    const double limit = SpeedToStopWithin(view.free_m, ReactionSeconds(s.options),
+                                           s.options.profile.deceleration_m_s2);
+    if (limit >= s.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
+    lowest = Proposal{.max_speed_m_s = limit,
+                      .may_turn = true,
+                      .rule = Rule::kKeepClear,
+                      .peer = view.peer->id,
+                      .cause_tick = view.peer->beacon.tick};
+  }
+  return lowest;
+}
+
 std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
   static constexpr std::array<RuleFunction, 4> kAvoiding = {Leaving, NotRunning, RangesStale,
                                                             Arrived};
   static constexpr std::array<RuleFunction, 8> kLecture = {
       Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle};
-  static constexpr std::array<RuleFunction, 9> kCooperative = {
-      Leaving, NotRunning, RangesStale, Arrived, GiveWay, NotGranted, PeerLost, Deaf, Obstacle};
+  static constexpr std::array<RuleFunction, 12> kCooperative = {
+      Leaving,    NotRunning, RangesStale, Arrived,   Signal,   GiveWay,
+      NotGranted, PeerLost,   Deaf,        KeepClear, Obstacle, Object};
   switch (behaviour) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:

@@ -31,6 +31,16 @@ std::optional<Proposal> GiveWay(const Situation& s);
 std::optional<Proposal> NotGranted(const Situation& s);
 std::optional<Proposal> PeerLost(const Situation& s);
 
+// Passive safety: stop before where a peer may be until it stands.
+std::optional<Proposal> KeepClear(const Situation& s);
+
+// A light ahead says stop: from far on, so that everybody knows, and with the speed to stop before
+// its line.
+std::optional<Proposal> Signal(const Situation& s);
+
+// What radar and lidar ask for (objects.h).
+std::optional<Proposal> Object(const Situation& s);
+
 // What the own ultrasonics ask for by themselves.
 std::optional<Proposal> Deaf(const Situation& s);
 std::optional<Proposal> Obstacle(const Situation& s);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "services/types/range_scan.h"
+#include "services/types/sensor_scan.h"
+#include "services/types/signal.h"
 #include "services/types/vehicle_options.h"
 
 namespace giveway {
@@ -9,5 +11,12 @@ namespace giveway {
 // True if every number is finite and can come from this vehicle's wheels and ultrasonics, and no
 // reading is newer than the scan.
 bool IsBelievable(const RangeScan& scan, const VehicleOptions& options);
+
+// The same of the further sensors, whose limits are all vehicles' the same.
+bool IsBelievable(const RadarScan& scan);
+bool IsBelievable(const LidarScan& scan);
+bool IsBelievable(const CameraScan& scan);
+// True if the head has a place, a direction and a phase.
+bool IsBelievable(const SignalState& state);
 
 }  // namespace giveway

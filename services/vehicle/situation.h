@@ -8,8 +8,10 @@
 #include "services/types/range_scan.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/conflict.h"
+#include "services/vehicle/objects.h"
 #include "services/vehicle/peer_table.h"
 #include "services/vehicle/range_view.h"
+#include "services/vehicle/signals.h"
 
 namespace giveway {
 
@@ -24,9 +26,11 @@ struct PeerView {
   bool standing = false;    // below kStandingSpeed
   bool goes_first = false;  // before this vehicle, by both keys as published
   bool grants = false;     // fresh, and says that it gives way to this vehicle or stays where it is
+  bool at_signal = false;  // fresh, and says that a light stops it
   double gap_m = 0;        // shell to shell
   double closing_m_s = 0;  // positive while the gap shrinks
   std::optional<Conflict> conflict;
+  double free_m = 0;  // straight on until the own shell is at the peer's claim; huge if never
   std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
@@ -42,13 +46,22 @@ struct Situation {
   double speed_m_s = 0;   // forward, measured
   double turn_rad_s = 0;  // measured
   double sigma_position_m = 0;
-  Path path;                      // towards the goal, or straight on
-  double distance_to_goal_m = 0;  // huge without a goal
-  OrderKey order;                 // as last published
+  Path path;                         // towards the goal, or straight on
+  double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
+  bool stops_there = false;          // at the goal; a waypoint is driven through
+  OrderKey order;                    // as last published
+  VehicleId blocked_by = kNobody;    // as last published
+  bool very_aimless = false;         // for so long that it does not stay in line any more
+  bool aimless = false;              // has driven about for seconds without coming nearer
+  std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
+  int steer_side = 0;                // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
-  int blind_sensor = -1;        // see RangeView::FirstBlind
-  std::uint32_t explained = 0;  // union of the peers' `explains`
-  bool deaf = false;            // something near moves and no fresh beacon explains it
+  const SeenObjects& objects;
+  std::optional<StopLine> stop_line;  // a light ahead that says stop
+  bool at_signal = false;             // a light stops this vehicle, as last published
+  int blind_sensor = -1;              // see RangeView::FirstBlind
+  std::uint32_t explained = 0;        // union of the peers' `explains`
+  bool deaf = false;                  // something near moves and no fresh beacon explains it
   int deaf_sensor = -1;
   std::span<const PeerView> peers;
 };
@@ -58,7 +71,8 @@ inline constexpr double kStandingSpeed_m_s = 0.01;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
 
-// From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old.
+// From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old, of
+// readings that may be older by the ultrasonics' refresh.
 double ReactionSeconds(const VehicleOptions& options);
 
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
@@ -70,6 +84,15 @@ double CriticalDistance(const Situation& s, const PeerView& view);
 
 // A point given in the world, in the own body frame.
 Vec2 InBody(const Situation& s, Vec2 point_world);
+
+// How far the two axle centres keep apart when one steers round the other.
+double RoomBeside(const PeerView& view, const Situation& s);
+
+// True if the own body leaves the peer no room where it drives to.
+bool IsOnGoalOf(const PeerView& view, const Situation& s);
+
+// True if the peer's body leaves no room for the own one at that point.
+bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s);
 
 // Carries `peer` forward to now and relates it to the own path.
 PeerView LookAt(Peer* peer, const Situation& s);

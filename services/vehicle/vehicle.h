@@ -10,6 +10,8 @@
 
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle/decide.h"
+#include "services/vehicle/odometry.h"
 #include "services/vehicle/peer_table.h"
 #include "services/vehicle/range_view.h"
 #include "services/vehicle/situation.h"
@@ -24,23 +26,33 @@ struct VehicleState {
   std::uint32_t seq = 0;
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
+  WorldEpoch placed_in = kNoEpoch;  // the epoch of the last roster entry that said where it stands
   RunState run_state = RunState::kWaiting;
-  Pose world_from_body;
-  WheelSpeeds wheels;  // as last measured
-  double sigma_position_m = 0;
-  double sigma_heading_rad = 0;
+  Odometry odometry;
+  WheelSpeeds wheels;          // as last measured
+  std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
   OrderKey order;
   std::uint32_t waited_ticks = 0;  // halted to give way, in the encounters under way
   std::uint32_t encounters = 0;    // under way in the step before
   SteadyTime deaf_since{0};        // last time something near moved unexplained
+  Tick turned_tick = kNoTick;  // when it last turned sharply
   bool deaf = false;
   int deaf_sensor = -1;
   Decision decision;
   VehicleId gives_way_to = kNobody;  // as last published
+  VehicleId blocked_by = kNobody;    // as last published
+  int steer_side = 0;                // 1 left, -1 right, 0 straight on
+  double nearest_m = 1e9;            // the least distance to the goal so far
+  std::uint32_t aimless_ticks = 0;   // driven since without coming nearer
+  Vec2 detour_world;                 // where the way round leads first, if detour_tick is set
+  Tick detour_tick = kNoTick;        // when it was looked for
   RangeView ranges;
   PeerTable peers;
-  std::uint32_t scans_refused = 0;
+  SignalTable signals;
+  SeenObjects objects;
+  std::uint32_t scans_refused = 0;  // of any sensor
+  std::uint32_t signals_refused = 0;
   BeaconCounters beacons;
   QosCounters qos;
 };
@@ -56,6 +68,9 @@ class Vehicle {
   const VehicleState& State() const { return *state_; }
   // Continues from a snapshot taken with the same options.
   void Restore(const VehicleState& state) { *state_ = state; }
+  // Drives by other options of the same vehicle id from its next roster entry on. Peers take it for
+  // the same life: sequence numbers go on.
+  void Reseat(const VehicleOptions& options);
   std::uint64_t Hash() const;
   // Forward speed as last measured, m/s.
   double SpeedMps() const;
@@ -63,13 +78,18 @@ class Vehicle {
   std::uint32_t PeersHeard() const { return peers_heard_; }
 
  private:
-  void EnterWorld(WorldEpoch epoch);
+  void EnterWorld(WorldEpoch epoch, const Pose& world_from_body);
+  void TakeRoster(const RosterEntry& entry);
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);
+  void TakeSignalsAndObjects(const Inputs& inputs);
   Situation Look(const Inputs& inputs);
+  void LookAhead(Situation* situation);
+  void LookAtSignals(Situation* situation);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
-  void Remember(const Situation& situation, const Decision& decision);
+  void Detour(Situation* situation);
+  void Remember(const Situation& situation, const Action& action);
   Beacon Say(const Situation& situation);
 
   VehicleOptions options_;

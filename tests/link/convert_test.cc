@@ -7,10 +7,13 @@
 #include <bit>
 #include <limits>
 
-#include "services/link/topics.h"
+#include "tests/link/travel.h"
 
 namespace giveway::link {
 namespace {
+
+using test::RoundTrip;
+using test::Travelled;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -19,27 +22,6 @@ constexpr double kHuge = std::numeric_limits<double>::max();
 constexpr std::uint32_t kMax = std::numeric_limits<std::uint32_t>::max();
 
 std::uint64_t Bits(double value) { return std::bit_cast<std::uint64_t>(value); }
-
-// `wire` serialized and deserialized.
-template <typename Wire>
-Wire Travelled(Wire wire) {
-  typename TopicOf<Wire>::Type type;
-  rtps::SerializedPayload_t payload(type.m_typeSize);
-  EXPECT_TRUE(type.serialize(&wire, &payload));
-  Wire arrived;
-  EXPECT_TRUE(type.deserialize(&payload, &arrived));
-  return arrived;
-}
-
-bool IsReadable(bool readable) { return readable; }
-bool IsReadable(Arrival arrival) { return arrival.readable; }
-
-template <typename Ours>
-Ours RoundTrip(const Ours& value) {
-  Ours back;
-  EXPECT_TRUE(IsReadable(FromWire(Travelled(ToWire(value)), back)));
-  return back;
-}
 
 TEST(Convert, BeaconComesBackBitForBit) {
   Beacon sent;
@@ -55,9 +37,13 @@ TEST(Convert, BeaconComesBackBitForBit) {
   sent.sigma_heading_rad = 0.1;
   sent.body_radius_m = 0.4;
   sent.drive = {0.1, 0.5};
+  sent.acceleration_m_s2 = 0.7;
+  sent.deceleration_m_s2 = 0.9;
+  sent.toward_world = {-kHuge, kTiny};
   sent.mode = Mode::kLeaving;
   sent.rule = Rule::kLeaving;
   sent.gives_way_to = VehicleId{5};
+  sent.blocked_by = VehicleId{9};
   sent.order = {6, 7, VehicleId{8}};
   const Beacon back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
@@ -76,6 +62,10 @@ TEST(Convert, BeaconComesBackBitForBit) {
   EXPECT_EQ(back.body_radius_m, 0.4);
   EXPECT_EQ(back.drive.wheel_radius_m, 0.1);
   EXPECT_EQ(back.drive.axle_m, 0.5);
+  EXPECT_EQ(back.acceleration_m_s2, 0.7);
+  EXPECT_EQ(back.deceleration_m_s2, 0.9);
+  EXPECT_EQ(back.toward_world, sent.toward_world);
+  EXPECT_EQ(back.blocked_by, sent.blocked_by);
   EXPECT_EQ(back.mode, sent.mode);
   EXPECT_EQ(back.rule, sent.rule);
   EXPECT_EQ(back.gives_way_to, sent.gives_way_to);
@@ -98,7 +88,7 @@ TEST(Convert, ScanComesBackWithEverySensor) {
   sent.wheels = {-1, kNan};
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     sent.readings[i] = {static_cast<Echo>(i % 3), 0.25 * static_cast<double>(i),
-                        Tick{static_cast<std::uint32_t>(100 + i)}};
+                        Tick{static_cast<std::uint32_t>(100 + i)}, 0.001 * static_cast<double>(i)};
   }
   const RangeScan back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
@@ -111,6 +101,7 @@ TEST(Convert, ScanComesBackWithEverySensor) {
     EXPECT_EQ(back.readings[i].kind, sent.readings[i].kind) << i;
     EXPECT_EQ(back.readings[i].range_m, sent.readings[i].range_m) << i;
     EXPECT_EQ(back.readings[i].tick, sent.readings[i].tick) << i;
+    EXPECT_EQ(back.readings[i].fired_before_s, sent.readings[i].fired_before_s) << i;
   }
 }
 
@@ -133,9 +124,10 @@ TEST(Convert, CommandComesBack) {
 }
 
 TEST(Convert, JoinAndRosterComeBack) {
-  const JoinRequest join{{1, 2, 3, kMax}, VehicleId{9}};
+  const JoinRequest join{{1, 2, 3, kMax}, VehicleId{9}, true};
   EXPECT_EQ(RoundTrip(join).session, join.session);
   EXPECT_EQ(RoundTrip(join).wanted, join.wanted);
+  EXPECT_TRUE(RoundTrip(join).leaving);
 
   const RosterEntry sent{.session = {kMax, 0, 1, 2},
                          .vehicle = VehicleId{3},
@@ -143,6 +135,7 @@ TEST(Convert, JoinAndRosterComeBack) {
                          .reason = "vehicle 3 is taken",
                          .epoch = WorldEpoch{4},
                          .start_world = {{-1, 2}, 3},
+                         .spawn = 6,
                          .run_state = RunState::kRunning,
                          .fleet_size = 5};
   const RosterEntry back = RoundTrip(sent);
@@ -152,6 +145,7 @@ TEST(Convert, JoinAndRosterComeBack) {
   EXPECT_EQ(back.reason, sent.reason);
   EXPECT_EQ(back.epoch, sent.epoch);
   EXPECT_EQ(back.start_world, sent.start_world);
+  EXPECT_EQ(back.spawn, sent.spawn);
   EXPECT_EQ(back.run_state, sent.run_state);
   EXPECT_EQ(back.fleet_size, sent.fleet_size);
 }

@@ -68,6 +68,18 @@ TEST(WriterNames, ForgetsWritersThatLeftLongAgoButNotOneThatCameBack) {
   EXPECT_NE(names.Find(WriterNumber(0)), nullptr);
 }
 
+TEST(WriterNames, KeepsTheOrderOfFirstDiscoveryWhenAWriterComesBack) {
+  WriterNames names;
+  names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(1), {"world"});
+  names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(2), {"world"});
+  names.OnWriter(DiscoveryListener::Change::kGone, WriterNumber(1), {"world"});
+  names.Update();
+  names.OnWriter(DiscoveryListener::Change::kFound, WriterNumber(1), {"world"});
+  names.Update();
+  EXPECT_FALSE(names.Find(WriterNumber(1))->gone);
+  EXPECT_LT(names.Find(WriterNumber(1))->found, names.Find(WriterNumber(2))->found);
+}
+
 TEST(Identity, DiffersBetweenWritersAndIsNeverZero) {
   std::vector<std::uint64_t> seen;
   for (std::uint32_t i = 0; i < 1000; ++i) seen.push_back(Identity(WriterNumber(i)));

@@ -31,7 +31,7 @@ room_of() {
     services/fleetctl/*) echo fleetctl ;;
     services/*/*) echo nowhere ;;
     services/*) echo vehicle_main ;; # the wiring of giveway-vehicle, and what the mains share
-    sim_world/world_main.cc) echo world_main ;;
+    sim_world/world_main.cc | sim_world/world_loop.*) echo world_main ;; # wires giveway-world
     sim_world/virtual/*) echo virtual ;;
     sim_world/*) echo sim_world ;;
     tests/*) echo tests ;;

@@ -1,6 +1,7 @@
 // A brain on a table: feed it scans and beacons tick by tick, read what it decides. No world.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "services/types/math.h"
@@ -45,6 +46,7 @@ inline Beacon BeaconOf(std::uint32_t id, std::uint32_t tick, const Pose& pose,
   beacon.tick = Tick{tick};
   beacon.cruise_m_s = cruise_m_s;
   beacon.world_from_body = pose;
+  beacon.toward_world = pose.position_world + 100.0 * Forward(pose);
   beacon.mode = Mode::kCooperative;
   beacon.rule = Rule::kCruise;
   beacon.order = {.speed_bucket = SpeedBucket(cruise_m_s), .vehicle = VehicleId{id}};
@@ -58,6 +60,14 @@ inline ReceivedBeacon Received(const Beacon& beacon, SteadyTime at) {
           .name_valid = true,
           .writer = 1000 + Number(beacon.vehicle)};
 }
+
+// What else comes with one tick; epoch and tick are set by the bench.
+struct MoreInputs {
+  std::vector<SignalState> signals;
+  std::optional<RadarScan> radar;
+  std::optional<LidarScan> lidar;
+  std::optional<CameraScan> camera;
+};
 
 // Runs one brain through ticks 1, 2, 3 … of 50 ms.
 class BrainBench {
@@ -76,6 +86,22 @@ class BrainBench {
     for (RangeReading& reading : scan.readings) reading.tick = scan.tick;
     return StepWith(scan, beacons, events);
   }
+  // The same with readings as old as they are: only those that changed have fired now.
+  Outputs StepAsFired(RangeScan scan, const std::vector<Beacon>& beacons = {}) {
+    ++tick_;
+    scan.tick = Tick{tick_};
+    for (std::size_t i = 0; i < kSensorCount; ++i) {
+      const bool repeated = tick_ > 1 && scan.readings[i].kind == readings_[i].kind &&
+                            scan.readings[i].range_m == readings_[i].range_m;
+      const bool clear = scan.readings[i].kind != Echo::kEcho;
+      scan.readings[i].tick = repeated && !clear ? readings_[i].tick : scan.tick;
+    }
+    readings_ = scan.readings;
+    return StepWith(scan, beacons, {});
+  }
+  const std::array<RangeReading, kSensorCount>& LastReadings() const { return readings_; }
+  // What comes with the next step beside scan and beacons.
+  MoreInputs& WithNext() { return more_; }
   // One tick's time passes and no scan comes.
   Outputs StepBlind() {
     ++tick_;
@@ -92,11 +118,27 @@ class BrainBench {
     inputs.scan = scan;
     inputs.beacons = received;
     inputs.events = events;
-    return vehicle_.Step(inputs);
+    inputs.signals = more_.signals;
+    for (SignalState& signal : more_.signals) Stamp(&signal);
+    if (more_.radar) inputs.radar = Stamp(&*more_.radar);
+    if (more_.lidar) inputs.lidar = Stamp(&*more_.lidar);
+    if (more_.camera) inputs.camera = Stamp(&*more_.camera);
+    const Outputs outputs = vehicle_.Step(inputs);
+    more_ = {};
+    return outputs;
+  }
+
+  template <typename Sample>
+  const Sample* Stamp(Sample* sample) const {
+    sample->epoch = kEpoch;
+    sample->tick = Tick{tick_};
+    return sample;
   }
 
   VehicleOptions options_;
   Vehicle vehicle_;
+  MoreInputs more_;
+  std::array<RangeReading, kSensorCount> readings_{};
   std::uint32_t tick_ = 0;
 };
 

@@ -46,5 +46,17 @@ TEST(Expectation, ABoundIsKeptOrNamedWithTheFigure) {
             "time_to_clear_s: expected at most 12, got 12.05");
 }
 
+TEST(Expectation, WhoHaltsOrArrivesCanBeLeftOpen) {
+  Outcome outcome;
+  outcome.halted = {kOne};
+  outcome.arrived = {kTwo};
+  Expectation expect;
+  expect.any_halted = true;
+  EXPECT_EQ(Unmet(expect, outcome), "arrived: expected nobody, got 2");
+  expect.any_halted = false;
+  expect.any_arrived = true;
+  EXPECT_EQ(Unmet(expect, outcome), "halted: expected nobody, got 1");
+}
+
 }  // namespace
 }  // namespace giveway::sim

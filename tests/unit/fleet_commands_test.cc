@@ -64,6 +64,32 @@ TEST(MakeCommands, WhatTheOperatorLeftOutIsLeftToTheScenario) {
   }
 }
 
+Scenario OpenFleet() {
+  Scenario scenario = TwoVehicles();
+  scenario.spawns.resize(5);
+  return scenario;
+}
+
+TEST(MakeCommands, NewcomersOfAnOpenFleetAreStartedWithoutAnId) {
+  RunOptions options;
+  options.vehicles = 3;
+  const auto commands = MakeCommands(options, OnDomainFive(), OpenFleet());
+  ASSERT_THAT(commands, SizeIs(6));
+  EXPECT_TRUE(Says(commands[2], "--id", "8"));
+  for (std::size_t i = 3; i < 6; ++i) EXPECT_THAT(commands[i].words, Not(Contains("--id")));
+  EXPECT_NE(commands[3].name, commands[4].name);
+}
+
+TEST(MakeCommands, AsManyNewcomersAsTheScenarioWaitsForOrOneASpawnPlace) {
+  Scenario scenario = OpenFleet();
+  EXPECT_EQ(NewcomerCount({}, scenario), 5U);
+  scenario.start_with = 4;
+  EXPECT_EQ(NewcomerCount({}, scenario), 2U);
+  scenario.start_with = 1;
+  EXPECT_EQ(NewcomerCount({}, scenario), 0U);
+  EXPECT_EQ(NewcomerCount({}, TwoVehicles()), 0U);
+}
+
 TEST(MakeCommands, LogsAreKeptOnlyWhereAFolderIsNamed) {
   RunOptions options;
   EXPECT_EQ(MakeCommands(options, OnDomainFive(), TwoVehicles())[0].log_file, "");

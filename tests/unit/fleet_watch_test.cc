@@ -170,5 +170,30 @@ TEST_F(FleetWatchTest, TimeOfTheRunNeverRunsBackwards) {
   EXPECT_EQ(watch_.TimeSeconds(), 3);
 }
 
+TEST(FleetWatchOfAnOpenFleet, KnowsWhoIsInItNow) {
+  Scenario scenario = TwoVehicles();
+  scenario.spawns.resize(1);
+  FleetWatch watch(scenario, false);
+  const VehicleId kThree{3};
+  EXPECT_EQ(watch.Vehicles(), (std::set{kOne, kTwo}));
+  watch.Fold(Events({Event(EventKind::kJoined, kThree), Event(EventKind::kSilent, kThree)}));
+  EXPECT_TRUE(watch.Vehicles().contains(kThree));
+  EXPECT_TRUE(watch.Silent().contains(kThree));
+  watch.Fold(Events({Event(EventKind::kJoined, kThree)}));  // it is back
+  EXPECT_FALSE(watch.Silent().contains(kThree));
+  watch.Fold(Events({Event(EventKind::kLeft, kThree)}));
+  EXPECT_FALSE(watch.Vehicles().contains(kThree));
+  link::Observed last_words;
+  last_words.statuses.push_back({.vehicle = kThree, .final = true});
+  watch.Fold(last_words);
+  EXPECT_FALSE(watch.Vehicles().contains(kThree));
+}
+
+TEST(FleetWatchOfAnOpenFleet, AFaultOfASignalKillsNobody) {
+  FleetWatch watch(TwoVehicles(), false);
+  watch.Fold(Events({Event(EventKind::kFaultDue)}));
+  EXPECT_TRUE(watch.TakeDueKills().empty());
+}
+
 }  // namespace
 }  // namespace giveway::fleetctl

@@ -1,0 +1,38 @@
+#include "services/link/vehicle_writers.h"
+
+namespace giveway::link {
+namespace {
+
+template <typename Wire>
+std::optional<Writer<Wire>> MakeIf(bool fitted, Participant& participant, VehicleId vehicle) {
+  if (!fitted) return std::nullopt;
+  return participant.MakeWriter<Wire>(VehiclePartition(vehicle));
+}
+
+template <typename Wire>
+bool HasReader(const std::optional<Writer<Wire>>& writer) {
+  return !writer.has_value() || writer->HasReader();
+}
+
+}  // namespace
+
+VehicleWriters::VehicleWriters(Participant& participant, VehicleId vehicle,
+                               const VehicleProfile& profile)
+    : participant_(participant),
+      ranges_(participant.MakeWriter<wire::RangeScan>(VehiclePartition(vehicle))),
+      radar_(MakeIf<wire::RadarScan>(profile.radar, participant, vehicle)),
+      lidar_(MakeIf<wire::LidarScan>(profile.lidar, participant, vehicle)),
+      camera_(MakeIf<wire::CameraScan>(profile.camera, participant, vehicle)) {}
+
+VehicleWriters::~VehicleWriters() {
+  participant_.Delete(ranges_.Entity());
+  if (radar_) participant_.Delete(radar_->Entity());
+  if (lidar_) participant_.Delete(lidar_->Entity());
+  if (camera_) participant_.Delete(camera_->Entity());
+}
+
+bool VehicleWriters::HaveReaders() const {
+  return ranges_.HasReader() && HasReader(radar_) && HasReader(lidar_) && HasReader(camera_);
+}
+
+}  // namespace giveway::link

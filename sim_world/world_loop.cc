@@ -1,0 +1,303 @@
+#include "sim_world/world_loop.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "services/app/state_file.h"
+#include "sim_world/ticks.h"
+
+namespace giveway {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr Nanoseconds kLockstepPatience = seconds(1);
+constexpr Nanoseconds kFlushTimeout = milliseconds(500);
+constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
+// For the vehicles of a world that was restarted to find it: those that do not are silent then.
+constexpr Nanoseconds kResumePatience = seconds(10);
+// Who joins under way stands until it hears everybody, but not for ever.
+constexpr Nanoseconds kDeafStand = seconds(3);
+
+std::string Text(VehicleId vehicle) { return std::to_string(Number(vehicle)); }
+
+// What an operator should read of it; empty for what only observers need.
+std::string LogLine(const WorldEvent& event) {
+  switch (event.kind) {
+    case EventKind::kContact:
+      return "contact: vehicle " + Text(event.vehicle) + " touched " +
+             (event.other == kNobody ? "something" : "vehicle " + Text(event.other));
+    case EventKind::kFaultDue:
+      return "fault due: " + event.text;
+    case EventKind::kSilent:
+      return "vehicle " + Text(event.vehicle) + " fell silent";
+    case EventKind::kRemoved:
+      return "vehicle " + Text(event.vehicle) + " was silent for long: its body is taken away";
+    case EventKind::kJoined:
+      return "vehicle " + Text(event.vehicle) + " joined the run";
+    case EventKind::kLeft:
+      return "vehicle " + Text(event.vehicle) + " left the run";
+    default:
+      return {};
+  }
+}
+
+WorldEpoch NewEpoch(const std::optional<sim::FleetCheckpoint>& checkpoint) {
+  WorldEpoch epoch{app::RandomNonZero()};
+  while (checkpoint && epoch == checkpoint->run.epoch) epoch = WorldEpoch{app::RandomNonZero()};
+  return epoch;
+}
+
+}  // namespace
+
+WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link,
+                     const WorldLoopOptions& options)
+    : scenario_(scenario),
+      link_(*link),
+      options_(options),
+      epoch_(NewEpoch(options.checkpoint)),
+      fleet_(std::make_unique<Fleet>(scenario, epoch_, options.parallel)),
+      start_by_(app::SteadyNow() + FromSeconds(scenario.start_timeout_s)) {
+  if (options_.checkpoint) Resume(*options_.checkpoint);
+  if (options_.checkpoint_file.empty()) return;
+  const std::string complaint = app::WriteStateFile(
+      options_.checkpoint_file, sim::ToBytes(fleet_->admission.Save(options_.scenario_mark)));
+  if (!complaint.empty()) throw std::runtime_error("--checkpoint " + complaint);
+}
+
+void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
+  if (!fleet_->admission.Restore(checkpoint)) {
+    app::LogWarning("the checkpoint does not fit the scenario: starts anew");
+    fleet_ = std::make_unique<Fleet>(scenario_, epoch_, options_.parallel);
+    return;
+  }
+  if (!checkpoint.run.started) return;
+  resumed_with_.emplace();
+  for (const VehicleId vehicle : fleet_->admission.Expected()) {
+    if (!fleet_->run.IsAbandoned(vehicle)) resumed_with_->push_back(vehicle);
+  }
+  start_by_ = app::SteadyNow() + kResumePatience;
+  app::LogInfo("goes on from the checkpoint with " + std::to_string(resumed_with_->size()) +
+               " vehicles, " + std::to_string(fleet_->run.TimeSeconds()) + " s after the start");
+}
+
+bool WorldLoop::Drive(const app::StopSignal& stop) {
+  app::Ticker ticker(scenario_.tick_period);
+  while (fleet_->run.State() != RunState::kEnded) {
+    const std::uint32_t missed = ticker.Wait();
+    if (fleet_->run.State() == RunState::kRunning) overruns_ += missed;
+    if (options_.lockstep) AwaitAnswers();
+    if (stop.IsSet()) fleet_->run.End("interrupted");
+    Tick();
+    KeepCheckpoint();
+  }
+  return TellTheEnd();
+}
+
+void WorldLoop::Tick() {
+  sim::Run& run = fleet_->run;
+  Admit();
+  TakeCommands();
+  CountSpeaking();
+  if (run.State() == RunState::kWaiting) StartIfReady();
+  run.Advance(commands_);
+  commands_.clear();
+  fleet_->admission.FollowRun();
+  Close();
+  Publish();
+}
+
+void WorldLoop::Admit() {
+  for (const JoinRequest& request : link_.TakeJoins()) fleet_->admission.Take(request);
+  Close();
+  for (const RosterEntry& entry : fleet_->admission.Answer()) {
+    if (!entry.accepted) {
+      app::LogWarning((entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ") +
+                      entry.reason);
+    } else if (const sim::Body* body = fleet_->run.BodyOf(entry.vehicle)) {
+      link_.OpenVehicle(entry.vehicle, body->profile);
+      next_checkpoint_ = {};
+      if (entry.run_state == RunState::kRunning) Welcome(entry);
+    }
+    link_.SendRoster(entry);
+  }
+}
+
+// Somebody new under this id has not been heard yet, even if the last one was.
+void WorldLoop::Welcome(const RosterEntry& entry) {
+  Newcomer& newcomer = newcomers_[entry.vehicle];
+  if (newcomer.session == entry.session) return;
+  const auto stand = sim::TicksCovering(kDeafStand, scenario_.tick_period);
+  newcomer = {entry.session, After(fleet_->run.Now(), stand)};
+  heard_.erase(entry.vehicle);
+}
+
+// Forgets whose bodies are no more.
+void WorldLoop::Close() {
+  for (const VehicleId vehicle : fleet_->admission.TakeGone()) {
+    link_.CloseVehicle(vehicle);
+    next_checkpoint_ = {};
+    heard_.erase(vehicle);
+    newcomers_.erase(vehicle);
+  }
+}
+
+void WorldLoop::TakeCommands() {
+  const auto commands = link_.TakeCommands();
+  const SteadyTime now = app::SteadyNow();
+  commands_.insert(commands_.end(), commands.begin(), commands.end());
+  for (const MotorCommand& command : commands_) {
+    if (command.epoch != epoch_) continue;
+    heard_[command.vehicle] = {command.tick, command.matched_peers, true};
+    reactions_.Applied(command, now);
+  }
+}
+
+// It is matched with the world, and with the beacons of every other vehicle that lives.
+bool WorldLoop::IsReady(VehicleId vehicle) const {
+  const auto hearing = heard_.find(vehicle);
+  const auto& told = fleet_->admission.Told();
+  return hearing != heard_.end() && told.contains(vehicle) && link_.IsMatched(vehicle) &&
+         hearing->second.matched_peers + 1 >= speaking_;
+}
+
+void WorldLoop::CountSpeaking() {
+  speaking_ = static_cast<std::size_t>(std::ranges::count_if(
+      fleet_->admission.Told(),
+      [this](const auto& told) { return !fleet_->run.IsAbandoned(told.first); }));
+}
+
+// Who is still waited for; empty if nobody is.
+std::string WorldLoop::Missing() const {
+  const auto& told = fleet_->admission.Told();
+  if (sim::IsOpen(scenario_) && !resumed_with_) {
+    const auto ready =
+        std::ranges::count_if(told, [this](const auto& entry) { return IsReady(entry.first); });
+    const auto needed = std::max(1U, scenario_.start_with);
+    if (ready >= static_cast<std::ptrdiff_t>(needed)) return {};
+    return std::to_string(needed - static_cast<std::uint32_t>(ready)) + " of " +
+           std::to_string(needed) + " vehicles";
+  }
+  std::string missing;
+  const auto wait_for = [&](VehicleId vehicle) {
+    if (!IsReady(vehicle)) missing += (missing.empty() ? "" : " ") + Text(vehicle);
+  };
+  if (resumed_with_) {
+    std::ranges::for_each(*resumed_with_, wait_for);
+  } else {
+    std::ranges::for_each(scenario_.vehicles, wait_for, &VehicleOptions::id);
+  }
+  return missing;
+}
+
+void WorldLoop::StartIfReady() {
+  const std::string missing = Missing();
+  const bool patient = sim::IsOpen(scenario_) && !resumed_with_ && scenario_.start_with == 0;
+  if (!missing.empty() && (patient || app::SteadyNow() <= start_by_)) return;
+  if (!missing.empty() && !resumed_with_) {
+    fleet_->run.End("start_timeout: not joined and matched in time: " + missing);
+    return;
+  }
+  if (!missing.empty()) app::LogWarning("goes on without: " + missing);
+  fleet_->run.Start();
+  next_checkpoint_ = {};
+  for (const RosterEntry& entry : fleet_->admission.TellAll("")) link_.SendRoster(entry);
+  app::LogInfo("started with " + std::to_string(fleet_->admission.Told().size()) + " vehicles");
+}
+
+// A vehicle wakes on its ranges, so they go last of what it senses.
+void WorldLoop::Publish() {
+  const sim::Run& run = fleet_->run;
+  if (run.State() == RunState::kRunning) reactions_.Published(run.Now(), app::SteadyNow());
+  const auto& told = fleet_->admission.Told();
+  const auto is_told = [&](const auto& scan) { return told.contains(scan.vehicle); };
+  for (const SignalState& signal : run.Signals()) link_.SendSignal(signal);
+  for (const RadarScan& scan : run.Radars()) {
+    if (is_told(scan)) link_.SendRadar(scan);
+  }
+  for (const LidarScan& scan : run.Lidars()) {
+    if (is_told(scan)) link_.SendLidar(scan);
+  }
+  for (const CameraScan& scan : run.Cameras()) {
+    if (is_told(scan)) link_.SendCamera(scan);
+  }
+  for (RangeScan scan : run.Scans()) {
+    if (!is_told(scan)) continue;
+    if (MustStand(scan.vehicle)) scan.run_state = RunState::kWaiting;
+    link_.SendScan(scan);
+  }
+  for (const Truth& truth : run.Truths()) link_.SendTruth(truth);
+  for (const WorldEvent& event : run.Events()) SendEvent(event);
+}
+
+bool WorldLoop::MustStand(VehicleId vehicle) const {
+  const auto newcomer = newcomers_.find(vehicle);
+  return newcomer != newcomers_.end() && fleet_->run.State() == RunState::kRunning &&
+         TicksBetween(fleet_->run.Now(), newcomer->second.stands_until) > 0 && !IsReady(vehicle);
+}
+
+void WorldLoop::SendEvent(const WorldEvent& event) {
+  link_.SendEvent(event);
+  const std::string line = LogLine(event);
+  if (!line.empty()) app::LogInfo(line);
+}
+
+// Lockstep: the tick goes on when everyone who still answers has answered it.
+void WorldLoop::AwaitAnswers() {
+  const SteadyTime give_up = app::SteadyNow() + kLockstepPatience;
+  while (Unanswered() && app::SteadyNow() < give_up) {
+    if (!link_.WaitForCommands(give_up - app::SteadyNow())) break;
+    for (const MotorCommand& command : link_.TakeCommands()) {
+      heard_[command.vehicle] = {command.tick, command.matched_peers, true};
+      commands_.push_back(command);
+    }
+  }
+  for (auto& [vehicle, hearing] : heard_) {
+    hearing.waited_for = hearing.answered == fleet_->run.Now();
+  }
+}
+
+bool WorldLoop::Unanswered() const {
+  for (const auto& [vehicle, hearing] : heard_) {
+    if (hearing.waited_for && hearing.answered != fleet_->run.Now()) return true;
+  }
+  return false;
+}
+
+// After the tick's scans are out: the vehicles think meanwhile. At once where somebody came or
+// went.
+void WorldLoop::KeepCheckpoint() {
+  const SteadyTime begun = app::SteadyNow();
+  if (options_.checkpoint_file.empty() || begun < next_checkpoint_) return;
+  next_checkpoint_ = begun + kCheckpointPeriod;
+  const std::string complaint = app::WriteStateFile(
+      options_.checkpoint_file, sim::ToBytes(fleet_->admission.Save(options_.scenario_mark)));
+  if (!complaint.empty()) app::LogWarning("checkpoint " + complaint);
+  longest_checkpoint_ = std::max(longest_checkpoint_, app::SteadyNow() - begun);
+}
+
+bool WorldLoop::TellTheEnd() {
+  RunFigures figures = fleet_->run.Figures();
+  figures.tick_overruns = overruns_;
+  const sim::ReactionFigures reactions = reactions_.Figures();
+  figures.reactions = reactions.count;
+  figures.reaction_p50_ms = reactions.p50_ms;
+  figures.reaction_p99_ms = reactions.p99_ms;
+  figures.reaction_max_ms = reactions.max_ms;
+  link_.SendFigures(figures);
+  const std::string& reason = fleet_->run.EndReason();
+  for (const RosterEntry& entry : fleet_->admission.TellAll(reason)) link_.SendRoster(entry);
+  link_.Flush(kFlushTimeout);
+  if (!options_.checkpoint_file.empty()) {
+    app::RemoveStateFile(options_.checkpoint_file);  // what has ended does not go on
+    app::LogInfo("the longest checkpoint took " +
+                 std::to_string(Milliseconds(longest_checkpoint_)) + " ms");
+  }
+  app::LogInfo("ended: " + reason + "; " +
+               (figures.passed ? "passed" : "failed: " + figures.reason));
+  return figures.passed;
+}
+
+}  // namespace giveway

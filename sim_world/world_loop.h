@@ -1,0 +1,89 @@
+// giveway-world's loop: wires Run and Admission to WorldLink, tick by tick on absolute deadlines.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/app/process.h"
+#include "services/link/world_link.h"
+#include "services/types/parallel.h"
+#include "sim_world/admission.h"
+#include "sim_world/reaction.h"
+#include "sim_world/run.h"
+
+namespace giveway {
+
+struct WorldLoopOptions {
+  bool lockstep = false;
+  ParallelFor parallel = OnThisThread;
+  std::string checkpoint_file;                     // empty: none is kept
+  std::uint64_t scenario_mark = 0;                 // see sim::FleetCheckpoint
+  std::optional<sim::FleetCheckpoint> checkpoint;  // to go on from
+};
+
+class WorldLoop {
+ public:
+  WorldLoop(const Scenario& scenario, link::WorldLink* link, const WorldLoopOptions& options);
+
+  // Runs to the end. True if everything expected came true.
+  bool Drive(const app::StopSignal& stop);
+
+ private:
+  struct Fleet {
+    Fleet(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
+        : run(scenario, epoch, std::move(parallel)), admission(scenario, epoch, &run) {}
+    sim::Run run;
+    sim::Admission admission;
+  };
+  // What the world last heard of one vehicle.
+  struct Hearing {
+    Tick answered = kNoTick;
+    std::uint32_t matched_peers = 0;
+    bool waited_for = true;  // in lockstep: until it lets a tick go by unanswered
+  };
+
+  struct Newcomer {
+    SessionId session{};
+    giveway::Tick stands_until = kNoTick;
+  };
+
+  void Resume(const sim::FleetCheckpoint& checkpoint);
+  void Tick();
+  void Admit();
+  void Welcome(const RosterEntry& entry);
+  void Close();
+  void TakeCommands();
+  void CountSpeaking();
+  bool IsReady(VehicleId vehicle) const;
+  std::string Missing() const;
+  void StartIfReady();
+  void Publish();
+  bool MustStand(VehicleId vehicle) const;
+  void SendEvent(const WorldEvent& event);
+  void AwaitAnswers();
+  bool Unanswered() const;
+  void KeepCheckpoint();
+  bool TellTheEnd();
+
+  const Scenario& scenario_;
+  link::WorldLink& link_;
+  const WorldLoopOptions options_;
+  WorldEpoch epoch_;
+  std::unique_ptr<Fleet> fleet_;
+  std::optional<std::vector<VehicleId>> resumed_with_;  // who must be back before it goes on
+  sim::ReactionMeter reactions_;
+  SteadyTime start_by_;
+  std::map<VehicleId, Hearing> heard_;
+  std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
+  std::size_t speaking_ = 0;                 // of those that are in
+  std::vector<MotorCommand> commands_;
+  std::uint32_t overruns_ = 0;
+  SteadyTime next_checkpoint_{0};
+  Nanoseconds longest_checkpoint_{0};
+};
+
+}  // namespace giveway

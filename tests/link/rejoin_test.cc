@@ -1,0 +1,286 @@
+// Leaving, coming back, and a world that is followed by another.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+
+#include "services/link/observer_link.h"
+#include "services/link/world_link.h"
+#include "tests/link/fleet.h"
+
+namespace giveway::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr VehicleId kSeven{7};
+constexpr SessionId kSession{1, 2, 3, 4};
+
+RosterEntry Accepted(const SessionId& session, VehicleId vehicle, std::uint32_t epoch = 1) {
+  RosterEntry entry;
+  entry.session = session;
+  entry.vehicle = vehicle;
+  entry.accepted = true;
+  entry.epoch = WorldEpoch{epoch};
+  return entry;
+}
+
+RangeScan ScanOf(std::uint32_t epoch) {
+  RangeScan scan;
+  scan.vehicle = kSeven;
+  scan.epoch = WorldEpoch{epoch};
+  scan.tick = Tick{1};
+  return scan;
+}
+
+// The first request that comes.
+std::optional<JoinRequest> AwaitJoin(link::WorldLink& world) {
+  std::optional<JoinRequest> request;
+  Eventually([&] {
+    for (const JoinRequest& one : world.TakeJoins()) request = one;
+    return request.has_value();
+  });
+  return request;
+}
+
+// Joins as any vehicle, is given 7 and opens.
+void JoinAsSeven(link::VehicleLink& vehicle, link::WorldLink& world) {
+  vehicle.SendJoin({kSession, kNobody});
+  const auto request = AwaitJoin(world);
+  ASSERT_TRUE(request.has_value());
+  world.SendRoster(Accepted(request->session, kSeven));
+  world.OpenVehicle(kSeven, VehicleProfile{});
+  ASSERT_TRUE(Eventually([&] { return vehicle.TakeRoster(kSession).has_value(); }));
+  vehicle.Open(kSeven, VehicleProfile{}, false);
+}
+
+TEST(Rejoining, ASecondWorldFindsTheVehicleUnderItsIdAndIsHeard) {
+  const DomainLock domain;
+  link::VehicleLink vehicle(OptionsIn(domain));
+  {
+    link::WorldLink first(OptionsIn(domain));
+    JoinAsSeven(vehicle, first);
+    ASSERT_TRUE(Eventually([&] { return first.IsMatched(kSeven); }));
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  link::WorldLink second(OptionsIn(domain));
+  const auto request = AwaitJoin(second);
+  ASSERT_TRUE(request.has_value());
+  EXPECT_EQ(request->session, kSession);
+  EXPECT_EQ(request->wanted, kSeven);
+  EXPECT_FALSE(request->leaving);
+  second.SendRoster(Accepted(kSession, kSeven, 2));
+  second.OpenVehicle(kSeven, VehicleProfile{});
+  std::optional<RosterEntry> told;
+  bool scan_came = false;
+  ASSERT_TRUE(Eventually([&] {
+    second.SendScan(ScanOf(2));
+    const Inputs inputs = vehicle.Take(SteadyTime{0}).inputs;
+    if (inputs.roster) told = inputs.roster;
+    scan_came |= inputs.scan.has_value();
+    return told && scan_came;
+  }));
+  EXPECT_EQ(told->epoch, WorldEpoch{2});
+  const auto took = std::chrono::steady_clock::now() - begin;
+  // Usually a fifth of a second; a first match that is missed waits for the next announcement.
+  EXPECT_LT(took, seconds(2));
+  EXPECT_EQ(vehicle.Counters().old_world_entries, 0U);
+}
+
+TEST(Rejoining, TheEntryThatLetAVehicleInIsNotToldAgainAndALaterOneOnce) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  link::VehicleLink vehicle(OptionsIn(domain));
+  JoinAsSeven(vehicle, world);
+  Repeat(milliseconds(200), [&] { EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.roster); });
+  RosterEntry ended = Accepted(kSession, kSeven);
+  ended.run_state = RunState::kEnded;
+  world.SendRoster(Accepted({9, 9, 9, 9}, VehicleId{9}));
+  world.SendRoster(ended);
+  int told = 0;
+  const auto take = [&] {
+    if (const auto entry = vehicle.Take(SteadyTime{0}).inputs.roster) {
+      ++told;
+      EXPECT_EQ(entry->run_state, RunState::kEnded);
+    }
+    return told > 0;
+  };
+  ASSERT_TRUE(Eventually(take));
+  Repeat(milliseconds(200), take);
+  EXPECT_EQ(told, 1);
+  EXPECT_TRUE(vehicle.TakeRoster(kSession).has_value()) << "each of the two ways is told by itself";
+}
+
+TEST(Rejoining, AWorldThatWasFollowedByAnotherIsNoLongerListenedTo) {
+  const DomainLock domain;
+  link::VehicleLink vehicle(OptionsIn(domain));
+  link::WorldLink old_world(OptionsIn(domain));
+  JoinAsSeven(vehicle, old_world);
+  link::WorldLink new_world(OptionsIn(domain));
+  ASSERT_TRUE(AwaitJoin(new_world).has_value());
+  new_world.SendRoster(Accepted(kSession, kSeven, 2));
+  const auto hear = [&](std::uint32_t epoch) {
+    return Eventually([&] {
+      const auto told = vehicle.Take(SteadyTime{0}).inputs.roster;
+      return told && told->epoch == WorldEpoch{epoch};
+    });
+  };
+  ASSERT_TRUE(hear(2));
+  old_world.SendRoster(Accepted(kSession, kSeven, 1));
+  EXPECT_TRUE(Eventually([&] {
+    EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.roster);
+    return vehicle.Counters().old_world_entries > 0;
+  }));
+  new_world.SendRoster(Accepted(kSession, kSeven, 3));
+  EXPECT_TRUE(hear(3));
+}
+
+TEST(Rejoining, LastWordsOfAWorldAndTheFirstOfTheNextInOneDrainEndWithTheNext) {
+  const DomainLock domain;
+  link::VehicleLink vehicle(OptionsIn(domain));
+  auto old_world = std::make_unique<link::WorldLink>(OptionsIn(domain));
+  JoinAsSeven(vehicle, *old_world);
+  link::WorldLink new_world(OptionsIn(domain));
+  ASSERT_TRUE(AwaitJoin(new_world).has_value());
+  for (int i = 0; i < 3; ++i) {
+    // The new one speaks first: in order of arrival the old one would have the last word.
+    new_world.SendRoster(Accepted(kSession, kSeven, 2));
+    new_world.Flush(seconds(5));
+    old_world->SendRoster(Accepted(kSession, kSeven, 1));
+    old_world->Flush(seconds(5));
+    const auto told = vehicle.Take(SteadyTime{0}).inputs.roster;
+    ASSERT_TRUE(told.has_value());
+    EXPECT_EQ(told->epoch, WorldEpoch{2}) << i;
+  }
+  old_world->SendRoster(Accepted(kSession, kSeven, 1));
+  old_world->Flush(seconds(5));
+  old_world.reset();
+  EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.roster);
+}
+
+TEST(Leaving, ReachesTheWorldThoughTheLinkClosesAtOnce) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  for (std::uint32_t i = 1; i <= 10; ++i) {
+    auto vehicle = std::make_unique<link::VehicleLink>(OptionsIn(domain));
+    vehicle->SendJoin({{i, 0, 0, 0}, kSeven});
+    ASSERT_TRUE(AwaitJoin(world).has_value());
+    vehicle->SendLeave({i, 0, 0, 0});
+    vehicle.reset();
+    const auto request = AwaitJoin(world);
+    ASSERT_TRUE(request.has_value()) << i;
+    EXPECT_TRUE(request->leaving);
+    EXPECT_EQ(request->wanted, kSeven);
+    EXPECT_EQ(request->session[0], i);
+  }
+}
+
+TEST(Leaving, IsTakenBeforeTheJoinOfWhoeverComesInstead) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  link::VehicleLink leaving(OptionsIn(domain));
+  leaving.SendJoin({{9, 0, 0, 0}, kSeven});
+  ASSERT_TRUE(AwaitJoin(world).has_value());
+  link::VehicleLink coming(OptionsIn(domain));
+  coming.SendJoin({{1, 0, 0, 0}, kSeven});
+  leaving.SendLeave({9, 0, 0, 0});
+  // One is taken with the other only if both are there: ask until they came together.
+  ASSERT_TRUE(Eventually([&] {
+    Repeat(milliseconds(100), [] {});
+    const std::vector<JoinRequest> joins = world.TakeJoins();
+    if (joins.size() == 2) {
+      EXPECT_TRUE(joins[0].leaving);
+      EXPECT_FALSE(joins[1].leaving);
+      return true;
+    }
+    coming.SendJoin({{1, 0, 0, 0}, kSeven});
+    leaving.SendLeave({9, 0, 0, 0});
+    return false;
+  }));
+}
+
+TEST(Leaving, AClosedVehicleMayComeBackInTheSameSession) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  link::VehicleLink vehicle(OptionsIn(domain));
+  JoinAsSeven(vehicle, world);
+  for (std::uint32_t epoch = 2; epoch <= 5; ++epoch) {
+    ASSERT_TRUE(Eventually([&] { return world.IsMatched(kSeven); }));
+    world.CloseVehicle(kSeven);
+    EXPECT_FALSE(world.IsMatched(kSeven));
+    world.OpenVehicle(kSeven, VehicleProfile{});
+    world.SendRoster(Accepted(kSession, kSeven, epoch));
+    bool told = false;
+    bool scanned = false;
+    EXPECT_TRUE(Eventually([&] {
+      world.SendScan(ScanOf(epoch));
+      const Inputs inputs = vehicle.Take(SteadyTime{0}).inputs;
+      told |= inputs.roster && inputs.roster->epoch == WorldEpoch{epoch};
+      scanned |= inputs.scan && inputs.scan->epoch == WorldEpoch{epoch};
+      return told && scanned;
+    })) << epoch;
+  }
+}
+
+TEST(Leaving, ALatecomerIsNotToldOfThoseThatLeftOrWereRefusedLongAgo) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  for (std::uint32_t i = 1; i <= 500; ++i) {
+    RosterEntry refused = Accepted({i, 2, 0, 0}, kSeven);
+    refused.accepted = false;
+    world.SendRoster(refused);
+    world.SendRoster(Accepted({i, 1, 0, 0}, VehicleId{i}));
+    if (i <= 400) world.CloseVehicle(VehicleId{i});
+  }
+  link::ObserverLink late(OptionsIn(domain));
+  std::vector<RosterEntry> accepted;
+  std::size_t refused = 0;
+  ASSERT_TRUE(Eventually([&] {
+    for (const RosterEntry& entry : late.Take().roster) {
+      refused += entry.accepted ? 0 : 1;
+      if (entry.accepted) accepted.push_back(entry);
+    }
+    return accepted.size() >= 100;
+  }));
+  for (const RosterEntry& entry : accepted) EXPECT_GT(entry.session[0], 400U);
+  EXPECT_EQ(accepted.size(), 100U);
+  EXPECT_LE(refused, 64U);
+}
+
+// Resident memory of this process, kB.
+long ResidentKb() {
+  std::ifstream file("/proc/self/statm");
+  long total = 0;
+  long resident = 0;
+  file >> total >> resident;
+  return resident * (sysconf(_SC_PAGESIZE) / 1024);
+}
+
+TEST(Leaving, AndComingAThousandTimesLeavesNothingBehind) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  link::VehicleLink onlooker(OptionsIn(domain));
+  onlooker.Open(VehicleId{1000});
+  const auto come_and_go = [&](std::uint32_t times) {
+    for (std::uint32_t i = 1; i <= times; ++i) {
+      const VehicleId vehicle{i % 5 + 1};
+      VehicleProfile profile;
+      profile.radar = profile.lidar = profile.camera = true;
+      world.OpenVehicle(vehicle, profile);
+      world.SendRoster(Accepted({times, i, 0, 0}, vehicle));
+      world.IsMatched(vehicle);
+      world.CloseVehicle(vehicle);
+      onlooker.Take(SteadyTime{0});
+    }
+    world.Flush(seconds(5));
+  };
+  come_and_go(300);
+  const long before = ResidentKb();
+  come_and_go(1000);
+  EXPECT_LT(ResidentKb() - before, 4096);
+}
+
+}  // namespace
+}  // namespace giveway::test

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Vehicles come and go in a running world: one that was killed with -9 drives again within five
+# seconds of its restart, as itself or as another; a fleet grows from two to four and shrinks again;
+# and nobody touches anybody.
+source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+take_domain
+
+start world giveway-world
+start a giveway-vehicle
+start b giveway-vehicle
+await "the first two drive (a)" 15 a 'cruise'
+await "the first two drive (b)" 15 b 'cruise'
+
+# As itself: its id is asked for, and its body still stands where it was left.
+id=$(id_of b)
+kill_now b
+start b2 giveway-vehicle --id "$id"
+await "killed and restarted by its id" 5 b2 'cruise'
+
+# As another: any id, another place. The body of the dead one is taken away in time.
+kill_now a
+start a2 giveway-vehicle
+await "killed and restarted by any id" 5 a2 'cruise'
+await "the dead one is removed" 10 world 'body is taken away'
+
+start c giveway-vehicle
+start d giveway-vehicle
+await "four drive (c)" 10 c 'cruise'
+await "four drive (d)" 10 d 'cruise'
+left=$(id_of c)
+for name in c d; do kill -TERM "${PID[$name]}"; done
+for name in c d; do
+  code=0
+  wait "${PID[$name]}" || code=$?
+  unset "PID[$name]"
+  [[ $code -eq 0 ]] || fail "leaving: exit code $code of $name"
+done
+await "one has left" 3 world "vehicle $left left the run"
+line=$(lines_of b2)
+start e giveway-vehicle
+await "another comes" 10 e 'cruise'
+for name in world b2 a2 e; do alive "$name" || fail "$name is gone"; done
+if tail -n "+$((line + 1))" "$SCRATCH/b2.log" | grep -q 'halt'; then
+  fail "who stayed was stopped by the others' coming: $(tail -n 3 "$SCRATCH/b2.log")"
+fi
+
+# The world ends: everybody goes home by themselves.
+kill -TERM "${PID[world]}"
+for name in b2 a2 e; do
+  code=0
+  wait "${PID[$name]}" || code=$?
+  unset "PID[$name]"
+  [[ $code -eq 0 ]] || fail "after the end: exit code $code of $name"
+done
+no_contact
+[[ $failures -eq 0 ]]

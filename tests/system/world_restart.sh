@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# The world is killed with -9 and started again, with a checkpoint, with a spoilt one and without:
+# the same vehicle processes drive again within five seconds, and nobody touches anybody.
+source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+take_domain
+checkpoint=$SCRATCH/world.checkpoint
+
+# restart NAME WHAT SAYS ARGUMENTS...: another world, whose log says SAYS.
+restart() {
+  local name=$1 what=$2 says=$3 vehicle
+  local -A line
+  shift 3
+  for vehicle in a b c; do line[$vehicle]=$(lines_of "$vehicle"); done
+  start "$name" giveway-world "$@"
+  for vehicle in a b c; do
+    await "$what: $vehicle follows" 5 "$vehicle" 'drives on in world' "${line[$vehicle]}"
+    await "$what: $vehicle drives" 5 "$vehicle" 'cruise' "$(lines_until "$vehicle" 'drives on in world')"
+    alive "$vehicle" || fail "$what: $vehicle is gone"
+  done
+  await "$what: the world says so" 1 "$name" "$says"
+}
+
+# The number of the last line that matches.
+lines_until() { grep -n "$2" "$SCRATCH/$1.log" | tail -n 1 | cut -d: -f1; }
+
+start world1 giveway-world --checkpoint "$checkpoint"
+for vehicle in a b c; do start "$vehicle" giveway-vehicle; done
+for vehicle in a b c; do await "at first: $vehicle drives" 15 "$vehicle" 'cruise'; done
+
+kill_now world1
+restart world2 "with its checkpoint" 'goes on from the checkpoint with 3 vehicles' \
+  --checkpoint "$checkpoint"
+
+kill_now world2
+printf 'x' | dd of="$checkpoint" bs=1 seek=100 conv=notrunc status=none
+restart world3 "with a spoilt checkpoint" 'is of no use: its checksum is wrong' \
+  --checkpoint "$checkpoint"
+
+kill_now world3
+restart world4 "without a checkpoint" 'started with'
+
+# A fourth one still gets an id nobody else has.
+start d giveway-vehicle
+await "another comes" 10 d 'cruise'
+[[ $(for vehicle in a b c d; do id_of "$vehicle"; done | sort -u | wc -l) -eq 4 ]] ||
+  fail "two vehicles have one id"
+
+kill -TERM "${PID[world4]}"
+for vehicle in a b c d; do
+  code=0
+  wait "${PID[$vehicle]}" || code=$?
+  unset "PID[$vehicle]"
+  [[ $code -eq 0 ]] || fail "after the end: exit code $code of $vehicle"
+done
+no_contact
+[[ $failures -eq 0 ]]
