@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 // With other compilers and on other machines the plain width serves.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -13,6 +14,8 @@
 
 namespace giveway::sim {
 namespace {
+
+constexpr long long kAllButTheSign = std::numeric_limits<long long>::max();
 
 // By four bits: the places of those set, 16 bits each, the first lowest.
 constexpr std::array<std::uint64_t, 16> kPlaces = [] {
@@ -34,6 +37,8 @@ namespace plain {
 }  // namespace plain
 
 #ifdef GIVEWAY_X86_SIMD
+#define GIVEWAY_WIDTH_AVX2 \
+  1  // __AVX2__ does not follow the pragma where preprocessing is a step apart
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace avx2 {

@@ -18,7 +18,7 @@ constexpr double kLn2High = 6.93147180369123816490e-01;
 constexpr double kLn2Low = 1.90821492927058770002e-10;
 
 double Nearest(double x) {
-  return static_cast<double>(static_cast<std::int64_t>(x < 0 ? x - 0.5 : x + 0.5));
+  return static_cast<double>(static_cast<std::int64_t>(x + std::copysign(0.5, x)));
 }
 
 // The value of c[0] + c[1] x + c[2] x^2 + … by Horner's scheme.
@@ -93,6 +93,15 @@ double Cos(double x_rad) {
   const auto [index, rest] = Reduce(x_rad);
   const double magnitude = index % 2 == 0 ? CosNearZero(rest) : SinNearZero(rest);
   return ((index + 1) & 2) == 0 ? magnitude : -magnitude;
+}
+
+SineCosine SinCos(double x_rad) {
+  const auto [index, rest] = Reduce(x_rad);
+  // Looked up, not branched for: which quadrant a heading lies in is anybody's guess.
+  static constexpr double kSigns[] = {1, -1};
+  const double magnitudes[] = {SinNearZero(rest), CosNearZero(rest)};
+  return {kSigns[index >> 1 & 1] * magnitudes[index & 1],
+          kSigns[(index + 1) >> 1 & 1] * magnitudes[(index + 1) & 1]};
 }
 
 double Atan2(double y, double x) {

@@ -10,6 +10,12 @@ inline constexpr double kPi = 3.14159265358979323846;
 double Sqrt(double x);
 double Sin(double x_rad);
 double Cos(double x_rad);
+struct SineCosine {
+  double sine = 0;
+  double cosine = 1;
+};
+// The same bits as Sin and Cos, for little more than the price of one: for headings.
+SineCosine SinCos(double x_rad);
 // The angle of (x, y) in (-pi, pi]; Atan2(0, 0) is 0.
 double Atan2(double y, double x);
 // Natural logarithm; x must be positive and finite.

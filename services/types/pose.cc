@@ -18,7 +18,8 @@ WheelSpeeds WheelsFromTwist(const DriveGeometry& drive, Twist twist) {
 }
 
 Vec2 Forward(const Pose& world_from_body) {
-  return {Cos(world_from_body.heading_rad), Sin(world_from_body.heading_rad)};
+  const SineCosine heading = SinCos(world_from_body.heading_rad);
+  return {heading.cosine, heading.sine};
 }
 
 Vec2 ToWorld(const Pose& world_from_body, Vec2 point_body) {
@@ -40,8 +41,8 @@ Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s) {
   // along the heading in the middle. Below 1e-4 the series is exact to the last bit.
   const double sinc = half < 1e-4 && half > -1e-4 ? 1 - half * half / 6 : Sin(half) / half;
   const double chord = twist.forward_m_s * dt_s * sinc;
-  const double middle = world_from_body.heading_rad + half;
-  return {world_from_body.position_world + chord * Vec2{Cos(middle), Sin(middle)},
+  const SineCosine middle = SinCos(world_from_body.heading_rad + half);
+  return {world_from_body.position_world + chord * Vec2{middle.cosine, middle.sine},
           WrapAngle(world_from_body.heading_rad + turned)};
 }
 

@@ -20,6 +20,16 @@ TEST(Math, SinAndCosStayWithinTheirErrorOverManyTurns) {
   }
 }
 
+TEST(Math, SinCosGivesTheBitsOfSinAndCos) {
+  Random random(3);
+  for (int i = 0; i < 100'000; ++i) {
+    const double x = random.Uniform(-20, 20);
+    const SineCosine both = SinCos(x);
+    ASSERT_EQ(both.sine, Sin(x)) << x;
+    ASSERT_EQ(both.cosine, Cos(x)) << x;
+  }
+}
+
 TEST(Math, SinAndCosAreRightAtTheQuarterTurns) {
   for (int quarter = -8; quarter <= 8; ++quarter) {
     const double x = quarter * kPi / 2;
