@@ -12,8 +12,8 @@
 
 namespace giveway::sim {
 
-// What a sensor can learn of a shape's owner beside its outline. Owners are numbered as in things.h;
-// walls have none.
+// What a sensor can learn of a shape's owner beside its outline. Owners are numbered as in
+// things.h; walls have none.
 struct OwnerFacts {
   Vec2 velocity_world;    // m/s, of the middle of a disc or box, of the whole of a segment
   double turn_rad_s = 0;  // of a disc or box about its middle

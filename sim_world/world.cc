@@ -151,8 +151,7 @@ Checkpoint World::Save() const {
   Checkpoint checkpoint{.now = now_, .driven_ticks = driven_ticks_, .contacts = contact_count_};
   for (const Body& body : bodies_) {
     if (body.present) {
-      checkpoint.bodies.push_back(
-          {body.vehicle, body.world_from_body, body.wheels, body.command});
+      checkpoint.bodies.push_back({body.vehicle, body.world_from_body, body.wheels, body.command});
     }
   }
   for (const MovingObstacle& obstacle : obstacles_) {

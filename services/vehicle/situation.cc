@@ -10,6 +10,7 @@ namespace giveway {
 namespace {
 
 constexpr double kFarAway_m = 1e6;
+constexpr double kLongestWay_m = 1000;
 
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {
@@ -123,6 +124,12 @@ Vec2 InBody(const Situation& s, Vec2 point_world) {
 double RoomBeside(const PeerView& view, const Situation& s) {
   constexpr double kRoundMargin_m = 0.15;  // between the two shells
   return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
+}
+
+Vec2 Toward(const Situation& s) {
+  if (s.arrived) return s.world_from_body.position_world;
+  const double way_m = std::min(s.distance_to_goal_m, kLongestWay_m);
+  return s.world_from_body.position_world + way_m * s.path.direction_world;
 }
 
 bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s) {

@@ -68,6 +68,8 @@ struct Situation {
 
 // Below this a vehicle stands still, as the verdict defines it.
 inline constexpr double kStandingSpeed_m_s = 0.01;
+// The distance to a goal that there is none of.
+inline constexpr double kNoGoal_m = 1e6;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
 
@@ -87,6 +89,10 @@ Vec2 InBody(const Situation& s, Vec2 point_world);
 
 // How far the two axle centres keep apart when one steers round the other.
 double RoomBeside(const PeerView& view, const Situation& s);
+
+// Where the vehicle drives to in a straight line; without a goal straight on, as far as anybody
+// looks; its own place if it has arrived.
+Vec2 Toward(const Situation& s);
 
 // True if the own body leaves the peer no room where it drives to.
 bool IsOnGoalOf(const PeerView& view, const Situation& s);

@@ -8,7 +8,6 @@
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
 #include "services/vehicle/decide.h"
-#include "services/vehicle/detour.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
 #include "services/vehicle/scan_check.h"
@@ -18,18 +17,10 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
-constexpr double kNoGoal_m = 1e6;
-constexpr double kLongestWay_m = 1000;
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
-// Driving about for so long without coming nearer, a vehicle looks for a way round.
-constexpr double kPassedAtDistance_m = 1.2;
-constexpr double kNoProgress_s = 6;
 // Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
 constexpr double kSharpTurn_rad_s = 0.25;
 constexpr std::uint32_t kTurnEchoTicks = 6;
-constexpr double kNoPatience_s = 15;
-constexpr double kProgress_m = 0.1;
-constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
 // How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
 // not start as one.
 constexpr double kDeafHold_s = 1.0;
@@ -54,13 +45,6 @@ OrderKey ActingOrder(const VehicleState& state, VehicleId own) {
   return acting;
 }
 
-// Without a goal: straight on, as far as anybody looks.
-Vec2 Toward(const Situation& s) {
-  if (s.arrived) return s.world_from_body.position_world;
-  const double way_m = std::min(s.distance_to_goal_m, kLongestWay_m);
-  return s.world_from_body.position_world + way_m * s.path.direction_world;
-}
-
 // Who is bodily in the way: stands where this vehicle wants to be, keeps it from driving, or is
 // what it fails to get round.
 VehicleId BlockedBy(const Situation& s, const Action& action) {
@@ -72,14 +56,6 @@ VehicleId BlockedBy(const Situation& s, const Action& action) {
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
   return s.aimless ? action.round : kNobody;
-}
-
-// A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
-bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
-  if (state.waypoint >= route.count) return false;
-  const double away_m = Norm(route.waypoints_world[state.waypoint] - position_world);
-  return away_m <= route.radius_m ||
-         (state.detour_tick != kNoTick && away_m <= kPassedAtDistance_m);
 }
 
 }  // namespace
@@ -176,30 +152,6 @@ void Vehicle::TakePeers(const Inputs& inputs) {
   for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
 }
 
-// The straight way to the next waypoint or the goal; straight on without either.
-void Vehicle::LookAhead(Situation* s) {
-  VehicleState& state = *state_;
-  const Route& route = options_.route;
-  const Vec2 position = s->world_from_body.position_world;
-  s->path = {position, s->forward_world};
-  s->distance_to_goal_m = kNoGoal_m;
-  for (std::uint32_t i = 0; i < route.count && PassesWaypoint(state, route, position); ++i) {
-    ++state.waypoint;
-    if (route.loop && state.waypoint == route.count) state.waypoint = 0;
-    state.nearest_m = kNoGoal_m;
-    state.aimless_ticks = 0;
-  }
-  const bool on_route = state.waypoint < route.count;
-  if (!on_route && !options_.goal.set) return;
-  const Vec2 way =
-      (on_route ? route.waypoints_world[state.waypoint] : options_.goal.at_world) - position;
-  s->distance_to_goal_m = Norm(way);
-  s->stops_there = !on_route;
-  if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
-  // Well inside the radius, so that the truth is inside too.
-  if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
-}
-
 void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
   VehicleState& state = *state_;
   for (const SignalState& signal : inputs.signals) {
@@ -258,36 +210,6 @@ void Vehicle::LookAtPeers(Situation* s) {
   s->peers = {views_->data(), count};
 }
 
-// Where steering round what stands leads nowhere, the way is looked up on a map of it.
-void Vehicle::Detour(Situation* s) {
-  VehicleState& state = *state_;
-  if (s->distance_to_goal_m < state.nearest_m - kProgress_m) {
-    state.nearest_m = s->distance_to_goal_m;
-    state.aimless_ticks = 0;
-    state.detour_tick = kNoTick;
-  }
-  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
-  ++state.aimless_ticks;
-  if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
-  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
-  s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
-  if (!s->aimless) return;
-  if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
-    std::array<KeepOut, 64> discs;
-    std::size_t count = 0;
-    for (const PeerView& view : s->peers) {
-      const double room_m = RoomBeside(view, *s);
-      if (count == discs.size() || !view.standing) continue;
-      discs[count++] = {view.world_from_body.position_world, room_m};
-    }
-    const auto turn =
-        FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
-    state.detour_tick = turn ? s->tick : kNoTick;
-    if (turn) state.detour_world = *turn;
-  }
-  if (state.detour_tick != kNoTick) s->detour_world = state.detour_world;
-}
-
 // Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
 void Vehicle::ListenForMovers(Situation* s) {
   VehicleState& state = *state_;
@@ -296,8 +218,8 @@ void Vehicle::ListenForMovers(Situation* s) {
   if (s->turn_rad_s > kSharpTurn_rad_s || s->turn_rad_s < -kSharpTurn_rad_s) {
     state.turned_tick = s->tick;
   }
-  const bool turns = state.turned_tick != kNoTick &&
-                     TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
+  const bool turns =
+      state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
   for (std::size_t i = 0; i < kSensorCount && !turns; ++i) {
     const bool near =
         s->ranges[i].kind == Echo::kEcho &&

@@ -36,7 +36,7 @@ struct VehicleState {
   std::uint32_t waited_ticks = 0;  // halted to give way, in the encounters under way
   std::uint32_t encounters = 0;    // under way in the step before
   SteadyTime deaf_since{0};        // last time something near moved unexplained
-  Tick turned_tick = kNoTick;  // when it last turned sharply
+  Tick turned_tick = kNoTick;      // when it last turned sharply
   bool deaf = false;
   int deaf_sensor = -1;
   Decision decision;

@@ -1,9 +1,9 @@
-#include "services/app/state_file.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "services/app/state_file.h"
 
 namespace giveway::app {
 namespace {

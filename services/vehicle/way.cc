@@ -1,0 +1,81 @@
+// Which way a vehicle is on: along its route, to its goal, or round a crowd.
+#include <array>
+
+#include "services/vehicle/detour.h"
+#include "services/vehicle/vehicle.h"
+
+namespace giveway {
+namespace {
+
+// Driving about for so long without coming nearer, a vehicle looks for a way round.
+constexpr double kPassedAtDistance_m = 1.2;
+constexpr double kNoProgress_s = 6;
+constexpr double kNoPatience_s = 15;
+constexpr double kProgress_m = 0.1;
+constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
+
+// A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
+bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
+  if (state.waypoint >= route.count) return false;
+  const double away_m = Norm(route.waypoints_world[state.waypoint] - position_world);
+  return away_m <= route.radius_m ||
+         (state.detour_tick != kNoTick && away_m <= kPassedAtDistance_m);
+}
+
+}  // namespace
+
+// The straight way to the next waypoint or the goal; straight on without either.
+void Vehicle::LookAhead(Situation* s) {
+  VehicleState& state = *state_;
+  const Route& route = options_.route;
+  const Vec2 position = s->world_from_body.position_world;
+  s->path = {position, s->forward_world};
+  s->distance_to_goal_m = kNoGoal_m;
+  for (std::uint32_t i = 0; i < route.count && PassesWaypoint(state, route, position); ++i) {
+    ++state.waypoint;
+    if (route.loop && state.waypoint == route.count) state.waypoint = 0;
+    state.nearest_m = kNoGoal_m;
+    state.aimless_ticks = 0;
+  }
+  const bool on_route = state.waypoint < route.count;
+  if (!on_route && !options_.goal.set) return;
+  const Vec2 way =
+      (on_route ? route.waypoints_world[state.waypoint] : options_.goal.at_world) - position;
+  s->distance_to_goal_m = Norm(way);
+  s->stops_there = !on_route;
+  if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
+  // Well inside the radius, so that the truth is inside too.
+  if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
+}
+
+// Where steering round what stands leads nowhere, the way is looked up on a map of it.
+void Vehicle::Detour(Situation* s) {
+  VehicleState& state = *state_;
+  if (s->distance_to_goal_m < state.nearest_m - kProgress_m) {
+    state.nearest_m = s->distance_to_goal_m;
+    state.aimless_ticks = 0;
+    state.detour_tick = kNoTick;
+  }
+  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
+  ++state.aimless_ticks;
+  if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
+  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
+  s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
+  if (!s->aimless) return;
+  if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
+    std::array<KeepOut, 64> discs;
+    std::size_t count = 0;
+    for (const PeerView& view : s->peers) {
+      const double room_m = RoomBeside(view, *s);
+      if (count == discs.size() || !view.standing) continue;
+      discs[count++] = {view.world_from_body.position_world, room_m};
+    }
+    const auto turn =
+        FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
+    state.detour_tick = turn ? s->tick : kNoTick;
+    if (turn) state.detour_world = *turn;
+  }
+  if (state.detour_tick != kNoTick) s->detour_world = state.detour_world;
+}
+
+}  // namespace giveway
