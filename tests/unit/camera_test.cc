@@ -1,5 +1,4 @@
 // What a camera names: where, how wide, of which class, and nothing that is hidden.
-#include "sim_world/camera.h"
 
 #include <gtest/gtest.h>
 
