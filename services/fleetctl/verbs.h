@@ -7,5 +7,6 @@
 namespace giveway::fleetctl {
 
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);
+void AddVirtualVerb(CLI::App* fleetctl, int* exit_code);
 
 }  // namespace giveway::fleetctl

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "services/types/decision.h"
 #include "services/types/ids.h"
@@ -15,6 +17,16 @@ struct Goal {
   bool set = false;
   Vec2 at_world;          // m
   double radius_m = 0.1;  // arrived when the axle centre is this near
+};
+
+inline constexpr std::size_t kMaxWaypoints = 16;
+
+// Points passed on the way, in turn, before the goal. Without any a vehicle makes straight for it.
+struct Route {
+  std::array<Vec2, kMaxWaypoints> waypoints_world{};
+  std::uint32_t count = 0;
+  double radius_m = 0.3;  // passed when the axle centre is this near, or has gone by
+  bool loop = false;      // after the last waypoint on to the first; the goal is never made for
 };
 
 // Wheel speed = v0 + sum of weight * activation, activation 1 at the near gate and 0 at the far
@@ -38,6 +50,7 @@ struct VehicleOptions {
   VehicleProfile profile;
   double cruise_m_s = 0.3;  // 0 < cruise <= profile.max_speed_m_s
   Goal goal;
+  Route route;
   Pose start_world;                // given by the world's roster
   BraitenbergWeights braitenberg;  // of the avoiding behaviours
   Nanoseconds tick_period{50'000'000};
