@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::array kGenerators = {
     Generator{"crossing", "four roads meet, everyone drives straight across", MakeCrossing},
+    Generator{"roundabout", "four roads meet in a ring", MakeRoundabout},
+    Generator{"corridor", "a narrow passage with traffic from both ends", MakeCorridor},
+    Generator{"merge", "a ramp joins a road", MakeMerge},
+    Generator{"warehouse", "racks, aisles, a road along either side", MakeWarehouse},
     Generator{"swarm", "random starts and goals in an open field", MakeSwarm},
     Generator{"convoy", "one lane, everyone the same way, at different speeds", MakeConvoy},
 };

@@ -32,6 +32,14 @@ const Generator* FindGenerator(std::string_view name);
 
 // Four roads meet; everyone drives straight across.
 Scenario MakeCrossing(Size size);
+// Four roads meet in a ring, driven counter-clockwise.
+Scenario MakeRoundabout(Size size);
+// A narrow passage with traffic from both ends.
+Scenario MakeCorridor(Size size);
+// A ramp joins a road.
+Scenario MakeMerge(Size size);
+// Racks, aisles between them, a road along either side.
+Scenario MakeWarehouse(Size size);
 // Random starts and goals in an open field.
 Scenario MakeSwarm(Size size);
 // One lane, everyone the same way, at different speeds.

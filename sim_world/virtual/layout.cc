@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "services/types/check.h"
 #include "services/types/math.h"
 #include "sim_world/virtual/virtual_run.h"
 
@@ -23,20 +24,28 @@ Layout::Layout(std::string_view name, Size size) : dice_(size.seed, size.vehicle
   scenario_.vehicles.reserve(size.vehicles);
 }
 
-void Layout::Add(Vec2 start, std::initializer_list<Vec2> waypoints, Vec2 goal) {
+void Layout::Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal) {
   VehicleOptions options;
   options.id = VehicleId{static_cast<std::uint32_t>(scenario_.vehicles.size()) + 1};
   options.profile = PioneerP3dx();
   options.braitenberg = LectureWeights();
   options.cruise_m_s = dice_.Uniform(kSlowest_m_s, kFastest_m_s);
   options.goal = {.set = true, .at_world = goal, .radius_m = 0.1};
+  GIVEWAY_CHECK(waypoints.size() <= kMaxWaypoints, waypoints.size());
   for (const Vec2 waypoint : waypoints) {
     options.route.waypoints_world[options.route.count++] = waypoint;
   }
-  const Vec2 first = waypoints.size() > 0 ? *waypoints.begin() : goal;
+  const Vec2 first = waypoints.empty() ? goal : waypoints.front();
   const Vec2 ahead = first - start;
   options.start_world = {.position_world = start, .heading_rad = Atan2(ahead.y, ahead.x)};
   scenario_.vehicles.push_back(options);
+}
+
+void Layout::AddBlock(Vec2 low, Vec2 high) {
+  AddWall(low, {high.x, low.y});
+  AddWall({high.x, low.y}, high);
+  AddWall(high, {low.x, high.y});
+  AddWall({low.x, high.y}, low);
 }
 
 Scenario Layout::Take() {

@@ -32,8 +32,8 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
                          testing::Values(Golden{Behaviour::kCooperative, 0xcc81530a636688c4ULL},
-                                         Golden{Behaviour::kLectureAvoid, 0x2fde35484cc81591ULL},
-                                         Golden{Behaviour::kStockAvoid, 0x3461607555bf2fccULL},
+                                         Golden{Behaviour::kLectureAvoid, 0xb7b0d31761e787e1ULL},
+                                         Golden{Behaviour::kStockAvoid, 0xb3567fab25f3c8b7ULL},
                                          Golden{Behaviour::kLectureYield, 0x88a93908ff5515a4ULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
 
