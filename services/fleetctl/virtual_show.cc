@@ -49,6 +49,19 @@ void AppendVerdict(const sim::VirtualOutcome& outcome, std::string* text) {
   }
 }
 
+// The picture's headline is the verdict of the invariants.
+void JudgeByInvariants(const sim::VirtualOutcome& outcome, std::vector<WorldEvent>* events) {
+  for (WorldEvent& event : *events) {
+    if (event.kind != EventKind::kVerdict) continue;
+    event.value = outcome.held ? 1 : 0;
+    event.text = outcome.held ? "every invariant held" : "broken:";
+    for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+      if (outcome.violations[i] == 0) continue;
+      event.text += fmt::format(" {}", sim::Name(static_cast<sim::Invariant>(i)));
+    }
+  }
+}
+
 }  // namespace
 
 void ShowRun(const VirtualCase& made, const std::string& picture_file,
@@ -63,6 +76,7 @@ void ShowRun(const VirtualCase& made, const std::string& picture_file,
         if (!trace_file.empty()) Trace(fleet, &trace);
       });
   AppendVerdict(outcome, &trace);
+  JudgeByInvariants(outcome, &events);
   if (!trace_file.empty()) WriteFile(trace_file, trace);
   if (!picture_file.empty()) {
     WriteFile(picture_file, app::DrawRun(made.scenario, tracks, events));

@@ -21,12 +21,13 @@ struct Goal {
 
 inline constexpr std::size_t kMaxWaypoints = 16;
 
-// Points passed on the way, in turn, before the goal. Without any a vehicle makes straight for it.
+// Points passed in turn on the way to the goal, each within radius_m; a loop begins anew after the
+// last and never comes to the goal.
 struct Route {
   std::array<Vec2, kMaxWaypoints> waypoints_world{};
   std::uint32_t count = 0;
-  double radius_m = 0.3;  // passed when the axle centre is this near, or has gone by
-  bool loop = false;      // after the last waypoint on to the first; the goal is never made for
+  bool loop = false;
+  double radius_m = 0.3;
 };
 
 // Wheel speed = v0 + sum of weight * activation, activation 1 at the near gate and 0 at the far

@@ -15,6 +15,11 @@ double Magnitude(double x) { return x < 0 ? -x : x; }
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
 
+// Keys may be lent: of two vehicles that act by one key the lower id goes first.
+bool ComesFirst(VehicleId id, const OrderKey& key, VehicleId other_id, const OrderKey& other) {
+  return key == other ? id < other_id : GoesFirst(key, other);
+}
+
 // Halts to give way, by its own word and by the truth.
 bool Waits(const Observed& vehicle) {
   return vehicle.present && vehicle.lives && !vehicle.arrived && Stands(vehicle) &&
@@ -144,7 +149,8 @@ void Invariants::JudgeOrder(Tick tick, const Observed& now, Track* track) {
   for (std::uint32_t of_peer = Number(tick); of_peer >= oldest; --of_peer) {
     const OrderKey& peers = tracks_[peer].keys[of_peer % kRememberedKeys];
     for (std::uint32_t own = Number(tick); own + 1 >= Number(tick) && own >= 1; --own) {
-      if (GoesFirst(peers, track->keys[own % kRememberedKeys])) {
+      if (ComesFirst(tracks_[peer].vehicle, peers, now.vehicle,
+                     track->keys[own % kRememberedKeys])) {
         track->order_told = false;
         return;
       }

@@ -38,6 +38,7 @@ VirtualFleet::VirtualFleet(const Scenario& scenario, const VirtualPlan& plan)
     run_.Join(options.id);
     Member& member = members_.emplace_back();
     member.id = options.id;
+    member.last_world_from_body = options.start_world;
     member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
   }
   for (const ProcessFault& fault : plan.faults) {
@@ -84,15 +85,14 @@ void VirtualFleet::Break(const ProcessFault& fault, Member* member) {
                                                                          scenario_.tick_period));
 }
 
-// A new process is told by the world's roster where its body stands.
+// A new process is told by the world's roster where its body stood before the first scan it gets.
 void VirtualFleet::BringBack(std::size_t index) {
   Member& member = members_[index];
   member.process = Process::kRuns;
   member.back_at_tick = 0;
   if (!member.begins_anew) return;
   VehicleOptions options = scenario_.vehicles[index];
-  const auto truth = std::ranges::find(run_.Truths(), member.id, &Truth::vehicle);
-  if (truth != run_.Truths().end()) options.start_world = truth->world_from_body;
+  options.start_world = member.last_world_from_body;
   member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
   member.queued.clear();
 }
@@ -102,6 +102,7 @@ void VirtualFleet::TellRadioThePlaces() {
   for (const Truth& truth : run_.Truths()) {
     while (index < members_.size() && members_[index].id != truth.vehicle) ++index;
     if (index == members_.size()) break;
+    members_[index].last_world_from_body = truth.world_from_body;
     places_[index] = {.position_world = truth.world_from_body.position_world,
                       .on_air = truth.present && members_[index].process == Process::kRuns};
   }

@@ -48,6 +48,7 @@ class VirtualFleet {
     bool begins_anew = false;
     bool answered = false;
     Outputs said;
+    Pose last_world_from_body;           // true, after the last tick
     std::vector<ReceivedBeacon> queued;  // in the reader of a paused process
   };
   struct DueFault {
