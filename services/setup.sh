@@ -23,7 +23,7 @@ build_packages() {
   local fastdds=libfastrtps-dev
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && fastdds=libfastdds-dev
   printf '%s\n' git g++ cmake ninja-build ccache "$fastdds" fastddsgen \
-    libprotobuf-dev protobuf-compiler libspdlog-dev libfmt-dev libcli11-dev libboost-dev \
+    libprotobuf-dev protobuf-compiler libspdlog-dev libfmt-dev libcli11-dev libboost-dev libeigen3-dev \
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 }
 
@@ -36,6 +36,9 @@ test_packages() {
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && clang_rt=libclang-rt-19-dev
   printf '%s\n' clang-format jq shellcheck librsvg2-bin clang "$clang_rt"
 }
+
+# What the world is measured against. Only tests/bench/run.sh asks for them.
+bench_packages() { printf '%s\n' libbox2d-dev libembree-dev; }
 
 as_root() {
   if [[ $(id -u) -eq 0 ]]; then

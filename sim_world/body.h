@@ -1,6 +1,8 @@
 // One vehicle's body as the world keeps it, and what happens to bodies.
 #pragma once
 
+#include <cstdint>
+
 #include "services/types/ids.h"
 #include "services/types/motor_command.h"
 #include "services/types/pose.h"
@@ -9,28 +11,35 @@
 
 namespace giveway::sim {
 
+// What every tick reads stands together, before what few ask for.
 struct Body {
   VehicleId vehicle = kNobody;
-  VehicleProfile profile;
-  Goal goal;
   bool joined = false;
   bool present = false;  // joined and not removed: stands in the way and is sensed
+  bool obeyed = false;   // this tick followed `command`; false: braked by the world itself
   Pose world_from_body;
   WheelSpeeds wheels;    // at the end of the tick; standstill after a contact
-  WheelSpeeds encoders;  // the constant speeds that explain the whole tick's motion exactly
-  Readings readings{};
+  WheelSpeeds encoders;  // counted over the whole tick; without encoder noise and slip, the
+                         // constant speeds that explain its motion exactly
+  WheelSpeeds ground;    // the constant speeds that do explain it: what slip made of the wheels
   MotorCommand command;  // the last one taken; tick kNoTick before the first
-  bool obeyed = false;   // this tick followed `command`; false: braked by the world itself
+  VehicleProfile profile;
+  SonarState sonar;
+  Goal goal;
+  Pose start_world;
 
   double ForwardSpeed() const { return TwistFromWheels(profile.drive, wheels).forward_m_s; }
 };
 
-// Two shells, or a shell and a wall, that began to touch in this tick.
+enum class Touched : std::uint8_t { kVehicle, kWall, kObstacle, kDoor };
+
+// Two shells, or a shell and something that is no vehicle, that began to touch in this tick.
 struct Contact {
   VehicleId vehicle = kNobody;
-  VehicleId other = kNobody;  // kNobody: a wall
+  VehicleId other = kNobody;  // kNobody: no vehicle
   Vec2 position_world;        // of the vehicle's axle centre
-  Vec2 other_position_world;  // of the other's; of the touched point for a wall
+  Vec2 other_position_world;  // of the other's; of the touched point where it is no vehicle
+  Touched touched = Touched::kVehicle;
 };
 
 }  // namespace giveway::sim

@@ -51,4 +51,15 @@ WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, Wheel
   return WithinCaps(profile, moved);
 }
 
+Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random) {
+  if (profile.wheel_slip == 0 && profile.encoder_noise == 0) return {wheels, wheels};
+  const auto disturbed = [&](double share) {
+    const double left = 1 + random.Gaussian(share);
+    const double right = 1 + random.Gaussian(share);
+    return WheelSpeeds{left * wheels.left_rad_s, right * wheels.right_rad_s};
+  };
+  const WheelSpeeds ground = disturbed(profile.wheel_slip);
+  return {WithinCaps(profile, ground), disturbed(profile.encoder_noise)};
+}
+
 }  // namespace giveway::sim

@@ -1,8 +1,10 @@
-// How wheels follow a command: limited by the drive's acceleration and the profile's caps.
+// How wheels follow a command, limited by the drive's acceleration and the profile's caps, and what
+// ground and encoders make of it.
 #pragma once
 
 #include "services/types/pose.h"
 #include "services/types/profile.h"
+#include "services/types/random.h"
 
 namespace giveway::sim {
 
@@ -14,5 +16,15 @@ WheelSpeeds WithinCaps(const VehicleProfile& profile, WheelSpeeds wheels);
 // after the other when it passes through standstill. The caps win over both.
 WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, WheelSpeeds target,
                        double dt_s);
+
+// One tick's wheels as others see them.
+struct Rolled {
+  WheelSpeeds ground;  // the speeds of wheels that roll without slip and move the body as it moves
+  WheelSpeeds encoders;  // what the encoders count
+};
+
+// Draws the tick's slip and encoder noise from `random`, the same draws whichever of them is on.
+// Slip never takes the body beyond the profile's caps. Without either both are `wheels`.
+Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random);
 
 }  // namespace giveway::sim

@@ -177,7 +177,7 @@ void Run::Publish() {
                       .tick = world_.Now(),
                       .run_state = state_,
                       .wheels = body.encoders,
-                      .readings = body.readings});
+                      .readings = body.sonar.readings});
   }
 }
 

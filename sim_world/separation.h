@@ -1,22 +1,18 @@
-// How near any two bodies ever came, shell to shell, between ticks included. Walls do not count.
+// How near any two vehicles ever came, shell to shell, between ticks included. Walls, obstacles and
+// doors do not count.
 #pragma once
 
-#include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
-#include <vector>
+#include <utility>
 
 #include "services/types/ids.h"
 #include "sim_world/body.h"
-#include "sim_world/motion.h"
+#include "sim_world/neighbours.h"
+#include "sim_world/things.h"
 
 namespace giveway::sim {
-
-// Where the unordered pair of two different bodies stands in a list of all pairs.
-constexpr std::size_t PairIndex(std::size_t a, std::size_t b) {
-  return a < b ? b * (b - 1) / 2 + a : a * (a - 1) / 2 + b;
-}
-constexpr std::size_t PairCount(std::size_t bodies) { return bodies * (bodies - 1) / 2; }
 
 struct ClosestApproach {
   VehicleId vehicle = kNobody;
@@ -28,21 +24,29 @@ struct ClosestApproach {
 
 class Separation {
  public:
-  explicit Separation(std::size_t bodies);
+  // `every_pair` keeps a record for each pair of vehicles, for Parted; that costs the square of
+  // their number.
+  explicit Separation(bool every_pair) : every_pair_(every_pair) {}
 
-  // Takes in one tick of dt_s: motions[i] is how bodies[i] moved.
-  void Observe(std::span<const Body> bodies, std::span<const Motion> motions, double dt_s);
+  // Only pairs at most this far apart can come nearer than any two did before; none before two
+  // bodies were observed together.
+  std::optional<double> Reach() const;
+  // Takes in one tick of dt_s, in which bodies moved as `things` says. `pairs` names at least those
+  // within Reach(); before there is a reach, at least the nearest.
+  void Observe(std::span<const Body> bodies, const Things& things, std::span<const NearPair> pairs,
+               double dt_s);
 
   // The closest any two came; none before two bodies were observed together.
   const std::optional<ClosestApproach>& Closest() const { return closest_; }
-  // True if every pair still present is now farther apart than at its closest, by more than 1 cm.
+  // True if every pair still present is now farther apart than at its closest, by more than 1 cm;
+  // always without records of every pair.
   bool Parted(std::span<const Body> bodies) const;
 
  private:
-  void ObservePair(std::span<const Body> bodies, std::span<const Motion> motions, std::size_t a,
-                   std::size_t b, double dt_s);
+  void ObserveEveryPair(std::span<const Body> bodies, const Things& things, double dt_s);
 
-  std::vector<double> closest_of_pair_m_;  // infinite before the pair was observed
+  bool every_pair_;
+  std::map<std::pair<VehicleId, VehicleId>, double> closest_of_pair_m_;  // lower id first
   std::optional<ClosestApproach> closest_;
 };
 

@@ -2,68 +2,105 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "services/types/check.h"
-#include "sim_world/drive.h"
-#include "sim_world/geometry.h"
 
 namespace giveway::sim {
 namespace {
-
-// A touching pair has parted once its gap is wider than this: shells sliding along each other at
-// kTouch_m are one contact, not hundreds.
-constexpr double kRelease_m = 1e-3;
-
-Body BodyOf(const VehicleOptions& options) {
-  Body body;
-  body.vehicle = options.id;
-  body.profile = options.profile;
-  body.goal = options.goal;
-  return body;
-}
 
 bool IsFinite(WheelSpeeds wheels) {
   return std::isfinite(wheels.left_rad_s) && std::isfinite(wheels.right_rad_s);
 }
 
-double TravelBound(const Motion& motion, double dt_s) {
-  return std::abs(motion.twist.forward_m_s) * dt_s;
+// Null where no body has that id.
+template <typename Bodies>
+auto* FindIn(Bodies& bodies, VehicleId vehicle) {
+  const auto found = std::ranges::lower_bound(bodies, vehicle, {}, &Body::vehicle);
+  return found == bodies.end() || found->vehicle != vehicle ? nullptr : &*found;
 }
 
-bool Within(Vec2 offset, double reach_m) { return SquaredNorm(offset) <= reach_m * reach_m; }
+void AddTo(StateHash* hash, Vec2 position_world) {
+  hash->Add(position_world.x);
+  hash->Add(position_world.y);
+}
 
 }  // namespace
 
-World::World(const Scenario& scenario, WorldEpoch epoch)
+World::World(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
     : epoch_(epoch),
+      seed_(scenario.seed),
       dt_s_(Seconds(scenario.tick_period)),
       watchdog_ticks_(scenario.watchdog_ticks),
-      walls_(scenario.walls),
-      motions_(scenario.vehicles.size()),
-      touching_pairs_(PairCount(scenario.vehicles.size())),
-      touching_walls_(scenario.vehicles.size() * scenario.walls.size()),
-      separation_(scenario.vehicles.size()) {
-  for (const VehicleOptions& options : scenario.vehicles) {
-    bodies_.push_back(BodyOf(options));
-    starts_world_.push_back(options.start_world);
-    rings_.emplace_back(options.profile);
-  }
-  GIVEWAY_CHECK(std::ranges::is_sorted(bodies_, {}, &Body::vehicle));
-  discs_.reserve(bodies_.size());
+      parallel_(std::move(parallel)),
+      obstacles_(scenario.obstacles.begin(), scenario.obstacles.end()),
+      doors_(scenario.doors.begin(), scenario.doors.end()),
+      contacts_(scenario.walls),
+      separation_(scenario.expect.parted),
+      sensing_(scenario) {
+  GIVEWAY_CHECK(std::ranges::is_sorted(scenario.vehicles, {}, &VehicleOptions::id));
+  bodies_.reserve(scenario.vehicles.size());
+  things_.motions.resize(obstacles_.size());
+  things_.leaves.resize(doors_.size());
+  things_.present.resize(obstacles_.size() + doors_.size());
+  for (const VehicleOptions& options : scenario.vehicles) Insert(options);
   new_contacts_.reserve(bodies_.size());
 }
 
-Body* World::Find(VehicleId vehicle) {
-  const auto found = std::ranges::lower_bound(bodies_, vehicle, {}, &Body::vehicle);
-  return found == bodies_.end() || found->vehicle != vehicle ? nullptr : &*found;
+Body* World::Find(VehicleId vehicle) { return FindIn(bodies_, vehicle); }
+const Body* World::Find(VehicleId vehicle) const { return FindIn(bodies_, vehicle); }
+
+std::uint32_t World::ThingOf(const Body& body) const {
+  return static_cast<std::uint32_t>(&body - bodies_.data());
+}
+
+// The lists that go by a body's place in bodies_ all make room at that place.
+void World::Insert(const VehicleOptions& options) {
+  Body body;
+  body.vehicle = options.id;
+  body.profile = options.profile;
+  body.goal = options.goal;
+  body.start_world = options.start_world;
+  const auto at = std::ranges::lower_bound(bodies_, options.id, {}, &Body::vehicle);
+  const auto place = at - bodies_.begin();
+  bodies_.insert(at, body);
+  things_.motions.insert(things_.motions.begin() + place,
+                         StandingAt(options.profile, options.start_world));
+  things_.present.insert(things_.present.begin() + place, 0);
+  ++things_.bodies;
+  sensing_.Insert(static_cast<std::size_t>(place), options.profile);
+}
+
+void World::Appear(Body* body) {
+  body->joined = true;
+  body->present = true;
+  body->world_from_body = body->start_world;
+  body->wheels = {};
+  body->encoders = {};
+  body->ground = {};
+  body->obeyed = false;
+  body->command = {};
+  body->sonar = {};
+  things_.motions[ThingOf(*body)] = StandingAt(body->profile, body->start_world);
 }
 
 void World::Join(VehicleId vehicle) {
   Body* body = Find(vehicle);
-  GIVEWAY_CHECK(body != nullptr && !body->joined, Number(vehicle));
-  body->joined = true;
-  body->present = true;
-  body->world_from_body = starts_world_[static_cast<std::size_t>(body - bodies_.data())];
+  GIVEWAY_CHECK(body != nullptr && !body->present, Number(vehicle));
+  Appear(body);
+}
+
+void World::Join(const VehicleOptions& options) {
+  if (Body* known = Find(options.id)) {
+    GIVEWAY_CHECK(!known->present, Number(options.id));
+    known->profile = options.profile;
+    known->goal = options.goal;
+    known->start_world = options.start_world;
+    sensing_.Replace(ThingOf(*known), options.profile);
+  } else {
+    Insert(options);
+  }
+  Join(options.id);
 }
 
 void World::Remove(VehicleId vehicle) {
@@ -72,6 +109,25 @@ void World::Remove(VehicleId vehicle) {
   body->present = false;
   body->wheels = {};
   body->encoders = {};
+  body->ground = {};
+  things_.present[ThingOf(*body)] = 0;
+  touching_.EndIf([&](const TouchingPair& pair) {
+    return pair.vehicle == vehicle ||
+           (pair.touched == Touched::kVehicle && pair.other == Number(vehicle));
+  });
+}
+
+bool World::IsFree(const VehicleOptions& options) const {
+  const Motion wanted = StandingAt(options.profile, options.start_world);
+  const auto touches = [&](const auto& other) { return GapAt(wanted, other, 0) <= kTouch_m; };
+  return !contacts_.TouchesWall(wanted) && std::ranges::none_of(bodies_, [&](const Body& body) {
+    return body.present && body.vehicle != options.id &&
+           touches(StandingAt(body.profile, body.world_from_body));
+  }) && std::ranges::none_of(obstacles_, [&](const MovingObstacle& obstacle) {
+    return touches(obstacle.Plan(false, dt_s_));
+  }) && std::ranges::none_of(doors_, [&](const SlidingDoor& door) {
+    return door.Opening() < 1 && touches(door.Plan(false, 0, dt_s_));
+  });
 }
 
 bool World::Take(const MotorCommand& command) {
@@ -91,174 +147,84 @@ bool World::Take(const MotorCommand& command) {
   return true;
 }
 
-void World::Advance(bool driving) {
-  now_ = After(now_, 1);
-  new_contacts_.clear();
-  TurnWheels(driving);
-  StopAtContacts();
-  if (driving) separation_.Observe(bodies_, motions_, dt_s_);
-  Settle();
-  ReleaseContacts();
-  Sense();
-}
-
-void World::TurnWheels(bool driving) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    if (!body.present) continue;
-    body.obeyed = driving && body.command.tick != kNoTick &&
-                  TicksBetween(body.command.tick, now_) <= watchdog_ticks_;
-    const WheelSpeeds target = body.obeyed ? body.command.target : WheelSpeeds{};
-    body.wheels = MoveWheels(body.profile, body.wheels, target, dt_s_);
-    body.encoders = body.wheels;
-    motions_[i] = {.start_world = body.world_from_body,
-                   .twist = TwistFromWheels(body.profile.drive, body.wheels),
-                   .stop_s = dt_s_,
-                   .radius_m = body.profile.body_radius_m};
-  }
-}
-
-// Every hit stops a body that moved, so this ends.
-void World::StopAtContacts() {
-  double from_s = 0;
-  while (const std::optional<Hit> hit = EarliestHit(from_s)) {
-    Stop(*hit);
-    from_s = hit->t_s;
-  }
-}
-
-std::optional<World::Hit> World::EarliestHit(double from_s) const {
-  std::optional<Hit> earliest;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].present) continue;
-    EarliestBodyHit(i, from_s, &earliest);
-    EarliestWallHit(i, from_s, &earliest);
-  }
-  return earliest;
-}
-
-void World::EarliestBodyHit(std::size_t body, double from_s, std::optional<Hit>* earliest) const {
-  const Motion& motion = motions_[body];
-  for (std::size_t other = 0; other < body; ++other) {
-    if (!bodies_[other].present) continue;
-    const Motion& against = motions_[other];
-    const double travel_m = TravelBound(motion, dt_s_) + TravelBound(against, dt_s_);
-    if (travel_m == 0) continue;
-    const Vec2 offset = motion.start_world.position_world - against.start_world.position_world;
-    if (!Within(offset, motion.radius_m + against.radius_m + travel_m + kTouch_m)) continue;
-    const double to_s = *earliest ? (*earliest)->t_s : dt_s_;
-    const std::optional<double> t_s = FirstContact(motion, against, from_s, to_s);
-    if (t_s && (!*earliest || *t_s < to_s)) *earliest = Hit{*t_s, body, other, 0};
-  }
-}
-
-void World::EarliestWallHit(std::size_t body, double from_s, std::optional<Hit>* earliest) const {
-  const Motion& motion = motions_[body];
-  const double travel_m = TravelBound(motion, dt_s_);
-  if (travel_m == 0) return;
-  const Vec2 position = motion.start_world.position_world;
-  for (std::size_t wall = 0; wall < walls_.size(); ++wall) {
-    const Vec2 nearest = NearestOnSegment(walls_[wall].from_world, walls_[wall].to_world, position);
-    if (!Within(position - nearest, motion.radius_m + travel_m + kTouch_m)) continue;
-    const double to_s = *earliest ? (*earliest)->t_s : dt_s_;
-    const std::optional<double> t_s = FirstContact(motion, walls_[wall], from_s, to_s);
-    if (t_s && (!*earliest || *t_s < to_s)) *earliest = Hit{*t_s, body, std::nullopt, wall};
-  }
-}
-
-std::uint8_t& World::Touching(const Hit& hit) {
-  if (hit.other) return touching_pairs_[PairIndex(hit.body, *hit.other)];
-  return touching_walls_[hit.body * walls_.size() + hit.wall];
-}
-
-void World::Stop(const Hit& hit) {
-  const auto stop = [&](std::size_t i) {
-    motions_[i].stop_s = std::min(motions_[i].stop_s, hit.t_s);
-  };
-  stop(hit.body);
-  if (hit.other) stop(*hit.other);
-  std::uint8_t& touching = Touching(hit);
-  if (touching != 0) return;
-  touching = 1;
-  ++contacts_;
-  const Vec2 position = PositionAt(motions_[hit.body], hit.t_s);
-  // The lower id comes first, so that an event reads the same however the pair was found.
-  if (hit.other) {
-    new_contacts_.push_back({.vehicle = bodies_[*hit.other].vehicle,
-                             .other = bodies_[hit.body].vehicle,
-                             .position_world = PositionAt(motions_[*hit.other], hit.t_s),
-                             .other_position_world = position});
-  } else {
-    const Wall& wall = walls_[hit.wall];
-    new_contacts_.push_back(
-        {.vehicle = bodies_[hit.body].vehicle,
-         .other = kNobody,
-         .position_world = position,
-         .other_position_world = NearestOnSegment(wall.from_world, wall.to_world, position)});
-  }
-}
-
-void World::Settle() {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Body& body = bodies_[i];
-    if (!body.present) continue;
-    if (motions_[i].stop_s < dt_s_) {
-      // The encoders turned for a part of the tick only: over the whole of it, that much slower.
-      const double share = motions_[i].stop_s / dt_s_;
-      body.encoders = {share * body.wheels.left_rad_s, share * body.wheels.right_rad_s};
-      body.wheels = {};
-    }
-    // From the encoders, so that whoever integrates them lands on the same bits.
-    body.world_from_body =
-        AdvanceArc(body.world_from_body, TwistFromWheels(body.profile.drive, body.encoders), dt_s_);
-  }
-}
-
-void World::ReleaseContacts() {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Body& body = bodies_[b];
-    const Vec2 position = body.world_from_body.position_world;
-    const double radius_m = body.profile.body_radius_m;
-    for (std::size_t a = 0; a < b; ++a) {
-      const double reach_m = radius_m + bodies_[a].profile.body_radius_m + kRelease_m;
-      const Vec2 offset = position - bodies_[a].world_from_body.position_world;
-      if (!Within(offset, reach_m)) touching_pairs_[PairIndex(a, b)] = 0;
-    }
-    for (std::size_t w = 0; w < walls_.size(); ++w) {
-      const Vec2 nearest = NearestOnSegment(walls_[w].from_world, walls_[w].to_world, position);
-      if (!Within(position - nearest, radius_m + kRelease_m)) {
-        touching_walls_[b * walls_.size() + w] = 0;
-      }
-    }
-  }
-}
-
-void World::Sense() {
-  discs_.clear();
+Checkpoint World::Save() const {
+  Checkpoint checkpoint{.now = now_, .driven_ticks = driven_ticks_, .contacts = contact_count_};
   for (const Body& body : bodies_) {
     if (body.present) {
-      discs_.push_back({body.world_from_body.position_world, body.profile.body_radius_m});
+      checkpoint.bodies.push_back({body.vehicle, body.world_from_body, body.wheels});
     }
   }
-  std::size_t self = 0;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (!bodies_[i].present) continue;
-    bodies_[i].readings = rings_[i].Sense(bodies_[i].world_from_body, now_, discs_, self, walls_);
-    ++self;
+  for (const MovingObstacle& obstacle : obstacles_) {
+    checkpoint.obstacles.push_back(obstacle.State());
   }
+  for (const SlidingDoor& door : doors_) checkpoint.door_openings.push_back(door.Opening());
+  return checkpoint;
+}
+
+bool World::Restore(const Checkpoint& checkpoint) {
+  const bool fits = checkpoint.obstacles.size() == obstacles_.size() &&
+                    checkpoint.door_openings.size() == doors_.size() &&
+                    std::ranges::all_of(checkpoint.bodies, [&](const BodyState& state) {
+                      return Find(state.vehicle) != nullptr;
+                    });
+  if (!fits) return false;
+  now_ = checkpoint.now;
+  driven_ticks_ = checkpoint.driven_ticks;
+  contact_count_ = checkpoint.contacts;
+  for (const Body& body : bodies_) {
+    if (body.present) Remove(body.vehicle);
+  }
+  for (const BodyState& state : checkpoint.bodies) {
+    Body* body = Find(state.vehicle);
+    Appear(body);
+    body->world_from_body = state.world_from_body;
+    body->wheels = state.wheels;
+  }
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    obstacles_[i].Restore(checkpoint.obstacles[i]);
+  }
+  for (std::size_t i = 0; i < doors_.size(); ++i) doors_[i].Restore(checkpoint.door_openings[i]);
+  return true;
+}
+
+OwnerFacts World::FactsOf(Owner owner) const {
+  if (things_.IsLeaf(owner)) {
+    const Leaf& leaf = things_.LeafOf(owner);
+    return {.velocity_world = leaf.stop_s < dt_s_ ? Vec2{} : leaf.to_velocity_world,
+            .seen_class = SeenClass::kFixture};
+  }
+  const Motion& motion = things_.motions[owner];
+  OwnerFacts facts;
+  if (things_.IsBody(owner)) {
+    facts.seen_class = SeenClass::kVehicle;
+  } else {
+    const bool cart = obstacles_[owner - bodies_.size()].EverMoves();
+    facts.seen_class = cart ? SeenClass::kCart : SeenClass::kFixture;
+  }
+  if (motion.stop_s < dt_s_) return facts;
+  facts.velocity_world = motion.slide_world;
+  if (things_.IsBody(owner)) {
+    facts.velocity_world = motion.twist.forward_m_s * Forward(bodies_[owner].world_from_body);
+    facts.turn_rad_s = motion.twist.turn_rad_s;
+  }
+  return facts;
 }
 
 void World::AddTo(StateHash* hash) const {
   for (const Body& body : bodies_) {
     hash->Add(body.vehicle);
     hash->Add(body.present);
-    hash->Add(body.world_from_body.position_world.x);
-    hash->Add(body.world_from_body.position_world.y);
+    sim::AddTo(hash, body.world_from_body.position_world);
     hash->Add(body.world_from_body.heading_rad);
     hash->Add(body.wheels.left_rad_s);
     hash->Add(body.wheels.right_rad_s);
   }
-  hash->Add(contacts_);
+  hash->Add(contact_count_);
+  for (const MovingObstacle& obstacle : obstacles_) {
+    sim::AddTo(hash, obstacle.State().position_world);
+    hash->Add(obstacle.State().progress_m);
+  }
+  for (const SlidingDoor& door : doors_) hash->Add(door.Opening());
 }
 
 }  // namespace giveway::sim

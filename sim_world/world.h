@@ -1,6 +1,7 @@
-// The world: bodies that follow motor commands, walls, contacts and ultrasonics, tick by tick. It
-// knows no brain, no clock and no run: it moves while it is told to, and brakes otherwise.
-// The same commands in the same ticks give the same bits, whatever the order of joining.
+// The world: bodies that follow motor commands, walls, obstacles, doors, contacts and ultrasonics,
+// tick by tick. It knows no brain, no clock and no run: it moves while it is told to, and brakes
+// otherwise. The same commands in the same ticks give the same bits, whatever the order of joining
+// and however its work is cut.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +9,19 @@
 #include <span>
 #include <vector>
 
+#include "services/types/parallel.h"
 #include "services/types/scenario.h"
 #include "services/types/state_hash.h"
 #include "sim_world/body.h"
-#include "sim_world/motion.h"
+#include "sim_world/checkpoint.h"
+#include "sim_world/contacts.h"
+#include "sim_world/doors.h"
+#include "sim_world/neighbours.h"
+#include "sim_world/obstacles.h"
+#include "sim_world/sensing.h"
 #include "sim_world/separation.h"
+#include "sim_world/things.h"
+#include "sim_world/touching.h"
 
 namespace giveway::sim {
 
@@ -27,66 +36,86 @@ struct CommandCounters {
 
 class World {
  public:
-  World(const Scenario& scenario, WorldEpoch epoch);
+  World(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel = OnThisThread);
 
-  // Puts the body on its start pose. The vehicle is one of the scenario's.
+  // Puts the body on its start pose, with wheels at rest and no command. The vehicle is known: one
+  // of the scenario's, or one that has joined before, and not present.
   void Join(VehicleId vehicle);
+  // The same for any vehicle, by options of its own; also during a run.
+  void Join(const VehicleOptions& options);
   // Takes the body away: it is no obstacle any more.
   void Remove(VehicleId vehicle);
+  // Whether a vehicle could join by these options now: nothing else touches its start pose.
+  bool IsFree(const VehicleOptions& options) const;
   // Holds the command until a newer one comes. False: refused, and counted.
   bool Take(const MotorCommand& command);
 
   // Makes the next tick. Bodies follow their commands if `driving`, else they brake. A body also
   // brakes when its command answers a tick more than the scenario's watchdog_ticks before this one.
+  // Obstacles and doors move in driving ticks.
   void Advance(bool driving);
 
+  Checkpoint Save() const;
+  // Goes on from there: whom it names is present, whom it does not is not. False, and nothing is
+  // done, where it names vehicles that are not known or is not of this scenario.
+  bool Restore(const Checkpoint& checkpoint);
+
   Tick Now() const { return now_; }
-  // In the order of the scenario, joined or not.
+  // By id, joined or not.
   std::span<const Body> Bodies() const { return bodies_; }
-  // Contacts that began in the last tick.
+  // Contacts that began in the last tick, in order of time.
   std::span<const Contact> NewContacts() const { return new_contacts_; }
-  std::uint32_t Contacts() const { return contacts_; }
+  std::uint32_t Contacts() const { return contact_count_; }
   const Separation& Approaches() const { return separation_; }
   const CommandCounters& Commands() const { return commands_; }
-  // Adds poses, wheels and contacts.
+  // Of the scenario's, in its order.
+  std::span<const MovingObstacle> Obstacles() const { return obstacles_; }
+  std::span<const SlidingDoor> Doors() const { return doors_; }
+
+  // For further sensors: all shapes as they are after the last tick, and what may be known of the
+  // owners of shapes: the index in Bodies(), then obstacles, then doors.
+  const Scene& SceneNow() { return sensing_.SceneAtEnd(dt_s_, things_, bodies_); }
+  OwnerFacts FactsOf(Owner owner) const;
+
+  // Adds poses, wheels, contacts, obstacles and doors.
   void AddTo(StateHash* hash) const;
 
  private:
-  struct Hit {
-    double t_s;
-    std::size_t body;
-    std::optional<std::size_t> other;  // a body, or none for a wall
-    std::size_t wall;
-  };
-
   Body* Find(VehicleId vehicle);
-  void TurnWheels(bool driving);
-  void StopAtContacts();
-  std::optional<Hit> EarliestHit(double from_s) const;
-  void EarliestBodyHit(std::size_t body, double from_s, std::optional<Hit>* earliest) const;
-  void EarliestWallHit(std::size_t body, double from_s, std::optional<Hit>* earliest) const;
-  void Stop(const Hit& hit);
+  const Body* Find(VehicleId vehicle) const;
+  void Insert(const VehicleOptions& options);
+  void Appear(Body* body);
+  void Plan(bool driving);
+  void PlanBody(bool driving, std::size_t i);
+  void PlanOthers(bool driving);
+  void FindPairs(bool driving);
+  void FindFirstPairs();
+  void Note(const Hit& hit);
   void Settle();
-  void ReleaseContacts();
-  void Sense();
-  std::uint8_t& Touching(const Hit& hit);
+  void SettleBody(std::size_t i);
+  bool HasParted(const TouchingPair& pair) const;
+  std::uint32_t ThingOf(const Body& body) const;
 
   WorldEpoch epoch_;
+  std::uint32_t seed_;
   double dt_s_;
   std::uint32_t watchdog_ticks_;
-  std::vector<Wall> walls_;
-  std::vector<Pose> starts_world_;
-  std::vector<SonarRing> rings_;
-  std::vector<Body> bodies_;
-  std::vector<Motion> motions_;  // of the tick being made
-  std::vector<Disc> discs_;      // of the bodies present
-  std::vector<std::uint8_t> touching_pairs_;
-  std::vector<std::uint8_t> touching_walls_;  // [body * walls + wall]
+  ParallelFor parallel_;
+  std::vector<Body> bodies_;  // sorted by id
+  std::vector<MovingObstacle> obstacles_;
+  std::vector<SlidingDoor> doors_;
+  Things things_;  // as the last tick moved them
+  std::vector<Ball> balls_;
+  Neighbours neighbours_;
+  sim::Contacts contacts_;
+  Touching touching_;
   std::vector<Contact> new_contacts_;
-  std::uint32_t contacts_ = 0;
+  std::uint32_t contact_count_ = 0;
   Separation separation_;
+  Sensing sensing_;
   CommandCounters commands_;
   Tick now_ = kNoTick;
+  std::uint32_t driven_ticks_ = 0;  // since the start signal
 };
 
 }  // namespace giveway::sim

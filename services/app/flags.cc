@@ -31,6 +31,8 @@ class CommandLine {
     Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
     if (service == Service::kVehicle) {
       Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
+    } else {
+      Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
     }
     Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
     Add("--behaviour", "NAME", "cooperative, lecture_avoid, stock_avoid or lecture_yield");
@@ -91,6 +93,9 @@ ServiceFlags Read(Service service, FlagValues* values) {
   flags.interface = values->TextOr(flags.interface, "--interface");
   flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
   if (service == Service::kVehicle) flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
+  if (service == Service::kWorld) {
+    flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
+  }
   flags.seed = values->Whole("--seed", {0, kMaxWhole});
   const auto behaviour =
       values->OneOf("--behaviour", {Name(Behaviour::kCooperative), Name(Behaviour::kLectureAvoid),

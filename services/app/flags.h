@@ -18,6 +18,7 @@ struct ServiceFlags {
   std::string qos;                      // a file; ConfigDir()/qos/default.xml if not given
   std::string scenario;                 // a file or a shipped scenario's name
   std::uint32_t id = 0;                 // vehicle only; 0 asks the world for any free id
+  std::uint32_t threads = 1;            // world only; the result does not depend on it
   // Overrides of the scenario's; 0 moves nothing. Without the flag: the scenario's own seed.
   std::optional<std::uint32_t> seed;
   std::optional<Behaviour> behaviour;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/app/picture_body.h"
 #include "services/app/picture_canvas.h"
 #include "services/app/picture_marks.h"
 #include "services/app/utf8.h"
@@ -13,21 +14,31 @@ namespace giveway::app {
 namespace {
 
 constexpr double kHeader = 84;
-constexpr double kLegendTop = 34;  // below the plot and its numbers
-constexpr double kLegendRow = 22;
-constexpr std::size_t kLegendColumns = 3;
-constexpr std::size_t kLegendVehicles = 12;
+
+void IncludeVehicle(WorldBox* box, const VehicleOptions& vehicle) {
+  box->Include(vehicle.start_world.position_world, vehicle.profile.body_radius_m);
+  if (vehicle.goal.set) box->Include(vehicle.goal.at_world, vehicle.goal.radius_m);
+}
+
+void IncludePlace(WorldBox* box, const Scenario& scenario) {
+  const auto line = [box](Vec2 from_world, Vec2 to_world) {
+    box->Include(from_world, 0);
+    box->Include(to_world, 0);
+  };
+  for (const Wall& wall : scenario.walls) line(wall.from_world, wall.to_world);
+  for (const Door& door : scenario.doors) line(door.from_world, door.to_world);
+  for (const SignalPlan& s : scenario.signals) line(s.line_from_world, s.line_to_world);
+  for (const Obstacle& obstacle : scenario.obstacles) {
+    box->Include(obstacle.start_world.position_world, obstacle.radius_m);
+    for (const Vec2 p : obstacle.waypoints_world) box->Include(p, obstacle.radius_m);
+  }
+}
 
 WorldBox BoxOf(const Scenario& scenario, const std::vector<Track>& tracks) {
   WorldBox box;
-  for (const VehicleOptions& vehicle : scenario.vehicles) {
-    box.Include(vehicle.start_world.position_world, vehicle.profile.body_radius_m);
-    if (vehicle.goal.set) box.Include(vehicle.goal.at_world, vehicle.goal.radius_m);
-  }
-  for (const Wall& wall : scenario.walls) {
-    box.Include(wall.from_world, 0);
-    box.Include(wall.to_world, 0);
-  }
+  for (const VehicleOptions& vehicle : scenario.vehicles) IncludeVehicle(&box, vehicle);
+  for (const VehicleOptions& spawn : scenario.spawns) IncludeVehicle(&box, spawn);
+  IncludePlace(&box, scenario);
   for (const Track& track : tracks) {
     for (const Truth& truth : track.truths) {
       if (truth.present) box.Include(truth.world_from_body.position_world, 0);
@@ -60,86 +71,28 @@ void DrawHeader(Canvas* canvas, const Scenario& scenario, const std::vector<Worl
   canvas->Text({corner.x, 60}, Shortened(below, 128), "class=\"quiet\"");
 }
 
-// One entry: a swatch at the left and the words beside it.
-Pixel LegendCell(const Canvas& canvas, std::size_t index) {
-  const double column = (canvas.BottomRight().x - canvas.TopLeft().x) / kLegendColumns;
-  return {canvas.TopLeft().x + column * static_cast<double>(index % kLegendColumns),
-          canvas.BottomRight().y + kLegendTop + 14 +
-              kLegendRow * static_cast<double>(index / kLegendColumns)};
-}
-
-void LegendText(Canvas* canvas, Pixel cell, const std::string& text) {
-  canvas->Text({cell.x + 36, cell.y + 4}, text, "");
-}
-
-std::size_t DrawLegendVehicles(Canvas* canvas, const Scenario& scenario) {
-  std::size_t index = 0;
-  for (; index < std::min(scenario.vehicles.size(), kLegendVehicles); ++index) {
-    const VehicleOptions& vehicle = scenario.vehicles[index];
-    const Pixel cell = LegendCell(*canvas, index);
-    const std::string colour = ColourOf(scenario, vehicle.id);
-    canvas->Line(cell, {cell.x + 26, cell.y},
-                 fmt::format("stroke=\"{}\" stroke-width=\"3\"", colour));
-    LegendText(canvas, cell,
-               fmt::format("vehicle {}, {:.3g} m/s, {}", Number(vehicle.id), vehicle.cruise_m_s,
-                           Name(vehicle.behaviour)));
-  }
-  if (index == scenario.vehicles.size()) return index;
-  LegendText(canvas, LegendCell(*canvas, index),
-             fmt::format("and {} more vehicles", scenario.vehicles.size() - index));
-  return index + 1;
-}
-
-void DrawLegendMarks(Canvas* canvas, std::size_t first) {
-  Pixel cell = LegendCell(*canvas, first);
-  canvas->Circle({cell.x + 13, cell.y}, 7, "fill=\"#fff\" stroke=\"#555\" stroke-width=\"2\"");
-  canvas->Line({cell.x + 13, cell.y}, {cell.x + 20, cell.y}, "stroke=\"#555\" stroke-width=\"2\"");
-  LegendText(canvas, cell, "start and heading");
-  cell = LegendCell(*canvas, first + 1);
-  canvas->Circle({cell.x + 13, cell.y}, 7,
-                 "fill=\"#555\" fill-opacity=\"0.12\" stroke=\"#555\" stroke-width=\"2\" "
-                 "stroke-dasharray=\"4 3\"");
-  canvas->Circle({cell.x + 13, cell.y}, 2.5, "fill=\"#555\"");
-  LegendText(canvas, cell, "goal");
-  cell = LegendCell(*canvas, first + 2);
-  canvas->Line(cell, {cell.x + 26, cell.y}, "stroke=\"#555\" stroke-width=\"2.5\"");
-  for (const double x : {6.0, 20.0}) {
-    canvas->Line({cell.x + x, cell.y - 5}, {cell.x + x, cell.y + 5},
-                 "stroke=\"#555\" stroke-width=\"2\"");
-  }
-  LegendText(canvas, cell, "every 2 s (seconds since the start)");
-}
-
-std::size_t LegendRows(const Scenario& scenario) {
-  const std::size_t vehicles = scenario.vehicles.size();
-  const std::size_t cells = std::min(vehicles, kLegendVehicles + 1);
-  return (cells + kLegendColumns - 1) / kLegendColumns + 1;
-}
-
 }  // namespace
 
-std::string DrawRun(const Scenario& scenario, const std::vector<Track>& tracks,
+std::string DrawRun(const Scenario& written, const std::vector<Track>& tracks,
                     const std::vector<WorldEvent>& all_events) {
+  const Scenario scenario = WithJoined(written, tracks);
   std::vector<WorldEvent> events = all_events;
   std::erase_if(events, [](const WorldEvent& e) { return !std::isfinite(e.time_s); });
-  const std::size_t rows = LegendRows(scenario);
-  Canvas canvas(BoxOf(scenario, tracks), kHeader,
-                kLegendTop + kLegendRow * static_cast<double>(rows) + 16);
+  Canvas canvas(BoxOf(scenario, tracks), kHeader, LegendHeight(scenario));
   DrawGrid(&canvas);
   DrawScaleBar(&canvas);
-  DrawWalls(&canvas, scenario);
   for (const Track& track : tracks) KeepLabelsOff(&canvas, track);
+  DrawPlace(&canvas, scenario);
   DrawStartsAndGoals(&canvas, scenario);
   for (const Track& track : tracks) {
     DrawTrack(&canvas, track, ColourOf(scenario, track.vehicle));
   }
-  DrawClosest(&canvas, scenario, events);
-  DrawHalts(&canvas, scenario, events);
+  DrawClosest(&canvas, scenario, tracks, events);
+  DrawHalts(&canvas, scenario, tracks, events);
   DrawDeaths(&canvas, scenario, tracks, events);
   DrawContacts(&canvas, events);
   DrawHeader(&canvas, scenario, events);
-  DrawLegendVehicles(&canvas, scenario);
-  DrawLegendMarks(&canvas, (rows - 1) * kLegendColumns);
+  DrawLegend(&canvas, scenario);
   return canvas.Svg(scenario.name);
 }
 

@@ -1,5 +1,5 @@
-// Draws a run as SVG: walls, both paths, where each vehicle halted, the closest approach. Pure
-// text; knows no file.
+// Draws a run as SVG: the place, every path, where each vehicle halted, the closest approach. What
+// moves by itself stands where it began. Pure text; knows no file.
 #pragma once
 
 #include <string>

@@ -148,7 +148,7 @@ double Canvas::Crowding(const LabelBox& box) const {
 
 void Canvas::Label(Pixel centre, double radius_px, std::string_view text,
                    std::string_view attributes) {
-  if (!Finite(centre) || !std::isfinite(radius_px)) return;
+  if (!Finite(centre) || !std::isfinite(radius_px) || labels_.size() >= kMaxLabels) return;
   const double half = kCharacter * static_cast<double>(text.size()) / 2;
   constexpr std::array<Pixel, 8> kDirections{
       {{1, 0}, {-1, 0}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}, {0, -1}, {0, 1}}};

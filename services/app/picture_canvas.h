@@ -51,13 +51,14 @@ class Canvas {
   void KeepClear(Pixel point) {
     if (busy_.size() < kMaxBusy) busy_.push_back(point);
   }
-  // Writes `text` at the freest place around a disc.
+  // Writes `text` at the freest place around a disc; nothing once there are more than anyone reads.
   void Label(Pixel centre, double radius_px, std::string_view text, std::string_view attributes);
 
   std::string Svg(std::string_view title) const;
 
  private:
   static constexpr std::size_t kMaxBusy = 20000;
+  static constexpr std::size_t kMaxLabels = 300;
 
   struct LabelBox {
     Pixel centre;

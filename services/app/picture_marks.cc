@@ -3,27 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
+
+#include "services/app/picture_body.h"
 
 namespace giveway::app {
 namespace {
 
 constexpr double kTickEverySeconds = 2;
 constexpr const char* kContactColour = "#c00000";
-
-const VehicleOptions* Find(const Scenario& scenario, VehicleId id) {
-  const auto found = std::find_if(scenario.vehicles.begin(), scenario.vehicles.end(),
-                                  [id](const VehicleOptions& v) { return v.id == id; });
-  return found == scenario.vehicles.end() ? nullptr : &*found;
-}
-
-double BodyPixels(const Canvas& canvas, const Scenario& scenario, VehicleId id) {
-  const VehicleOptions* vehicle = Find(scenario, id);
-  return canvas.Pixels(vehicle == nullptr ? VehicleProfile{}.body_radius_m
-                                          : vehicle->profile.body_radius_m);
-}
 
 void Cross(Canvas* canvas, Pixel at, double arm, const std::string& colour) {
   const std::string style =
@@ -50,17 +38,6 @@ void DrawTickTime(Canvas* canvas, Pixel before, Pixel at, double time_s) {
   canvas->KeepClear(number);
 }
 
-std::vector<const Truth*> Drawable(const Track& track) {
-  std::vector<const Truth*> truths;
-  for (const Truth& truth : track.truths) {
-    const Vec2 p = truth.world_from_body.position_world;
-    if (truth.present && std::isfinite(p.x + p.y) && std::isfinite(truth.time_s)) {
-      truths.push_back(&truth);
-    }
-  }
-  return truths;
-}
-
 // Ticks that would stand on each other, as those of a halted vehicle, are left out.
 void DrawTicks(Canvas* canvas, const std::vector<const Truth*>& truths, const std::string& colour) {
   Pixel last_tick{-1e9, 0};
@@ -82,18 +59,6 @@ void DrawTicks(Canvas* canvas, const std::vector<const Truth*>& truths, const st
   }
 }
 
-// Where the vehicle was seen last up to that moment.
-std::optional<Vec2> PlaceAt(const std::vector<Track>& tracks, VehicleId vehicle, double time_s) {
-  std::optional<Vec2> place;
-  for (const Track& track : tracks) {
-    if (track.vehicle != vehicle) continue;
-    for (const Truth* truth : Drawable(track)) {
-      if (truth->time_s <= time_s + 1e-6) place = truth->world_from_body.position_world;
-    }
-  }
-  return place;
-}
-
 double EndOf(const std::vector<WorldEvent>& events, std::size_t from) {
   double last_s = events[from].time_s;
   for (std::size_t i = from + 1; i < events.size(); ++i) {
@@ -107,31 +72,15 @@ double EndOf(const std::vector<WorldEvent>& events, std::size_t from) {
 
 }  // namespace
 
-std::string ColourOf(const Scenario& scenario, VehicleId vehicle) {
-  constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                "#b58900", "#56b4e9", "#6a3d9a"};
-  std::size_t index = 0;
-  while (index < scenario.vehicles.size() && scenario.vehicles[index].id != vehicle) ++index;
-  return index == scenario.vehicles.size() ? "#777777" : kColours[index % kColours.size()];
-}
-
-void DrawWalls(Canvas* canvas, const Scenario& scenario) {
-  for (const Wall& wall : scenario.walls) {
-    canvas->Line(canvas->At(wall.from_world), canvas->At(wall.to_world),
-                 "stroke=\"#3c4043\" stroke-width=\"5\" stroke-linecap=\"round\"");
-  }
-}
-
 void DrawStartsAndGoals(Canvas* canvas, const Scenario& scenario) {
   for (const VehicleOptions& vehicle : scenario.vehicles) {
     const std::string colour = ColourOf(scenario, vehicle.id);
     const Pixel start = canvas->At(vehicle.start_world.position_world);
     const double body = BodyPixels(*canvas, scenario, vehicle.id);
-    const double heading = vehicle.start_world.heading_rad;
-    canvas->Circle(start, body,
-                   fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"2\"", colour));
-    canvas->Line(start, {start.x + body * std::cos(heading), start.y - body * std::sin(heading)},
-                 fmt::format("stroke=\"{}\" stroke-width=\"2\"", colour));
+    DrawBody(canvas, vehicle.profile, vehicle.start_world,
+             fmt::format("fill=\"#fff\" stroke=\"{}\" stroke-width=\"2\"", colour));
+    DrawHeading(canvas, vehicle.profile, vehicle.start_world,
+                fmt::format("stroke=\"{}\" stroke-width=\"2\"", colour));
     canvas->Label(start, body, fmt::format("{}", Number(vehicle.id)),
                   fmt::format("style=\"fill:{};font-size:14px\"", colour));
     if (!vehicle.goal.set) continue;
@@ -170,20 +119,22 @@ void DrawTrack(Canvas* canvas, const Track& track, const std::string& colour) {
   if (!points.empty()) canvas->Circle(points.back(), 4.5, fmt::format("fill=\"{}\"", colour));
 }
 
-void DrawClosest(Canvas* canvas, const Scenario& scenario, const std::vector<WorldEvent>& events) {
+void DrawClosest(Canvas* canvas, const Scenario& scenario, const std::vector<Track>& tracks,
+                 const std::vector<WorldEvent>& events) {
   for (const WorldEvent& event : events) {
     if (event.kind != EventKind::kClosest || !std::isfinite(event.value)) continue;
     const Pixel a = canvas->At(event.position_world);
     const Pixel b = canvas->At(event.other_position_world);
-    const auto body = [&](Pixel at, VehicleId id) {
-      canvas->Circle(at, BodyPixels(*canvas, scenario, id),
-                     fmt::format("fill=\"{0}\" fill-opacity=\"0.10\" stroke=\"{0}\" "
-                                 "stroke-opacity=\"0.7\" stroke-width=\"1.5\" "
-                                 "stroke-dasharray=\"2 3\"",
-                                 ColourOf(scenario, id)));
+    const auto body = [&](Vec2 at_world, VehicleId id) {
+      DrawBody(canvas, ProfileOf(scenario, id),
+               {at_world, HeadingAt(scenario, tracks, id, event.time_s)},
+               fmt::format("fill=\"{0}\" fill-opacity=\"0.10\" stroke=\"{0}\" "
+                           "stroke-opacity=\"0.7\" stroke-width=\"1.5\" "
+                           "stroke-dasharray=\"2 3\"",
+                           ColourOf(scenario, id)));
     };
-    body(a, event.vehicle);
-    body(b, event.other);
+    body(event.position_world, event.vehicle);
+    body(event.other_position_world, event.other);
     canvas->Line(a, b, "stroke=\"#222\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"");
     for (int i = 0; i <= 100; ++i) {
       canvas->KeepClear({a.x + (b.x - a.x) * i / 100, a.y + (b.y - a.y) * i / 100});
@@ -193,17 +144,19 @@ void DrawClosest(Canvas* canvas, const Scenario& scenario, const std::vector<Wor
   }
 }
 
-void DrawHalts(Canvas* canvas, const Scenario& scenario, const std::vector<WorldEvent>& events) {
+void DrawHalts(Canvas* canvas, const Scenario& scenario, const std::vector<Track>& tracks,
+               const std::vector<WorldEvent>& events) {
   for (std::size_t i = 0; i < events.size(); ++i) {
     const WorldEvent& event = events[i];
     if (event.kind != EventKind::kHalted) continue;
     const std::string colour = ColourOf(scenario, event.vehicle);
     const Pixel at = canvas->At(event.position_world);
     const double body = BodyPixels(*canvas, scenario, event.vehicle);
-    canvas->Circle(at, body,
-                   fmt::format("fill=\"{0}\" fill-opacity=\"0.28\" stroke=\"{0}\" "
-                               "stroke-width=\"2\"",
-                               colour));
+    DrawBody(canvas, ProfileOf(scenario, event.vehicle),
+             {event.position_world, HeadingAt(scenario, tracks, event.vehicle, event.time_s)},
+             fmt::format("fill=\"{0}\" fill-opacity=\"0.28\" stroke=\"{0}\" "
+                         "stroke-width=\"2\"",
+                         colour));
     const double halted_s = EndOf(events, i) - event.time_s;
     if (!std::isfinite(halted_s)) continue;
     canvas->Label(at, body, fmt::format("{} halted {:.1f} s", Number(event.vehicle), halted_s),
@@ -218,16 +171,16 @@ void DrawDeaths(Canvas* canvas, const Scenario& scenario, const std::vector<Trac
     if (event.kind != EventKind::kSilent && event.kind != EventKind::kRemoved) continue;
     if (std::find(drawn.begin(), drawn.end(), event.vehicle) != drawn.end()) continue;
     // The world says when, not where: it took away what it no longer hears.
-    const auto place = PlaceAt(tracks, event.vehicle, event.time_s);
+    const auto place = PoseAt(tracks, event.vehicle, event.time_s);
     if (!place) continue;
     drawn.push_back(event.vehicle);
     const std::string colour = ColourOf(scenario, event.vehicle);
-    const Pixel at = canvas->At(*place);
+    const Pixel at = canvas->At(place->position_world);
     const double body = BodyPixels(*canvas, scenario, event.vehicle);
-    canvas->Circle(at, body,
-                   fmt::format("fill=\"#777\" fill-opacity=\"0.18\" stroke=\"{}\" "
-                               "stroke-width=\"1.5\"",
-                               colour));
+    DrawBody(canvas, ProfileOf(scenario, event.vehicle), *place,
+             fmt::format("fill=\"#777\" fill-opacity=\"0.18\" stroke=\"{}\" "
+                         "stroke-width=\"1.5\"",
+                         colour));
     Cross(canvas, at, std::max(body * 0.55, 6.0), colour);
     canvas->Label(
         at, body,

@@ -4,16 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
+#include <numeric>
 
+#include "services/app/place_read.h"
+#include "services/app/plan_read.h"
+#include "services/app/signal_conflict.h"
 #include "services/app/vehicle_read.h"
 
 namespace giveway::app {
 namespace {
 
-constexpr Allowed kWholeNumber{0, 4294967295.0};
-constexpr int kMaxVehicles = 1024;
-constexpr Allowed kDuration{0, 86400, "s", true};
+constexpr int kMaxWalls = 65536;
+constexpr int kMaxObstacles = 16384;
+constexpr int kMaxDoors = 1024;
+constexpr int kMaxSignals = 1024;
+constexpr int kMaxFaults = 1024;
 
 // [a-z0-9_-]+: area names become DDS partitions, and names become file names.
 std::string ReadName(const Section& root, const char* field, std::string fallback) {
@@ -109,109 +115,121 @@ std::vector<Section> Elements(const Section& root, const char* field, int most) 
   return {};
 }
 
-Wall ReadWall(const Section& section) {
-  const auto end = [&](const char* field) {
-    const auto point = section.RequiredSub(field);
-    return point ? ReadPoint(*point) : Vec2{kUnusable, kUnusable};
-  };
-  const Wall wall{end("from"), end("to")};
-  if (wall.from_world == wall.to_world) {
-    section.Complain("", "the wall has no length: from and to are the same point",
-                     "move one end, or remove the wall");
+// Sorts by id a list of which each element has its section, and refuses ids that stand twice.
+template <typename T>
+void SortById(std::vector<T>* values, std::vector<Section>* sections, const char* what) {
+  std::vector<std::size_t> order(values->size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return (*values)[a].id < (*values)[b].id; });
+  std::vector<T> sorted_values;
+  std::vector<Section> sorted_sections;
+  for (const std::size_t i : order) {
+    const T& value = (*values)[i];
+    if (Number(value.id) != 0 && !sorted_values.empty() && sorted_values.back().id == value.id) {
+      (*sections)[i].Complain("id", fmt::format("another {} has this id too", what),
+                              fmt::format("give each {} its own id", what));
+    }
+    sorted_values.push_back(value);
+    sorted_sections.push_back((*sections)[i]);
   }
-  return wall;
+  *values = std::move(sorted_values);
+  *sections = std::move(sorted_sections);
 }
 
-using Ids = std::set<VehicleId>;
-
-PlannedFault ReadFault(const Section& section, const Section& root, const Ids& known) {
-  PlannedFault fault;
-  fault.vehicle = VehicleId{section.Whole("kill", kId)};
-  if (fault.vehicle != kNobody && !known.contains(fault.vehicle)) {
-    section.Complain("kill", "no vehicle has this id", "name the id of a vehicle of this file");
+void ReadStartWith(const Section& root, Scenario* scenario) {
+  const std::size_t named = scenario->vehicles.size();
+  if (scenario->spawns.empty()) {
+    if (!root.Has("start_with")) return;
+    root.Complain("start_with", "is for an open fleet, and there is no spawn",
+                  "write spawn { ... }, or remove it");
+    return;
   }
-  if (section.Has("at_s")) fault.at_s = section.Number("at_s", {0, 86400, "s"});
-  if (section.Has("before_crossing_m")) {
-    fault.before_crossing_m = section.Number("before_crossing_m", {0, 1000, "m", true});
-    if (!root.Has("crossing")) {
-      section.Complain("before_crossing_m", "the scenario names no crossing",
-                       "write crossing { x_m: y_m: } in the scenario");
-    }
-  }
-  if (!fault.at_s && !fault.before_crossing_m) {
-    section.Complain("", "the fault has no condition", "write at_s: or before_crossing_m:");
-  }
-  return fault;
+  const auto all = static_cast<double>(named + scenario->spawns.size());
+  scenario->start_with = root.WholeOr(static_cast<std::uint32_t>(std::max<std::size_t>(named, 1)),
+                                      "start_with", {1, all, "vehicles"});
 }
 
-// A sorted set of ids, each one known and named once.
-std::vector<VehicleId> ReadIds(const Section& section, const char* field, const Ids& known) {
-  std::vector<VehicleId> ids;
-  const std::vector<double> numbers = section.Numbers(field, kId, kMaxVehicles);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (std::isnan(numbers[i])) continue;
-    const VehicleId id{static_cast<std::uint32_t>(numbers[i])};
-    const int index = static_cast<int>(i);
-    if (!known.contains(id)) {
-      section.Complain(field, fmt::format("no vehicle has the id {}", Number(id)),
-                       "name ids of vehicles of this file", index);
-    } else if (std::find(ids.begin(), ids.end(), id) != ids.end()) {
-      section.Complain(field, fmt::format("names {} twice", Number(id)), "name each id once",
-                       index);
-    }
-    ids.push_back(id);
+void ReadFleet(const Section& root, const ScenarioOverrides& overrides, ReadScenario* read) {
+  Scenario& scenario = read->scenario;
+  VehicleOptions common = ReadCommon(root);
+  scenario.tick_period = common.tick_period;
+  scenario.sonar = ReadSonar(root.Sub("sonar"), common.tick_period);
+  common.sonar_refresh = SonarRefresh(scenario.sonar, common.tick_period);
+  if (!root.Has("vehicle") && !root.Has("spawn")) {
+    root.ComplainMissing("vehicle", "write vehicle { ... } or spawn { ... } at least once");
   }
-  std::sort(ids.begin(), ids.end());
-  return ids;
+  read->vehicles = Elements(root, "vehicle", kMaxVehicles);
+  read->spawns = Elements(root, "spawn", kMaxVehicles);
+  if (read->vehicles.size() + read->spawns.size() > kMaxVehicles) {
+    root.Complain("",
+                  fmt::format("has {} of vehicle and spawn together; at most {} are allowed",
+                              read->vehicles.size() + read->spawns.size(), kMaxVehicles),
+                  "leave some out");
+  }
+  for (const Section& section : read->vehicles) {
+    scenario.vehicles.push_back(ReadVehicle(section, common, overrides.behaviour));
+  }
+  SortById(&scenario.vehicles, &read->vehicles, "vehicle");
+  for (const Section& section : read->spawns) {
+    scenario.spawns.push_back(ReadSpawn(section, common, overrides.behaviour));
+  }
+  ReadStartWith(root, &scenario);
 }
 
-Expectation ReadExpectation(const Section& section, const Ids& known,
-                            const std::vector<VehicleOptions>& vehicles) {
-  Expectation expect;
-  expect.contacts = section.WholeOr(0, "contacts", kWholeNumber);
-  expect.halted = ReadIds(section, "halted", known);
-  expect.arrived = ReadIds(section, "arrived", known);
-  expect.parted = section.FlagOr(false, "parted");
-  if (section.Has("min_separation_m")) {
-    expect.min_separation_m = section.Number("min_separation_m", {0, 10000, "m"});
-  }
-  if (section.Has("time_to_clear_s")) {
-    expect.time_to_clear_s = section.Number("time_to_clear_s", kDuration);
-  }
-  for (const VehicleOptions& vehicle : vehicles) {
-    if (!vehicle.goal.set &&
-        std::binary_search(expect.arrived.begin(), expect.arrived.end(), vehicle.id)) {
-      section.Complain("arrived",
-                       fmt::format("vehicle {} has no goal and never arrives", Number(vehicle.id)),
-                       "give it a goal, or leave it out here");
+// Of each group, every head that may show green or yellow while an earlier one does.
+void CheckGroups(const std::vector<SignalPlan>& signals, const std::vector<Section>& sections) {
+  std::map<std::uint32_t, std::vector<const SignalPlan*>> groups;
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    const SignalPlan& signal = signals[i];
+    // A refused number is a problem already.
+    if (signal.group == 0 ||
+        !std::isfinite(signal.green_s + signal.yellow_s + signal.red_s + signal.offset_s)) {
+      continue;
     }
+    auto& heads = groups[signal.group];
+    const auto other = std::find_if(heads.begin(), heads.end(), [&](const SignalPlan* head) {
+      return GoTogether(*head, signal);
+    });
+    if (other != heads.end()) {
+      sections[i].Complain(
+          "group",
+          fmt::format("signals {} and {} of this group are green or yellow at one time",
+                      Number((*other)->id), Number(signal.id)),
+          "change their times, give both the same cycle, or take one out of the group");
+    }
+    heads.push_back(&signal);
   }
-  return expect;
 }
 
-// Vehicles sorted by id, with their sections.
-void ReadVehicles(const Section& root, const ScenarioOverrides& overrides, ReadScenario* read) {
-  struct Pair {
-    VehicleOptions options;
-    Section section;
-  };
-  std::vector<Pair> pairs;
-  const VehicleOptions common = ReadCommon(root);
-  read->scenario.tick_period = common.tick_period;
-  if (!root.Has("vehicle")) root.ComplainMissing("vehicle", "write vehicle { ... } at least once");
-  for (const Section& section : Elements(root, "vehicle", kMaxVehicles)) {
-    pairs.push_back({ReadVehicle(section, common, overrides.behaviour), section});
+void ReadSignals(const Section& root, Scenario* scenario) {
+  std::vector<Section> sections = Elements(root, "signal", kMaxSignals);
+  for (const Section& section : sections) scenario->signals.push_back(ReadSignal(section));
+  SortById(&scenario->signals, &sections, "signal");
+  CheckGroups(scenario->signals, sections);
+}
+
+void ReadPlace(const Section& root, ReadScenario* read) {
+  Scenario& scenario = read->scenario;
+  for (const Section& wall : Elements(root, "wall", kMaxWalls)) {
+    scenario.walls.push_back(ReadWall(wall));
   }
-  std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const Pair& a, const Pair& b) { return a.options.id < b.options.id; });
-  for (Pair& pair : pairs) {
-    const auto& before = read->scenario.vehicles;
-    if (pair.options.id != kNobody && !before.empty() && before.back().id == pair.options.id) {
-      pair.section.Complain("id", "another vehicle has this id too",
-                            "give each vehicle its own id");
-    }
-    read->scenario.vehicles.push_back(pair.options);
-    read->vehicles.push_back(pair.section);
+  read->obstacles = Elements(root, "obstacle", kMaxObstacles);
+  for (const Section& obstacle : read->obstacles) {
+    scenario.obstacles.push_back(ReadObstacle(obstacle));
+  }
+  read->doors = Elements(root, "door", kMaxDoors);
+  for (const Section& door : read->doors) scenario.doors.push_back(ReadDoor(door));
+  ReadSignals(root, &scenario);
+}
+
+void ReadPlans(const Section& root, Scenario* scenario) {
+  const KnownIds known = IdsOf(*scenario);
+  for (const Section& fault : Elements(root, "fault", kMaxFaults)) {
+    scenario->faults.push_back(ReadFault(fault, root, known));
+  }
+  if (const auto expect = root.RequiredSub("expect")) {
+    scenario->expect = ReadExpectation(*expect, known, *scenario);
   }
 }
 
@@ -219,20 +237,10 @@ void ReadVehicles(const Section& root, const ScenarioOverrides& overrides, ReadS
 
 ReadScenario ReadFrom(const Section& root, const ScenarioOverrides& overrides) {
   ReadScenario read;
-  Scenario& scenario = read.scenario;
-  ReadSettings(root, overrides, &scenario);
-  ReadVehicles(root, overrides, &read);
-  Ids known;
-  for (const VehicleOptions& vehicle : scenario.vehicles) known.insert(vehicle.id);
-  for (const Section& wall : Elements(root, "wall", 4096)) {
-    scenario.walls.push_back(ReadWall(wall));
-  }
-  for (const Section& fault : Elements(root, "fault", 1024)) {
-    scenario.faults.push_back(ReadFault(fault, root, known));
-  }
-  if (const auto expect = root.RequiredSub("expect")) {
-    scenario.expect = ReadExpectation(*expect, known, scenario.vehicles);
-  }
+  ReadSettings(root, overrides, &read.scenario);
+  ReadFleet(root, overrides, &read);
+  ReadPlace(root, &read);
+  ReadPlans(root, &read.scenario);
   CheckStarts(read, "");
   return read;
 }

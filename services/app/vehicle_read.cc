@@ -11,13 +11,7 @@ namespace giveway::app {
 namespace {
 
 constexpr int kFrontSensors = 8;
-
-Pose ReadStart(const Section& section) {
-  const Vec2 position_world = ReadPoint(section);
-  const double heading_deg = section.Number("heading_deg", {-360, 360, "degrees"});
-  const double heading_rad = heading_deg == heading_deg ? WrapAngle(Radians(heading_deg)) : 0;
-  return {position_world, heading_rad};
-}
+constexpr Allowed kHalfSide{0.05, 10, "m"};
 
 Goal ReadGoal(const Section& section, double cruise_m_s, Nanoseconds tick_period) {
   Goal goal{.set = true, .at_world = ReadPoint(section)};
@@ -77,7 +71,75 @@ void CheckWheels(const Section& section, const VehicleProfile& profile) {
   }
 }
 
+// The shape a section writes; one that writes none leaves the body as it was.
+void ReadBody(const Section& section, VehicleProfile* profile) {
+  const auto box = section.Sub("box");
+  if (box) {
+    profile->shape = BodyShape::kBox;
+    profile->box_half_m = ReadBox(*box);
+    profile->body_radius_m = Norm(profile->box_half_m);
+  }
+  if (!section.Has("body_radius_m")) return;
+  if (box) {
+    section.Complain("body_radius_m", "is given beside box, whose half diagonal it is",
+                     "remove one of the two");
+    return;
+  }
+  profile->shape = BodyShape::kDisc;
+  profile->box_half_m = {};
+  profile->body_radius_m = section.Number("body_radius_m", {0.05, 10, "m"});
+}
+
+void ReadSensors(const std::optional<Section>& section, VehicleProfile* profile) {
+  if (!section) return;
+  profile->radar = section->FlagOr(profile->radar, "radar");
+  profile->lidar = section->FlagOr(profile->lidar, "lidar");
+  profile->camera = section->FlagOr(profile->camera, "camera");
+}
+
+// All but the id.
+VehicleOptions ReadDriver(const Section& section, const VehicleOptions& common,
+                          std::optional<Behaviour> forced) {
+  VehicleOptions vehicle = common;
+  ReadProfile(section.Sub("profile"), &vehicle.profile);
+  CheckWheels(section, vehicle.profile);
+  const auto own = ReadBehaviour(section);  // read even where forced, for its problems
+  vehicle.behaviour = forced.value_or(own.value_or(common.behaviour));
+  vehicle.start_world = ReadStart(section.RequiredSub("start"));
+  // A refused top speed is a problem already; the vehicle's cruise is then judged by its own cap.
+  const double top = vehicle.profile.max_speed_m_s;
+  vehicle.cruise_m_s =
+      section.Number("cruise_m_s", {0, top == top ? top : kMaxSpeed_m_s, "m/s", true});
+  if (const auto goal = section.Sub("goal")) {
+    vehicle.goal = ReadGoal(*goal, vehicle.cruise_m_s, vehicle.tick_period);
+  }
+  vehicle.braitenberg =
+      vehicle.behaviour == Behaviour::kStockAvoid ? StockWeights() : LectureWeights();
+  if (const auto weights = section.Sub("braitenberg")) {
+    vehicle.braitenberg = ReadBraitenberg(*weights, vehicle.braitenberg);
+  }
+  return vehicle;
+}
+
 }  // namespace
+
+double ReadHeading(const Section& section) {
+  const double heading_deg = section.Number("heading_deg", {-360, 360, "degrees"});
+  return heading_deg == heading_deg ? WrapAngle(Radians(heading_deg)) : 0;
+}
+
+Pose ReadStart(const std::optional<Section>& section, std::optional<double> default_heading_rad) {
+  if (!section) return {{kUnusable, kUnusable}, 0};
+  const Vec2 position_world = ReadPoint(*section);
+  if (default_heading_rad && !section->Has("heading_deg")) {
+    return {position_world, *default_heading_rad};
+  }
+  return {position_world, ReadHeading(*section)};
+}
+
+Vec2 ReadBox(const Section& section) {
+  return {section.Number("half_length_m", kHalfSide), section.Number("half_width_m", kHalfSide)};
+}
 
 Vec2 ReadPoint(const Section& section) {
   return {section.Number("x_m", kCoordinate), section.Number("y_m", kCoordinate)};
@@ -94,13 +156,16 @@ void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile)
   const auto read = [&](const char* field, const Allowed& allowed, double* value) {
     *value = section->NumberOr(*value, field, allowed);
   };
-  read("body_radius_m", {0.05, 10, "m"}, &profile->body_radius_m);
+  ReadBody(*section, profile);
   read("wheel_radius_m", {0.01, 5, "m"}, &profile->drive.wheel_radius_m);
   read("axle_m", {0.02, 20, "m"}, &profile->drive.axle_m);
   read("max_speed_m_s", {0, kMaxSpeed_m_s, "m/s", true}, &profile->max_speed_m_s);
   read("max_turn_rad_s", {0, 20, "rad/s", true}, &profile->max_turn_rad_s);
   read("acceleration_m_s2", {0, 20, "m/s^2", true}, &profile->acceleration_m_s2);
   read("deceleration_m_s2", {0, 20, "m/s^2", true}, &profile->deceleration_m_s2);
+  read("wheel_slip", {0, 0.5}, &profile->wheel_slip);
+  read("encoder_noise", {0, 0.5}, &profile->encoder_noise);
+  ReadSensors(section->Sub("sensors"), profile);
   for (std::size_t i = kSensorCount / 2; i < kSensorCount; ++i) {
     profile->sonar[i].enabled = section->FlagOr(profile->sonar[i].enabled, "rear_sonar");
   }
@@ -108,30 +173,15 @@ void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile)
 
 VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
                            std::optional<Behaviour> forced) {
-  VehicleOptions vehicle = common;
-  vehicle.id = VehicleId{section.Whole("id", kId)};
-  ReadProfile(section.Sub("profile"), &vehicle.profile);
-  CheckWheels(section, vehicle.profile);
-  const auto own = ReadBehaviour(section);  // read even where forced, for its problems
-  vehicle.behaviour = forced.value_or(own.value_or(common.behaviour));
-  if (const auto start = section.RequiredSub("start")) {
-    vehicle.start_world = ReadStart(*start);
-  } else {
-    vehicle.start_world.position_world = {kUnusable, kUnusable};
-  }
-  // A refused top speed is a problem already; the vehicle's cruise is then judged by its own cap.
-  const double top = vehicle.profile.max_speed_m_s;
-  vehicle.cruise_m_s =
-      section.Number("cruise_m_s", {0, top == top ? top : kMaxSpeed_m_s, "m/s", true});
-  if (const auto goal = section.Sub("goal")) {
-    vehicle.goal = ReadGoal(*goal, vehicle.cruise_m_s, vehicle.tick_period);
-  }
-  vehicle.braitenberg =
-      vehicle.behaviour == Behaviour::kStockAvoid ? StockWeights() : LectureWeights();
-  if (const auto weights = section.Sub("braitenberg")) {
-    vehicle.braitenberg = ReadBraitenberg(*weights, vehicle.braitenberg);
-  }
+  const VehicleId id{section.Whole("id", kId)};
+  VehicleOptions vehicle = ReadDriver(section, common, forced);
+  vehicle.id = id;
   return vehicle;
+}
+
+VehicleOptions ReadSpawn(const Section& section, const VehicleOptions& common,
+                         std::optional<Behaviour> forced) {
+  return ReadDriver(section, common, forced);
 }
 
 }  // namespace giveway::app

@@ -40,7 +40,7 @@ class Packer {
     words_[used_++] = word;
   }
 
-  std::array<std::uint64_t, 18> words_;  // 132 bytes and room for the next field
+  std::array<std::uint64_t, 22> words_;  // 168 bytes and room for the next field
   std::size_t used_ = 0;
   std::uint64_t pending_ = 0;  // low half: the last 32 bits added, while half_
   bool half_ = false;
@@ -67,9 +67,14 @@ std::uint32_t Crc(const Beacon& beacon, wire::DriveMode mode, wire::DriveRule ru
   packer.Add(beacon.body_radius_m);
   packer.Add(beacon.drive.wheel_radius_m);
   packer.Add(beacon.drive.axle_m);
+  packer.Add(beacon.acceleration_m_s2);
+  packer.Add(beacon.deceleration_m_s2);
+  packer.Add(beacon.toward_world.x);
+  packer.Add(beacon.toward_world.y);
   packer.Add(mode);
   packer.Add(rule);
   packer.Add(beacon.gives_way_to);
+  packer.Add(beacon.blocked_by);
   packer.Add(beacon.order.waited_ticks);
   packer.Add(beacon.order.speed_bucket);
   packer.Add(beacon.order.vehicle);
@@ -94,9 +99,14 @@ wire::Beacon ToWire(const Beacon& beacon) {
   sent.body_radius_m(beacon.body_radius_m);
   sent.wheel_radius_m(beacon.drive.wheel_radius_m);
   sent.axle_m(beacon.drive.axle_m);
+  sent.acceleration_m_s2(beacon.acceleration_m_s2);
+  sent.deceleration_m_s2(beacon.deceleration_m_s2);
+  sent.toward_x_m(beacon.toward_world.x);
+  sent.toward_y_m(beacon.toward_world.y);
   sent.mode(ToWireEnum<wire::DriveMode>(beacon.mode));
   sent.rule(ToWireEnum<wire::DriveRule>(beacon.rule));
   sent.gives_way_to(Number(beacon.gives_way_to));
+  sent.blocked_by(Number(beacon.blocked_by));
   sent.order_waited_ticks(beacon.order.waited_ticks);
   sent.order_speed_bucket(beacon.order.speed_bucket);
   sent.order_vehicle(Number(beacon.order.vehicle));
@@ -120,7 +130,11 @@ Arrival FromWire(const wire::Beacon& sample, Beacon& beacon) {
   beacon.sigma_heading_rad = sample.sigma_heading_rad();
   beacon.body_radius_m = sample.body_radius_m();
   beacon.drive = {sample.wheel_radius_m(), sample.axle_m()};
+  beacon.acceleration_m_s2 = sample.acceleration_m_s2();
+  beacon.deceleration_m_s2 = sample.deceleration_m_s2();
+  beacon.toward_world = {sample.toward_x_m(), sample.toward_y_m()};
   beacon.gives_way_to = VehicleId{sample.gives_way_to()};
+  beacon.blocked_by = VehicleId{sample.blocked_by()};
   beacon.order = {sample.order_waited_ticks(), sample.order_speed_bucket(),
                   VehicleId{sample.order_vehicle()}};
   const bool mode_known = FromWirePart(mode, beacon.mode);

@@ -28,22 +28,34 @@ constexpr bool GoesFirst(const OrderKey& a, const OrderKey& b) {
   return a.vehicle < b.vehicle;
 }
 
+// The same for keys that may be lent: of two vehicles that act by one key the lower id goes first.
+constexpr bool ComesFirst(const OrderKey& a, VehicleId id_a, const OrderKey& b, VehicleId id_b) {
+  return a == b ? id_a < id_b : GoesFirst(a, b);
+}
+
 struct Beacon {
   VehicleId vehicle = kNobody;
   std::uint32_t boot_epoch = 0;  // random, one a process life; never 0
   std::uint32_t seq = 0;         // 1, 2, 3 … within a boot epoch
   WorldEpoch world_epoch = kNoEpoch;
-  Tick tick = kNoTick;           // the world tick this beacon answers
-  WheelSpeeds wheels;            // measured
-  double cruise_m_s = 0;         // the intent: does not drop because the vehicle gives way
-  Pose world_from_body;          // dead-reckoned estimate at `tick`
-  double sigma_position_m = 0;   // standard deviation of the position, along any axis
-  double sigma_heading_rad = 0;  // standard deviation of the heading
-  double body_radius_m = 0.25;   // disc round the axle centre
-  DriveGeometry drive;           // what turns the wheel speeds into motion
+  Tick tick = kNoTick;             // the world tick this beacon answers
+  WheelSpeeds wheels;              // measured
+  double cruise_m_s = 0;           // the intent: does not drop because the vehicle gives way
+  Pose world_from_body;            // dead-reckoned estimate at `tick`
+  double sigma_position_m = 0;     // standard deviation of the position, along any axis
+  double sigma_heading_rad = 0;    // standard deviation of the heading
+  double body_radius_m = 0.25;     // disc round the axle centre
+  DriveGeometry drive;             // what turns the wheel speeds into motion
+  double acceleration_m_s2 = 0.3;  // of a wheel's rim: what the vehicle may do next
+  double deceleration_m_s2 = 0.6;
+  // Where it drives to in a straight line: its next waypoint or its goal; where it stands if it
+  // stays there.
+  Vec2 toward_world;
   Mode mode = Mode::kHalt;
   Rule rule = Rule::kNotRunning;
   VehicleId gives_way_to = kNobody;
+  VehicleId blocked_by = kNobody;  // a vehicle whose body, standing or slower, is in its way
+  // As it acts: its own, or lent by the first in the order that is blocked by this vehicle.
   OrderKey order;
 };
 

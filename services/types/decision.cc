@@ -56,6 +56,10 @@ std::string_view Name(Rule rule) {
       return "avoid";
     case Rule::kSignal:
       return "signal";
+    case Rule::kKeepClear:
+      return "keep_clear";
+    case Rule::kMakeRoom:
+      return "make_room";
     case Rule::kObject:
       return "object";
     case Rule::kLeaving:

@@ -15,6 +15,14 @@
 
 namespace giveway {
 
+// Where somebody else says this vehicle is: a marker passed, a camera on the ceiling. Deviations
+// are standard deviations; the position's is along any axis.
+struct PoseFix {
+  Pose world_from_body;
+  double sigma_position_m = 0;
+  double sigma_heading_rad = 0;
+};
+
 struct Inputs {
   SteadyTime now{0};
   // The newest scan since the last step; empty when none came. Its arrival time is `now`.
@@ -28,7 +36,8 @@ struct Inputs {
   std::span<const SignalState> signals;
   // The world's newest word on this vehicle since the last step: a new epoch brings a new pose.
   std::optional<RosterEntry> roster;
-  bool leaving = false;  // the process was asked to stop: halt and say good-bye
+  std::optional<PoseFix> pose_fix;  // of the scan's tick
+  bool leaving = false;             // the process was asked to stop: halt and say good-bye
 };
 
 struct Outputs {

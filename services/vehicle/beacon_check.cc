@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMaxCoordinate_m = 100'000.0;
 constexpr double kMaxSigma_m = 1000.0;
+constexpr double kMaxRate_m_s2 = 20;
 constexpr double kSpeedBucket_m_s = 0.05;
 
 // No part of a vehicle is smaller or larger than this. An axle of next to nothing would turn the
@@ -26,7 +27,9 @@ bool IsFinite(const Beacon& b) {
          std::isfinite(b.world_from_body.position_world.y) &&
          std::isfinite(b.world_from_body.heading_rad) && std::isfinite(b.sigma_position_m) &&
          std::isfinite(b.sigma_heading_rad) && std::isfinite(b.body_radius_m) &&
-         std::isfinite(b.drive.wheel_radius_m) && std::isfinite(b.drive.axle_m);
+         std::isfinite(b.drive.wheel_radius_m) && std::isfinite(b.drive.axle_m) &&
+         std::isfinite(b.acceleration_m_s2) && std::isfinite(b.deceleration_m_s2) &&
+         std::isfinite(b.toward_world.x) && std::isfinite(b.toward_world.y);
 }
 
 bool IsInRange(const Beacon& b) {
@@ -40,9 +43,12 @@ bool IsInRange(const Beacon& b) {
          b.sigma_position_m <= kMaxSigma_m && b.sigma_heading_rad >= 0 &&
          b.sigma_heading_rad <= 2 * kPi && IsLength(b.body_radius_m) &&
          IsLength(b.drive.wheel_radius_m) && IsLength(b.drive.axle_m) && b.mode <= Mode::kLeaving &&
-         b.rule <= Rule::kLeaving && b.order.vehicle == b.vehicle &&
-         b.order.waited_ticks <= Number(b.tick) &&
-         b.order.speed_bucket == SpeedBucket(b.cruise_m_s);
+         b.rule <= Rule::kLeaving && b.order.vehicle != kNobody && b.acceleration_m_s2 > 0 &&
+         b.acceleration_m_s2 <= kMaxRate_m_s2 && b.deceleration_m_s2 > 0 &&
+         b.deceleration_m_s2 <= kMaxRate_m_s2 && Within(b.toward_world.x, kMaxCoordinate_m) &&
+         Within(b.toward_world.y, kMaxCoordinate_m) && b.order.waited_ticks <= Number(b.tick) &&
+         b.order.speed_bucket <= SpeedBucket(kMaxSpeed_m_s) &&
+         (b.order.vehicle != b.vehicle || b.order.speed_bucket == SpeedBucket(b.cruise_m_s));
 }
 
 std::uint32_t SpeedBucket(double cruise_m_s) {

@@ -50,9 +50,11 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   const VehicleProfile& profile = s.options.profile;
   const Steering steering = SteerToGoal(s);
   Action action;
-  double speed = std::min(s.options.cruise_m_s,
-                          SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
-                                            profile.deceleration_m_s2));
+  double speed = s.options.cruise_m_s;
+  if (s.stops_there) {
+    speed = std::min(speed, SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
+                                              profile.deceleration_m_s2));
+  }
   action.decision.rule = Rule::kCruise;
   if (steering.round != kNobody) {
     speed = std::min(speed, kRoundSpeed_m_s);
@@ -68,6 +70,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                        .sensor = limit->sensor,
                        .cause_tick = limit->cause_tick};
   }
+  action.round = steering.round;
+  action.steer_side = steering.side;
   action.target = Drive(profile, steering, speed, may_turn);
   return action;
 }

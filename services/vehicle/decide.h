@@ -8,6 +8,8 @@ namespace giveway {
 struct Action {
   Decision decision;
   WheelSpeeds target;
+  VehicleId round = kNobody;  // what it turns past
+  int steer_side = 0;         // which way it turns past something: 1 left, -1 right
 };
 
 Action Decide(const Situation& s);

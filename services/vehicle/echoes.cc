@@ -69,6 +69,8 @@ std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
   for (const PeerView& peer : s.peers) {
     if ((peer.explains >> sensor & 1U) == 0) continue;
+    // Its claim says more than its echo: rules.cc, KeepClear.
+    if (s.options.behaviour == Behaviour::kCooperative && peer.fresh) return std::nullopt;
     return FreeBeforeDisc(InBody(s, WhereItStops(peer, s)),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }

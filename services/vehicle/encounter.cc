@@ -69,11 +69,17 @@ bool MustClear(const PeerView& view, const Situation& s) {
   return (view.standing && behind) || IsThroughFirst(view, s);
 }
 
+// Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going.
+bool IsInTheWay(const PeerView& view, const Situation& s) {
+  return view.peer->beacon.blocked_by == s.options.id || IsOnGoalOf(view, s);
+}
+
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const Situation& s) {
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
-  return view.gap_m <= CriticalDistance(s, view) ||
+  const double critical_m = CriticalDistance(s, view);
+  return (view.gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
          view.conflict->own.begin_m <= OwnStoppingDistance(s);
 }
 
@@ -91,6 +97,7 @@ bool Holds(const PeerView& view, const Situation& s) {
     if (view.peer->encounter.released) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
+  if (view.peer->encounter.clears) return false;
   if (view.goes_first) return !MustClear(view, s) && (held || SecondMustStop(view, s));
   if (FirstMayGo(view, s)) return false;
   return held || MustBrakeNow(view, s);
@@ -131,6 +138,10 @@ void UpdateEncounter(const PeerView& view, const Situation& s) {
     } else if (IsOver(view, s)) {
       encounter = {};
     }
+  }
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  if (cooperative && encounter.active && !view.lost && view.goes_first && IsInTheWay(view, s)) {
+    encounter.clears = true;
   }
   encounter.holds = encounter.active && Holds(view, s);
 }

@@ -21,6 +21,7 @@ inline constexpr std::uint32_t kMaxPeers = 1024;
 struct Encounter {
   bool active = false;
   bool holds = false;     // this vehicle stops, or stands, because of the peer
+  bool clears = false;    // this vehicle was in the peer's way: it drives out instead of holding
   bool lost = false;      // the peer fell silent while the encounter was active
   bool released = false;  // lost, waited out, and the own ranges show the way clear
   SteadyTime lost_at{0};

@@ -7,6 +7,8 @@
 namespace giveway {
 namespace {
 
+constexpr double kLookAhead_m = 10;
+
 Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
 
 // A dead stop for the nearest peer that this vehicle holds for and `applies` to.
@@ -89,13 +91,30 @@ std::optional<Proposal> Obstacle(const Situation& s) {
   return nearest;
 }
 
+std::optional<Proposal> KeepClear(const Situation& s) {
+  std::optional<Proposal> lowest;
+  for (const PeerView& view : s.peers) {
+    if (view.peer->left || view.free_m > kLookAhead_m) continue;
+    const double limit = SpeedToStopWithin(view.free_m, ReactionSeconds(s.options),
+                                           s.options.profile.deceleration_m_s2);
+    if (limit >= s.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
+    lowest = Proposal{.max_speed_m_s = limit,
+                      .may_turn = true,
+                      .rule = Rule::kKeepClear,
+                      .peer = view.peer->id,
+                      .cause_tick = view.peer->beacon.tick};
+  }
+  return lowest;
+}
+
 std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
   static constexpr std::array<RuleFunction, 4> kAvoiding = {Leaving, NotRunning, RangesStale,
                                                             Arrived};
   static constexpr std::array<RuleFunction, 8> kLecture = {
       Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle};
-  static constexpr std::array<RuleFunction, 9> kCooperative = {
-      Leaving, NotRunning, RangesStale, Arrived, GiveWay, NotGranted, PeerLost, Deaf, Obstacle};
+  static constexpr std::array<RuleFunction, 10> kCooperative = {
+      Leaving,    NotRunning, RangesStale, Arrived,   GiveWay,
+      NotGranted, PeerLost,   Deaf,        KeepClear, Obstacle};
   switch (behaviour) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:

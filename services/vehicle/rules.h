@@ -31,6 +31,9 @@ std::optional<Proposal> GiveWay(const Situation& s);
 std::optional<Proposal> NotGranted(const Situation& s);
 std::optional<Proposal> PeerLost(const Situation& s);
 
+// Passive safety: stop before where a peer may be until it stands.
+std::optional<Proposal> KeepClear(const Situation& s);
+
 // What the own ultrasonics ask for by themselves.
 std::optional<Proposal> Deaf(const Situation& s);
 std::optional<Proposal> Obstacle(const Situation& s);

@@ -3,10 +3,13 @@
 #include <algorithm>
 
 #include "services/types/math.h"
+#include "services/vehicle/claim.h"
 #include "services/vehicle/echoes.h"
 
 namespace giveway {
 namespace {
+
+constexpr double kFarAway_m = 1e6;
 
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {
@@ -33,13 +36,42 @@ bool Follows(const PeerView& view, const Situation& s) {
   return same_lane && (along > bodies || along < -bodies);
 }
 
-// Both vehicles' paths, as half-lines; a peer that stays put has none.
+// Both vehicles' ways to where they drive next. A peer that stays put has none; nor has one that
+// stands and comes later in the order: it is a body to steer round.
 std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
   if (StaysPut(view.peer->beacon) || Follows(view, s)) return std::nullopt;
-  const Path peer_path{view.world_from_body.position_world, view.forward_world};
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  if (cooperative && view.standing && !view.goes_first) return std::nullopt;
+  Path peer_path{view.world_from_body.position_world, view.forward_world};
+  double peer_way_m = kFarAway_m;
+  if (cooperative) {
+    const Vec2 way = view.peer->beacon.toward_world - peer_path.from_world;
+    peer_way_m = Norm(way);
+    if (peer_way_m > 0.05) peer_path.direction_world = (1 / peer_way_m) * way;
+  }
   auto conflict = FindConflict(s.path, peer_path, Reach(view, s));
-  if (conflict && conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
+  if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
+  if (conflict->peer.begin_m > peer_way_m) return std::nullopt;
   return conflict;
+}
+
+// Of one that was silent for longer nothing can be said; the ultrasonics and PeerLost see to it.
+constexpr double kClaimLasts_s = 1.0;
+// Kept from a claim on top of what is not known: steering bends the straight way a little.
+constexpr double kClearance_m = 0.05;
+
+// The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
+// have done since is unknown up to the end of the tick that this decision moves.
+double FreeOf(const PeerView& view, const Situation& s) {
+  const Beacon& beacon = view.peer->beacon;
+  if (view.peer->out_of_reach || view.peer->left) return kFarAway_m;
+  const double unknown_s = Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
+  if (unknown_s > kClaimLasts_s) return kFarAway_m;
+  const Claim claim =
+      ClaimOf(beacon, Forward(beacon.world_from_body), unknown_s, ReactionSeconds(s.options));
+  const double apart_m = s.options.profile.body_radius_m + kClearance_m +
+                         2 * (s.sigma_position_m + beacon.sigma_position_m);
+  return FreeBefore(claim, {s.world_from_body.position_world, s.forward_world}, apart_m);
 }
 
 }  // namespace
@@ -69,6 +101,23 @@ Vec2 InBody(const Situation& s, Vec2 point_world) {
   return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
 }
 
+double RoomBeside(const PeerView& view, const Situation& s) {
+  constexpr double kRoundMargin_m = 0.15;  // between the two shells
+  return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
+}
+
+bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s) {
+  const double room_m =
+      s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kPassingMargin_m;
+  return SquaredNorm(view.world_from_body.position_world - point_world) < room_m * room_m;
+}
+
+bool IsOnGoalOf(const PeerView& view, const Situation& s) {
+  const Beacon& beacon = view.peer->beacon;
+  const double room_m = s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m;
+  return SquaredNorm(beacon.toward_world - s.world_from_body.position_world) < room_m * room_m;
+}
+
 PeerView LookAt(Peer* peer, const Situation& s) {
   PeerView view{.peer = peer};
   const Beacon& beacon = peer->beacon;
@@ -82,8 +131,9 @@ PeerView LookAt(Peer* peer, const Situation& s) {
   view.forward_world = Forward(view.world_from_body);
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
-  view.goes_first = GoesFirst(beacon.order, s.order);
-  view.grants = view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon));
+  view.goes_first = ComesFirst(beacon.order, peer->id, s.order, s.options.id);
+  const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
+  view.grants = view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted);
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);
@@ -91,6 +141,7 @@ PeerView LookAt(Peer* peer, const Situation& s) {
   const Vec2 velocity = view.speed_m_s * view.forward_world - s.speed_m_s * s.forward_world;
   view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
   view.conflict = ConflictWith(view, s);
+  view.free_m = FreeOf(view, s);
   if (view.fresh) {
     view.explains = EchoesOf(view.world_from_body.position_world, beacon.body_radius_m, s);
   }

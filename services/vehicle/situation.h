@@ -27,6 +27,7 @@ struct PeerView {
   double gap_m = 0;        // shell to shell
   double closing_m_s = 0;  // positive while the gap shrinks
   std::optional<Conflict> conflict;
+  double free_m = 0;  // straight on until the own shell is at the peer's claim; huge if never
   std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
@@ -42,9 +43,15 @@ struct Situation {
   double speed_m_s = 0;   // forward, measured
   double turn_rad_s = 0;  // measured
   double sigma_position_m = 0;
-  Path path;                      // towards the goal, or straight on
-  double distance_to_goal_m = 0;  // huge without a goal
-  OrderKey order;                 // as last published
+  Path path;                         // towards the goal, or straight on
+  double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
+  bool stops_there = false;          // at the goal; a waypoint is driven through
+  OrderKey order;                    // as last published
+  VehicleId blocked_by = kNobody;    // as last published
+  bool very_aimless = false;         // for so long that it does not stay in line any more
+  bool aimless = false;              // has driven about for seconds without coming nearer
+  std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
+  int steer_side = 0;                // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
   int blind_sensor = -1;        // see RangeView::FirstBlind
   std::uint32_t explained = 0;  // union of the peers' `explains`
@@ -70,6 +77,15 @@ double CriticalDistance(const Situation& s, const PeerView& view);
 
 // A point given in the world, in the own body frame.
 Vec2 InBody(const Situation& s, Vec2 point_world);
+
+// How far the two axle centres keep apart when one steers round the other.
+double RoomBeside(const PeerView& view, const Situation& s);
+
+// True if the own body leaves the peer no room where it drives to.
+bool IsOnGoalOf(const PeerView& view, const Situation& s);
+
+// True if the peer's body leaves no room for the own one at that point.
+bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s);
 
 // Carries `peer` forward to now and relates it to the own path.
 PeerView LookAt(Peer* peer, const Situation& s);

@@ -1,49 +1,126 @@
 #include "services/vehicle/steering.h"
 
 #include <algorithm>
+#include <array>
 
 #include "services/types/math.h"
 
 namespace giveway {
 namespace {
 
-// Between two shells when one steers round the other.
-constexpr double kRoundMargin_m = 0.15;
+// How far ahead what stands in the way is steered round.
+constexpr double kLookAhead_m = 3;
+// A heading on the side of the last turn is kept although another is this much nearer.
+constexpr double kKeepSide_rad = 0.6;
 
-// Between the two centres when one passes the other.
-double Clearance(const PeerView& view, const Situation& s) {
-  return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
+// What stands in the way, as seen from the axle centre: no heading between `middle` - `half` and
+// `middle` + `half` gets past it.
+struct Blocked {
+  double middle_rad = 0;
+  double half_rad = 0;
+  double distance_m = 0;
+  VehicleId peer = kNobody;
+};
+
+struct BlockedHeadings {
+  std::array<Blocked, 64> of{};
+  std::size_t count = 0;
+};
+
+double Magnitude(double x) { return x < 0 ? -x : x; }
+
+bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
+  return Magnitude(WrapAngle(heading_rad - blocked.middle_rad)) < blocked.half_rad - 1e-6;
 }
 
-// The nearest standing peer that keeps still for us and blocks the straight way to the goal.
-const PeerView* Blocking(const Situation& s) {
-  const PeerView* nearest = nullptr;
+// Stands ahead on the same way and means to go on: one lines up behind it. Overtaking a queue ends
+// in front of whatever comes the other way.
+bool Queues(const PeerView& view, const Situation& s) {
+  constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
+  const Vec2 way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  const double way_m = Norm(way);
+  return way_m > 0.5 && view.fresh && Dot(way, s.path.direction_world) > kSameWay * way_m;
+}
+
+// Whom to steer round: whoever stands. One that comes first and could start at any time is left to
+// the right of way while it says that it will.
+bool StandsInTheWay(const PeerView& view, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative) {
+    return view.fresh && view.standing && view.grants && !view.goes_first;
+  }
+  return view.standing && !view.peer->left && !(Queues(view, s) && !s.very_aimless);
+}
+
+// Headings past which nothing gets within `way_m`.
+BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
+  BlockedHeadings headings;
+  // Whoever stands on the very goal is waited for: there is no way round to where it stands. But
+  // not by one that stands on the other's, nor for ever: three can stand so in a ring.
+  const Vec2 target =
+      s.world_from_body.position_world + s.distance_to_goal_m * s.path.direction_world;
   for (const PeerView& view : s.peers) {
-    const double clearance_m = Clearance(view, s);
-    if (!view.fresh || !view.standing || !view.grants || view.goes_first) continue;
-    const Vec2 offset = view.world_from_body.position_world - s.path.from_world;
-    const double along = Dot(offset, s.path.direction_world);
-    const double across = Cross(s.path.direction_world, offset);
-    const bool ahead = along > 0 && along < s.distance_to_goal_m + clearance_m;
-    const bool blocks = across < clearance_m && across > -clearance_m;
-    if (!ahead || !blocks) continue;
-    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
+    const bool waited_for = !s.aimless && Occupies(view, target, s) && !IsOnGoalOf(view, s);
+    if (!StandsInTheWay(view, s) || waited_for || headings.count == headings.of.size()) continue;
+    const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+    const double distance_m = Norm(offset);
+    const double clearance_m = RoomBeside(view, s);
+    if (distance_m - clearance_m > way_m) continue;
+    const double half_rad =
+        distance_m > clearance_m
+            ? Atan2(clearance_m, Sqrt(distance_m * distance_m - clearance_m * clearance_m))
+            : kPi / 2 + Radians(10);
+    headings.of[headings.count++] = {Atan2(offset.y, offset.x), half_rad, distance_m,
+                                     view.peer->id};
+  }
+  return headings;
+}
+
+// What nobody has said is there, but echoes near. Only for a vehicle that comes no further: where
+// in its cone the echo lies is not known, and all of it is more than is in the way.
+void AddEchoes(const Situation& s, BlockedHeadings* headings) {
+  constexpr double kNear_m = 0.6;
+  constexpr double kHalf_rad = 0.6;
+  const VehicleProfile& profile = s.options.profile;
+  for (std::size_t i = 0; i < kSensorCount && headings->count < headings->of.size(); ++i) {
+    const SensorView& view = s.ranges[i];
+    if (view.kind != Echo::kEcho || view.range_m > kNear_m || (s.explained >> i & 1U) != 0)
+      continue;
+    headings->of[headings->count++] = {
+        WrapAngle(s.world_from_body.heading_rad + profile.sonar[i].bearing_rad), kHalf_rad,
+        view.range_m, kNobody};
+  }
+}
+
+const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad) {
+  const Blocked* nearest = nullptr;
+  for (std::size_t i = 0; i < headings.count; ++i) {
+    const Blocked& blocked = headings.of[i];
+    if (!IsBlockedBy(blocked, heading_rad)) continue;
+    if (nearest == nullptr || blocked.distance_m < nearest->distance_m) nearest = &blocked;
   }
   return nearest;
 }
 
-// The heading of the tangent past a disc of `clearance_m` round `centre`, on the side nearer to
-// `goal_heading`; passing on the right where both sides are alike.
-double TangentHeading(const Situation& s, Vec2 centre_world, double clearance_m,
-                      double goal_heading) {
-  const Vec2 offset = centre_world - s.world_from_body.position_world;
-  const double distance = Norm(offset);
-  const double to_centre = Atan2(offset.y, offset.x);
-  const double reach = Sqrt(std::max(0.0, distance * distance - clearance_m * clearance_m));
-  // Inside the disc there is no tangent: drive square to it and a little away.
-  const double opening = distance > clearance_m ? Atan2(clearance_m, reach) : kPi / 2 + Radians(10);
-  const double goal_side = WrapAngle(goal_heading - to_centre);
-  return to_centre + (goal_side > Radians(3) ? opening : -opening);
+// The free heading nearest to the wanted one, along an edge of something; the side of the last
+// turn is kept unless the other is much nearer. The wanted one itself where none is free.
+double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side) {
+  double best = wanted_rad;
+  double best_cost = 1e9;
+  for (std::size_t i = 0; i < headings.count; ++i) {
+    const Blocked& blocked = headings.of[i];
+    for (const double edge :
+         {blocked.middle_rad + blocked.half_rad, blocked.middle_rad - blocked.half_rad}) {
+      if (BlockedAt(headings, edge) != nullptr) continue;
+      const double turn = WrapAngle(edge - wanted_rad);
+      // Passing on the right, with the obstacle to the left, where both sides are alike.
+      const bool other_side = side == 0 ? turn > 0 : turn * side < 0;
+      const double cost = Magnitude(turn) + (other_side ? (side == 0 ? 0.05 : kKeepSide_rad) : 0);
+      if (cost >= best_cost) continue;
+      best = edge;
+      best_cost = cost;
+    }
+  }
+  return best;
 }
 
 double Activation(const BraitenbergWeights& weights, const SensorView& view) {
@@ -56,10 +133,18 @@ double Activation(const BraitenbergWeights& weights, const SensorView& view) {
 
 Steering SteerToGoal(const Situation& s) {
   Steering steering;
-  double heading = Atan2(s.path.direction_world.y, s.path.direction_world.x);
-  if (const PeerView* view = Blocking(s)) {
-    heading = TangentHeading(s, view->world_from_body.position_world, Clearance(*view, s), heading);
-    steering.round = view->peer->id;
+  const Vec2 way =
+      s.detour_world ? *s.detour_world - s.world_from_body.position_world : s.path.direction_world;
+  const double wanted = Atan2(way.y, way.x);
+  double heading = wanted;
+  const double way_m = s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
+  BlockedHeadings headings = WhatBlocks(s, way_m);
+  if (s.aimless) AddEchoes(s, &headings);
+  if (const Blocked* blocked = BlockedAt(headings, wanted)) {
+    heading = FreeHeading(headings, wanted, s.steer_side);
+    steering.round = blocked->peer;
+    const double turn = WrapAngle(heading - wanted);
+    steering.side = turn > 0 ? 1 : -1;
   }
   steering.heading_error_rad = WrapAngle(heading - s.world_from_body.heading_rad);
   return steering;

@@ -9,6 +9,7 @@ namespace giveway {
 struct Steering {
   double heading_error_rad = 0;  // wanted minus present heading, in (-pi, pi]
   VehicleId round = kNobody;     // the halted peer that is being passed
+  int side = 0;                  // turned away from the wanted heading: 1 left, -1 right
 };
 
 // Steers to the goal; where a standing peer that gives way blocks the straight path, along the

@@ -7,6 +7,7 @@
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
 #include "services/vehicle/decide.h"
+#include "services/vehicle/detour.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
 #include "services/vehicle/scan_check.h"
@@ -16,16 +17,66 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
-// The platform's odometry error as its simulator profile gives it: per metre and per radian.
-constexpr double kOdometryError = 0.0075;
 constexpr double kNoGoal_m = 1e6;
+constexpr double kLongestWay_m = 1000;
+constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
+// Driving about for so long without coming nearer, a vehicle looks for a way round.
+constexpr double kPassedAtDistance_m = 1.2;
+constexpr double kNoProgress_s = 6;
+constexpr double kNoPatience_s = 15;
+constexpr double kProgress_m = 0.1;
+constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
 // How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
 // not start as one.
 constexpr double kDeafHold_s = 1.0;
 constexpr double kDeafStagger_s = 0.5;
 constexpr std::uint32_t kDeafStaggerSteps = 8;
 
-double Magnitude(double x) { return x < 0 ? -x : x; }
+// What the wheels do and what the encoders say of it are wrong independently of each other.
+double WheelError(const VehicleProfile& profile) {
+  return Sqrt(profile.wheel_slip * profile.wheel_slip +
+              profile.encoder_noise * profile.encoder_noise);
+}
+
+// The own key, or that of the first in the order that is blocked by this vehicle: whoever it waits
+// for would otherwise make that one wait too.
+OrderKey ActingOrder(const VehicleState& state, VehicleId own) {
+  OrderKey acting = state.order;
+  for (const Peer& peer : state.peers.Peers()) {
+    if (peer.known && peer.beacon.blocked_by == own && GoesFirst(peer.beacon.order, acting)) {
+      acting = peer.beacon.order;
+    }
+  }
+  return acting;
+}
+
+// Without a goal: straight on, as far as anybody looks.
+Vec2 Toward(const Situation& s) {
+  if (s.arrived) return s.world_from_body.position_world;
+  const double way_m = std::min(s.distance_to_goal_m, kLongestWay_m);
+  return s.world_from_body.position_world + way_m * s.path.direction_world;
+}
+
+// Who is bodily in the way: stands where this vehicle wants to be, keeps it from driving, or is
+// what it fails to get round.
+VehicleId BlockedBy(const Situation& s, const Action& action) {
+  if (s.arrived) return kNobody;
+  for (const PeerView& view : s.peers) {
+    const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
+    if (there && Occupies(view, Toward(s), s)) return view.peer->id;
+  }
+  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
+  if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
+  return s.aimless ? action.round : kNobody;
+}
+
+// A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
+bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
+  if (state.waypoint >= route.count) return false;
+  const double away_m = Norm(route.waypoints_world[state.waypoint] - position_world);
+  return away_m <= route.radius_m ||
+         (state.detour_tick != kNoTick && away_m <= kPassedAtDistance_m);
+}
 
 }  // namespace
 
@@ -36,7 +87,7 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
   GIVEWAY_CHECK(options.id != kNobody);
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->boot_epoch = boot_epoch;
-  state_->world_from_body = options.start_world;
+  state_->odometry = Odometry(options.start_world);
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
 
@@ -45,9 +96,9 @@ void Vehicle::EnterWorld(WorldEpoch epoch) {
   VehicleState& state = *state_;
   state.epoch = epoch;
   state.tick = kNoTick;
-  state.world_from_body = options_.start_world;
-  state.sigma_position_m = 0;
-  state.sigma_heading_rad = 0;
+  state.odometry = Odometry(options_.start_world);
+  state.waypoint = 0;
+  state.nearest_m = kNoGoal_m;
   state.arrived = false;
   state.order.waited_ticks = 0;
   state.waited_ticks = 0;
@@ -69,11 +120,9 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   if (state.tick != kNoTick && scan.tick <= state.tick) return;  // out of order: older than known
   const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
-  const Twist twist = TwistFromWheels(options_.profile.drive, scan.wheels);
-  state.world_from_body = AdvanceArc(state.world_from_body, twist, dt_s);
-  const double guessed_m = ticks > 1 ? options_.profile.acceleration_m_s2 * dt_s * dt_s : 0;
-  state.sigma_position_m += kOdometryError * Magnitude(twist.forward_m_s) * dt_s + guessed_m;
-  state.sigma_heading_rad += kOdometryError * Magnitude(twist.turn_rad_s) * dt_s;
+  const VehicleProfile& profile = options_.profile;
+  const double guessed_m = ticks > 1 ? profile.acceleration_m_s2 * dt_s * dt_s : 0;
+  state.odometry.Roll(profile.drive, scan.wheels, dt_s, WheelError(profile), guessed_m);
   state.tick = scan.tick;
   state.run_state = scan.run_state;
   state.wheels = scan.wheels;
@@ -82,12 +131,37 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
 
 void Vehicle::TakePeers(const Inputs& inputs) {
   VehicleState& state = *state_;
-  const Self self{options_.id, state.epoch, state.tick, state.world_from_body.position_world};
+  const Self self{options_.id, state.epoch, state.tick,
+                  state.odometry.WorldFromBody().position_world};
   state.peers.Advance(inputs.now, state.tick);
   for (const ReceivedBeacon& received : inputs.beacons) {
     state.peers.Take(received, self, options_, &state.beacons);
   }
   for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
+}
+
+// The straight way to the next waypoint or the goal; straight on without either.
+void Vehicle::LookAhead(Situation* s) {
+  VehicleState& state = *state_;
+  const Route& route = options_.route;
+  const Vec2 position = s->world_from_body.position_world;
+  s->path = {position, s->forward_world};
+  s->distance_to_goal_m = kNoGoal_m;
+  for (std::uint32_t i = 0; i < route.count && PassesWaypoint(state, route, position); ++i) {
+    ++state.waypoint;
+    if (route.loop && state.waypoint == route.count) state.waypoint = 0;
+    state.nearest_m = kNoGoal_m;
+    state.aimless_ticks = 0;
+  }
+  const bool on_route = state.waypoint < route.count;
+  if (!on_route && !options_.goal.set) return;
+  const Vec2 way =
+      (on_route ? route.waypoints_world[state.waypoint] : options_.goal.at_world) - position;
+  s->distance_to_goal_m = Norm(way);
+  s->stops_there = !on_route;
+  if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
+  // Well inside the radius, so that the truth is inside too.
+  if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
 }
 
 Situation Vehicle::Look(const Inputs& inputs) {
@@ -98,22 +172,15 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.tick = state.tick;
   s.run_state = state.run_state;
   s.leaving = inputs.leaving;
-  s.world_from_body = state.world_from_body;
+  s.world_from_body = state.odometry.WorldFromBody();
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
-  s.sigma_position_m = state.sigma_position_m;
-  s.order = state.order;
+  s.sigma_position_m = state.odometry.SigmaPosition();
+  s.order = ActingOrder(state, options_.id);
+  s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
   s.forward_world = Forward(s.world_from_body);
-  s.path = {s.world_from_body.position_world, s.forward_world};
-  s.distance_to_goal_m = kNoGoal_m;
-  if (options_.goal.set) {
-    const Vec2 to_goal = options_.goal.at_world - s.world_from_body.position_world;
-    s.distance_to_goal_m = Norm(to_goal);
-    if (s.distance_to_goal_m > 0) s.path.direction_world = (1 / s.distance_to_goal_m) * to_goal;
-    // Well inside the radius, so that the truth is inside too.
-    if (s.distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
-  }
+  LookAhead(&s);
   s.arrived = state.arrived;
   return s;
 }
@@ -130,6 +197,36 @@ void Vehicle::LookAtPeers(Situation* s) {
     (*views_)[count++] = view;
   }
   s->peers = {views_->data(), count};
+}
+
+// Where steering round what stands leads nowhere, the way is looked up on a map of it.
+void Vehicle::Detour(Situation* s) {
+  VehicleState& state = *state_;
+  if (s->distance_to_goal_m < state.nearest_m - kProgress_m) {
+    state.nearest_m = s->distance_to_goal_m;
+    state.aimless_ticks = 0;
+    state.detour_tick = kNoTick;
+  }
+  if (IsGiveWay(state.decision.rule)) return;
+  ++state.aimless_ticks;
+  if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
+  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
+  s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
+  if (!s->aimless) return;
+  if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
+    std::array<KeepOut, 64> discs;
+    std::size_t count = 0;
+    for (const PeerView& view : s->peers) {
+      const double room_m = RoomBeside(view, *s);
+      if (count == discs.size() || !view.standing) continue;
+      discs[count++] = {view.world_from_body.position_world, room_m};
+    }
+    const auto turn =
+        FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
+    state.detour_tick = turn ? s->tick : kNoTick;
+    if (turn) state.detour_world = *turn;
+  }
+  if (state.detour_tick != kNoTick) s->detour_world = state.detour_world;
 }
 
 // Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
@@ -156,7 +253,8 @@ void Vehicle::ListenForMovers(Situation* s) {
 
 // What the next step must know: how long it has waited, and its place in the order, which is
 // sampled when the first of the encounters begins and then stands until the last is over.
-void Vehicle::Remember(const Situation& s, const Decision& decision) {
+void Vehicle::Remember(const Situation& s, const Action& action) {
+  const Decision& decision = action.decision;
   VehicleState& state = *state_;
   const auto under_way = static_cast<std::uint32_t>(
       std::count_if(s.peers.begin(), s.peers.end(),
@@ -170,6 +268,8 @@ void Vehicle::Remember(const Situation& s, const Decision& decision) {
   if (under_way == 0 && !waits) state.waited_ticks = 0;
   state.encounters = under_way;
   state.decision = decision;
+  state.steer_side = action.steer_side;
+  state.blocked_by = BlockedBy(s, action);
 }
 
 Beacon Vehicle::Say(const Situation& s) {
@@ -184,27 +284,33 @@ Beacon Vehicle::Say(const Situation& s) {
           .tick = state.tick,
           .wheels = state.wheels,
           .cruise_m_s = options_.cruise_m_s,
-          .world_from_body = state.world_from_body,
-          .sigma_position_m = state.sigma_position_m,
-          .sigma_heading_rad = state.sigma_heading_rad,
+          .world_from_body = s.world_from_body,
+          .sigma_position_m = s.sigma_position_m,
+          .sigma_heading_rad = state.odometry.SigmaHeading(),
           .body_radius_m = options_.profile.body_radius_m,
           .drive = options_.profile.drive,
+          .acceleration_m_s2 = options_.profile.acceleration_m_s2,
+          .deceleration_m_s2 = options_.profile.deceleration_m_s2,
+          .toward_world = Toward(s),
           .mode = state.decision.mode,
           .rule = state.decision.rule,
           .gives_way_to = state.gives_way_to,
-          .order = state.order};
+          .blocked_by = state.blocked_by,
+          .order = s.order};
 }
 
 Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   VehicleState& state = *state_;
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
+  if (inputs.pose_fix) state.odometry.Fix(*inputs.pose_fix);
   TakePeers(inputs);
   Situation s = Look(inputs);
   LookAtPeers(&s);
   ListenForMovers(&s);
+  Detour(&s);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.decision);
-  Remember(s, action.decision);
+  Remember(s, action);
 
   Outputs outputs;
   outputs.beacon = Say(s);
@@ -230,12 +336,9 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.epoch);
   hash.Add(state.tick);
   hash.Add(state.run_state);
-  hash.Add(state.world_from_body.position_world.x);
-  hash.Add(state.world_from_body.position_world.y);
-  hash.Add(state.world_from_body.heading_rad);
   hash.Add(state.wheels.left_rad_s);
   hash.Add(state.wheels.right_rad_s);
-  hash.Add(state.sigma_position_m);
+  state.odometry.AddTo(&hash);
   hash.Add(state.arrived);
   hash.Add(state.order.waited_ticks);
   hash.Add(state.waited_ticks);

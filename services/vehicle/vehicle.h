@@ -10,6 +10,8 @@
 
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle/decide.h"
+#include "services/vehicle/odometry.h"
 #include "services/vehicle/peer_table.h"
 #include "services/vehicle/range_view.h"
 #include "services/vehicle/situation.h"
@@ -25,10 +27,9 @@ struct VehicleState {
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;
   RunState run_state = RunState::kWaiting;
-  Pose world_from_body;
-  WheelSpeeds wheels;  // as last measured
-  double sigma_position_m = 0;
-  double sigma_heading_rad = 0;
+  Odometry odometry;
+  WheelSpeeds wheels;          // as last measured
+  std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
   OrderKey order;
   std::uint32_t waited_ticks = 0;  // halted to give way, in the encounters under way
@@ -38,6 +39,12 @@ struct VehicleState {
   int deaf_sensor = -1;
   Decision decision;
   VehicleId gives_way_to = kNobody;  // as last published
+  VehicleId blocked_by = kNobody;    // as last published
+  int steer_side = 0;                // 1 left, -1 right, 0 straight on
+  double nearest_m = 1e9;            // the least distance to the goal so far
+  std::uint32_t aimless_ticks = 0;   // driven since without coming nearer
+  Vec2 detour_world;                 // where the way round leads first, if detour_tick is set
+  Tick detour_tick = kNoTick;        // when it was looked for
   RangeView ranges;
   PeerTable peers;
   std::uint32_t scans_refused = 0;
@@ -67,9 +74,11 @@ class Vehicle {
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);
   Situation Look(const Inputs& inputs);
+  void LookAhead(Situation* situation);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
-  void Remember(const Situation& situation, const Decision& decision);
+  void Detour(Situation* situation);
+  void Remember(const Situation& situation, const Action& action);
   Beacon Say(const Situation& situation);
 
   VehicleOptions options_;

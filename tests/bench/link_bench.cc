@@ -5,7 +5,6 @@
 #include <benchmark/benchmark.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <vector>
@@ -13,10 +12,13 @@
 #include "services/link/beacon_inbox.h"
 #include "services/link/convert.h"
 #include "services/link/participant.h"
+#include "tests/bench/measure.h"
 #include "tests/support/domain_lock.h"
 
 namespace giveway::link {
 namespace {
+
+using bench::Median;
 
 constexpr std::uint32_t kBatch = 8;
 
@@ -120,13 +122,6 @@ double SecondsOf(Work&& work) {
   const auto begin = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 // One batch sent and drained.

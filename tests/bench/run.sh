@@ -3,9 +3,12 @@
 # exit code is 0 however they come out, and 2 if one could not be taken.
 #
 #   bash tests/bench/run.sh            every figure
-#   bash tests/bench/run.sh step       figures whose name begins so (step, link, reaction, rss)
+#   bash tests/bench/run.sh step       one group: step, link, world, peers, reaction or rss
+#
+# The group peers installs Box2D and Embree, which nothing else needs. A bound of - is none.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
+source services/setup.sh
 only="${1:-}"
 bin=build/release/bin
 [[ -x $bin/giveway-bench ]] || bash services/run.sh --setup-only
@@ -15,12 +18,22 @@ trap 'rm -rf "$scratch"' EXIT
 
 wanted() { [[ $1 == "$only"* ]]; }
 
+print_figure() { printf '%-28s %10s %10s %s\n' "$@"; }
+
 # figure NAME VALUE BOUND: at most the bound is ok.
 figure() {
-  local verdict
-  verdict=$(awk -v value="$2" -v bound="$3" 'BEGIN { print (value <= bound ? "ok" : "short") }')
-  printf '%-28s %10s %10s %s\n' "$1" "$2" "$3" "$verdict"
+  print_figure "$@" \
+    "$(awk -v value="$2" -v bound="$3" 'BEGIN { print (value <= bound ? "ok" : "short") }')"
 }
+
+# figure_at_least NAME VALUE BOUND: the bound or more is ok.
+figure_at_least() {
+  print_figure "$@" \
+    "$(awk -v value="$2" -v bound="$3" 'BEGIN { print (value >= bound ? "ok" : "short") }')"
+}
+
+# figure_alone NAME VALUE: nothing is asked of it.
+figure_alone() { print_figure "$@" - ok; }
 
 # microbench NAME FIELD: median over repetitions of one field of one benchmark.
 microbench() {
@@ -29,6 +42,18 @@ microbench() {
     jq -er --arg field "$2" \
       '.benchmarks[] | select(.aggregate_name == "median") | .[$field] * 100 | round / 100' ||
     { cat "$scratch/err" >&2; exit 2; }
+}
+
+# interleaved PROGRAM NAME: runs one benchmark that compares within itself; counter reads from it.
+interleaved() {
+  "$bin/$1" --benchmark_filter="^$2/" --benchmark_format=json \
+    >"$scratch/interleaved.json" 2>"$scratch/err" || { cat "$scratch/err" >&2; exit 2; }
+}
+
+# counter NAME DIGITS: a counter of the benchmark last run, rounded.
+counter() {
+  jq -er --arg name "$1" --argjson scale "1e$2" \
+    '.benchmarks[0] | .[$name] * $scale | round / $scale' "$scratch/interleaved.json"
 }
 
 # Vehicle::Step with everyone heard anew every tick, microseconds.
@@ -43,6 +68,40 @@ if wanted link; then
   for part in send take both; do
     figure "link_${part}_ratio" \
       "$(microbench 'LinkOverhead/iterations:4000/manual_time' "${part}_ratio")" 1.1
+  done
+fi
+
+# World::Advance with all 16 ultrasonics, one vehicle per 4 m^2, vehicle-steps a second on one core.
+if wanted world; then
+  interleaved giveway-bench WorldSizes
+  figure_at_least world_steps_per_s "$(counter steps_per_s_1000 0)" 1000000
+  figure_alone world_steps_per_s_100 "$(counter steps_per_s_100 0)"
+  figure_alone world_steps_per_s_10000 "$(counter steps_per_s_10000 0)"
+  figure world_cost_flatness "$(counter flatness 2)" 1.5
+  interleaved giveway-bench WorldTiers
+  for tier in typical p3dx crosstalk; do
+    figure_alone "world_steps_per_s_$tier" "$(counter "steps_per_s_$tier" 0)"
+  done
+fi
+
+# Against general engines that cast seven rays a cone over the same bodies: their time over ours, of
+# the whole world against Box2D and of its sensing alone against Embree, which only senses; how many
+# ranges differ by what the sampling does not explain, and by what only grazing does.
+if wanted peers; then
+  if [[ ! -x $bin/giveway-peers-bench ]]; then
+    mapfile -t packages < <(bench_packages)
+    install_packages "${packages[@]}"
+    cmake --preset release >&2
+  fi
+  build release giveway-peers-bench
+  interleaved giveway-peers-bench WorldAgainstPeers
+  figure_at_least world_vs_box2d "$(counter world_vs_box2d 1)" 30
+  figure_at_least sonar_vs_embree "$(counter sonar_vs_embree 2)" 5
+  figure_alone world_vs_embree "$(counter world_vs_embree 2)"
+  for peer in Box2d Embree; do
+    interleaved giveway-peers-bench "Agree/$peer"
+    figure "range_disagreements_${peer,}" "$(counter disagreements 0)" 0
+    figure "range_grazing_ppm_${peer,}" "$(counter grazing_ppm 0)" 1000
   done
 fi
 

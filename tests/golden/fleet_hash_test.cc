@@ -31,10 +31,10 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
-                         testing::Values(Golden{Behaviour::kCooperative, 0xcc81530a636688c4ULL},
-                                         Golden{Behaviour::kLectureAvoid, 0xb7b0d31761e787e1ULL},
-                                         Golden{Behaviour::kStockAvoid, 0xb3567fab25f3c8b7ULL},
-                                         Golden{Behaviour::kLectureYield, 0x88a93908ff5515a4ULL}),
+                         testing::Values(Golden{Behaviour::kCooperative, 0x99fce240ad40fb99ULL},
+                                         Golden{Behaviour::kLectureAvoid, 0x7a318c6387ec87baULL},
+                                         Golden{Behaviour::kStockAvoid, 0x5eb3bc1da8904b16ULL},
+                                         Golden{Behaviour::kLectureYield, 0x883612c5e72b625fULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
 
 }  // namespace

@@ -55,9 +55,13 @@ TEST(Convert, BeaconComesBackBitForBit) {
   sent.sigma_heading_rad = 0.1;
   sent.body_radius_m = 0.4;
   sent.drive = {0.1, 0.5};
+  sent.acceleration_m_s2 = 0.7;
+  sent.deceleration_m_s2 = 0.9;
+  sent.toward_world = {-kHuge, kTiny};
   sent.mode = Mode::kLeaving;
   sent.rule = Rule::kLeaving;
   sent.gives_way_to = VehicleId{5};
+  sent.blocked_by = VehicleId{9};
   sent.order = {6, 7, VehicleId{8}};
   const Beacon back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
@@ -76,6 +80,10 @@ TEST(Convert, BeaconComesBackBitForBit) {
   EXPECT_EQ(back.body_radius_m, 0.4);
   EXPECT_EQ(back.drive.wheel_radius_m, 0.1);
   EXPECT_EQ(back.drive.axle_m, 0.5);
+  EXPECT_EQ(back.acceleration_m_s2, 0.7);
+  EXPECT_EQ(back.deceleration_m_s2, 0.9);
+  EXPECT_EQ(back.toward_world, sent.toward_world);
+  EXPECT_EQ(back.blocked_by, sent.blocked_by);
   EXPECT_EQ(back.mode, sent.mode);
   EXPECT_EQ(back.rule, sent.rule);
   EXPECT_EQ(back.gives_way_to, sent.gives_way_to);

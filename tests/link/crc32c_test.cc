@@ -40,12 +40,14 @@ Beacon TestVector() {
   beacon.sigma_heading_rad = 0.0625;
   beacon.mode = Mode::kSensorOnly;
   beacon.rule = Rule::kGiveWay;
+  beacon.toward_world = {3.0, -4.0};
   beacon.gives_way_to = VehicleId{2};
+  beacon.blocked_by = VehicleId{9};
   beacon.order = {6, 8, VehicleId{7}};
   return beacon;
 }
 
-TEST(BeaconCrc, IsTheTestVectorOfTheIdl) { EXPECT_EQ(ToWire(TestVector()).crc(), 0x06fb3084U); }
+TEST(BeaconCrc, IsTheTestVectorOfTheIdl) { EXPECT_EQ(ToWire(TestVector()).crc(), 0x40c1c35cU); }
 
 TEST(BeaconCrc, CoversEveryField) {
   using Change = void (*)(wire::Beacon&);
@@ -65,6 +67,11 @@ TEST(BeaconCrc, CoversEveryField) {
                             [](wire::Beacon& b) { b.body_radius_m() += 1; },
                             [](wire::Beacon& b) { b.wheel_radius_m() += 1; },
                             [](wire::Beacon& b) { b.axle_m() += 1; },
+                            [](wire::Beacon& b) { b.acceleration_m_s2() += 1; },
+                            [](wire::Beacon& b) { b.deceleration_m_s2() += 1; },
+                            [](wire::Beacon& b) { b.toward_x_m() += 1; },
+                            [](wire::Beacon& b) { b.toward_y_m() += 1; },
+                            [](wire::Beacon& b) { b.blocked_by() ^= 1; },
                             [](wire::Beacon& b) { b.mode(wire::DriveMode::MODE_HALT); },
                             [](wire::Beacon& b) { b.rule(wire::DriveRule::RULE_DEAF); },
                             [](wire::Beacon& b) { b.gives_way_to() ^= 1; },

@@ -45,6 +45,7 @@ inline Beacon BeaconOf(std::uint32_t id, std::uint32_t tick, const Pose& pose,
   beacon.tick = Tick{tick};
   beacon.cruise_m_s = cruise_m_s;
   beacon.world_from_body = pose;
+  beacon.toward_world = pose.position_world + 100.0 * Forward(pose);
   beacon.mode = Mode::kCooperative;
   beacon.rule = Rule::kCruise;
   beacon.order = {.speed_bucket = SpeedBucket(cruise_m_s), .vehicle = VehicleId{id}};

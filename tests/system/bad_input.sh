@@ -59,6 +59,19 @@ refused "100 MB of nothing" '8388608|8 MiB' "$SCRATCH/sparse.textproto"
 yes "$(cat "$good")" 2>/dev/null | head -c 100000000 >"$SCRATCH/huge.textproto" || true
 refused "100 MB of text" '8388608|8 MiB' "$SCRATCH/huge.textproto"
 mkfifo "$SCRATCH/pipe.textproto"
+# A million walls: too large a file, and, written as short as can be, too many.
+wall='wall{from{x_m:0 y_m:9}to{x_m:1 y_m:9}}'
+{
+  cat "$good"
+  yes "$wall" 2>/dev/null | head -n 1000000 || true
+} >"$SCRATCH/walls.textproto"
+refused "a million walls" '8388608|8 MiB' "$SCRATCH/walls.textproto"
+{
+  cat "$good"
+  yes 'wall{}' 2>/dev/null | head -n 1000000 || true
+} >"$SCRATCH/bare_walls.textproto"
+refused "a million bare walls" 'bare_walls\.textproto:1: .*at most 65536' \
+  "$SCRATCH/bare_walls.textproto"
 refused "named pipe" 'pipe\.textproto' "$SCRATCH/pipe.textproto"
 {
   printf 'expect '
@@ -79,6 +92,27 @@ spoilt "duplicate ids" 'spoilt\.textproto:9: .*id' '9s/2/1/'
 spoilt "field given twice" 'spoilt\.textproto:2: |spoilt\.textproto:3: ' '2s/$/\nduration_s: 2/'
 spoilt "text where a number belongs" 'spoilt\.textproto:6' '6s/0.3/"fast"/'
 spoilt "unclosed brace" 'spoilt\.textproto:' '13d;12d'
+spoilt "wall of zero length" 'spoilt\.textproto:2: wall\[0\]\.to = .*no length' \
+  '2s/$/ wall { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 1 } }/'
+spoilt "door of zero length" 'spoilt\.textproto:2: door\[0\]\.to = .*no length' \
+  '2s/$/ door { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 1 } }/'
+spoilt "boxes that overlap" 'spoilt\.textproto:2: obstacle\[0\]\.start = .*overlaps vehicle 1' \
+  '2s/$/ obstacle { box { half_length_m: 1 half_width_m: 0.1 } start { x_m: -4 y_m: 0 } }/'
+spoilt "NaN pose" 'spoilt\.textproto:5: vehicle\[0\]\.start\.y_m = nan' '5s/y_m: 0/y_m: nan/'
+spoilt "infinite pose" 'spoilt\.textproto:5: vehicle\[0\]\.start\.x_m = -inf' '5s/x_m: -3/x_m: -inf/'
+spoilt "cart faster than anything" 'spoilt\.textproto:2: obstacle\[0\]\.speed_m_s = 11: .*10 m/s' \
+  '2s/$/ obstacle { disc_radius_m: 1 start { x_m: 9 y_m: 9 } waypoint { x_m: 9 y_m: 5 } speed_m_s: 11 }/'
+spoilt "cart without a way" 'spoilt\.textproto:2: obstacle\[0\]\.speed_m_s = 1: ' \
+  '2s/$/ obstacle { disc_radius_m: 1 start { x_m: 9 y_m: 9 } speed_m_s: 1 }/'
+spoilt "slots shorter than an echo" 'spoilt\.textproto:2: sonar\.slot_ms = 20: ' \
+  '2s/$/ sonar { tier: p3dx slot_ms: 20 }/'
+spoilt "noise louder than the echo" 'spoilt\.textproto:2: sonar\.noise = 0.6: ' \
+  '2s/$/ sonar { tier: typical noise: 0.6 }/'
+spoilt "greens against each other" 'spoilt\.textproto:3: signal\[1\]\.group = 1: .*at one time' \
+  '2s/$/ signal { id: 1 group: 1 heading_deg: 0 line { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 2 } } }\
+signal { id: 2 group: 1 heading_deg: 0 line { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 2 } } }/'
+spoilt "fault of a signal there is not" 'spoilt\.textproto:2: fault\[0\]\.dark = 9: ' \
+  '2s/$/ fault { dark: 9 at_s: 1 }/'
 spoilt "no expectation" 'spoilt\.textproto:.*expect' '13d'
 
 refused "no scenario" 'SCENARIO'

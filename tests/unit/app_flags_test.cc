@@ -81,6 +81,25 @@ TEST(Flags, EveryFlagReachesItsPlace) {
   EXPECT_EQ(flags.log_level, "debug");
 }
 
+TEST(Flags, OnlyTheWorldSharesItsWorkAmongThreads) {
+  const auto threads = [](std::vector<const char*> words) {
+    words.insert(words.begin(), {"--scenario", "s", "--domain", "1"});
+    return std::get<ServiceFlags>(World(words)).threads;
+  };
+  EXPECT_EQ(threads({}), 1U);
+  EXPECT_EQ(threads({"--threads", "256"}), 256U);
+  const Variable twin("GIVEWAY_THREADS", "3");
+  EXPECT_EQ(threads({}), 3U);
+  EXPECT_EQ(threads({"--threads", "2"}), 2U);
+  EXPECT_THAT(Refusal({"--scenario", "s", "--domain", "1", "--threads", "2"}),
+              HasSubstr("--threads"));
+  for (const char* wrong : {"0", "257", "-1", "2.5", "many"}) {
+    CaptureStderr();
+    EXPECT_EQ(std::get<int>(World({"--scenario", "s", "--domain", "1", "--threads", wrong})), 2);
+    EXPECT_THAT(GetCapturedStderr(), HasSubstr("must be a whole number between 1 and 256"));
+  }
+}
+
 TEST(Flags, EveryWrongValueIsNamedWithItsRange) {
   const std::string text = Refusal(
       {"--scenario",  "",     "--domain",    "100", "--id",         "0",   "--seed",      "-1",

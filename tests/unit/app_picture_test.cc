@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "services/app/picture.h"
@@ -144,6 +146,94 @@ TEST(Picture, NorthIsUp) {
   ASSERT_EQ(std::sscanf(svg.c_str() + path, "<path d=\"M%lf %lfL%lf %lf", &x0, &y0, &x1, &y1), 4);
   EXPECT_EQ(x0, x1);
   EXPECT_LT(y1, y0);
+}
+
+TEST(Picture, ABoxIsDrawnAsABoxThatPointsItsWay) {
+  Scenario scenario = Crossing();
+  VehicleProfile& profile = scenario.vehicles[0].profile;
+  profile.shape = BodyShape::kBox;
+  profile.box_half_m = {0.8, 0.2};
+  profile.body_radius_m = Norm(profile.box_half_m);
+  const auto size = [&](double heading_rad) {
+    scenario.vehicles[0].start_world.heading_rad = heading_rad;
+    const std::string svg = DrawRun(scenario, {}, {});
+    const std::size_t path = svg.find("<path d=\"M");
+    double x[3];
+    double y[3];
+    EXPECT_EQ(std::sscanf(svg.c_str() + path, "<path d=\"M%lf %lfL%lf %lfL%lf %lf", &x[0], &y[0],
+                          &x[1], &y[1], &x[2], &y[2]),
+              6);
+    return Vec2{std::abs(x[0] - x[2]), std::abs(y[0] - y[2])};
+  };
+  const Vec2 lying = size(0);
+  EXPECT_NEAR(lying.x, 4 * lying.y, 1);
+  const Vec2 standing = size(kPi / 2);
+  EXPECT_NEAR(standing.y, 4 * standing.x, 1);
+}
+
+// The world tells where a vehicle was closest, its track which way it pointed.
+TEST(Picture, ABoxAtItsClosestPointsAsItDroveThere) {
+  Scenario scenario = Crossing();
+  scenario.vehicles[0].profile.shape = BodyShape::kBox;
+  scenario.vehicles[0].profile.box_half_m = {0.8, 0.2};
+  WorldEvent closest = Event(EventKind::kClosest, 5, 1);
+  closest.other = VehicleId{2};
+  closest.value = 1;
+  Track track = Straight(VehicleId{1}, {-4, 0}, {0.4, 0});
+  const std::string ahead = DrawRun(scenario, {track}, {closest});
+  for (Truth& truth : track.truths) truth.world_from_body.heading_rad = 1;
+  EXPECT_NE(ahead, DrawRun(scenario, {track}, {closest}));
+}
+
+TEST(Picture, ThePlaceIsDrawnAndExplained) {
+  const std::string bare = DrawRun(Crossing(), {}, {});
+  for (const char* words : {">obstacle<", ">moving obstacle", ">door<", ">stop line", ">spawn"}) {
+    EXPECT_THAT(bare, Not(HasSubstr(words)));
+  }
+  Scenario scenario = Crossing();
+  Obstacle cart;
+  cart.waypoints_world = {{1, 1}, {2, 1}};
+  cart.speed_m_s = 0.5;
+  scenario.obstacles = {Obstacle{}, cart};
+  scenario.doors = {Door{{3, 0}, {3, 1}}};
+  SignalPlan signal;
+  signal.id = SignalId{4};
+  signal.line_to_world = {1, 0};
+  scenario.signals = {signal};
+  scenario.spawns = {scenario.vehicles[0]};
+  const std::string svg = DrawRun(scenario, {}, {});
+  for (const char* words :
+       {">obstacle<", ">moving obstacle", ">door<", ">stop line", ">spawn", ">0.5 m/s<", ">s4<"}) {
+    EXPECT_THAT(svg, HasSubstr(words));
+  }
+}
+
+TEST(Picture, WhoJoinedIsDrawnAsTheSpawnPlaceItCameFrom) {
+  Scenario scenario = Crossing();
+  for (const double x : {-8.0, 8.0}) {
+    VehicleOptions spawn;
+    spawn.start_world.position_world = {x, 0};
+    spawn.cruise_m_s = x < 0 ? 0.11 : 0.22;
+    scenario.spawns.push_back(spawn);
+  }
+  const std::string svg = DrawRun(scenario, {Straight(VehicleId{3}, {7.9, 0}, {-0.3, 0})}, {});
+  EXPECT_THAT(svg, HasSubstr(">vehicle 3, 0.22 m/s"));
+  EXPECT_THAT(svg, Not(HasSubstr("0.11 m/s")));
+}
+
+TEST(Picture, WhatIsNotFiniteInThePlaceIsLeftOut) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Scenario scenario = Crossing();
+  Obstacle cart;
+  cart.start_world = {{nan, 0}, nan};
+  cart.waypoints_world = {{nan, nan}};
+  cart.speed_m_s = 1;
+  scenario.obstacles = {cart};
+  scenario.obstacles.push_back(cart);
+  scenario.obstacles.back().shape = BodyShape::kBox;
+  scenario.doors = {Door{{nan, 0}, {3, 1}}};
+  scenario.signals = {SignalPlan{.line_from_world = {nan, nan}, .travel_rad = nan}};
+  EXPECT_THAT(DrawRun(scenario, {}, {}), Not(HasSubstr("nan")));
 }
 
 TEST(Picture, AThousandVehiclesAndAFarCornerStayReadable) {

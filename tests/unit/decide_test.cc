@@ -153,12 +153,16 @@ TEST(Decide, TheFasterGivesWayToNobody) {
   EXPECT_EQ(out.beacon.gives_way_to, kNobody);
 }
 
-// Drives towards the crossing with the peer standing 1.2 m south of it; returns the last outputs.
-Outputs DriveUpTo(BrainBench* bench, double peer_cruise_m_s, VehicleId peer_gives_way_to) {
+constexpr WheelSpeeds kCreeping = {0.3, 0.3};  // 3 cm/s
+
+// Drives towards the crossing with the peer 1.2 m south of it, standing by default; returns the
+// last outputs.
+Outputs DriveUpTo(BrainBench* bench, double peer_cruise_m_s, VehicleId peer_gives_way_to,
+                  WheelSpeeds peer_wheels = {}) {
   Outputs out;
   for (int i = 0; i < 400; ++i) {
     Beacon beacon = Crossing(bench->NextTick() - 1, peer_cruise_m_s, 1.2);
-    beacon.wheels = {};
+    beacon.wheels = peer_wheels;
     beacon.gives_way_to = peer_gives_way_to;
     const bool first = bench->NextTick() == 1;
     out = bench->Step(Driving(0.3), first ? std::vector<Beacon>{} : std::vector{beacon});
@@ -178,7 +182,7 @@ TEST(Decide, TheSlowerStopsBeforeTheConflict) {
 TEST(Decide, TheFirstInOrderStopsToo) {
   SCOPED_TRACE("where the peer has not said that it gives way");
   BrainBench bench(test::DefaultOptions());
-  const Outputs out = DriveUpTo(&bench, 0.2, kNobody);
+  const Outputs out = DriveUpTo(&bench, 0.2, kNobody, kCreeping);
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
   EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.3 - 0.075);
 }
@@ -192,7 +196,14 @@ TEST(Decide, TheFirstInOrderDrivesOnOnceThePeerHasSaidSo) {
 
 TEST(Decide, AGrantToSomebodyElseIsNone) {
   BrainBench bench(test::DefaultOptions());
-  EXPECT_EQ(DriveUpTo(&bench, 0.2, VehicleId{3}).command.decision.rule, Rule::kNotGranted);
+  EXPECT_EQ(DriveUpTo(&bench, 0.2, VehicleId{3}, kCreeping).command.decision.rule,
+            Rule::kNotGranted);
+}
+
+TEST(Decide, WhoeverStandsAndComesLaterIsABodyAndNotAPath) {
+  BrainBench bench(test::DefaultOptions());
+  const Outputs out = DriveUpTo(&bench, 0.2, kNobody);
+  EXPECT_GT(out.beacon.world_from_body.position_world.x, 4.7);
 }
 
 TEST(Decide, AStopOnceBegunIsNotTakenBackAsTheVehicleSlows) {
@@ -216,6 +227,7 @@ TEST(Decide, AnEncounterIsNotOverWhileThePeerStillComesNearer) {
   EXPECT_EQ(bench.Step(Driving(0), {beacon}).command.decision.rule, Rule::kGiveWay);
   beacon = Crossing(bench.NextTick() - 1, 0.4, 0.8);
   beacon.world_from_body.heading_rad = -kPi / 2;
+  beacon.toward_world = beacon.world_from_body.position_world - Vec2{0, 10};
   beacon.wheels = {2, 2};
   EXPECT_EQ(bench.Step(Driving(0), {beacon}).command.decision.rule, Rule::kCruise);
 }

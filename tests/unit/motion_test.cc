@@ -21,7 +21,7 @@ Motion From(Vec2 position, double heading_rad, double forward_m_s, double turn_r
           .radius_m = kRadius_m};
 }
 
-double GapAt(const Motion& a, const Motion& b, double t_s) {
+double DiscGap(const Motion& a, const Motion& b, double t_s) {
   return Norm(PositionAt(b, t_s) - PositionAt(a, t_s)) - 2 * kRadius_m;
 }
 
@@ -88,10 +88,10 @@ TEST(Motion, ArcsNeverPassThroughEachOther) {
     met += contact.has_value();
     for (int k = 0; k <= 500; ++k) {
       const double t_s = contact.value_or(1) * k / 500;
-      ASSERT_GE(GapAt(a, b, t_s), -1e-12) << i << ' ' << t_s;
+      ASSERT_GE(DiscGap(a, b, t_s), -1e-12) << i << ' ' << t_s;
     }
     if (contact) {
-      ASSERT_LE(GapAt(a, b, *contact), kTouch_m);
+      ASSERT_LE(DiscGap(a, b, *contact), kTouch_m);
     }
   }
   EXPECT_GT(met, 300);
@@ -121,9 +121,9 @@ TEST(Motion, TheClosestMomentIsAsLowAsAnySample) {
     const Motion a = arc({0, 0});
     const Motion b = arc({random.Uniform(0.5, 0.6), random.Uniform(-0.1, 0.1)});
     const ClosestMoment closest = ClosestWithin(a, b, kDt_s);
-    ASSERT_NEAR(GapAt(a, b, closest.t_s), closest.gap_m, 1e-15);
+    ASSERT_NEAR(DiscGap(a, b, closest.t_s), closest.gap_m, 1e-15);
     for (int k = 0; k <= 1000; ++k) {
-      ASSERT_LE(closest.gap_m, GapAt(a, b, kDt_s * k / 1000) + 1e-9) << i << ' ' << k;
+      ASSERT_LE(closest.gap_m, DiscGap(a, b, kDt_s * k / 1000) + 1e-9) << i << ' ' << k;
     }
   }
 }

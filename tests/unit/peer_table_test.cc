@@ -94,7 +94,7 @@ TEST_F(PeerTableTest, EveryRefusalHasItsCounterAndNamesWhoItWas) {
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.order.speed_bucket = 99; },
           &BeaconCounters::rejected_out_of_range);
-  refused([](ReceivedBeacon* r) { r->beacon.order.vehicle = VehicleId{4}; },
+  refused([](ReceivedBeacon* r) { r->beacon.order.vehicle = kNobody; },
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.rule = static_cast<Rule>(99); },
           &BeaconCounters::rejected_out_of_range);

@@ -54,5 +54,43 @@ TEST(Allocation, ATickWithoutEventsAllocatesNothing) {
   EXPECT_EQ(events, 0U);
 }
 
+// Boxes, slip, a cart, a door and vehicles that run into walls and each other: once every list has
+// grown to what it needs, ticks are made in the memory there is.
+TEST(Allocation, ABusyWorldStopsAllocatingOnceItHasGrown) {
+  Scenario scenario;
+  for (std::uint32_t id = 1; id <= 40; ++id) {
+    scenario.vehicles.push_back(VehicleAt(id, {{0.8 * (id % 8), 0.8 * (id / 8)}, 0.1 * id}));
+    VehicleProfile& profile = scenario.vehicles.back().profile;
+    profile.wheel_slip = 0.02;
+    if (id % 2 == 0) {
+      profile.shape = BodyShape::kBox;
+      profile.box_half_m = {0.2, 0.15};
+    }
+  }
+  scenario.walls = {{{-1, -1}, {8, -1}}, {{8, -1}, {8, 6}}, {{8, 6}, {-1, 6}}, {{-1, 6}, {-1, -1}}};
+  scenario.obstacles = {{.radius_m = 0.2,
+                         .start_world = {{-0.6, 4.6}, 0},
+                         .waypoints_world = {{7, 4.6}},
+                         .speed_m_s = 0.5}};
+  scenario.doors = {{.from_world = {3, 6}, .to_world = {3, 4}, .closed_s = 0.5, .open_s = 0.5}};
+  World world(scenario, kEpoch);
+  for (const VehicleOptions& options : scenario.vehicles) world.Join(options.id);
+  const auto advance = [&](int ticks) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      const double way = tick / 30 % 2 == 0 ? 4 : -4;
+      for (std::uint32_t id = 1; id <= 40; ++id) {
+        world.Take(Drive(id, world.Now(), way, id % 3 == 0 ? way + 1 : way));
+      }
+      world.Advance(true);
+    }
+  };
+  advance(600);
+  const std::uint64_t before = allocations;
+  const std::uint32_t contacts = world.Contacts();
+  advance(400);
+  EXPECT_EQ(allocations - before, 0U);
+  EXPECT_GT(world.Contacts(), contacts);
+}
+
 }  // namespace
 }  // namespace giveway::sim

@@ -96,7 +96,7 @@ TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
     Vehicle brain(test::DefaultOptions(), 42);
     RangeScan scan = ClearScan(1);
     brain.Step({.now = std::chrono::milliseconds(50), .scan = scan});
-    const Pose before = brain.State().world_from_body;
+    const Pose before = brain.State().odometry.WorldFromBody();
     scan = ClearScan(2);
     spoil(&scan);
     const Outputs out = brain.Step({.now = std::chrono::milliseconds(100), .scan = scan});
@@ -135,10 +135,10 @@ TEST(Vehicle, AScanOlderThanTheLastMovesNothing) {
     inputs.scan = scan;
     vehicle.Step(inputs);
   }
-  const Vec2 before = vehicle.State().world_from_body.position_world;
+  const Vec2 before = vehicle.State().odometry.WorldFromBody().position_world;
   inputs.scan->tick = Tick{2};
   vehicle.Step(inputs);
-  EXPECT_EQ(vehicle.State().world_from_body.position_world, before);
+  EXPECT_EQ(vehicle.State().odometry.WorldFromBody().position_world, before);
   EXPECT_EQ(vehicle.State().tick, Tick{3});
 }
 

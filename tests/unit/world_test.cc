@@ -59,7 +59,7 @@ TEST(World, BodiesStandUntilTheyAreToldToDrive) {
   world.Advance(false);
   EXPECT_EQ(X(world, 0), 0);
   EXPECT_EQ(world.Now(), Tick{2});
-  EXPECT_EQ(world.Bodies()[0].readings[3].kind, Echo::kEcho);
+  EXPECT_EQ(world.Bodies()[0].sonar.readings[3].kind, Echo::kEcho);
 }
 
 TEST(World, HeadOnBodiesStopAtEachOthersShellAndCountOneContact) {
@@ -190,10 +190,10 @@ TEST(World, CommandsThatMakeNoSenseAreIgnoredAndCounted) {
 TEST(World, ARemovedBodyIsNeitherSensedNorInTheWay) {
   World world = WorldOf(Facing(1.0));
   world.Advance(true);
-  EXPECT_EQ(world.Bodies()[0].readings[3].kind, Echo::kEcho);
+  EXPECT_EQ(world.Bodies()[0].sonar.readings[3].kind, Echo::kEcho);
   world.Remove(VehicleId{2});
   DriveAll(&world, 4, 4, 100);
-  EXPECT_EQ(world.Bodies()[0].readings[3].kind, Echo::kClear);
+  EXPECT_EQ(world.Bodies()[0].sonar.readings[3].kind, Echo::kClear);
   EXPECT_EQ(world.Contacts(), 0U);
   EXPECT_GT(X(world, 0), 1.0);
 }
@@ -201,6 +201,7 @@ TEST(World, ARemovedBodyIsNeitherSensedNorInTheWay) {
 // Two pass each other at right angles; the closest moment lies between two ticks.
 TEST(World, TheClosestApproachIsFoundBetweenTicks) {
   Scenario scenario = ScenarioOf({VehicleAt(1, {{0, 0}, 0}), VehicleAt(2, {{6, 0.6}, kPi})});
+  scenario.expect.parted = true;
   World world = WorldOf(scenario);
   double closest_at_ticks = 10;
   for (int i = 0; i < 200; ++i) {
@@ -219,7 +220,9 @@ TEST(World, TheClosestApproachIsFoundBetweenTicks) {
 }
 
 TEST(World, APairAtItsClosestHasNotParted) {
-  World world = WorldOf(Facing(3));
+  Scenario scenario = Facing(3);
+  scenario.expect.parted = true;
+  World world = WorldOf(scenario);
   DriveAll(&world, 2, 2, 20);
   EXPECT_FALSE(world.Approaches().Parted(world.Bodies()));
 }

@@ -1,0 +1,92 @@
+#include "services/vehicle/odometry.h"
+
+#define EIGEN_DONT_VECTORIZE
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "services/types/math.h"
+
+namespace giveway {
+namespace {
+
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using Vector3 = Eigen::Matrix<double, 3, 1>;
+using Covariance = Eigen::Map<Matrix3>;
+
+bool IsUsable(const PoseFix& fix) {
+  const Pose& pose = fix.world_from_body;
+  const auto positive = [](double sigma) { return std::isfinite(sigma) && sigma > 0; };
+  return std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
+         std::isfinite(pose.heading_rad) && positive(fix.sigma_position_m) &&
+         positive(fix.sigma_heading_rad);
+}
+
+}  // namespace
+
+void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s, double wheel_error,
+                    double guessed_m) {
+  const Vec2 before = pose_.position_world;
+  const Vec2 forward = Forward(pose_);
+  pose_ = AdvanceArc(pose_, TwistFromWheels(drive, wheels), dt_s);
+  const Vec2 way = pose_.position_world - before;
+
+  // How the end of the way depends on its start, and on the way of each wheel.
+  Matrix3 by_state = Matrix3::Identity();
+  by_state(0, 2) = -way.y;
+  by_state(1, 2) = way.x;
+  Eigen::Matrix<double, 3, 2> by_wheel;
+  by_wheel << forward.x / 2, forward.x / 2, forward.y / 2, forward.y / 2, -1 / drive.axle_m,
+      1 / drive.axle_m;
+  const double left = wheel_error * wheels.left_rad_s * drive.wheel_radius_m * dt_s;
+  const double right = wheel_error * wheels.right_rad_s * drive.wheel_radius_m * dt_s;
+
+  Covariance covariance(covariance_.data());
+  const Matrix3 carried = by_state * covariance * by_state.transpose();
+  const Vector3 of_left = left * by_wheel.col(0);
+  const Vector3 of_right = right * by_wheel.col(1);
+  covariance = carried + of_left * of_left.transpose() + of_right * of_right.transpose();
+  covariance(0, 0) += guessed_m * guessed_m;
+  covariance(1, 1) += guessed_m * guessed_m;
+}
+
+bool Odometry::Fix(const PoseFix& fix) {
+  if (!IsUsable(fix)) return false;
+  Covariance covariance(covariance_.data());
+  Matrix3 noise = Matrix3::Zero();
+  noise(0, 0) = noise(1, 1) = fix.sigma_position_m * fix.sigma_position_m;
+  noise(2, 2) = fix.sigma_heading_rad * fix.sigma_heading_rad;
+  const Matrix3 innovation = covariance + noise;
+  const Matrix3 gain = covariance * innovation.inverse();
+
+  const Vec2 off = fix.world_from_body.position_world - pose_.position_world;
+  const Vector3 difference(off.x, off.y,
+                           WrapAngle(fix.world_from_body.heading_rad - pose_.heading_rad));
+  const Vector3 step = gain * difference;
+  pose_.position_world = pose_.position_world + Vec2{step(0), step(1)};
+  pose_.heading_rad = WrapAngle(pose_.heading_rad + step(2));
+  // Joseph's form: stays symmetric and positive whatever is rounded.
+  const Matrix3 kept = Matrix3::Identity() - gain;
+  const Matrix3 updated = kept * covariance * kept.transpose() + gain * noise * gain.transpose();
+  covariance = updated;
+  return true;
+}
+
+double Odometry::SigmaPosition() const {
+  const double mean = (covariance_[0] + covariance_[4]) / 2;
+  const double half = (covariance_[0] - covariance_[4]) / 2;
+  const double spread = Sqrt(half * half + covariance_[1] * covariance_[1]);
+  return Sqrt(std::max(0.0, mean + spread));  // the larger eigenvalue
+}
+
+double Odometry::SigmaHeading() const { return Sqrt(std::max(0.0, covariance_[8])); }
+
+void Odometry::AddTo(StateHash* hash) const {
+  hash->Add(pose_.position_world.x);
+  hash->Add(pose_.position_world.y);
+  hash->Add(pose_.heading_rad);
+  for (const double entry : covariance_) hash->Add(entry);
+}
+
+}  // namespace giveway

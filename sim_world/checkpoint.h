@@ -1,0 +1,29 @@
+// All of a world that a restarted one needs to go on from where it was. A value; who keeps it and
+// in which form is not said here.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "services/types/ids.h"
+#include "services/types/pose.h"
+#include "sim_world/obstacles.h"
+
+namespace giveway::sim {
+
+struct BodyState {
+  VehicleId vehicle = kNobody;
+  Pose world_from_body;
+  WheelSpeeds wheels;
+};
+
+struct Checkpoint {
+  Tick now = kNoTick;
+  std::uint32_t driven_ticks = 0;  // since the start signal
+  std::uint32_t contacts = 0;
+  std::vector<BodyState> bodies;         // of those present
+  std::vector<ObstacleState> obstacles;  // in the order of the scenario
+  std::vector<double> door_openings;     // in the order of the scenario, [0, 1]
+};
+
+}  // namespace giveway::sim

@@ -1,0 +1,53 @@
+// What the world lets its vehicles sense: fills the scene with everything as it stood at a moment
+// of the tick, and has the ultrasonics read in it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "services/types/parallel.h"
+#include "services/types/scenario.h"
+#include "services/types/sensor_scan.h"
+#include "sim_world/body.h"
+#include "sim_world/scene.h"
+#include "sim_world/sonar.h"
+#include "sim_world/things.h"
+
+namespace giveway::sim {
+
+// What a sensor may learn of the owner of a shape, at the end of the tick. Owners are numbered as
+// in things.h; walls have none.
+struct OwnerFacts {
+  Vec2 velocity_world;    // m/s, of the axle centre or of a leaf's tip
+  double turn_rad_s = 0;  // counter-clockwise
+  SeenClass seen_class = SeenClass::kUnknown;
+};
+
+class Sensing {
+ public:
+  explicit Sensing(const Scenario& scenario);
+
+  // A body took its place at `index` in the list: a new one, or another vehicle in an old place.
+  void Insert(std::size_t index, const VehicleProfile& profile);
+  void Replace(std::size_t index, const VehicleProfile& profile);
+
+  // Reads every present body's ultrasonics after the tick that `things` made.
+  void Sense(Tick tick, double dt_s, const Things& things, const ParallelFor& parallel,
+             std::span<Body> bodies);
+
+  // Everything as it is at the end of the tick.
+  const Scene& SceneAtEnd(double dt_s, const Things& things, std::span<const Body> bodies);
+
+ private:
+  void Fill(double before_s, double dt_s, const Things& things, std::span<const Body> bodies);
+
+  Sonar sonar_;
+  Scene scene_;
+  bool at_end_ = false;  // the scene is that of the tick's end
+  SonarRings rings_;
+  std::vector<const SonarRing*> ring_of_;  // by body
+  std::vector<SonarSubject> subjects_;
+};
+
+}  // namespace giveway::sim

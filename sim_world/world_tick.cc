@@ -1,0 +1,205 @@
+// World::Advance: how a tick is made. world.cc has the rest.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "sim_world/drive.h"
+#include "sim_world/world.h"
+
+namespace giveway::sim {
+namespace {
+
+// A touching pair has parted once its gap is wider than this: shells sliding along each other at
+// kTouch_m are one contact, not hundreds.
+constexpr double kRelease_m = 1e-3;
+
+// Slip and encoder noise of one vehicle in one tick: numbers of their own, whoever else draws.
+Random RollRandom(std::uint32_t seed, VehicleId vehicle, std::uint32_t tick) {
+  constexpr std::uint64_t kRoll = 0x726f6c6cULL << 32;
+  return Random(kRoll | seed, std::uint64_t{Number(vehicle)} << 32 | tick);
+}
+
+WheelSpeeds Scaled(double share, WheelSpeeds wheels) {
+  return {share * wheels.left_rad_s, share * wheels.right_rad_s};
+}
+
+// The disc that a leaf cannot leave within the tick.
+Ball BallRound(const Leaf& leaf, double dt_s, std::uint32_t thing) {
+  return {.centre_world = 0.5 * (leaf.from_world + leaf.to_world),
+          .reach_m = 0.5 * Norm(leaf.to_world - leaf.from_world) + TravelBound(leaf, dt_s),
+          .thing = thing};
+}
+
+}  // namespace
+
+void World::Advance(bool driving) {
+  now_ = After(now_, 1);
+  if (driving) ++driven_ticks_;
+  new_contacts_.clear();
+  Plan(driving);
+  FindPairs(driving);
+  for (const Hit& hit : contacts_.StopAll(neighbours_.Pairs(), dt_s_, parallel_, &things_)) {
+    Note(hit);
+  }
+  if (driving) separation_.Observe(bodies_, things_, neighbours_.Pairs(), dt_s_);
+  Settle();
+  touching_.EndIf([this](const TouchingPair& pair) { return HasParted(pair); });
+  sensing_.Sense(now_, dt_s_, things_, parallel_, bodies_);
+}
+
+// What everything would do in this tick if nothing were in the way.
+void World::Plan(bool driving) {
+  const auto plan = [&](std::size_t begin, std::size_t end) {
+    for (; begin != end; ++begin) {
+      if (bodies_[begin].present) PlanBody(driving, begin);
+    }
+  };
+  parallel_(bodies_.size(), std::ref(plan));
+  PlanOthers(driving);
+}
+
+void World::PlanBody(bool driving, std::size_t i) {
+  Body& body = bodies_[i];
+  body.obeyed = driving && body.command.tick != kNoTick &&
+                TicksBetween(body.command.tick, now_) <= watchdog_ticks_;
+  const WheelSpeeds target = body.obeyed ? body.command.target : WheelSpeeds{};
+  body.wheels = MoveWheels(body.profile, body.wheels, target, dt_s_);
+  const Rolled rolled =
+      Roll(body.profile, body.wheels, RollRandom(seed_, body.vehicle, driven_ticks_));
+  body.ground = rolled.ground;
+  body.encoders = rolled.encoders;
+  Motion& motion = things_.motions[i];
+  motion.start_world = body.world_from_body;
+  motion.twist = TwistFromWheels(body.profile.drive, body.ground);
+  motion.stop_s = dt_s_;
+  things_.present[i] = 1;
+}
+
+void World::PlanOthers(bool driving) {
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    things_.motions[bodies_.size() + i] = obstacles_[i].Plan(driving, dt_s_);
+    things_.present[bodies_.size() + i] = 1;
+  }
+  for (std::size_t i = 0; i < doors_.size(); ++i) {
+    const Leaf leaf = doors_[i].Plan(driving, driven_ticks_ * dt_s_, dt_s_);
+    things_.leaves[i] = leaf;
+    things_.present[things_.motions.size() + i] = doors_[i].Opening() < 1 || Moves(leaf);
+  }
+}
+
+// Pairs that may touch in this tick, or come nearer than any two did before.
+void World::FindPairs(bool driving) {
+  balls_.clear();
+  std::size_t bodies = 0;
+  for (std::uint32_t i = 0; i < things_.Count(); ++i) {
+    if (things_.present[i] == 0) continue;
+    if (things_.IsBody(i)) ++bodies;
+    if (things_.IsLeaf(i)) {
+      balls_.push_back(BallRound(things_.LeafOf(i), dt_s_, i));
+    } else {
+      const Motion& motion = things_.motions[i];
+      balls_.push_back(
+          {motion.start_world.position_world, motion.radius_m + TravelBound(motion, dt_s_), i});
+    }
+  }
+  if (driving && bodies > 1 && !separation_.Reach()) {
+    FindFirstPairs();
+    return;
+  }
+  const double record_m = driving && bodies > 1 ? separation_.Reach().value() : 0;
+  neighbours_.Find(balls_, std::max(kTouch_m, record_m), parallel_);
+}
+
+// Without a record to come nearer than: the nearest two, looked for in ever wider circles. However
+// they move, what is nearest in this tick is no farther than they are now.
+void World::FindFirstPairs() {
+  double nearest_m = std::numeric_limits<double>::infinity();
+  double searched_m = 0;
+  for (double margin_m = 1; nearest_m > searched_m; margin_m = std::min(4 * margin_m, nearest_m)) {
+    neighbours_.Find(balls_, margin_m, parallel_);
+    searched_m = margin_m;
+    for (const NearPair& pair : neighbours_.Pairs()) {
+      if (!things_.IsBody(pair.a)) continue;
+      nearest_m = std::min(nearest_m, GapAt(things_.motions[pair.a], things_.motions[pair.b], 0));
+    }
+  }
+}
+
+void World::Note(const Hit& hit) {
+  const std::uint32_t lower = hit.wall ? hit.a : hit.b;
+  if (!things_.IsBody(lower)) return;  // a cart that was held up by something
+  const Motion& motion = things_.motions[lower];
+  // The lower id comes first, so that an event reads the same however the pair was found.
+  Contact contact{.vehicle = bodies_[lower].vehicle, .position_world = PositionAt(motion, hit.t_s)};
+  TouchingPair pair{.vehicle = contact.vehicle};
+  const Outline outline = OutlineAt(motion, hit.t_s);
+  if (hit.wall) {
+    contact.touched = Touched::kWall;
+    pair.other = hit.b;
+    contact.other_position_world =
+        NearestBetween(outline, OutlineOf(contacts_.Walls()[hit.b])).on_b_world;
+  } else if (things_.IsBody(hit.a)) {
+    contact.other = bodies_[hit.a].vehicle;
+    pair.other = Number(contact.other);
+    contact.other_position_world = PositionAt(things_.motions[hit.a], hit.t_s);
+  } else {
+    const bool door = things_.IsLeaf(hit.a);
+    contact.touched = door ? Touched::kDoor : Touched::kObstacle;
+    pair.other =
+        static_cast<std::uint32_t>(hit.a - (door ? things_.motions.size() : bodies_.size()));
+    const Outline other = door ? OutlineAt(things_.LeafOf(hit.a), hit.t_s)
+                               : OutlineAt(things_.motions[hit.a], hit.t_s);
+    contact.other_position_world = NearestBetween(outline, other).on_b_world;
+  }
+  pair.touched = contact.touched;
+  if (!touching_.Begin(pair)) return;
+  ++contact_count_;
+  new_contacts_.push_back(contact);
+}
+
+void World::Settle() {
+  const auto settle = [&](std::size_t begin, std::size_t end) {
+    for (; begin != end; ++begin) {
+      if (bodies_[begin].present) SettleBody(begin);
+    }
+  };
+  parallel_(bodies_.size(), std::ref(settle));
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    obstacles_[i].Settle(things_.motions[bodies_.size() + i], dt_s_);
+  }
+  for (std::size_t i = 0; i < doors_.size(); ++i) doors_[i].Settle(things_.leaves[i], dt_s_);
+}
+
+void World::SettleBody(std::size_t i) {
+  Body& body = bodies_[i];
+  if (things_.motions[i].stop_s < dt_s_) {
+    // The wheels turned for a part of the tick only: over the whole of it, that much slower.
+    const double share = things_.motions[i].stop_s / dt_s_;
+    body.encoders = Scaled(share, body.encoders);
+    body.ground = Scaled(share, body.ground);
+    body.wheels = {};
+  }
+  // From the speeds over the whole tick, so that whoever integrates them lands on the same bits.
+  body.world_from_body =
+      AdvanceArc(body.world_from_body, TwistFromWheels(body.profile.drive, body.ground), dt_s_);
+}
+
+bool World::HasParted(const TouchingPair& pair) const {
+  const Body* body = Find(pair.vehicle);
+  const Motion& motion = things_.motions[ThingOf(*body)];
+  const auto parted = [&](const auto& other) { return GapAt(motion, other, dt_s_) > kRelease_m; };
+  switch (pair.touched) {
+    case Touched::kWall:
+      return parted(contacts_.Walls()[pair.other]);
+    case Touched::kObstacle:
+      return parted(things_.motions[bodies_.size() + pair.other]);
+    case Touched::kDoor:
+      return doors_[pair.other].Opening() == 1 || parted(things_.leaves[pair.other]);
+    case Touched::kVehicle:
+      return parted(things_.motions[ThingOf(*Find(VehicleId{pair.other}))]);
+  }
+  return true;
+}
+
+}  // namespace giveway::sim
