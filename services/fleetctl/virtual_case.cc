@@ -46,6 +46,18 @@ void AddFaults(sim::ProcessFaultKind kind, std::uint32_t count, const Scenario& 
   }
 }
 
+void AddNamed(const sim::ProcessFault& fault, VirtualCase* made) {
+  const auto& vehicles = made->scenario.vehicles;
+  if (std::ranges::find(vehicles, fault.vehicle, &VehicleOptions::id) == vehicles.end()) {
+    throw app::InputError({{.file = made->scenario.name,
+                            .field = "--fault",
+                            .value = std::to_string(Number(fault.vehicle)),
+                            .message = "no vehicle has this id",
+                            .remedy = "name one of the scenario's"}});
+  }
+  made->plan.faults.push_back(fault);
+}
+
 }  // namespace
 
 CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
@@ -76,12 +88,13 @@ Scenario CaseMaker::MakeScenario(std::uint32_t seed, Random* dice) const {
 VirtualCase CaseMaker::Make(std::uint32_t seed) const {
   Random dice(seed, kDraws);
   VirtualCase made{MakeScenario(seed, &dice), {}};
-  made.plan.seed = seed;
+  made.plan.seed = options_.radio_seed.value_or(seed);
   made.plan.radio = RadioOf(options_, &dice);
   using Kind = sim::ProcessFaultKind;
   AddFaults(Kind::kCrash, options_.crashes, made.scenario, &dice, &made.plan.faults);
   AddFaults(Kind::kPause, options_.pauses, made.scenario, &dice, &made.plan.faults);
   AddFaults(Kind::kRestart, options_.restarts, made.scenario, &dice, &made.plan.faults);
+  for (const sim::ProcessFault& fault : options_.faults) AddNamed(fault, &made);
   return made;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/types/random.h"
 #include "services/types/scenario.h"
@@ -36,6 +37,8 @@ struct CaseOptions {
   std::uint32_t crashes = 0;  // vehicles that die, pause, or start anew, each at a time drawn
   std::uint32_t pauses = 0;
   std::uint32_t restarts = 0;
+  std::vector<sim::ProcessFault> faults;    // on top of those drawn
+  std::optional<std::uint32_t> radio_seed;  // absent: the seed
 };
 
 struct VirtualCase {

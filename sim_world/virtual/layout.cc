@@ -21,6 +21,7 @@ constexpr double kTurn_s = 12;
 Layout::Layout(std::string_view name, Size size) : dice_(size.seed, size.vehicles) {
   scenario_.name = name;
   scenario_.seed = size.seed;
+  scenario_.expect.any_halted = true;
   scenario_.vehicles.reserve(size.vehicles);
 }
 
