@@ -51,7 +51,8 @@ struct Observed {
 struct InvariantLimits {
   double wait_s = 120;             // kWaitBound
   std::uint32_t halted_ticks = 2;  // kAllHalted; lost and late beacons need more
-  std::uint32_t cycle_ticks = 0;   // kWaitCycle: how long a circle may last
+  // kWaitCycle: how long a circle may last. A decision rests on keys a tick old.
+  std::uint32_t cycle_ticks = 1;
   // kOrder: how old a published key may be that a vehicle goes by; at most kRememberedKeys - 1.
   std::uint32_t key_age_ticks = 6;
 };

@@ -9,9 +9,10 @@
 namespace giveway::sim {
 namespace {
 
-// Beyond the radius in which beacons are listened to they still come for a while: so a brain learns
-// that a peer drove out of it. At the platform's top speed that is six ticks, at usual ones dozens.
+// Beyond the radius in which beacons are listened to they still come: so a brain learns that a peer
+// drove out of it. One stated from well outside tells it; the rest would only be counted.
 constexpr double kFringe_m = 1.5;
+constexpr double kWellOutside_m = 0.5;
 constexpr std::uint32_t kHeldBackTicks = 2;
 constexpr std::uint32_t kLongestTicks = 40;  // a beacon under way for longer is of no use to anyone
 
@@ -68,6 +69,7 @@ Radio::Radio(const Scenario& scenario, const RadioSettings& settings, std::uint6
   for (const VehicleOptions& options : scenario.vehicles) {
     ids_.push_back(options.id);
     reach_m_.push_back(settings.reach_m.value_or(options.emission_radius_m + kFringe_m));
+    listen_m_.push_back(settings.reach_m ? reach_m_.back() : options.emission_radius_m);
     widest_reach_m_ = std::max(widest_reach_m_, reach_m_.back());
   }
 }
@@ -103,9 +105,18 @@ void Radio::MarkBlackouts(double time_s) {
   }
 }
 
+double Radio::SquaredDistance(std::size_t receiver, std::size_t sender) const {
+  return SquaredNorm(positions_world_[sender] - positions_world_[receiver]);
+}
+
 bool Radio::IsInReach(std::size_t receiver, std::size_t sender) const {
-  const Vec2 offset = positions_world_[sender] - positions_world_[receiver];
-  return SquaredNorm(offset) <= reach_m_[receiver] * reach_m_[receiver];
+  return SquaredDistance(receiver, sender) <= reach_m_[receiver] * reach_m_[receiver];
+}
+
+bool Radio::KnowsItIsFar(std::size_t receiver, std::size_t sender, Pair* pair) const {
+  const double listen_m = listen_m_[receiver];
+  if (SquaredDistance(receiver, sender) <= listen_m * listen_m) pair->told_far = false;
+  return pair->told_far;
 }
 
 std::uint64_t Radio::Draw(std::size_t receiver, std::size_t sender, std::uint32_t tick,
@@ -153,6 +164,7 @@ void Radio::HearSender(std::size_t receiver, std::size_t sender,
                        std::vector<ReceivedBeacon>* heard) {
   if (blacked_out_[sender] != 0) return;
   Pair& pair = pairs_[receiver * count_ + sender];
+  if (KnowsItIsFar(receiver, sender, &pair)) return;
   const std::size_t first = heard->size();
   // The longest under way first: it was said first.
   for (std::uint32_t ticks = longest_ticks_; ticks >= shortest_ticks_; --ticks) {
@@ -174,7 +186,11 @@ void Radio::HearSender(std::size_t receiver, std::size_t sender,
     heard->push_back(said.beacon);
     heard->back().received = Number(now_) * period_;
   }
-  if (heard->size() > first) MarkHeard(receiver, sender, &pair);
+  if (heard->size() == first) return;
+  MarkHeard(receiver, sender, &pair);
+  const Vec2 stated = heard->back().beacon.world_from_body.position_world;
+  const double far_m = listen_m_[receiver] + kWellOutside_m;
+  pair.told_far = SquaredNorm(stated - positions_world_[receiver]) > far_m * far_m;
 }
 
 void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
@@ -186,7 +202,7 @@ void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
   expected_[receiver * count_ + expected_count_[receiver]++] = static_cast<std::uint32_t>(sender);
 }
 
-// The edges come once each. Who drove out of the fringe is not missed: the middleware hears it
+// The edges come once each. Who drove out of the radius is not missed: the middleware hears it
 // still, only nobody listens. Who is lost for good is expected no more.
 void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
   std::uint32_t* const expected = expected_.data() + receiver * count_;
@@ -195,7 +211,8 @@ void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
     const std::uint32_t sender = expected[i];
     Pair& pair = pairs_[receiver * count_ + sender];
     const std::uint32_t silent = Number(now_) - pair.heard_tick;
-    const bool left = !settings_.reach_m && places_[sender].on_air && !IsInReach(receiver, sender);
+    const bool left = pair.told_far || (!settings_.reach_m && places_[sender].on_air &&
+                                        !IsInReach(receiver, sender));
     const auto tell = [&](QosEventKind kind, Nanoseconds after, bool* edge) {
       *edge = true;
       events->push_back(

@@ -49,13 +49,16 @@ class Radio {
     bool listed = false;  // in the receiver's list of those to expect beacons of
     bool deadline_missed = false;
     bool liveliness_lost = false;
+    bool told_far = false;  // heard from outside the listened-to radius, and still outside
   };
   struct Said {
     ReceivedBeacon beacon;
     Tick tick = kNoTick;
   };
 
+  double SquaredDistance(std::size_t receiver, std::size_t sender) const;
   bool IsInReach(std::size_t receiver, std::size_t sender) const;
+  bool KnowsItIsFar(std::size_t receiver, std::size_t sender, Pair* pair) const;
   bool IsLinkBad(std::size_t receiver, std::size_t sender, Pair* pair) const;
   bool IsLost(std::size_t receiver, std::size_t sender, std::uint64_t draw, Pair* pair) const;
   void HearSender(std::size_t receiver, std::size_t sender, std::vector<ReceivedBeacon>* heard);
@@ -74,7 +77,8 @@ class Radio {
   std::uint32_t deadline_ticks_;
   std::uint32_t lease_ticks_;
   std::vector<VehicleId> ids_;
-  std::vector<double> reach_m_;
+  std::vector<double> reach_m_;   // by receiver: heard at all
+  std::vector<double> listen_m_;  // by receiver: listened to
   double widest_reach_m_ = 0;
   std::vector<Said> history_;                  // [sender * kept_ticks_ + tick % kept_ticks_]
   std::vector<Pair> pairs_;                    // [receiver * count_ + sender]

@@ -86,7 +86,7 @@ InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
   const std::uint32_t late = TicksCovering(radio.delay + radio.jitter, scenario.tick_period);
   const std::uint32_t lost = loses ? TicksCovering(kAgeLimit, scenario.tick_period) : 0;
   limits.halted_ticks += 2 * (late + lost);
-  limits.cycle_ticks = late + lost;
+  limits.cycle_ticks += late + lost;
   limits.key_age_ticks = std::min(Invariants::kRememberedKeys - 1, 2 + late + lost);
   constexpr double kWaitAlone_s = 60;
   constexpr double kWaitEach_s = 10;

@@ -46,6 +46,7 @@ class RadioTest : public testing::Test {
       beacon.vehicle = VehicleId{2};
       beacon.boot_epoch = 7;
       beacon.seq = tick_;
+      beacon.world_from_body.position_world = places_[kTalker].position_world;
       radio_->Say(kTalker, giveway::Tick{tick_}, beacon);
     }
     std::vector<std::uint32_t> numbers;
@@ -185,12 +186,18 @@ TEST_F(RadioTest, NothingPassesABlackout) {
   EXPECT_EQ(heard.size(), 39U - 10U);
 }
 
-TEST_F(RadioTest, NobodyHearsFromBeyondItsReachAndTheFringe) {
+TEST_F(RadioTest, WhoDrivesOutOfTheRadiusIsHeardUntilOneBeaconSaysSo) {
   Begin({});
-  places_[kTalker].position_world = {6.4, 0};  // 5 m of emission radius and 1.5 m of fringe
-  EXPECT_EQ(Ticks(3).size(), 2U);
-  places_[kTalker].position_world = {6.6, 0};
-  EXPECT_EQ(Ticks(3), Numbers{});
+  const auto heard_at = [&](double distance_m) {
+    places_[kTalker].position_world = {distance_m, 0};
+    Tick();  // what was said at the place before
+    return Ticks(5).size();
+  };
+  EXPECT_EQ(heard_at(5.4), 5U);  // 5 m of emission radius: not so far that a brain must believe it
+  EXPECT_EQ(heard_at(5.6), 1U);
+  EXPECT_EQ(heard_at(5.4), 0U);
+  EXPECT_EQ(heard_at(4.9), 5U);
+  EXPECT_EQ(heard_at(6.6), 0U);
 }
 
 TEST_F(RadioTest, AReachOfItsOwnEndsWhereItEnds) {
