@@ -57,6 +57,8 @@ Radio::Radio(const Scenario& scenario, const RadioSettings& settings, std::uint6
                      (settings.reorder > 0 ? kHeldBackTicks : 0) +
                      (settings.duplicate > 0 ? 1 : 0)),
       kept_ticks_(longest_ticks_ + 1),
+      varies_(settings.jitter.count() > 0 || settings.reorder > 0 || settings.duplicate > 0),
+      draws_(varies_ || settings.loss > 0 || settings.burst.enter > 0),
       deadline_ticks_(TicksCovering(kDeadlineRequested, period_)),
       lease_ticks_(TicksCovering(kLivelinessLease, period_)),
       history_(count_ * kept_ticks_),
@@ -87,6 +89,7 @@ void Radio::Say(std::size_t sender, Tick tick, const Beacon& beacon) {
 void Radio::BeginTick(Tick now, double time_s, std::span<const RadioPlace> places) {
   GIVEWAY_CHECK(places.size() == count_);
   now_ = now;
+  heard_at_ = Number(now) * period_;
   for (std::size_t i = 0; i < count_; ++i) {
     places_[i] = places[i];
     positions_world_[i] = places[i].position_world;
@@ -160,6 +163,18 @@ bool Radio::IsLost(std::size_t receiver, std::size_t sender, std::uint64_t draw,
   return Part(draw, 0) < loss;
 }
 
+// When a beacon is heard, in ticks after it was said, and whether a second time a tick later.
+Radio::Fate Radio::FateOf(std::uint64_t draw) const {
+  if (!varies_) return {shortest_ticks_, false};
+  const Nanoseconds jitter{
+      static_cast<std::int64_t>(Part(draw, 1) * static_cast<double>(settings_.jitter.count()))};
+  // What is left of the draw decides on the rarer fates: they exclude each other.
+  const double fate = Part(draw, 2);
+  const bool held_back = fate < settings_.reorder;
+  return {TicksUnderWay(settings_.delay + jitter, period_) + (held_back ? kHeldBackTicks : 0),
+          !held_back && fate < settings_.reorder + settings_.duplicate};
+}
+
 void Radio::HearSender(std::size_t receiver, std::size_t sender,
                        std::vector<ReceivedBeacon>* heard) {
   if (blacked_out_[sender] != 0) return;
@@ -168,23 +183,16 @@ void Radio::HearSender(std::size_t receiver, std::size_t sender,
   const std::size_t first = heard->size();
   // The longest under way first: it was said first.
   for (std::uint32_t ticks = longest_ticks_; ticks >= shortest_ticks_; --ticks) {
-    const std::uint32_t said_tick = Number(now_) - ticks;
     if (ticks >= Number(now_)) continue;
+    const std::uint32_t said_tick = Number(now_) - ticks;
     const Said& said = history_[sender * kept_ticks_ + said_tick % kept_ticks_];
     if (said.tick != Tick{said_tick}) continue;
-    const std::uint64_t draw = Draw(receiver, sender, said_tick, 0);
-    const Nanoseconds jitter{
-        static_cast<std::int64_t>(Part(draw, 1) * static_cast<double>(settings_.jitter.count()))};
-    // What is left of the draw decides on the rarer fates: they exclude each other.
-    const double fate = Part(draw, 2);
-    const bool held_back = fate < settings_.reorder;
-    const bool twice = !held_back && fate < settings_.reorder + settings_.duplicate;
-    const std::uint32_t due =
-        TicksUnderWay(settings_.delay + jitter, period_) + (held_back ? kHeldBackTicks : 0);
-    if (ticks != due && !(twice && ticks == due + 1)) continue;
-    if (IsLost(receiver, sender, draw, &pair)) continue;
+    const std::uint64_t draw = draws_ ? Draw(receiver, sender, said_tick, 0) : 0;
+    const Fate fate = FateOf(draw);
+    if (ticks != fate.due && !(fate.twice && ticks == fate.due + 1)) continue;
+    if (draws_ && IsLost(receiver, sender, draw, &pair)) continue;
     heard->push_back(said.beacon);
-    heard->back().received = Number(now_) * period_;
+    heard->back().received = heard_at_;
   }
   if (heard->size() == first) return;
   MarkHeard(receiver, sender, &pair);
@@ -196,7 +204,6 @@ void Radio::HearSender(std::size_t receiver, std::size_t sender,
 void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
   pair->heard_tick = Number(now_);
   pair->deadline_missed = false;
-  pair->liveliness_lost = false;
   if (pair->listed) return;
   pair->listed = true;
   expected_[receiver * count_ + expected_count_[receiver]++] = static_cast<std::uint32_t>(sender);
@@ -210,26 +217,32 @@ void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
   for (std::uint32_t i = 0; i < expected_count_[receiver]; ++i) {
     const std::uint32_t sender = expected[i];
     Pair& pair = pairs_[receiver * count_ + sender];
-    const std::uint32_t silent = Number(now_) - pair.heard_tick;
-    const bool left = pair.told_far || (!settings_.reach_m && places_[sender].on_air &&
-                                        !IsInReach(receiver, sender));
-    const auto tell = [&](QosEventKind kind, Nanoseconds after, bool* edge) {
-      *edge = true;
-      events->push_back(
-          {.kind = kind, .vehicle = ids_[sender], .at = pair.heard_tick * period_ + after});
-    };
-    if (silent > 0 && !left) {
-      if (silent >= deadline_ticks_ && !pair.deadline_missed) {
-        tell(QosEventKind::kDeadlineMissed, kDeadlineRequested, &pair.deadline_missed);
-      }
-      if (silent >= lease_ticks_ && !pair.liveliness_lost) {
-        tell(QosEventKind::kLivelinessLost, kLivelinessLease, &pair.liveliness_lost);
-      }
-    }
-    pair.listed = !left && !pair.liveliness_lost;
+    pair.listed = !HasLeft(receiver, sender, pair);
+    if (pair.listed && pair.heard_tick != Number(now_)) NoticeSilence(sender, &pair, events);
     if (pair.listed) expected[kept++] = sender;
   }
   expected_count_[receiver] = kept;
+}
+
+bool Radio::HasLeft(std::size_t receiver, std::size_t sender, const Pair& pair) const {
+  if (pair.told_far) return true;
+  if (pair.heard_tick == Number(now_) || settings_.reach_m) return false;
+  return places_[sender].on_air && !IsInReach(receiver, sender);
+}
+
+void Radio::NoticeSilence(std::size_t sender, Pair* pair, std::vector<QosEvent>* events) const {
+  const std::uint32_t silent = Number(now_) - pair->heard_tick;
+  const auto tell = [&](QosEventKind kind, Nanoseconds after) {
+    events->push_back(
+        {.kind = kind, .vehicle = ids_[sender], .at = pair->heard_tick * period_ + after});
+  };
+  if (silent >= deadline_ticks_ && !pair->deadline_missed) {
+    pair->deadline_missed = true;
+    tell(QosEventKind::kDeadlineMissed, kDeadlineRequested);
+  }
+  if (silent < lease_ticks_) return;
+  tell(QosEventKind::kLivelinessLost, kLivelinessLease);
+  pair->listed = false;
 }
 
 }  // namespace giveway::sim

@@ -48,7 +48,6 @@ class Radio {
     bool bad = false;
     bool listed = false;  // in the receiver's list of those to expect beacons of
     bool deadline_missed = false;
-    bool liveliness_lost = false;
     bool told_far = false;  // heard from outside the listened-to radius, and still outside
   };
   struct Said {
@@ -56,13 +55,21 @@ class Radio {
     Tick tick = kNoTick;
   };
 
+  struct Fate {
+    std::uint32_t due = 1;  // ticks after it was said
+    bool twice = false;
+  };
+
   double SquaredDistance(std::size_t receiver, std::size_t sender) const;
   bool IsInReach(std::size_t receiver, std::size_t sender) const;
   bool KnowsItIsFar(std::size_t receiver, std::size_t sender, Pair* pair) const;
   bool IsLinkBad(std::size_t receiver, std::size_t sender, Pair* pair) const;
   bool IsLost(std::size_t receiver, std::size_t sender, std::uint64_t draw, Pair* pair) const;
+  Fate FateOf(std::uint64_t draw) const;
   void HearSender(std::size_t receiver, std::size_t sender, std::vector<ReceivedBeacon>* heard);
   void MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair);
+  bool HasLeft(std::size_t receiver, std::size_t sender, const Pair& pair) const;
+  void NoticeSilence(std::size_t sender, Pair* pair, std::vector<QosEvent>* events) const;
   void MarkBlackouts(double time_s);
   std::uint64_t Draw(std::size_t receiver, std::size_t sender, std::uint32_t tick,
                      std::uint64_t salt) const;
@@ -74,6 +81,8 @@ class Radio {
   std::uint32_t shortest_ticks_;  // from said to heard
   std::uint32_t longest_ticks_;
   std::uint32_t kept_ticks_;  // of history
+  bool varies_;               // beacons differ in when they are heard
+  bool draws_;                // anything is left to chance
   std::uint32_t deadline_ticks_;
   std::uint32_t lease_ticks_;
   std::vector<VehicleId> ids_;
@@ -89,6 +98,7 @@ class Radio {
   std::vector<std::uint8_t> blacked_out_;
   Grid grid_;
   Tick now_ = kNoTick;
+  SteadyTime heard_at_{0};
 };
 
 }  // namespace giveway::sim
