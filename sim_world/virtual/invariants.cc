@@ -115,7 +115,7 @@ void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
     track->stale_told = false;
     return;
   }
-  const double speed = Magnitude(now.forward_m_s);
+  const double speed = now.rim_m_s;
   if (!track->stale) {
     track->stale = true;
     track->stale_limit_m_s = speed + track->acceleration_m_s2 * dt_s_;

@@ -42,6 +42,7 @@ struct Observed {
   bool arrived = false;
   Vec2 position_world;
   double forward_m_s = 0;
+  double rim_m_s = 0;       // of the faster wheel: what brakes is a wheel, not the middle
   Tick answered = kNoTick;  // the scan its last command answers
   Decision decision;        // as last published, like what follows
   VehicleId gives_way_to = kNobody;
@@ -86,7 +87,7 @@ class Invariants {
     double last_forward_m_s = 0;
     Vec2 last_position_world;
     bool stale = false;
-    double stale_limit_m_s = 0;  // what it may still be driving
+    double stale_limit_m_s = 0;  // what the faster wheel may still be rolling at
     bool stale_told = false;
     std::uint32_t waited_ticks = 0;
     bool order_told = false;

@@ -9,6 +9,11 @@
 namespace giveway::sim {
 namespace {
 
+double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels) {
+  return drive.wheel_radius_m *
+         std::max({wheels.left_rad_s, -wheels.left_rad_s, wheels.right_rad_s, -wheels.right_rad_s});
+}
+
 void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
   std::size_t index = 0;
   for (const Truth& truth : fleet.World().Truths()) {
@@ -21,6 +26,7 @@ void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
     now.arrived = truth.arrived;
     now.position_world = truth.world_from_body.position_world;
     now.forward_m_s = truth.forward_m_s;
+    now.rim_m_s = RimSpeed(fleet.TheScenario().vehicles[index].profile.drive, truth.wheels);
     now.answered = said.command.tick;
     now.decision = said.command.decision;
     now.gives_way_to = said.beacon.gives_way_to;

@@ -40,6 +40,7 @@ class InvariantsTest : public testing::Test {
     for (WorldEvent& event : events) event.tick = Tick{tick_};
     for (Observed& vehicle : now_) {
       if (answers_) vehicle.answered = Tick{tick_};
+      vehicle.rim_m_s = std::max(vehicle.forward_m_s, 0.0) + turning_m_s_;
     }
     invariants_->Observe(Tick{tick_}, now_, events);
   }
@@ -60,6 +61,7 @@ class InvariantsTest : public testing::Test {
   std::optional<Invariants> invariants_;
   std::uint32_t tick_ = 0;
   bool answers_ = true;
+  double turning_m_s_ = 0;  // of the outer wheel beside the middle
 };
 
 TEST_F(InvariantsTest, HoldWhileNothingIsWrong) {
@@ -101,6 +103,14 @@ TEST_F(InvariantsTest, BrakingOnStaleRangesIsAllowedAndDrivingOnIsNot) {
   EXPECT_EQ(Count(Invariant::kStaleMotion), 0U);
   Vehicle(1).forward_m_s = 0.05;
   Observe(10);
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 1U);
+}
+
+TEST_F(InvariantsTest, TurningOnTheSpotOnStaleRangesIsMotion) {
+  Vehicle(1).forward_m_s = 0;
+  Vehicle(1).decision = {.mode = Mode::kHalt, .rule = Rule::kRangesStale};
+  turning_m_s_ = 0.1;
+  Observe(20);
   EXPECT_EQ(Count(Invariant::kStaleMotion), 1U);
 }
 
