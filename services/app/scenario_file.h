@@ -45,6 +45,14 @@ struct ScenarioOverrides {
 // and applies the overrides; the seed moves start poses and cruise speeds. Throws InputError.
 Scenario LoadScenario(const std::string& path, const ScenarioOverrides& overrides);
 
+// The scenario as a file that reads back as the same, below `comment` (without the marks). Throws
+// InputError where it holds what is not written: places, obstacles, doors, signals, and profiles
+// other than the P3-DX's.
+std::string WriteScenario(const Scenario& scenario, const std::string& comment);
+
+// The values as a file holds them: millimetres, thousandths of degrees and of metres a second.
+Scenario RoundedAsWritten(Scenario scenario);
+
 // The pure half: moves start poses by up to 0.05 m and 2 degrees and cruise by up to 2 %, from
 // scenario.seed. Seed 0 moves nothing. Each vehicle has its own stream.
 void PerturbBySeed(Scenario* scenario);

@@ -97,7 +97,25 @@ void ReadSensors(const std::optional<Section>& section, VehicleProfile* profile)
   profile->camera = section->FlagOr(profile->camera, "camera");
 }
 
-// All but the id.
+Route ReadRoute(const Section& section) {
+  Route route;
+  const std::vector<Section> waypoints = section.Subs("waypoint");
+  if (waypoints.size() > kMaxWaypoints) {
+    section.Complain("waypoint", fmt::format("there are {} waypoints", waypoints.size()),
+                     fmt::format("keep at most {}", kMaxWaypoints));
+    return route;
+  }
+  for (const Section& waypoint : waypoints) {
+    route.waypoints_world[route.count++] = ReadPoint(waypoint);
+  }
+  route.loop = section.FlagOr(false, "loop");
+  if (route.loop && route.count == 0) {
+    section.Complain("loop", "is true without a waypoint", "write waypoints, or remove loop");
+  }
+  return route;
+}
+
+// All but the id and the route.
 VehicleOptions ReadDriver(const Section& section, const VehicleOptions& common,
                           std::optional<Behaviour> forced) {
   VehicleOptions vehicle = common;
@@ -176,6 +194,7 @@ VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
   const VehicleId id{section.Whole("id", kId)};
   VehicleOptions vehicle = ReadDriver(section, common, forced);
   vehicle.id = id;
+  vehicle.route = ReadRoute(section);
   return vehicle;
 }
 

@@ -13,7 +13,7 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
   if (argc < 2 || argv[1][0] == '-' || !fleetctl.get_subcommands().empty()) {
     return error;
   }
-  return "there is no verb '" + std::string(argv[1]) + "'; verbs: run";
+  return "there is no verb '" + std::string(argv[1]) + "'; verbs: run, shrink, virtual";
 }
 
 }  // namespace
@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = kWrongArguments;
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddShrinkVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);
   try {
     fleetctl.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -7,5 +7,7 @@
 namespace giveway::fleetctl {
 
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);
+void AddShrinkVerb(CLI::App* fleetctl, int* exit_code);
+void AddVirtualVerb(CLI::App* fleetctl, int* exit_code);
 
 }  // namespace giveway::fleetctl

@@ -1,74 +1,167 @@
 #include "sim_world/virtual/virtual_fleet.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "services/types/check.h"
+#include "sim_world/ticks.h"
 
 namespace giveway::sim {
 namespace {
 
 constexpr WorldEpoch kVirtualEpoch{1};
+constexpr std::ptrdiff_t kReaderDepth = 4;  // beacons a paused reader keeps of one peer
+
+// To the world a crash is what a planned kill is.
+Scenario WithCrashes(Scenario scenario, const VirtualPlan& plan) {
+  for (const ProcessFault& fault : plan.faults) {
+    if (fault.kind != ProcessFaultKind::kCrash) continue;
+    scenario.faults.push_back(
+        {.kind = FaultKind::kKill, .vehicle = fault.vehicle, .at_s = fault.at_s});
+  }
+  return scenario;
+}
+
+// Cheaper than a byte-wise hash: it is fed twice a vehicle and tick.
+std::uint64_t Stir(std::uint64_t hash, double value) {
+  hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0xd1342543de82ef95ULL;
+  return hash ^ (hash >> 29U);
+}
 
 }  // namespace
 
-VirtualFleet::VirtualFleet(const Scenario& scenario)
-    : scenario_(scenario), run_(scenario_, kVirtualEpoch) {
-  std::uint32_t boot_epoch = 1;
+VirtualFleet::VirtualFleet(const Scenario& scenario, const VirtualPlan& plan)
+    : scenario_(WithCrashes(scenario, plan)),
+      run_(scenario_, kVirtualEpoch),
+      radio_(scenario_, plan.radio, plan.seed) {
   for (const VehicleOptions& options : scenario_.vehicles) {
     run_.Join(options.id);
-    members_.push_back({options.id, std::make_unique<Vehicle>(options, boot_epoch++), true, {}});
+    Member& member = members_.emplace_back();
+    member.id = options.id;
+    member.last_world_from_body = options.start_world;
+    member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
   }
+  for (const ProcessFault& fault : plan.faults) {
+    Member* member = Find(fault.vehicle);
+    GIVEWAY_CHECK(member != nullptr, Number(fault.vehicle));
+    if (fault.kind == ProcessFaultKind::kCrash) continue;
+    faults_.push_back({fault, static_cast<std::size_t>(member - members_.data())});
+  }
+  places_.resize(members_.size());
+  commands_.reserve(members_.size());
   run_.Start();
 }
 
-// The radio: what everyone living said in the last tick.
-void VirtualFleet::Deliver() {
-  on_air_.clear();
-  const SteadyTime now = Number(run_.Now()) * scenario_.tick_period;
-  for (const Member& member : members_) {
-    if (!member.alive || member.said.beacon.seq == 0) continue;
-    on_air_.push_back({.beacon = member.said.beacon,
-                       .received = now,
-                       .crc_valid = true,
-                       .name_valid = true,
-                       .writer = member.said.beacon.boot_epoch});
-  }
-}
-
-void VirtualFleet::Think() {
-  commands_.clear();
-  for (const RangeScan& scan : run_.Scans()) {
-    const auto member =
-        std::find_if(members_.begin(), members_.end(),
-                     [&scan](const Member& candidate) { return candidate.id == scan.vehicle; });
-    if (member == members_.end() || !member->alive) continue;
-    // The radio does not carry a vehicle's own beacon back to it.
-    const auto own = std::find_if(
-        on_air_.begin(), on_air_.end(),
-        [&scan](const ReceivedBeacon& heard) { return heard.beacon.vehicle == scan.vehicle; });
-    if (own != on_air_.end()) std::iter_swap(own, on_air_.end() - 1);
-    const std::size_t heard = on_air_.size() - (own != on_air_.end() ? 1 : 0);
-    Inputs inputs;
-    inputs.now = Number(scan.tick) * scenario_.tick_period;
-    inputs.scan = scan;
-    inputs.beacons = {on_air_.data(), heard};
-    member->said = member->brain->Step(inputs);
-    commands_.push_back(member->said.command);
-  }
+VirtualFleet::Member* VirtualFleet::Find(VehicleId vehicle) {
+  const auto found = std::ranges::lower_bound(members_, vehicle, {}, &Member::id);
+  return found == members_.end() || found->id != vehicle ? nullptr : &*found;
 }
 
 void VirtualFleet::CarryOutFaults() {
   for (const WorldEvent& event : run_.Events()) {
     history_.push_back(event);
-    if (event.kind != EventKind::kFaultDue) continue;
-    for (Member& member : members_) {
-      if (member.id == event.vehicle) member.alive = false;
+    if (event.kind != EventKind::kFaultDue || event.text != "kill") continue;
+    if (Member* member = Find(event.vehicle)) {
+      member->process = Process::kGone;
+      member->back_at_tick = 0;
     }
+  }
+  for (DueFault& due : faults_) {
+    if (due.done || run_.TimeSeconds() < due.fault.at_s) continue;
+    due.done = true;
+    Break(due.fault, &members_[due.member]);
+  }
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    const std::uint32_t back_at = members_[i].back_at_tick;
+    if (back_at != 0 && Number(run_.Now()) >= back_at) BringBack(i);
+  }
+}
+
+void VirtualFleet::Break(const ProcessFault& fault, Member* member) {
+  if (member->process != Process::kRuns) return;
+  member->begins_anew = fault.kind == ProcessFaultKind::kRestart;
+  member->process = member->begins_anew ? Process::kGone : Process::kPaused;
+  member->back_at_tick = Number(run_.Now()) + std::max(1U, TicksCovering(FromSeconds(fault.for_s),
+                                                                         scenario_.tick_period));
+}
+
+// A new process is told by the world's roster where its body stood before the first scan it gets.
+void VirtualFleet::BringBack(std::size_t index) {
+  Member& member = members_[index];
+  member.process = Process::kRuns;
+  member.back_at_tick = 0;
+  if (!member.begins_anew) return;
+  VehicleOptions options = scenario_.vehicles[index];
+  options.start_world = member.last_world_from_body;
+  member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
+  member.queued.clear();
+}
+
+void VirtualFleet::TellRadioThePlaces() {
+  std::size_t index = 0;
+  for (const Truth& truth : run_.Truths()) {
+    while (index < members_.size() && members_[index].id != truth.vehicle) ++index;
+    if (index == members_.size()) break;
+    members_[index].last_world_from_body = truth.world_from_body;
+    places_[index] = {.position_world = truth.world_from_body.position_world,
+                      .on_air = truth.present && members_[index].process == Process::kRuns};
+  }
+  radio_.BeginTick(run_.Now(), run_.TimeSeconds(), places_);
+}
+
+void VirtualFleet::Think() {
+  commands_.clear();
+  for (Member& member : members_) member.answered = false;
+  std::size_t index = 0;
+  for (const RangeScan& scan : run_.Scans()) {
+    while (index < members_.size() && members_[index].id != scan.vehicle) ++index;
+    if (index == members_.size()) break;
+    if (members_[index].process == Process::kRuns) Step(scan, index);
+    if (members_[index].process == Process::kPaused) Queue(index);
+  }
+}
+
+void VirtualFleet::Step(const RangeScan& scan, std::size_t index) {
+  Member& member = members_[index];
+  heard_.clear();
+  events_.clear();
+  inputs_.now = Number(scan.tick) * scenario_.tick_period;
+  if (!member.queued.empty()) {
+    heard_.assign(member.queued.begin(), member.queued.end());
+    for (ReceivedBeacon& received : heard_) received.received = inputs_.now;  // taken out only now
+    member.queued.clear();
+  }
+  radio_.Hear(index, &heard_);
+  radio_.Notice(index, &events_);
+  inputs_.scan = scan;
+  inputs_.beacons = heard_;
+  inputs_.events = events_;
+  member.said = member.brain->Step(inputs_);
+  member.answered = true;
+  radio_.Say(index, scan.tick, member.said.beacon);
+  commands_.push_back(member.said.command);
+  commands_hash_ = Stir(commands_hash_, member.said.command.target.left_rad_s);
+  commands_hash_ = Stir(commands_hash_, member.said.command.target.right_rad_s);
+}
+
+// A paused process takes nothing: the newest few of each peer wait in its reader.
+void VirtualFleet::Queue(std::size_t index) {
+  std::vector<ReceivedBeacon>& queued = members_[index].queued;
+  heard_.clear();
+  radio_.Hear(index, &heard_);
+  for (const ReceivedBeacon& received : heard_) {
+    const auto same = [&](const ReceivedBeacon& other) { return other.writer == received.writer; };
+    if (std::ranges::count_if(queued, same) >= kReaderDepth) {
+      queued.erase(std::ranges::find_if(queued, same));
+    }
+    queued.push_back(received);
   }
 }
 
 bool VirtualFleet::Advance() {
   run_.Advance(commands_);
   CarryOutFaults();
-  Deliver();
+  TellRadioThePlaces();
   Think();
   return run_.State() != RunState::kEnded;
 }

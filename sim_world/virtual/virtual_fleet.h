@@ -1,6 +1,6 @@
 // World and brains in one thread and in virtual time: the same Run and the same Vehicle::Step as in
-// the real fleet, with a radio in memory between them. A beacon of tick k is heard at tick k + 1,
-// as in a real run in which nothing is lost. Knows no clock and no middleware.
+// the real fleet, with a radio in memory between them. A beacon of tick k is heard at tick k + 1 at
+// the earliest, as in a real run. Knows no clock and no middleware.
 #pragma once
 
 #include <memory>
@@ -9,13 +9,16 @@
 #include "services/types/scenario.h"
 #include "services/vehicle/vehicle.h"
 #include "sim_world/run.h"
+#include "sim_world/virtual/radio.h"
+#include "sim_world/virtual/virtual_plan.h"
 
 namespace giveway::sim {
 
 class VirtualFleet {
  public:
-  // Everyone joins and the run starts at once.
-  explicit VirtualFleet(const Scenario& scenario);
+  // Everyone joins and the run starts at once. Without a plan nothing is lost and nobody fails but
+  // by the scenario.
+  explicit VirtualFleet(const Scenario& scenario, const VirtualPlan& plan = {});
 
   // One tick for world and brains. False once the run has ended.
   bool Advance();
@@ -23,29 +26,59 @@ class VirtualFleet {
   void Finish();
 
   const Run& World() const { return run_; }
+  const Scenario& TheScenario() const { return scenario_; }
+  std::size_t Size() const { return members_.size(); }
   const Vehicle& Brain(std::size_t index) const { return *members_[index].brain; }
-  // What the vehicle said in the last tick.
+  // What the vehicle said last.
   const Outputs& Said(std::size_t index) const { return members_[index].said; }
+  // True if the vehicle's process answered this tick: it lives and is not paused.
+  bool Answered(std::size_t index) const { return members_[index].answered; }
   // Every event of the run so far.
   const std::vector<WorldEvent>& History() const { return history_; }
+  // Of every command given so far, in order: two fleets that ever differed have different ones.
+  std::uint64_t CommandsHash() const { return commands_hash_; }
 
  private:
+  enum class Process : std::uint8_t { kRuns, kPaused, kGone };
   struct Member {
     VehicleId id = kNobody;
     std::unique_ptr<Vehicle> brain;
-    bool alive = true;
+    Process process = Process::kRuns;
+    std::uint32_t back_at_tick = 0;  // of a pause or restart; 0: never
+    bool begins_anew = false;
+    bool answered = false;
     Outputs said;
+    Pose last_world_from_body;           // true, after the last tick
+    std::vector<ReceivedBeacon> queued;  // in the reader of a paused process
   };
-  void Deliver();
-  void Think();
+  struct DueFault {
+    ProcessFault fault;
+    std::size_t member;
+    bool done = false;
+  };
+
   void CarryOutFaults();
+  void Break(const ProcessFault& fault, Member* member);
+  void BringBack(std::size_t index);
+  void TellRadioThePlaces();
+  void Think();
+  void Step(const RangeScan& scan, std::size_t index);
+  void Queue(std::size_t index);
+  Member* Find(VehicleId vehicle);
 
   Scenario scenario_;
   Run run_;
-  std::vector<Member> members_;         // in the scenario's order
-  std::vector<ReceivedBeacon> on_air_;  // of the tick before
+  Radio radio_;
+  std::vector<Member> members_;  // in the scenario's order, by which the radio numbers them
+  std::vector<DueFault> faults_;
+  std::uint32_t last_boot_epoch_ = 0;
+  std::vector<RadioPlace> places_;
+  std::vector<ReceivedBeacon> heard_;
+  std::vector<QosEvent> events_;
+  Inputs inputs_;
   std::vector<MotorCommand> commands_;
   std::vector<WorldEvent> history_;
+  std::uint64_t commands_hash_ = 0;
 };
 
 }  // namespace giveway::sim

@@ -32,8 +32,8 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
                          testing::Values(Golden{Behaviour::kCooperative, 0x99fce240ad40fb99ULL},
-                                         Golden{Behaviour::kLectureAvoid, 0x7a318c6387ec87baULL},
-                                         Golden{Behaviour::kStockAvoid, 0x5eb3bc1da8904b16ULL},
+                                         Golden{Behaviour::kLectureAvoid, 0x198adc168f55c55dULL},
+                                         Golden{Behaviour::kStockAvoid, 0x81d4b84dc0c96424ULL},
                                          Golden{Behaviour::kLectureYield, 0x883612c5e72b625fULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
 

@@ -1,0 +1,35 @@
+#include <limits>
+#include <memory>
+
+#include "services/fleetctl/shrink.h"
+#include "services/fleetctl/verbs.h"
+#include "services/fleetctl/virtual_flags.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+Takes the flags of `fleetctl virtual` with which the seed failed.
+
+Example
+  fleetctl shrink swarm --vehicles 12 --loss 5 --seed 17
+
+Exit code: 1 the run fails and the file is written, 0 it does not fail, 2 could not run.
+)";
+
+}  // namespace
+
+void AddShrinkVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<ShrinkOptions>();
+  CLI::App* verb = fleetctl->add_subcommand(
+      "shrink", "Reduce a failing virtual run to the smallest that still fails");
+  verb->footer(kFooter);
+  AddCaseFlags(verb, &options->made_by);
+  verb->add_option("--seed", options->seed, "The seed that fails")
+      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
+      ->required();
+  verb->add_option("--out", options->out_file, "The file; default NAME_SEED.textproto");
+  verb->callback([options, exit_code] { *exit_code = RunShrink(*options); });
+}
+
+}  // namespace giveway::fleetctl

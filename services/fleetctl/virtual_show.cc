@@ -1,0 +1,86 @@
+#include "services/fleetctl/virtual_show.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "services/app/picture.h"
+#include "services/fleetctl/output_file.h"
+#include "sim_world/virtual/virtual_run.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr std::string_view kTraceHead =
+    "tick\ttime_s\tvehicle\tx_m\ty_m\theading_rad\tforward_m_s\tmode\trule\tpeer\tsensor\t"
+    "gives_way_to\twaited_ticks\tarrived\n";
+
+void Trace(const sim::VirtualFleet& fleet, std::string* text) {
+  std::size_t index = 0;
+  for (const Truth& truth : fleet.World().Truths()) {
+    const Outputs& said = fleet.Said(index++);
+    const Decision& decision = said.command.decision;
+    fmt::format_to(std::back_inserter(*text),
+                   "{}\t{:.2f}\t{}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n",
+                   Number(truth.tick), truth.time_s, Number(truth.vehicle),
+                   truth.world_from_body.position_world.x, truth.world_from_body.position_world.y,
+                   truth.world_from_body.heading_rad, truth.forward_m_s, Name(decision.mode),
+                   Name(decision.rule), Number(decision.peer), decision.sensor,
+                   Number(said.beacon.gives_way_to), said.beacon.order.waited_ticks,
+                   truth.arrived ? 1 : 0);
+  }
+}
+
+void AppendTruths(const sim::VirtualFleet& fleet, std::vector<app::Track>* tracks) {
+  tracks->resize(fleet.Size());
+  std::size_t index = 0;
+  for (const Truth& truth : fleet.World().Truths()) {
+    (*tracks)[index].vehicle = truth.vehicle;
+    (*tracks)[index++].truths.push_back(truth);
+  }
+}
+
+// Violations as text under the trace, so that one file tells the story.
+void AppendVerdict(const sim::VirtualOutcome& outcome, std::string* text) {
+  for (const sim::Violation& violation : outcome.first) {
+    *text +=
+        fmt::format("# {} tick {} vehicle {} other {}\n", sim::Name(violation.invariant),
+                    Number(violation.tick), Number(violation.vehicle), Number(violation.other));
+  }
+}
+
+// The picture's headline is the verdict of the invariants.
+void JudgeByInvariants(const sim::VirtualOutcome& outcome, std::vector<WorldEvent>* events) {
+  for (WorldEvent& event : *events) {
+    if (event.kind != EventKind::kVerdict) continue;
+    event.value = outcome.held ? 1 : 0;
+    event.text = outcome.held ? "every invariant held" : "broken:";
+    for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+      if (outcome.violations[i] == 0) continue;
+      event.text += fmt::format(" {}", sim::Name(static_cast<sim::Invariant>(i)));
+    }
+  }
+}
+
+}  // namespace
+
+void ShowRun(const VirtualCase& made, const std::string& picture_file,
+             const std::string& trace_file) {
+  std::vector<app::Track> tracks;
+  std::vector<WorldEvent> events;
+  std::string trace(kTraceHead);
+  const sim::VirtualOutcome outcome =
+      sim::RunVirtually(made.scenario, made.plan, [&](const sim::VirtualFleet& fleet) {
+        AppendTruths(fleet, &tracks);
+        events.insert(events.end(), fleet.World().Events().begin(), fleet.World().Events().end());
+        if (!trace_file.empty()) Trace(fleet, &trace);
+      });
+  AppendVerdict(outcome, &trace);
+  JudgeByInvariants(outcome, &events);
+  if (!trace_file.empty()) WriteFile(trace_file, trace);
+  if (!picture_file.empty()) {
+    WriteFile(picture_file, app::DrawRun(made.scenario, tracks, events));
+  }
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,74 @@
+// Layouts without walls in which everyone drives straight to the goal.
+#include <algorithm>
+#include <cmath>
+
+#include "services/types/math.h"
+#include "sim_world/virtual/layout.h"
+
+namespace giveway::sim {
+namespace {
+
+constexpr double kLane_m = 1.0;    // from a road's middle to the middle of its right lane
+constexpr double kQueue_m = 2.5;   // between vehicles of one lane
+constexpr double kParked_m = 2.1;  // between goals of one lane
+
+}  // namespace
+
+// Four roads with two lanes each meet at the origin; traffic keeps to the right:
+//
+//              | v  ^ |          Each of the four streams has a lane of its own. Those waiting
+//        ------+      +------    stand behind each other before the crossing; beyond it they park
+//        <                 <     in their lane in the same order, the first the farthest, so that
+//        >                 >     nobody arrives in anyone's way.
+//        ------+      +------
+//              | v  ^ |
+Scenario MakeCrossing(Size size) {
+  Layout layout("crossing", size);
+  constexpr double kBefore_m = 4;
+  const std::uint32_t in_lane = (size.vehicles + 3) / 4;
+  for (std::uint32_t i = 0; i < size.vehicles; ++i) {
+    const std::uint32_t place = i / 4;
+    const double heading = kPi / 2 * (i % 4);
+    const Vec2 along{Cos(heading), Sin(heading)};
+    const Vec2 lane = -kLane_m * Left(along);
+    const double start_m = kBefore_m + kQueue_m * place + layout.Dice().Uniform(-0.2, 0.2);
+    const double goal_m = kBefore_m + kParked_m * (in_lane - 1 - place);
+    layout.Add(lane - start_m * along, {}, lane + goal_m * along);
+  }
+  return layout.Take();
+}
+
+// A square of 16 m^2 a vehicle, cut into cells; everyone has a cell to start in and another to end
+// in, each with its own, moved a little within it. Ways cross anywhere.
+Scenario MakeSwarm(Size size) {
+  Layout layout("swarm", size);
+  constexpr double kCell_m = 2.4;
+  constexpr double kMoved_m = 0.19;  // so that neighbours keep their room
+  const double side_m = std::sqrt(16.0 * size.vehicles);
+  const auto columns = static_cast<std::uint32_t>(
+      std::max(side_m / kCell_m, std::ceil(std::sqrt(2.0 * size.vehicles))));
+  const std::vector<std::uint32_t> cells = Shuffled(columns * columns, &layout.Dice());
+  const auto place = [&](std::uint32_t cell) {
+    return Vec2{kCell_m * (cell % columns) + layout.Dice().Uniform(-kMoved_m, kMoved_m),
+                kCell_m * (cell / columns) + layout.Dice().Uniform(-kMoved_m, kMoved_m)};
+  };
+  for (std::uint32_t i = 0; i < size.vehicles; ++i) {
+    const Vec2 start = place(cells[2 * i]);
+    layout.Add(start, {}, place(cells[2 * i + 1]));
+  }
+  return layout.Take();
+}
+
+// One lane; the speeds are drawn, so that the faster close up on the slower. Goals are as far on as
+// the queue is long, in the same order: the first parks the farthest.
+Scenario MakeConvoy(Size size) {
+  Layout layout("convoy", size);
+  constexpr double kWay_m = 12;
+  for (std::uint32_t i = 0; i < size.vehicles; ++i) {
+    const double start_m = -kQueue_m * i + layout.Dice().Uniform(-0.2, 0.2);
+    layout.Add({start_m, 0}, {}, {kWay_m - kQueue_m * i, 0});
+  }
+  return layout.Take();
+}
+
+}  // namespace giveway::sim

@@ -1,0 +1,119 @@
+// What must be true of every fleet in every tick, judged by the truth and by what the vehicles
+// publish. Virtual runs fill in an Observed a vehicle from their brains, real ones from
+// world/truth, beacons and status. Counts; decides nothing about the run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "services/types/beacon.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/scenario.h"
+
+namespace giveway::sim {
+
+enum class Invariant : std::uint8_t {
+  kContact,      // no contact that a moving vehicle caused
+  kStaleMotion,  // no motion on stale data: at the latest the braking is under way
+  kWaitCycle,    // who halts to give way and to whom: never in a circle
+  kWaitBound,    // nobody halts to give way for longer than a bound
+  kAllHalted,    // never do all who are not there yet halt to give way, each for another
+  kOrder,        // who halts to give way comes later in the order, as both published it
+  kArrival,      // everyone who lives arrives within the duration
+};
+inline constexpr std::size_t kInvariantCount = 7;
+std::string_view Name(Invariant invariant);
+
+struct Violation {
+  Invariant invariant = Invariant::kContact;
+  Tick tick = kNoTick;
+  VehicleId vehicle = kNobody;  // at fault, or the first concerned
+  VehicleId other = kNobody;    // the other one, where there is one
+};
+
+// One vehicle at one tick.
+struct Observed {
+  VehicleId vehicle = kNobody;
+  bool present = false;  // its body stands in the world
+  bool lives = false;    // its process runs
+  bool arrived = false;
+  Vec2 position_world;
+  double forward_m_s = 0;
+  double rim_m_s = 0;       // of the faster wheel: what brakes is a wheel, not the middle
+  Tick answered = kNoTick;  // the scan its last command answers
+  Decision decision;        // as last published, like what follows
+  VehicleId gives_way_to = kNobody;
+  OrderKey order;
+};
+
+struct InvariantLimits {
+  double wait_s = 120;             // kWaitBound
+  std::uint32_t halted_ticks = 2;  // kAllHalted; lost and late beacons need more
+  // kWaitCycle: how long a circle may last. A decision rests on keys a tick old.
+  std::uint32_t cycle_ticks = 1;
+  // kOrder: how old a published key may be that a vehicle goes by; at most kRememberedKeys - 1.
+  std::uint32_t key_age_ticks = 6;
+};
+
+class Invariants {
+ public:
+  static constexpr std::uint32_t kRememberedKeys = 16;
+  static constexpr std::size_t kKeptViolations = 64;
+
+  Invariants(const Scenario& scenario, const InvariantLimits& limits);
+
+  // Takes in one tick. Vehicles in the scenario's order; events are those of this tick.
+  void Observe(Tick tick, std::span<const Observed> vehicles, std::span<const WorldEvent> events);
+  // At the end of the run: who has not arrived?
+  void Finish(Tick tick, std::span<const Observed> vehicles);
+
+  // Each is counted when it begins, not once a tick.
+  std::uint32_t Count(Invariant invariant) const {
+    return counts_[static_cast<std::size_t>(invariant)];
+  }
+  bool Held() const;
+  // The first ones, in order of time.
+  std::span<const Violation> First() const { return first_; }
+
+ private:
+  struct Track {
+    VehicleId vehicle = kNobody;
+    double deceleration_m_s2 = 0;
+    double acceleration_m_s2 = 0;
+    bool has_goal = false;
+    double last_forward_m_s = 0;
+    Vec2 last_position_world;
+    bool stale = false;
+    double stale_limit_m_s = 0;  // what the faster wheel may still be rolling at
+    bool stale_told = false;
+    std::uint32_t waited_ticks = 0;
+    bool order_told = false;
+    std::array<OrderKey, kRememberedKeys> keys{};  // [tick % kRememberedKeys]
+    std::uint32_t walk = 0;                        // scratch of the search for circles
+  };
+
+  void Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other = kNobody);
+  void JudgeContact(const WorldEvent& event);
+  void JudgeStaleness(Tick tick, const Observed& now, Track* track);
+  void JudgeWait(Tick tick, const Observed& now, Track* track);
+  void JudgeOrder(Tick tick, const Observed& now, Track* track);
+  void JudgeCircles(Tick tick, std::span<const Observed> vehicles);
+  void JudgeAllHalted(Tick tick, std::span<const Observed> vehicles);
+  std::uint32_t IndexOf(VehicleId vehicle) const;
+  VehicleId MoreAtFault(const WorldEvent& contact) const;
+
+  InvariantLimits limits_;
+  double dt_s_;
+  std::uint32_t wait_ticks_;
+  std::uint32_t watchdog_ticks_;
+  std::vector<Track> tracks_;
+  std::array<std::uint32_t, kInvariantCount> counts_{};
+  std::vector<Violation> first_;
+  std::uint32_t circle_ticks_ = 0;
+  std::uint32_t halted_ticks_ = 0;
+};
+
+}  // namespace giveway::sim

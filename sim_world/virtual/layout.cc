@@ -1,0 +1,72 @@
+#include "sim_world/virtual/layout.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "services/types/check.h"
+#include "services/types/math.h"
+#include "sim_world/virtual/virtual_run.h"
+
+namespace giveway::sim {
+namespace {
+
+constexpr double kSlowest_m_s = 0.2;
+constexpr double kFastest_m_s = 0.6;
+// Beyond the free-flow time of the slowest: for everyone once in turn through the tightest place.
+constexpr double kSpare_s = 60;
+constexpr double kTurn_s = 12;
+
+}  // namespace
+
+Layout::Layout(std::string_view name, Size size) : dice_(size.seed, size.vehicles) {
+  scenario_.name = name;
+  scenario_.seed = size.seed;
+  scenario_.expect.any_halted = true;
+  scenario_.vehicles.reserve(size.vehicles);
+}
+
+void Layout::Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal) {
+  VehicleOptions options;
+  options.id = VehicleId{static_cast<std::uint32_t>(scenario_.vehicles.size()) + 1};
+  options.profile = PioneerP3dx();
+  options.braitenberg = LectureWeights();
+  options.cruise_m_s = dice_.Uniform(kSlowest_m_s, kFastest_m_s);
+  options.goal = {.set = true, .at_world = goal, .radius_m = 0.1};
+  GIVEWAY_CHECK(waypoints.size() <= kMaxWaypoints, waypoints.size());
+  for (const Vec2 waypoint : waypoints) {
+    options.route.waypoints_world[options.route.count++] = waypoint;
+  }
+  const Vec2 first = waypoints.empty() ? goal : waypoints.front();
+  const Vec2 ahead = first - start;
+  options.start_world = {.position_world = start, .heading_rad = Atan2(ahead.y, ahead.x)};
+  scenario_.vehicles.push_back(options);
+}
+
+void Layout::AddBlock(Vec2 low, Vec2 high) {
+  AddWall(low, {high.x, low.y});
+  AddWall({high.x, low.y}, high);
+  AddWall(high, {low.x, high.y});
+  AddWall({low.x, high.y}, low);
+}
+
+Scenario Layout::Take() {
+  double slowest_s = 0;
+  for (const VehicleOptions& options : scenario_.vehicles) {
+    slowest_s = std::max(slowest_s, FreeFlowSeconds(options));
+    scenario_.expect.arrived.push_back(options.id);
+  }
+  scenario_.duration_s =
+      slowest_s + kSpare_s + kTurn_s * static_cast<double>(scenario_.vehicles.size());
+  return std::move(scenario_);
+}
+
+std::vector<std::uint32_t> Shuffled(std::uint32_t count, Random* dice) {
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0U);
+  for (std::uint32_t left = count; left > 1; --left) {
+    std::swap(order[left - 1], order[dice->Next() % left]);
+  }
+  return order;
+}
+
+}  // namespace giveway::sim

@@ -1,0 +1,248 @@
+#include "sim_world/virtual/radio.h"
+
+#include <algorithm>
+#include <array>
+
+#include "services/types/check.h"
+#include "sim_world/ticks.h"
+
+namespace giveway::sim {
+namespace {
+
+// Beyond the radius in which beacons are listened to they still come: so a brain learns that a peer
+// drove out of it. One stated from well outside tells it; the rest would only be counted.
+constexpr double kFringe_m = 1.5;
+constexpr double kWellOutside_m = 0.5;
+constexpr std::uint32_t kHeldBackTicks = 2;
+constexpr std::uint32_t kLongestTicks = 40;  // a beacon under way for longer is of no use to anyone
+
+constexpr std::uint64_t kOfBurst = 0x9e3779b97f4a7c15ULL;
+
+// The finaliser of SplitMix64: every bit of the result depends on every bit of `x`.
+std::uint64_t Mix(std::uint64_t x) {
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
+  return x ^ (x >> 31);
+}
+
+// One draw is cut into three numbers of 21 bits in [0, 1).
+double Part(std::uint64_t draw, int which) {
+  constexpr std::uint64_t kMask = (1ULL << 21) - 1;
+  return static_cast<double>((draw >> (21 * which)) & kMask) * 0x1p-21;
+}
+
+double Whole(std::uint64_t draw) { return static_cast<double>(draw >> 11) * 0x1p-53; }
+
+double Power(double base, std::uint32_t exponent) {
+  double result = 1;
+  for (; exponent > 0; exponent >>= 1U, base *= base) {
+    if ((exponent & 1U) != 0) result *= base;
+  }
+  return result;
+}
+
+std::uint32_t TicksUnderWay(Nanoseconds time, Nanoseconds period) {
+  return std::clamp(TicksCovering(time, period), 1U, kLongestTicks);
+}
+
+}  // namespace
+
+Radio::Radio(const Scenario& scenario, const RadioSettings& settings, std::uint64_t seed)
+    : settings_(settings),
+      seed_(Mix(seed + 1)),
+      period_(scenario.tick_period),
+      count_(scenario.vehicles.size()),
+      shortest_ticks_(TicksUnderWay(settings.delay, period_)),
+      longest_ticks_(TicksUnderWay(settings.delay + settings.jitter, period_) +
+                     (settings.reorder > 0 ? kHeldBackTicks : 0) +
+                     (settings.duplicate > 0 ? 1 : 0)),
+      kept_ticks_(longest_ticks_ + 1),
+      varies_(settings.jitter.count() > 0 || settings.reorder > 0 || settings.duplicate > 0),
+      draws_(varies_ || settings.loss > 0 || settings.burst.enter > 0),
+      deadline_ticks_(TicksCovering(kDeadlineRequested, period_)),
+      lease_ticks_(TicksCovering(kLivelinessLease, period_)),
+      history_(count_ * kept_ticks_),
+      pairs_(count_ * count_),
+      expected_(count_ * count_),
+      expected_count_(count_),
+      places_(count_),
+      positions_world_(count_),
+      blacked_out_(count_) {
+  for (const VehicleOptions& options : scenario.vehicles) {
+    ids_.push_back(options.id);
+    reach_m_.push_back(settings.reach_m.value_or(options.emission_radius_m + kFringe_m));
+    listen_m_.push_back(settings.reach_m ? reach_m_.back() : options.emission_radius_m);
+    widest_reach_m_ = std::max(widest_reach_m_, reach_m_.back());
+  }
+}
+
+void Radio::Say(std::size_t sender, Tick tick, const Beacon& beacon) {
+  Said& said = history_[sender * kept_ticks_ + Number(tick) % kept_ticks_];
+  said.tick = tick;
+  said.beacon = {.beacon = beacon,
+                 .received = SteadyTime{0},
+                 .crc_valid = true,
+                 .name_valid = true,
+                 .writer = beacon.boot_epoch};
+}
+
+void Radio::BeginTick(Tick now, double time_s, std::span<const RadioPlace> places) {
+  GIVEWAY_CHECK(places.size() == count_);
+  now_ = now;
+  heard_at_ = Number(now) * period_;
+  for (std::size_t i = 0; i < count_; ++i) {
+    places_[i] = places[i];
+    positions_world_[i] = places[i].position_world;
+  }
+  grid_.Rebuild(positions_world_, widest_reach_m_);
+  if (!settings_.blackouts.empty()) MarkBlackouts(time_s);
+}
+
+void Radio::MarkBlackouts(double time_s) {
+  std::ranges::fill(blacked_out_, std::uint8_t{0});
+  for (const Blackout& blackout : settings_.blackouts) {
+    if (time_s < blackout.from_s || time_s >= blackout.to_s) continue;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (blackout.vehicle == kNobody || blackout.vehicle == ids_[i]) blacked_out_[i] = 1;
+    }
+  }
+}
+
+double Radio::SquaredDistance(std::size_t receiver, std::size_t sender) const {
+  return SquaredNorm(positions_world_[sender] - positions_world_[receiver]);
+}
+
+bool Radio::IsInReach(std::size_t receiver, std::size_t sender) const {
+  return SquaredDistance(receiver, sender) <= reach_m_[receiver] * reach_m_[receiver];
+}
+
+bool Radio::KnowsItIsFar(std::size_t receiver, std::size_t sender, Pair* pair) const {
+  const double listen_m = listen_m_[receiver];
+  if (SquaredDistance(receiver, sender) <= listen_m * listen_m) pair->told_far = false;
+  return pair->told_far;
+}
+
+std::uint64_t Radio::Draw(std::size_t receiver, std::size_t sender, std::uint32_t tick,
+                          std::uint64_t salt) const {
+  const std::uint64_t pair = receiver * count_ + sender;
+  return Mix(Mix(seed_ ^ salt ^ (pair << 32U)) + tick * 0x9e3779b97f4a7c15ULL);
+}
+
+void Radio::Hear(std::size_t receiver, std::vector<ReceivedBeacon>* heard) {
+  if (blacked_out_[receiver] != 0) return;
+  grid_.Near(positions_world_[receiver], reach_m_[receiver],
+             [&](std::uint32_t begin, std::uint32_t end) {
+               for (std::uint32_t at = begin; at < end; ++at) {
+                 const std::size_t sender = grid_.Order()[at];
+                 if (sender != receiver && IsInReach(receiver, sender)) {
+                   HearSender(receiver, sender, heard);
+                 }
+               }
+             });
+}
+
+// The chain is carried over the ticks nobody asked for in closed form: its eigenvalue is
+// 1 - enter - leave, and its stationary share of bad links enter / (enter + leave).
+bool Radio::IsLinkBad(std::size_t receiver, std::size_t sender, Pair* pair) const {
+  const BurstLoss& burst = settings_.burst;
+  if (burst.enter <= 0) return false;
+  const std::uint32_t now = Number(now_);
+  const double share = burst.enter / (burst.enter + burst.leave);
+  double bad = share;  // the first time
+  if (pair->burst_tick != 0) {
+    const double kept = Power(1 - burst.enter - burst.leave, now - pair->burst_tick);
+    bad = pair->bad ? share + (1 - share) * kept : share - share * kept;
+  }
+  if (pair->burst_tick != now) pair->bad = Whole(Draw(receiver, sender, now, kOfBurst)) < bad;
+  pair->burst_tick = now;
+  return pair->bad;
+}
+
+bool Radio::IsLost(std::size_t receiver, std::size_t sender, std::uint64_t draw, Pair* pair) const {
+  const double loss = IsLinkBad(receiver, sender, pair) ? settings_.burst.loss : settings_.loss;
+  return Part(draw, 0) < loss;
+}
+
+// When a beacon is heard, in ticks after it was said, and whether a second time a tick later.
+Radio::Fate Radio::FateOf(std::uint64_t draw) const {
+  if (!varies_) return {shortest_ticks_, false};
+  const Nanoseconds jitter{
+      static_cast<std::int64_t>(Part(draw, 1) * static_cast<double>(settings_.jitter.count()))};
+  // What is left of the draw decides on the rarer fates: they exclude each other.
+  const double fate = Part(draw, 2);
+  const bool held_back = fate < settings_.reorder;
+  return {TicksUnderWay(settings_.delay + jitter, period_) + (held_back ? kHeldBackTicks : 0),
+          !held_back && fate < settings_.reorder + settings_.duplicate};
+}
+
+void Radio::HearSender(std::size_t receiver, std::size_t sender,
+                       std::vector<ReceivedBeacon>* heard) {
+  if (blacked_out_[sender] != 0) return;
+  Pair& pair = pairs_[receiver * count_ + sender];
+  if (KnowsItIsFar(receiver, sender, &pair)) return;
+  const std::size_t first = heard->size();
+  // The longest under way first: it was said first.
+  for (std::uint32_t ticks = longest_ticks_; ticks >= shortest_ticks_; --ticks) {
+    if (ticks >= Number(now_)) continue;
+    const std::uint32_t said_tick = Number(now_) - ticks;
+    const Said& said = history_[sender * kept_ticks_ + said_tick % kept_ticks_];
+    if (said.tick != Tick{said_tick}) continue;
+    const std::uint64_t draw = draws_ ? Draw(receiver, sender, said_tick, 0) : 0;
+    const Fate fate = FateOf(draw);
+    if (ticks != fate.due && !(fate.twice && ticks == fate.due + 1)) continue;
+    if (draws_ && IsLost(receiver, sender, draw, &pair)) continue;
+    heard->push_back(said.beacon);
+    heard->back().received = heard_at_;
+  }
+  if (heard->size() == first) return;
+  MarkHeard(receiver, sender, &pair);
+  const Vec2 stated = heard->back().beacon.world_from_body.position_world;
+  const double far_m = listen_m_[receiver] + kWellOutside_m;
+  pair.told_far = SquaredNorm(stated - positions_world_[receiver]) > far_m * far_m;
+}
+
+void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
+  pair->heard_tick = Number(now_);
+  pair->deadline_missed = false;
+  if (pair->listed) return;
+  pair->listed = true;
+  expected_[receiver * count_ + expected_count_[receiver]++] = static_cast<std::uint32_t>(sender);
+}
+
+// The edges come once each. Who drove out of the radius is not missed: the middleware hears it
+// still, only nobody listens. Who is lost for good is expected no more.
+void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
+  std::uint32_t* const expected = expected_.data() + receiver * count_;
+  std::uint32_t kept = 0;
+  for (std::uint32_t i = 0; i < expected_count_[receiver]; ++i) {
+    const std::uint32_t sender = expected[i];
+    Pair& pair = pairs_[receiver * count_ + sender];
+    pair.listed = !HasLeft(receiver, sender, pair);
+    if (pair.listed && pair.heard_tick != Number(now_)) NoticeSilence(sender, &pair, events);
+    if (pair.listed) expected[kept++] = sender;
+  }
+  expected_count_[receiver] = kept;
+}
+
+bool Radio::HasLeft(std::size_t receiver, std::size_t sender, const Pair& pair) const {
+  if (pair.told_far) return true;
+  if (pair.heard_tick == Number(now_) || settings_.reach_m) return false;
+  return places_[sender].on_air && !IsInReach(receiver, sender);
+}
+
+void Radio::NoticeSilence(std::size_t sender, Pair* pair, std::vector<QosEvent>* events) const {
+  const std::uint32_t silent = Number(now_) - pair->heard_tick;
+  const auto tell = [&](QosEventKind kind, Nanoseconds after) {
+    events->push_back(
+        {.kind = kind, .vehicle = ids_[sender], .at = pair->heard_tick * period_ + after});
+  };
+  if (silent >= deadline_ticks_ && !pair->deadline_missed) {
+    pair->deadline_missed = true;
+    tell(QosEventKind::kDeadlineMissed, kDeadlineRequested);
+  }
+  if (silent < lease_ticks_) return;
+  tell(QosEventKind::kLivelinessLost, kLivelinessLease);
+  pair->listed = false;
+}
+
+}  // namespace giveway::sim

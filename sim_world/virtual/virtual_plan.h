@@ -1,0 +1,62 @@
+// What goes wrong in a virtual run beside the scenario: the radio's faults and the processes'.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "services/types/ids.h"
+#include "services/types/time.h"
+
+namespace giveway::sim {
+
+// Loss in bursts (Gilbert 1960, Elliott 1963): each ordered pair has a link that is good or bad and
+// changes its mind from tick to tick. Bad links lose `loss` of the beacons, good ones the radio's.
+struct BurstLoss {
+  double enter = 0;    // probability a tick that a good link turns bad; 0: no bursts
+  double leave = 0.2;  // probability a tick that a bad link recovers; the mean burst is 1 / leave
+  double loss = 1;     // share of beacons a bad link loses
+};
+
+// Nobody hears the vehicle and it hears nobody.
+struct Blackout {
+  VehicleId vehicle = kNobody;  // kNobody: everyone
+  double from_s = 0;            // since the start signal
+  double to_s = 0;
+};
+
+struct RadioSettings {
+  double loss = 0;  // share of beacons lost, each by itself; 0 to 1
+  BurstLoss burst;
+  // Under way for delay, and up to jitter more. Heard at the first tick it has come by, and never
+  // at the tick it was said.
+  Nanoseconds delay{0};
+  Nanoseconds jitter{0};
+  double reorder = 0;    // share held back for two ticks more, so that later ones overtake them
+  double duplicate = 0;  // share heard a second time, a tick after the first
+  std::vector<Blackout> blackouts;
+  // The radio's own reach by true positions. Without one it carries farther than anyone listens, as
+  // the middleware does: brains leave out what was stated from beyond their emission radius.
+  std::optional<double> reach_m;
+};
+
+enum class ProcessFaultKind : std::uint8_t {
+  kCrash,    // silent for ever; the body stays as long as the scenario says
+  kPause,    // stands still for a time, then goes on with everything queued
+  kRestart,  // is gone for a time, then begins anew where the body stands
+};
+
+struct ProcessFault {
+  ProcessFaultKind kind = ProcessFaultKind::kCrash;
+  VehicleId vehicle = kNobody;
+  double at_s = 0;     // since the start signal
+  double for_s = 0.5;  // of a pause or restart; the world takes a second's silence for a death
+};
+
+struct VirtualPlan {
+  std::uint64_t seed = 0;  // of all that is drawn here
+  RadioSettings radio;
+  std::vector<ProcessFault> faults;
+};
+
+}  // namespace giveway::sim

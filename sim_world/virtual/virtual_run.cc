@@ -1,0 +1,127 @@
+#include "sim_world/virtual/virtual_run.h"
+
+#include <algorithm>
+
+#include "services/types/math.h"
+#include "services/types/state_hash.h"
+#include "sim_world/ticks.h"
+
+namespace giveway::sim {
+namespace {
+
+double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels) {
+  return drive.wheel_radius_m *
+         std::max({wheels.left_rad_s, -wheels.left_rad_s, wheels.right_rad_s, -wheels.right_rad_s});
+}
+
+void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
+  std::size_t index = 0;
+  for (const Truth& truth : fleet.World().Truths()) {
+    while (index < observed->size() && (*observed)[index].vehicle != truth.vehicle) ++index;
+    if (index == observed->size()) return;
+    Observed& now = (*observed)[index];
+    const Outputs& said = fleet.Said(index);
+    now.present = truth.present;
+    now.lives = fleet.Answered(index);
+    now.arrived = truth.arrived;
+    now.position_world = truth.world_from_body.position_world;
+    now.forward_m_s = truth.forward_m_s;
+    now.rim_m_s = RimSpeed(fleet.TheScenario().vehicles[index].profile.drive, truth.wheels);
+    now.answered = said.command.tick;
+    now.decision = said.command.decision;
+    now.gives_way_to = said.beacon.gives_way_to;
+    now.order = said.beacon.order;
+  }
+}
+
+std::vector<double> DelaysOf(const VirtualFleet& fleet) {
+  std::vector<double> delays_s;
+  for (const WorldEvent& event : fleet.History()) {
+    if (event.kind != EventKind::kArrived) continue;
+    for (const VehicleOptions& options : fleet.TheScenario().vehicles) {
+      if (options.id == event.vehicle) delays_s.push_back(event.value - FreeFlowSeconds(options));
+    }
+  }
+  return delays_s;
+}
+
+void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOutcome* outcome) {
+  const RunFigures figures = fleet.World().Figures();
+  outcome->ticks = figures.ticks;
+  outcome->contacts = figures.contacts;
+  outcome->met = figures.passed;
+  outcome->clear_s = figures.time_to_clear_s;
+  outcome->separation_m = figures.min_separation_m;
+  outcome->delays_s = DelaysOf(fleet);
+  outcome->held = invariants.Held();
+  outcome->first.assign(invariants.First().begin(), invariants.First().end());
+  for (std::size_t i = 0; i < kInvariantCount; ++i) {
+    outcome->violations[i] = invariants.Count(static_cast<Invariant>(i));
+  }
+  StateHash hash;
+  hash.Add(figures.state_hash);
+  hash.Add(fleet.CommandsHash());
+  for (std::size_t i = 0; i < fleet.Size(); ++i) hash.Add(fleet.Brain(i).Hash());
+  outcome->hash = hash.Value();
+}
+
+}  // namespace
+
+double FreeFlowSeconds(const VehicleOptions& options) {
+  double way_m = 0;
+  Vec2 at = options.start_world.position_world;
+  for (std::uint32_t i = 0; i < options.route.count; ++i) {
+    way_m += Norm(options.route.waypoints_world[i] - at);
+    at = options.route.waypoints_world[i];
+  }
+  way_m += Norm(options.goal.at_world - at);
+  way_m = std::max(0.0, way_m - options.goal.radius_m);
+  const double cruise = options.cruise_m_s;
+  return way_m / cruise + cruise / (2 * options.profile.acceleration_m_s2) +
+         cruise / (2 * options.profile.deceleration_m_s2);
+}
+
+InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
+  InvariantLimits limits;
+  const RadioSettings& radio = plan.radio;
+  const bool loses = radio.loss > 0 || radio.burst.enter > 0 || !radio.blackouts.empty() ||
+                     radio.reorder > 0 || !plan.faults.empty();
+  // A beacon lost is made up for by the next; a peer silent for the age limit is lost, not waited
+  // for.
+  constexpr Nanoseconds kAgeLimit{200'000'000};
+  const std::uint32_t late = TicksCovering(radio.delay + radio.jitter, scenario.tick_period);
+  const std::uint32_t lost = loses ? TicksCovering(kAgeLimit, scenario.tick_period) : 0;
+  limits.halted_ticks += 2 * (late + lost);
+  limits.cycle_ticks += late + lost;
+  limits.key_age_ticks = std::min(Invariants::kRememberedKeys - 1, 2 + late + lost);
+  constexpr double kWaitAlone_s = 60;
+  constexpr double kWaitEach_s = 10;
+  limits.wait_s = kWaitAlone_s + kWaitEach_s * static_cast<double>(scenario.vehicles.size());
+  return limits;
+}
+
+VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
+                            const TickWatcher& watch) {
+  VirtualFleet fleet(scenario, plan);
+  Invariants invariants(scenario, LimitsFor(scenario, plan));
+  std::vector<Observed> observed;
+  for (const VehicleOptions& options : scenario.vehicles) {
+    observed.push_back({.vehicle = options.id});
+  }
+  VirtualOutcome outcome;
+  outcome.vehicles = static_cast<std::uint32_t>(scenario.vehicles.size());
+  std::uint64_t vehicle_ticks = 0;
+  for (bool goes_on = true; goes_on;) {
+    goes_on = fleet.Advance();
+    Look(fleet, &observed);
+    invariants.Observe(fleet.World().Now(), observed, fleet.World().Events());
+    vehicle_ticks += fleet.World().Scans().size();
+    if (watch) watch(fleet);
+  }
+  invariants.Finish(fleet.World().Now(), observed);
+  outcome.vehicle_seconds = static_cast<double>(vehicle_ticks) * Seconds(scenario.tick_period);
+  Conclude(fleet, invariants, &outcome);
+  return outcome;
+}
+
+}  // namespace giveway::sim

@@ -1,0 +1,46 @@
+// One virtual run from start to verdict: the fleet advanced to its end under the invariants, and
+// what it came to as one small value. Thousands of these make a batch.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "services/types/scenario.h"
+#include "sim_world/virtual/invariants.h"
+#include "sim_world/virtual/virtual_fleet.h"
+#include "sim_world/virtual/virtual_plan.h"
+
+namespace giveway::sim {
+
+struct VirtualOutcome {
+  std::uint32_t vehicles = 0;
+  std::uint32_t ticks = 0;
+  double vehicle_seconds = 0;  // simulated
+  std::uint32_t contacts = 0;
+  std::array<std::uint32_t, kInvariantCount> violations{};
+  bool held = false;                   // every invariant
+  bool met = false;                    // the scenario's own expectations
+  std::vector<Violation> first;        // violations, in order of time
+  std::vector<double> delays_s;        // of those who arrived: beyond the free-flow time
+  std::optional<double> clear_s;       // the last arrival, if everyone living arrived
+  std::optional<double> separation_m;  // the closest two shells ever came
+  std::uint64_t hash = 0;              // of every command and the last state
+};
+
+// Seconds a vehicle alone would take: its way at cruise speed, speeding up and slowing down.
+double FreeFlowSeconds(const VehicleOptions& options);
+
+// The limits under which a run with this plan can be held to its invariants: what is lost or late
+// on the radio is known later, and long queues wait longer.
+InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan);
+
+// Called after every tick, for pictures and traces.
+using TickWatcher = std::function<void(const VirtualFleet& fleet)>;
+
+VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
+                            const TickWatcher& watch = {});
+
+}  // namespace giveway::sim

@@ -1,0 +1,232 @@
+// Every invariant is tripped by what breaks it, and not by what comes near.
+#include "sim_world/virtual/invariants.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+namespace giveway::sim {
+namespace {
+
+constexpr double kTick_s = 0.05;
+
+// Three vehicles under way, without anything wrong; a test changes what it is about.
+class InvariantsTest : public testing::Test {
+ protected:
+  InvariantsTest() {
+    scenario_.vehicles.resize(3);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+      VehicleOptions& options = scenario_.vehicles[i];
+      options.id = VehicleId{i + 1};
+      options.profile = PioneerP3dx();
+      options.goal.set = true;
+      Observed& vehicle = now_.emplace_back();
+      vehicle.vehicle = options.id;
+      vehicle.present = true;
+      vehicle.lives = true;
+      vehicle.position_world = {10.0 * i, 0};
+      vehicle.forward_m_s = 0.3;
+      vehicle.decision = {.mode = Mode::kCooperative, .rule = Rule::kCruise};
+      vehicle.order = {.speed_bucket = 10 - i, .vehicle = options.id};
+    }
+    Begin({});
+  }
+
+  void Begin(const InvariantLimits& limits) { invariants_.emplace(scenario_, limits); }
+  void Observe(std::vector<WorldEvent> events = {}) {
+    ++tick_;
+    for (WorldEvent& event : events) event.tick = Tick{tick_};
+    for (Observed& vehicle : now_) {
+      if (answers_) vehicle.answered = Tick{tick_};
+      vehicle.rim_m_s = std::max(vehicle.forward_m_s, 0.0) + turning_m_s_;
+    }
+    invariants_->Observe(Tick{tick_}, now_, events);
+  }
+  void Observe(int ticks) {
+    for (int i = 0; i < ticks; ++i) Observe();
+  }
+  Observed& Vehicle(std::uint32_t id) { return now_[id - 1]; }
+  void Halt(std::uint32_t id, Rule rule, std::uint32_t peer) {
+    Vehicle(id).forward_m_s = 0;
+    Vehicle(id).decision.rule = rule;
+    Vehicle(id).decision.peer = VehicleId{peer};
+    Vehicle(id).gives_way_to = VehicleId{rule == Rule::kGiveWay ? peer : 0};
+  }
+  std::uint32_t Count(Invariant invariant) const { return invariants_->Count(invariant); }
+
+  Scenario scenario_;
+  std::vector<Observed> now_;
+  std::optional<Invariants> invariants_;
+  std::uint32_t tick_ = 0;
+  bool answers_ = true;
+  double turning_m_s_ = 0;  // of the outer wheel beside the middle
+};
+
+TEST_F(InvariantsTest, HoldWhileNothingIsWrong) {
+  Observe(100);
+  Halt(3, Rule::kGiveWay, 1);
+  Observe(100);
+  for (Observed& vehicle : now_) vehicle.arrived = true;
+  invariants_->Finish(Tick{tick_}, now_);
+  EXPECT_TRUE(invariants_->Held());
+  EXPECT_TRUE(invariants_->First().empty());
+}
+
+TEST_F(InvariantsTest, AContactIsTheFaultOfWhoDrove) {
+  Vehicle(1).forward_m_s = 0;
+  Observe(2);
+  Vehicle(2).forward_m_s = 0;  // the world has stopped it by the time it is seen
+  Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{1}, .other = VehicleId{2}}});
+  EXPECT_EQ(Count(Invariant::kContact), 1U);
+  ASSERT_EQ(invariants_->First().size(), 1U);
+  EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{2});
+  EXPECT_EQ(invariants_->First()[0].other, VehicleId{1});
+  EXPECT_EQ(invariants_->First()[0].tick, Tick{tick_});
+}
+
+TEST_F(InvariantsTest, AContactWithAWallIsTheFaultOfTheOnlyVehicle) {
+  Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{3}}});
+  EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{3});
+  EXPECT_EQ(invariants_->First()[0].other, kNobody);
+}
+
+TEST_F(InvariantsTest, BrakingOnStaleRangesIsAllowedAndDrivingOnIsNot) {
+  Vehicle(1).decision = {.mode = Mode::kHalt, .rule = Rule::kRangesStale};
+  Observe();
+  while (Vehicle(1).forward_m_s > 0) {
+    Observe();
+    Vehicle(1).forward_m_s = std::max(0.0, Vehicle(1).forward_m_s - 0.6 * kTick_s);
+  }
+  Observe(10);
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 0U);
+  Vehicle(1).forward_m_s = 0.05;
+  Observe(10);
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 1U);
+}
+
+TEST_F(InvariantsTest, TurningOnTheSpotOnStaleRangesIsMotion) {
+  Vehicle(1).forward_m_s = 0;
+  Vehicle(1).decision = {.mode = Mode::kHalt, .rule = Rule::kRangesStale};
+  turning_m_s_ = 0.1;
+  Observe(20);
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 1U);
+}
+
+TEST_F(InvariantsTest, WhoseLastCommandIsOlderThanTheWatchdogMustBrake) {
+  Observe();
+  answers_ = false;
+  Observe(5);  // the watchdog's three ticks, and one to notice
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 0U);
+  Observe(5);
+  EXPECT_EQ(Count(Invariant::kStaleMotion), 3U);
+}
+
+TEST_F(InvariantsTest, ACircleOfThoseWhoGiveWayIsFoundOnce) {
+  Halt(1, Rule::kGiveWay, 2);
+  Halt(2, Rule::kGiveWay, 3);
+  Observe(3);
+  EXPECT_EQ(Count(Invariant::kWaitCycle), 0U);
+  Halt(3, Rule::kGiveWay, 1);
+  Observe(3);
+  EXPECT_EQ(Count(Invariant::kWaitCycle), 1U);
+}
+
+TEST_F(InvariantsTest, ACircleMayLastAsLongAsNewsTakes) {
+  Begin({.cycle_ticks = 2});
+  Halt(1, Rule::kGiveWay, 2);
+  Halt(2, Rule::kGiveWay, 1);
+  Observe(2);
+  EXPECT_EQ(Count(Invariant::kWaitCycle), 0U);
+  Observe();
+  EXPECT_EQ(Count(Invariant::kWaitCycle), 1U);
+}
+
+TEST_F(InvariantsTest, WhoOnlyBrakesDoesNotWaitYet) {
+  Halt(1, Rule::kGiveWay, 2);
+  Halt(2, Rule::kGiveWay, 1);
+  Vehicle(1).forward_m_s = 0.2;
+  Observe(3);
+  EXPECT_EQ(Count(Invariant::kWaitCycle), 0U);
+}
+
+TEST_F(InvariantsTest, WaitingIsBounded) {
+  Begin({.wait_s = 1});
+  Halt(3, Rule::kGiveWay, 1);
+  Observe(20);
+  EXPECT_EQ(Count(Invariant::kWaitBound), 0U);
+  Observe(20);
+  EXPECT_EQ(Count(Invariant::kWaitBound), 1U);
+}
+
+TEST_F(InvariantsTest, AWaitThatEndsBeginsAnew) {
+  Begin({.wait_s = 1});
+  Halt(3, Rule::kGiveWay, 1);
+  Observe(15);
+  Vehicle(3).forward_m_s = 0.1;
+  Observe();
+  Vehicle(3).forward_m_s = 0;
+  Observe(15);
+  EXPECT_EQ(Count(Invariant::kWaitBound), 0U);
+}
+
+TEST_F(InvariantsTest, AllMayHaltForTwoPeriodsAndNoLonger) {
+  Halt(1, Rule::kNotGranted, 2);
+  Halt(2, Rule::kGiveWay, 1);
+  Vehicle(3).arrived = true;
+  Observe(2);
+  EXPECT_EQ(Count(Invariant::kAllHalted), 0U);
+  Observe();
+  EXPECT_EQ(Count(Invariant::kAllHalted), 1U);
+}
+
+TEST_F(InvariantsTest, OneWithAnotherReasonToStandIsNoCaseOfAllHalted) {
+  Halt(1, Rule::kNotGranted, 2);
+  Halt(2, Rule::kGiveWay, 1);
+  Halt(3, Rule::kPeerLost, 1);
+  Observe(10);
+  EXPECT_EQ(Count(Invariant::kAllHalted), 0U);
+}
+
+TEST_F(InvariantsTest, OnlyTheLowerInTheOrderGivesWay) {
+  Halt(3, Rule::kGiveWay, 1);
+  Observe(5);
+  EXPECT_EQ(Count(Invariant::kOrder), 0U);
+  Halt(1, Rule::kGiveWay, 2);
+  Observe(5);
+  EXPECT_EQ(Count(Invariant::kOrder), 1U);
+}
+
+TEST_F(InvariantsTest, AKeyPublishedAMomentAgoStillCounts) {
+  Observe(5);
+  Vehicle(1).order.speed_bucket = 1;  // now the last
+  Halt(2, Rule::kGiveWay, 1);
+  Observe(6);
+  EXPECT_EQ(Count(Invariant::kOrder), 0U);
+  Observe(5);
+  EXPECT_EQ(Count(Invariant::kOrder), 1U);
+}
+
+TEST_F(InvariantsTest, OfTwoThatActByOneKeyTheLowerIdGoesFirst) {
+  Vehicle(1).order = Vehicle(2).order = Vehicle(3).order;
+  Halt(2, Rule::kGiveWay, 1);
+  Observe(3);
+  EXPECT_EQ(Count(Invariant::kOrder), 0U);
+  Halt(1, Rule::kGiveWay, 2);
+  Observe(3);
+  EXPECT_EQ(Count(Invariant::kOrder), 1U);
+}
+
+TEST_F(InvariantsTest, WhoLivesAndHasAGoalMustArrive) {
+  Vehicle(1).arrived = true;
+  Vehicle(2).lives = false;
+  Observe();
+  invariants_->Finish(Tick{tick_}, now_);
+  EXPECT_EQ(Count(Invariant::kArrival), 1U);
+  EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{3});
+  EXPECT_FALSE(invariants_->Held());
+}
+
+}  // namespace
+}  // namespace giveway::sim
