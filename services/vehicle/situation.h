@@ -29,8 +29,11 @@ struct PeerView {
   bool at_signal = false;  // fresh, and says that a light stops it
   double gap_m = 0;        // shell to shell
   double closing_m_s = 0;  // positive while the gap shrinks
-  std::optional<Conflict> conflict;
-  double free_m = 0;  // straight on until the own shell is at the peer's claim; huge if never
+  bool leads = false;      // drives ahead in the own lane
+  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
+  std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
+  double box_begin_m = 0;  // of `conflict`: how far to drive without standing in anyone's way
+  double free_m = 0;       // straight on until the own shell is at the peer's claim; huge if never
   std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
