@@ -41,6 +41,9 @@ void Set(const VehicleOptions& options, schema::Vehicle* message) {
     Set(options.route.waypoints_world[i], message->add_waypoint());
   }
   if (options.route.loop) message->set_loop(true);
+  if (options.distance_metric != DistanceMetric::kEuclidean) {
+    message->set_distance_metric(static_cast<schema::DistanceMetric>(options.distance_metric));
+  }
 }
 
 void Set(const PlannedFault& fault, schema::Fault* message) {
