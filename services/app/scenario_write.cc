@@ -92,6 +92,11 @@ void SetExpectation(const Expectation& expect, schema::Expect* message) {
   message->set_contacts(expect.contacts);
   message->set_any_halted(expect.any_halted);
   if (expect.any_arrived) message->set_any_arrived(true);
+  if (expect.halted_for) {
+    schema::Reason reason = schema::give_way;
+    GIVEWAY_CHECK(schema::Reason_Parse(std::string(Name(*expect.halted_for)), &reason));
+    message->set_halted_for(reason);
+  }
   for (const VehicleId id : expect.halted) message->add_halted(Number(id));
   for (const VehicleId id : expect.arrived) message->add_arrived(Number(id));
 }
