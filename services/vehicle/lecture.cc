@@ -46,8 +46,7 @@ void AddTo(const LastHeard& last, StateHash* hash) {
 Action AsPrinted(const Situation& s, const Action& wanted) {
   const LastHeard& peer = s.last_heard;
   const int sensor = CriticalSensor(s);
-  if (sensor < 0 || peer.vehicle == kNobody) return wanted;
-  if (Compared(s.wheels) > Compared(peer.wheels)) return wanted;
+  if (sensor < 0 || Compared(s.wheels) > Compared(peer.wheels)) return wanted;
   Action copied{.target = peer.wheels};
   copied.decision = {
       .rule = Rule::kGiveWay, .peer = peer.vehicle, .sensor = sensor, .cause_tick = s.tick};

@@ -18,7 +18,7 @@ struct Situation;
 // The script's one variable for "the near robot".
 struct LastHeard {
   VehicleId vehicle = kNobody;  // kNobody until anybody was heard
-  WheelSpeeds wheels;           // believed for ever
+  WheelSpeeds wheels;           // believed for ever; 0 until anybody was heard
   SteadyTime received{0};
 };
 
