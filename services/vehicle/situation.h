@@ -31,8 +31,11 @@ struct PeerView {
   double gap_m = 0;        // shell to shell
   double gate_gap_m = 0;   // the same by the metric of the gates; never above gap_m
   double closing_m_s = 0;  // positive while the gap shrinks
-  std::optional<Conflict> conflict;
-  double free_m = 0;  // straight on until the own shell is at the peer's claim; huge if never
+  bool leads = false;      // drives ahead in the own lane
+  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
+  std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
+  double box_begin_m = 0;  // of `conflict`: how far to drive without standing in anyone's way
+  double free_m = 0;       // straight on until the own shell is at the peer's claim; huge if never
   std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
 };
 

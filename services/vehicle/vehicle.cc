@@ -7,6 +7,7 @@
 #include "services/types/check.h"
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
+#include "services/vehicle/box.h"
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
@@ -17,6 +18,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
+constexpr double kQueueWithin_m = 1.5;   // nearer than this, the one ahead in the lane holds up
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
 // Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
 constexpr double kSharpTurn_rad_s = 0.25;
@@ -45,14 +47,23 @@ OrderKey ActingOrder(const VehicleState& state, VehicleId own) {
   return acting;
 }
 
-// Who is bodily in the way: stands where this vehicle wants to be, keeps it from driving, or is
-// what it fails to get round.
+// True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
+bool SlowsDown(const PeerView& view, const Situation& s) {
+  return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
+         view.speed_m_s < s.options.cruise_m_s;
+}
+
+// Who is bodily in the way: stands where this vehicle wants to be, leads in its lane more slowly,
+// keeps it from driving, or is what it fails to get round.
 VehicleId BlockedBy(const Situation& s, const Action& action) {
   if (s.arrived) return kNobody;
   for (const PeerView& view : s.peers) {
     const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
     if (there && Occupies(view, Toward(s), s)) return view.peer->id;
   }
+  const auto leader =
+      std::ranges::find_if(s.peers, [&s](const PeerView& view) { return SlowsDown(view, s); });
+  if (leader != s.peers.end()) return leader->peer->id;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
   return s.aimless ? action.round : kNobody;
@@ -205,10 +216,12 @@ void Vehicle::LookAtPeers(Situation* s) {
     PeerView view = LookAt(&peer, *s);
     peers_heard_ += view.fresh ? 1 : 0;
     s->explained |= view.explains;
-    UpdateEncounter(view, *s);
     (*views_)[count++] = view;
   }
-  s->peers = {views_->data(), count};
+  const std::span<PeerView> views(views_->data(), count);
+  FindBoxes(views, *s);
+  UpdateEncounters(views, *s);
+  s->peers = views;
 }
 
 // Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
