@@ -22,7 +22,8 @@ double NearestEchoOf(const PeerView& view, const Situation& s) {
 // paths conflict, by beacon, or when the ultrasonics do: the union of both.
 bool Begins(const PeerView& view, const Situation& s) {
   if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
-  const bool critically_close = NearestEchoOf(view, s) < CriticalDistance(s, view);
+  const double by_metric_m = view.gap_m - view.gate_gap_m;  // nearer by so much; never negative
+  const bool critically_close = NearestEchoOf(view, s) - by_metric_m < CriticalDistance(s, view);
   if (s.options.behaviour == Behaviour::kLectureYield) {
     const bool parting = !view.conflict && view.closing_m_s <= 0;
     return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
@@ -33,7 +34,7 @@ bool Begins(const PeerView& view, const Situation& s) {
 
 bool IsOver(const PeerView& view, const Situation& s) {
   if (view.conflict) return false;
-  return view.gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
+  return view.gate_gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
 }
 
 // A silent peer holds nobody any longer once it had the time to pass and nothing near is heard; or
@@ -92,7 +93,7 @@ bool SecondMustStop(const PeerView& view, const Situation& s) {
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
   const double critical_m = CriticalDistance(s, view);
-  return (view.gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
+  return (view.gate_gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
          HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 

@@ -161,7 +161,9 @@ PeerView LookAt(Peer* peer, const Situation& s) {
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);
+  const double gate_distance = GateDistance(s.options.distance_metric, offset);
   view.gap_m = distance - s.options.profile.body_radius_m - beacon.body_radius_m;
+  view.gate_gap_m = gate_distance - s.options.profile.body_radius_m - beacon.body_radius_m;
   const Vec2 velocity = view.speed_m_s * view.forward_world - s.speed_m_s * s.forward_world;
   view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
   view.leads = Follows(view, s) && Dot(offset, s.path.direction_world) > 0;

@@ -184,6 +184,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.world_from_body = state.odometry.WorldFromBody();
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
+  s.wheels = state.wheels;
   s.sigma_position_m = state.odometry.SigmaPosition();
   s.order = ActingOrder(state, options_.id);
   s.steer_side = state.steer_side;
@@ -325,9 +326,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   TakeSignalsAndObjects(inputs);
   Situation s = Look(inputs);
   LookAtSignals(&s);
-  LookAtPeers(&s);
-  ListenForMovers(&s);
-  Detour(&s);
+  LookAround(&s);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.decision);
   Remember(s, action);
@@ -371,6 +370,7 @@ std::uint64_t Vehicle::Hash() const {
   state.peers.AddTo(&hash);
   state.signals.AddTo(&hash);
   AddTo(state.objects, &hash);
+  AddTo(state.last_heard, &hash);
   return hash.Value();
 }
 

@@ -52,6 +52,7 @@ struct VehicleState {
   PeerTable peers;
   SignalTable signals;
   SeenObjects objects;
+  LastHeard last_heard;             // of lecture_printed
   std::uint32_t scans_refused = 0;  // of any sensor
   std::uint32_t signals_refused = 0;
   BeaconCounters beacons;
@@ -87,6 +88,7 @@ class Vehicle {
   Situation Look(const Inputs& inputs);
   void LookAhead(Situation* situation);
   void LookAtSignals(Situation* situation);
+  void LookAround(Situation* situation);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
