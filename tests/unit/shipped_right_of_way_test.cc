@@ -1,0 +1,32 @@
+// The shipped scenarios of right of way in virtual time: with every seed they come to what they
+// expect, and no invariant is broken.
+#include <gtest/gtest.h>
+
+#include "services/app/scenario_file.h"
+#include "sim_world/virtual/virtual_run.h"
+
+namespace giveway {
+namespace {
+
+class ShippedRightOfWay : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedRightOfWay, ComesToWhatItExpectsWithEverySeed) {
+  for (std::uint32_t seed = 0; seed <= 20; ++seed) {
+    app::ScenarioOverrides overrides;
+    overrides.seed = seed;
+    const Scenario scenario = app::LoadScenario(GetParam(), overrides);
+    const sim::VirtualOutcome outcome = sim::RunVirtually(scenario, {});
+    EXPECT_TRUE(outcome.met) << "seed " << seed;
+    EXPECT_TRUE(outcome.held) << "seed " << seed;
+    EXPECT_EQ(outcome.contacts, 0U) << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedRightOfWay,
+                         testing::Values("head_on", "three_way", "four_way", "deaf",
+                                         "parked_nose_to_nose", "convoy", "intersection_yield",
+                                         "intersection_equal", "wall_only", "peer_dies"),
+                         [](const auto& test) { return std::string(test.param); });
+
+}  // namespace
+}  // namespace giveway
