@@ -6,7 +6,7 @@
 namespace giveway {
 namespace {
 
-constexpr double kRoomToStand_m = 0.3;  // between two conflicts, along the own way
+constexpr double kRoomToStand_m = 0.7;  // between two conflicts: a body and what it keeps clear of
 // Who is farther from where the ways cross is not kept waiting by one that stops there now.
 constexpr double kPeerNear_m = 3;
 constexpr double kOwnNear_m = 8;

@@ -18,7 +18,8 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
-constexpr double kQueueWithin_m = 1.5;   // nearer than this, the one ahead in the lane holds up
+constexpr double kQueueWithin_m = 1.5;  // nearer than this, the one ahead in the lane holds up
+constexpr std::uint32_t kBlockedTicks = 20;
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
 // Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
 constexpr double kSharpTurn_rad_s = 0.25;
@@ -270,7 +271,23 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   state.encounters = under_way;
   state.decision = decision;
   state.steer_side = action.steer_side;
-  state.blocked_by = BlockedBy(s, action);
+  KeepBlocked(BlockedBy(s, action), s);
+}
+
+// What is in the way now and then is in the way: the order it is lent must not come and go.
+void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
+  VehicleState& state = *state_;
+  if (blocked_by != kNobody) {
+    state.blocked_by = blocked_by;
+    state.blocked_tick = s.tick;
+    return;
+  }
+  const auto still_near = [&state](const PeerView& view) {
+    return view.peer->id == state.blocked_by && view.fresh && view.gap_m < kQueueWithin_m;
+  };
+  const bool recent = state.blocked_tick != kNoTick && !s.arrived &&
+                      TicksBetween(state.blocked_tick, s.tick) <= kBlockedTicks;
+  if (!recent || std::ranges::none_of(s.peers, still_near)) state.blocked_by = kNobody;
 }
 
 Beacon Vehicle::Say(const Situation& s) {

@@ -42,6 +42,7 @@ struct VehicleState {
   Decision decision;
   VehicleId gives_way_to = kNobody;  // as last published
   VehicleId blocked_by = kNobody;    // as last published
+  Tick blocked_tick = kNoTick;       // when it was last seen in the way
   int steer_side = 0;                // 1 left, -1 right, 0 straight on
   double nearest_m = 1e9;            // the least distance to the goal so far
   std::uint32_t aimless_ticks = 0;   // driven since without coming nearer
@@ -92,6 +93,7 @@ class Vehicle {
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
   void Remember(const Situation& situation, const Action& action);
+  void KeepBlocked(VehicleId blocked_by, const Situation& situation);
   Beacon Say(const Situation& situation);
 
   VehicleOptions options_;

@@ -3,15 +3,17 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstddef>
 #include <fstream>
-
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/allocator_interface.h>
-#endif
 
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
 #include "tests/link/fleet.h"
+
+#ifdef __SANITIZE_ADDRESS__
+// Of the sanitizer's interface; Debian's g++ does not bring the header along.
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
+#endif
 
 namespace giveway::test {
 namespace {
