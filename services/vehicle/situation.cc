@@ -19,8 +19,9 @@ bool StaysPut(const Beacon& beacon) {
 
 // How near the two centres may come: both bodies, a margin, and what is not known for sure.
 double Reach(const PeerView& view, const Situation& s) {
+  constexpr double kMargin_m = 0.1;
   const Beacon& beacon = view.peer->beacon;
-  return s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m +
+  return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m +
          2 * (s.sigma_position_m + beacon.sigma_position_m);
 }
 
