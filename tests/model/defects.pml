@@ -36,8 +36,16 @@
 
 #ifdef ORDER_NOT_FROZEN
 #define IsFrozen(under_way) false
+#elif defined(AGES_FAIRLY)
+#define IsFrozen(under_way) ((under_way) && !(waits && !go[i]))
 #else
 #define IsFrozen(under_way) (under_way)
+#endif
+
+#ifdef AGES_FAIRLY
+#define ForgetsWaiting(rests_) false
+#else
+#define ForgetsWaiting(rests_) (rests_)
 #endif
 
 #ifdef SILENCE_IS_CONSENT

@@ -106,14 +106,14 @@ bool stood[N * N];    /* last heard standing and second: no conflict */
 byte waited[N];       /* ticks */
 byte order[N];        /* the waited part of the own key, as published */
 byte gives_way[N];    /* said at the end of this tick */
-bool frozen[N];       /* encounters are under way, as in the tick before: the order stands */
+bool frozen[N];       /* this tick: encounters are under way, as before: the order stands */
+bool rests[N];        /* this tick: no encounter, no waiting: what it waited is forgotten */
 
-/* Scratch: heard lives from Hear to the end of Decide, the rest within one d_step. */
+/* Scratch: heard lives from Hear to the end of Decide, the rest within one step; 0 between. */
 byte heard[N];
-byte v, w;
-hidden byte j, p, a;
-hidden byte conflict, goes_first, standing, grants, through;
-hidden byte clear, deaf, waits, met, meets_any;
+byte v, w, j, p, a;
+bool conflict, goes_first, standing, grants, through;
+bool clear, deaf, waits, met, meets_any;
 
 #include "defects.pml"
 
@@ -185,10 +185,10 @@ inline Listen(i) {
 inline Remember(i) {
   if
   :: waits && place[i] == GATE && waited[i] < AGED_AT_MOST -> waited[i]++
-  :: !meets_any && !waits -> waited[i] = 0
   :: else
   fi;
-  frozen[i] = IsFrozen(met && meets_any)
+  frozen[i] = AGED_AT_MOST > 0 && IsFrozen(met && meets_any);
+  rests[i] = AGED_AT_MOST > 0 && ForgetsWaiting(!meets_any && !waits)
 }
 
 /* The second property: nobody enters before one that it hears near and that comes first. Said once
@@ -237,14 +237,11 @@ inline Decide(i) {
 /* The youngest beacon of v's that i believes in this tick is of any age, or there is none. */
 inline Hear(i) {
   if
-  :: !(good && IsOnAir(w)) -> heard[w] = LOST_LONG
-  :: !good -> heard[w] = LOST
+  :: !(good && IsOnAir(w)) && meets[AT(i, w)] -> heard[w] = LOST_LONG
+  :: !(good && (IsOnAir(w) || meets[AT(i, w)])) -> heard[w] = LOST
   :: Said(w, 1).place != GONE -> heard[w] = 1
 #if AGE >= 2
   :: Said(w, 2).place != GONE -> heard[w] = 2
-#endif
-#ifdef DEAD_STILL_HEARD
-  :: else
 #endif
   fi;
   printf("hears %d %d %d\n", i + 1, w + 1, heard[w])
@@ -275,7 +272,6 @@ inline Forget(i) {
     stood[AT(i, j)] = false
   }
   waited[i] = 0;
-  frozen[i] = false;
   j = 0
 }
 
@@ -301,8 +297,13 @@ inline Say(i) {
      Said(i, 1).gives_way_to = NOBODY;
      Said(i, 1).waited = 0
   fi;
+  if
+  :: rests[i] -> waited[i] = 0
+  :: else
+  fi;
   gives_way[i] = NOBODY;
-  frozen[i] = false
+  frozen[i] = false;
+  rests[i] = false
 }
 
 /* The rule to keep its own way apart: crashes come between decision and motion, so that the last
@@ -331,9 +332,9 @@ inline Crash() {
 inline MoveDead() {
   if
   :: !Rolls(place[v])
-  :: Rolls(place[v]) && !go[v] -> place[v] = GATE
-  :: Rolls(place[v]) -> place[v]++
-  :: place[v] == ZONE -> place[v] = PAST
+  :: Rolls(place[v]) && (go[v] || place[v] < LAST) -> place[v]++
+  :: Rolls(place[v]) -> place[v] = GATE
+  :: InZone(place[v]) -> place[v] = PAST
 #ifndef WEATHER
   :: !Rolls(place[v]) -> place[v] = GONE
 #endif
@@ -421,3 +422,25 @@ active proctype Fleet() {
      }
   od
 }
+
+#ifdef WEATHER
+/* Losses end some day: by weak fairness, not by any day in particular. */
+active proctype Weather() { good = true }
+
+/* A dead body that no longer rolls is taken away some day, unless it comes back before. */
+active proctype Undertaker() {
+  do
+  :: atomic { !up[0] && !Rolls(place[0]) && place[0] != GONE -> place[0] = GONE }
+  :: atomic { !up[1] && !Rolls(place[1]) && place[1] != GONE -> place[1] = GONE }
+#if N == 3
+  :: atomic { !up[2] && !Rolls(place[2]) && place[2] != GONE -> place[2] = GONE }
+#endif
+  od
+}
+
+#ifndef WHO
+#define WHO 0
+#endif
+/* Whoever lives and has come near gets through. */
+ltl passes { [] ((up[WHO] && IsNear(place[WHO])) -> <> (!up[WHO] || place[WHO] > LAST)) }
+#endif
