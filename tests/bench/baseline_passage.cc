@@ -56,6 +56,10 @@ class Reach {
     const FreeUnits& open = passing_.free_during(step);
     steps_.push_back(Nowhere());
     const Levels& before = steps_[step - 1];
+    if (step <= passing_.first_step) {
+      Spread(before[0], open, 0, &steps_[step][0]);
+      return;
+    }
     for (std::uint32_t from = 0; from <= pace_.top; ++from) {
       for (std::uint32_t to = Slowest(from); to <= std::min(from + 1, pace_.top); ++to) {
         Spread(before[from], open, pace_.Units(from, to), &steps_[step][to]);
@@ -132,11 +136,11 @@ Pace PaceOf(const VehicleOptions& options) {
   const double step_s = kTicksAStep * tick_s;
   const double gained_m_s = options.profile.acceleration_m_s2 * step_s;
   Pace pace;
-  pace.top = std::max(1U, static_cast<std::uint32_t>(
-                              std::ceil(options.cruise_m_s / gained_m_s - 1e-9)));
+  pace.top =
+      std::max(1U, static_cast<std::uint32_t>(std::ceil(options.cruise_m_s / gained_m_s - 1e-9)));
   pace.level_m_s = options.cruise_m_s / pace.top;
-  pace.down = static_cast<std::uint32_t>(options.profile.deceleration_m_s2 * step_s /
-                                         pace.level_m_s + 1e-9);
+  pace.down = static_cast<std::uint32_t>(
+      options.profile.deceleration_m_s2 * step_s / pace.level_m_s + 1e-9);
   pace.unit_m = pace.level_m_s * tick_s;
   return pace;
 }

@@ -33,6 +33,7 @@ Pace PaceOf(const VehicleOptions& options);
 using FreeUnits = std::vector<std::uint64_t>;
 
 struct Passing {
+  std::uint32_t first_step = 0;   // stands until the end of that step
   std::uint32_t arrive_unit = 0;  // there is the goal; then it brakes
   std::uint32_t last_unit = 0;    // as far as braking may take it
   std::uint32_t last_step = 0;    // gives up then

@@ -33,7 +33,7 @@ struct Crossed {
   std::uint32_t arrived = 0;
   // Beyond the time alone, of everyone; who never arrives counts until the run's end.
   std::vector<double> delays_s;
-  double took_s = 0;  // until the last arrival, or the run's end
+  double took_s = 0;                   // until the last arrival, or the run's end
   std::optional<double> separation_m;  // the closest two shells ever came
 };
 

@@ -6,15 +6,16 @@
 #include "services/types/check.h"
 #include "services/types/math.h"
 #include "tests/bench/baseline_clearance.h"
+#include "tests/bench/baseline_follow.h"
 
 namespace giveway::bench {
 namespace {
 
-constexpr double kRoundTheField_m = 1.5;
+constexpr double kRoundTheField_m = 2;
 
 Ground GroundOf(const Scenario& scenario, double tile_m) {
-  Ground ground = {scenario.vehicles.front().start_world.position_world,
-                   scenario.vehicles.front().start_world.position_world, tile_m};
+  const Vec2 anyone = scenario.vehicles.front().start_world.position_world;
+  Ground ground = {anyone, anyone, tile_m};
   const auto include = [&](Vec2 at) {
     ground.low_world = {std::min(ground.low_world.x, at.x), std::min(ground.low_world.y, at.y)};
     ground.high_world = {std::max(ground.high_world.x, at.x), std::max(ground.high_world.y, at.y)};
@@ -30,32 +31,38 @@ Ground GroundOf(const Scenario& scenario, double tile_m) {
 // As far beyond the goal as braking may take it.
 double BrakingBeyond_m(const VehicleOptions& options) {
   const double cruise = options.cruise_m_s;
-  return cruise * cruise / (2 * options.profile.deceleration_m_s2) + cruise;
+  constexpr double kLastStep_s = 0.5;
+  return cruise * cruise / (2 * options.profile.deceleration_m_s2) + kLastStep_s * cruise;
 }
 
-double WayAlone_m(const VehicleOptions& options) {
-  return Norm(options.goal.at_world - options.start_world.position_world);
+Way WayAlone(const VehicleOptions& options) {
+  const double to_goal_m = Norm(options.goal.at_world - options.start_world.position_world);
+  return StraightWay(options.start_world, to_goal_m + BrakingBeyond_m(options));
 }
 
-double DistanceFromWay(const VehicleOptions& options, Vec2 point) {
-  const Vec2 from = options.start_world.position_world;
-  const Vec2 way = options.goal.at_world - from;
-  const double share = std::clamp(Dot(point - from, way) / SquaredNorm(way), 0.0, 1.0);
-  return Norm(point - from - share * way);
+Step TurnSteps(const VehicleOptions& options, const Way& way) {
+  const double turn = WrapAngle(way.PoseAt(0).heading_rad - options.start_world.heading_rad);
+  const double step_s = kTicksAStep * Seconds(options.tick_period);
+  return static_cast<Step>(SecondsToTurn(options.profile, turn) / step_s + 0.999);
 }
 
-// Where on its way `a` comes to the way of `b`, if they cross.
-std::optional<double> CrossingAt(const VehicleOptions& a, const VehicleOptions& b) {
-  const Vec2 from = a.start_world.position_world;
-  const Vec2 way = a.goal.at_world - from;
-  const Vec2 other_from = b.start_world.position_world;
-  const Vec2 other_way = b.goal.at_world - other_from;
-  const double turn = Cross(way, other_way);
-  if (turn * turn < 1e-6 * SquaredNorm(way) * SquaredNorm(other_way)) return std::nullopt;
-  const double mine = Cross(other_from - from, other_way) / turn;
-  const double others = Cross(other_from - from, way) / turn;
-  if (mine < 0 || mine > 1 || others < 0 || others > 1) return std::nullopt;
-  return mine * Norm(way);
+// Within a step speed changes by as much in every tick; a tick moves by the speed at its end.
+Planned PlannedAt(const Passage& passage, const Pace& pace, std::uint32_t tick) {
+  const Step step = tick / kTicksAStep;
+  const double ticks = tick % kTicksAStep;  // of the step, gone by
+  const double from = passage.levels[step];
+  const double gain = (passage.levels[step + 1] - from) / kTicksAStep;
+  const double units = passage.units[step] + ticks * from + gain * ticks * (ticks + 1) / 2;
+  return {.driven_m = units * pace.unit_m,
+          .speed_m_s = (from + gain * (ticks + 1)) * pace.level_m_s};
+}
+
+double LargestBody_m(const Scenario& scenario) {
+  double largest_m = 0;
+  for (const VehicleOptions& options : scenario.vehicles) {
+    largest_m = std::max(largest_m, options.profile.body_radius_m);
+  }
+  return largest_m;
 }
 
 }  // namespace
@@ -65,17 +72,14 @@ Reservation::Reservation(const Scenario& scenario, const ReservationSettings& se
       last_step_(static_cast<Step>(scenario.duration_s / Seconds(scenario.tick_period)) /
                  kTicksAStep),
       book_(GroundOf(scenario, settings.tile_m)) {
-  for (const VehicleOptions& options : scenario.vehicles) {
-    members_.push_back(
-        {.options = options,
-         .pace = PaceOf(options),
-         .way = StraightWay(options.start_world, WayAlone_m(options) + BrakingBeyond_m(options))});
+  std::vector<Arrival> arrivals =
+      ArrivalsOf(scenario, 2 * LargestBody_m(scenario) + settings.margin_m);
+  for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+    const VehicleOptions& options = scenario.vehicles[i];
+    members_.push_back({options, PaceOf(options), std::move(arrivals[i]), WayAlone(options), {}});
+    GIVEWAY_CHECK(book_.BookFrom(TilesAt(members_.back(), 0), 0), Number(options.id));
   }
-  PutInOrder();
-  for (const Member& member : members_) {
-    GIVEWAY_CHECK(book_.BookFrom(TilesAt(member, 0), 0), Number(member.options.id));
-  }
-  Serve();
+  ServeEveryone();
 }
 
 double Reservation::Radius(const Member& member) const {
@@ -88,60 +92,70 @@ std::vector<Tile> Reservation::TilesAt(const Member& member, double driven_m) co
   return tiles;
 }
 
+bool Reservation::MayAsk(const Member& member) const {
+  return std::ranges::all_of(member.arrival.let_first,
+                             [&](std::size_t i) { return members_[i].passage.has_value(); });
+}
+
 // First come, first served; but who stands in the way of another, or has to pass where another will
 // stay, is served before it.
-void Reservation::PutInOrder() {
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    const VehicleOptions& own = members_[i].options;
-    double comes_m = WayAlone_m(own);
-    for (std::size_t j = 0; j < members_.size(); ++j) {
-      if (i == j) continue;
-      const VehicleOptions& other = members_[j].options;
-      comes_m = std::min(comes_m, CrossingAt(own, other).value_or(comes_m));
-      const double near_m = Radius(members_[i]) + Radius(members_[j]);
-      const bool stands_in_way = DistanceFromWay(own, other.start_world.position_world) < near_m;
-      const bool ends_in_way = DistanceFromWay(other, own.goal.at_world) < near_m;
-      if (stands_in_way || ends_in_way) members_[i].waits_for.push_back(j);
-    }
-    members_[i].comes_s = comes_m / own.cruise_m_s;
-  }
-}
-
-bool Reservation::MayAsk(const Member& member) const {
-  return std::ranges::all_of(member.waits_for,
-                             [&](std::size_t other) { return members_[other].passage.has_value(); });
-}
-
-void Reservation::Serve() {
+void Reservation::ServeEveryone() {
   std::vector<std::size_t> waiting(members_.size());
   std::iota(waiting.begin(), waiting.end(), std::size_t{0});
-  std::ranges::stable_sort(waiting, {}, [&](std::size_t i) { return members_[i].comes_s; });
+  std::ranges::stable_sort(waiting, {}, [&](std::size_t i) { return members_[i].arrival.comes_s; });
   while (!waiting.empty()) {
-    const auto asks = [&](std::size_t i) { return MayAsk(members_[i]); };
-    auto next = std::ranges::find_if(waiting, asks);
-    if (next != waiting.end() && Serve(&members_[*next])) {
-      waiting.erase(next);
-      continue;
+    auto next = std::ranges::find_if(waiting, [&](std::size_t i) { return MayAsk(members_[i]); });
+    // All wait for each other: the first to come begins.
+    if (next == waiting.end()) next = waiting.begin();
+    if (!Serve(&members_[*next])) {
+      next = std::ranges::find_if(waiting, [&](std::size_t i) { return Serve(&members_[i]); });
+      if (next == waiting.end()) return;
     }
-    // A circle of those who wait for each other: whoever can go goes.
-    next = std::ranges::find_if(waiting, [&](std::size_t i) { return Serve(&members_[i]); });
-    if (next == waiting.end()) return;
     waiting.erase(next);
   }
+}
+
+std::vector<Standing> Reservation::StandingBeside(const Member& member) const {
+  std::vector<Standing> standing;
+  for (const Member& other : members_) {
+    if (&other == &member) continue;
+    const double rest_m = other.passage ? other.passage->units.back() * other.pace.unit_m : 0;
+    // Discs that far apart touch no tile both.
+    const double tile_diagonal_m = Sqrt(2) * settings_.tile_m;
+    standing.push_back({other.way.PoseAt(rest_m).position_world,
+                        Radius(member) + Radius(other) + tile_diagonal_m});
+  }
+  return standing;
+}
+
+bool Reservation::Try(const Way& way, Step last_step, Member* member) const {
+  Clearance clearance(way, member->pace, book_, Radius(*member));
+  const double arrive_m =
+      way.Length_m() - BrakingBeyond_m(member->options) - member->options.goal.radius_m;
+  std::optional<Passage> passage = SoonestPassage(
+      member->pace,
+      {.first_step = TurnSteps(member->options, way),
+       .arrive_unit = static_cast<std::uint32_t>(arrive_m / member->pace.unit_m) + 1,
+       .last_unit = clearance.LastUnit(),
+       .last_step = last_step,
+       .free_during = [&](Step step) -> const FreeUnits& { return clearance.During(step); },
+       .may_stay = [&](std::uint32_t unit, Step step) { return clearance.MayStay(unit, step); }});
+  if (!passage) return false;
+  member->passage = std::move(passage);
+  member->way = way;
+  return true;
 }
 
 bool Reservation::Serve(Member* member) {
   const std::vector<Tile> start = TilesAt(*member, 0);
   book_.GiveBack(start);
-  Clearance clearance(member->way, member->pace, book_, Radius(*member));
-  const double arrive_m = WayAlone_m(member->options) - member->options.goal.radius_m;
-  member->passage = SoonestPassage(
-      member->pace,
-      {.arrive_unit = static_cast<std::uint32_t>(arrive_m / member->pace.unit_m) + 1,
-       .last_unit = clearance.LastUnit(),
-       .last_step = last_step_,
-       .free_during = [&](Step step) -> const FreeUnits& { return clearance.During(step); },
-       .may_stay = [&](std::uint32_t unit, Step step) { return clearance.MayStay(unit, step); }});
+  const std::optional<Way> round =
+      WayRound(member->options.start_world.position_world, member->options.goal.at_world,
+               StandingBeside(*member), BrakingBeyond_m(member->options));
+  if (round) Try(*round, last_step_, member);
+  // Past whoever stands in the way for a time only, where that is sooner.
+  const Step sooner = member->passage ? member->passage->arrival_step - 1 : last_step_;
+  Try(WayAlone(member->options), sooner, member);
   if (member->passage) {
     Book(*member);
   } else {
@@ -165,9 +179,8 @@ void Reservation::Book(const Member& member) {
     tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
     GIVEWAY_CHECK(book_.Book(tiles, step), Number(member.options.id), step);
   }
-  GIVEWAY_CHECK(
-      book_.BookFrom(TilesAt(member, passage.units.back() * member.pace.unit_m), last + 1),
-      Number(member.options.id));
+  const double rest_m = passage.units.back() * member.pace.unit_m;
+  GIVEWAY_CHECK(book_.BookFrom(TilesAt(member, rest_m), last + 1), Number(member.options.id));
 }
 
 std::size_t Reservation::Refused() const {
@@ -177,17 +190,13 @@ std::size_t Reservation::Refused() const {
 
 void Reservation::Drive(std::uint32_t tick, std::span<const Seen> fleet,
                         std::span<WheelSpeeds> wheels) {
-  static_cast<void>(fleet);
   const Step step = tick / kTicksAStep;
-  const double share = static_cast<double>(tick % kTicksAStep + 1) / kTicksAStep;
   for (std::size_t i = 0; i < members_.size(); ++i) {
     wheels[i] = {};
-    const std::optional<Passage>& passage = members_[i].passage;
-    if (!passage || step + 1 >= passage->levels.size()) continue;
-    const double from = passage->levels[step];
-    const double to = passage->levels[step + 1];
-    const double speed_m_s = (from + share * (to - from)) * members_[i].pace.level_m_s;
-    wheels[i] = WheelsFromTwist(members_[i].options.profile.drive, {speed_m_s, 0});
+    const Member& member = members_[i];
+    if (!member.passage || step + 1 >= member.passage->levels.size()) continue;
+    wheels[i] = FollowWay(member.options.profile, member.way,
+                          PlannedAt(*member.passage, member.pace, tick), fleet[i].world_from_body);
   }
 }
 

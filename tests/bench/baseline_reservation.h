@@ -2,13 +2,16 @@
 // Autonomous Intersection Management" (JAIR 31, 2008): vehicles call ahead, one manager books the
 // tiles of ground that a body covers, step by step in time, and who comes first is served first. A
 // baseline for measuring. Better off than theirs: everyone calls at the start, plans are driven
-// exactly, and instead of asking again after a refusal each is given the soonest passage there is.
+// as booked, and instead of asking again after a refusal each is given the soonest passage there
+// is, be it straight or round those who stand.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "services/types/scenario.h"
+#include "tests/bench/baseline_arrivals.h"
+#include "tests/bench/baseline_detour.h"
 #include "tests/bench/baseline_passage.h"
 #include "tests/bench/baseline_pilot.h"
 #include "tests/bench/baseline_tiles.h"
@@ -34,17 +37,18 @@ class Reservation : public Pilot {
   struct Member {
     VehicleOptions options;
     Pace pace;
+    Arrival arrival;
     Way way;
     std::optional<Passage> passage;
-    double comes_s = 0;                  // when alone: to where another's way first crosses its own
-    std::vector<std::size_t> waits_for;  // whom it lets book first, however late they come
   };
 
-  void PutInOrder();
-  void Serve();
+  void ServeEveryone();
   bool MayAsk(const Member& member) const;
   // False: it stays where it stands.
   bool Serve(Member* member);
+  // True if it comes along the way by last_step at the latest; it takes the way then.
+  bool Try(const Way& way, Step last_step, Member* member) const;
+  std::vector<Standing> StandingBeside(const Member& member) const;
   void Book(const Member& member);
   std::vector<Tile> TilesAt(const Member& member, double driven_m) const;
   double Radius(const Member& member) const;

@@ -28,8 +28,8 @@ WayOut FromDisc(Vec2 relative_velocity, Vec2 centre, double radius) {
 WayOut FromSide(Vec2 relative_velocity, Vec2 apart, double radius) {
   const double reach = Sqrt(SquaredNorm(apart) - radius * radius);
   const bool on_left = Cross(apart, relative_velocity) > 0;
-  const Vec2 side = 1 / SquaredNorm(apart) *
-                    (reach * apart + (on_left ? radius : -radius) * Left(apart));
+  const Vec2 side =
+      1 / SquaredNorm(apart) * (reach * apart + (on_left ? radius : -radius) * Left(apart));
   const Vec2 along = Unit(side);
   return {Dot(relative_velocity, along) * along - relative_velocity,
           on_left ? Left(along) : -1 * Left(along)};
@@ -69,9 +69,10 @@ Mover Rvo::MoverOf(const VehicleOptions& options, const Seen& seen) const {
   const Twist twist = TwistFromWheels(options.profile.drive, seen.wheels);
   const Vec2 forward = Forward(seen.world_from_body);
   const double ahead_m = settings_.ahead_m;
-  return {.position_world = seen.world_from_body.position_world + ahead_m * forward,
-          .velocity_world = twist.forward_m_s * forward + twist.turn_rad_s * ahead_m * Left(forward),
-          .radius_m = options.profile.body_radius_m + ahead_m + settings_.margin_m};
+  return {
+      .position_world = seen.world_from_body.position_world + ahead_m * forward,
+      .velocity_world = twist.forward_m_s * forward + twist.turn_rad_s * ahead_m * Left(forward),
+      .radius_m = options.profile.body_radius_m + ahead_m + settings_.margin_m};
 }
 
 void Rvo::FindPlanes(std::size_t own) {

@@ -31,8 +31,8 @@ struct RvoSettings {
   double horizon_s = 5;
   double neighbour_m = 5;
   std::size_t neighbours = 10;
-  double ahead_m = 0.1;     // of the axle: the point that is steered
-  double margin_m = 0.05;   // round the disc, for what wheels cannot follow at once
+  double ahead_m = 0.05;     // of the axle: the point that is steered
+  double margin_m = 0.05;    // round the disc, for what wheels cannot follow at once
   double jitter_m_s = 1e-4;  // on the wanted velocity, against perfect symmetry
 };
 

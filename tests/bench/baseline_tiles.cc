@@ -16,9 +16,7 @@ std::int32_t CellOf(double offset_m, double tile_m) {
   return static_cast<std::int32_t>(std::floor(offset_m / tile_m));
 }
 
-double Outside(double at, double low, double high) {
-  return std::max({0.0, low - at, at - high});
-}
+double Outside(double at, double low, double high) { return std::max({0.0, low - at, at - high}); }
 
 }  // namespace
 
