@@ -22,13 +22,16 @@ double DistanceFrom(const Line& line, Vec2 point) {
   return Norm(point - line.from - share * line.along);
 }
 
+bool Parallel(const Line& a, const Line& b) {
+  constexpr double kLeast = 1e-6;
+  const double turn = Cross(a.along, b.along);
+  return turn * turn < kLeast * SquaredNorm(a.along) * SquaredNorm(b.along);
+}
+
 // How far along `own` the other crosses it.
 std::optional<double> CrossingAt(const Line& own, const Line& other) {
-  constexpr double kParallel = 1e-6;
+  if (Parallel(own, other)) return std::nullopt;
   const double turn = Cross(own.along, other.along);
-  if (turn * turn < kParallel * SquaredNorm(own.along) * SquaredNorm(other.along)) {
-    return std::nullopt;
-  }
   const double own_share = Cross(other.from - own.from, other.along) / turn;
   const double other_share = Cross(other.from - own.from, own.along) / turn;
   const auto within = [](double share) { return share >= 0 && share <= 1; };
@@ -48,9 +51,10 @@ std::vector<Arrival> ArrivalsOf(const Scenario& scenario, double near_m) {
       if (scenario.vehicles[i].id == options.id) continue;
       const Line other = LineOf(scenario.vehicles[i]);
       comes_m = std::min(comes_m, CrossingAt(own, other).value_or(comes_m));
-      const bool stands_in_way = DistanceFrom(own, other.from) < near_m;
-      const bool passes_the_end = DistanceFrom(other, own.from + own.along) < near_m;
-      if (stands_in_way || passes_the_end) arrival.let_first.push_back(i);
+      if (!Parallel(own, other)) continue;
+      const bool stands_ahead = DistanceFrom(own, other.from) < near_m;
+      const bool ends_farther = DistanceFrom(other, own.from + own.along) < near_m;
+      if (stands_ahead || ends_farther) arrival.let_first.push_back(i);
     }
     arrival.comes_s = comes_m / options.cruise_m_s;
   }

@@ -11,7 +11,7 @@ namespace giveway::bench {
 
 struct Arrival {
   double comes_s = 0;  // when alone: to where another's way first crosses its own
-  // Indices of those who stand in its way, or will pass where it ends.
+  // Indices of those in its own lane who stand ahead of it or end farther on.
   std::vector<std::size_t> let_first;
 };
 

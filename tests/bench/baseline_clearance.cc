@@ -6,8 +6,6 @@
 namespace giveway::bench {
 namespace {
 
-constexpr double kSample_m = 0.02;  // between the places at which tiles are looked up
-
 void Close(std::uint32_t from_unit, std::uint32_t to_unit, FreeUnits* open) {
   for (std::uint32_t unit = from_unit; unit <= to_unit;) {
     const std::uint32_t bit = unit % 64;

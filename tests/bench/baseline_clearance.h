@@ -11,6 +11,9 @@
 
 namespace giveway::bench {
 
+// Between the places of a way at which tiles are looked up.
+inline constexpr double kSample_m = 0.02;
+
 class Clearance {
  public:
   // Refers to all of them. `radius_m` is of the disc that books the tiles under it.

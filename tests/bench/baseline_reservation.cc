@@ -97,8 +97,7 @@ bool Reservation::MayAsk(const Member& member) const {
                              [&](std::size_t i) { return members_[i].passage.has_value(); });
 }
 
-// First come, first served; but who stands in the way of another, or has to pass where another will
-// stay, is served before it.
+// First come, first served; but in a lane who is ahead is served before who is behind.
 void Reservation::ServeEveryone() {
   std::vector<std::size_t> waiting(members_.size());
   std::iota(waiting.begin(), waiting.end(), std::size_t{0});
@@ -120,10 +119,10 @@ std::vector<Standing> Reservation::StandingBeside(const Member& member) const {
   for (const Member& other : members_) {
     if (&other == &member) continue;
     const double rest_m = other.passage ? other.passage->units.back() * other.pace.unit_m : 0;
-    // Discs that far apart touch no tile both.
-    const double tile_diagonal_m = Sqrt(2) * settings_.tile_m;
-    standing.push_back({other.way.PoseAt(rest_m).position_world,
-                        Radius(member) + Radius(other) + tile_diagonal_m});
+    // Discs that far apart touch no tile both, wherever between its samples a clearance looks.
+    const double apart_m = Sqrt(2) * settings_.tile_m + kSample_m;
+    standing.push_back(
+        {other.way.PoseAt(rest_m).position_world, Radius(member) + Radius(other) + apart_m});
   }
   return standing;
 }
