@@ -1,5 +1,6 @@
 #include "sim_world/expectation.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -12,6 +13,16 @@ std::string Text(const std::vector<VehicleId>& vehicles) {
   for (const VehicleId vehicle : vehicles) {
     if (!text.empty()) text += ' ';
     text += std::to_string(Number(vehicle));
+  }
+  return text;
+}
+
+std::string Text(const std::vector<Rule>& rules) {
+  if (rules.empty()) return "nothing";
+  std::string text;
+  for (const Rule rule : rules) {
+    if (!text.empty()) text += ' ';
+    text += Name(rule);
   }
   return text;
 }
@@ -44,6 +55,9 @@ std::string Unmet(const Expectation& expect, const Outcome& outcome) {
   }
   if (!expect.any_halted && outcome.halted != expect.halted) {
     unmet.Add("halted", Text(expect.halted), Text(outcome.halted));
+  }
+  if (expect.halted_for && !std::ranges::count(outcome.halted_for, *expect.halted_for)) {
+    unmet.Add("halted_for", std::string(Name(*expect.halted_for)), Text(outcome.halted_for));
   }
   if (!expect.any_arrived && outcome.arrived != expect.arrived) {
     unmet.Add("arrived", Text(expect.arrived), Text(outcome.arrived));

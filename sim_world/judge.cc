@@ -74,18 +74,24 @@ void Judge::WatchHalt(const Body& body, Track* track, EventLog* log) const {
     if (stands) return;
     track->halted = false;
     track->still_ticks = 0;
+    track->stopping_for = Rule::kCruise;
     log->Add({.kind = EventKind::kWentOn, .vehicle = body.vehicle, .position_world = position});
     return;
   }
-  const bool gives_way = body.obeyed && IsGiveWay(body.command.decision.rule);
+  const Rule rule = body.command.decision.rule;
+  const bool gives_way = body.obeyed && IsGiveWay(rule);
+  if (!gives_way) track->stopping_for = Rule::kCruise;
+  if (gives_way && track->stopping_for == Rule::kCruise) track->stopping_for = rule;
   track->still_ticks = stands && gives_way ? track->still_ticks + 1 : 0;
   if (track->still_ticks < halt_ticks_) return;
   track->halted = true;
   track->halted_once = true;
+  track->halted_for |= 1U << static_cast<unsigned>(track->stopping_for);
   log->Add({.kind = EventKind::kHalted,
             .vehicle = body.vehicle,
             .other = body.command.decision.peer,
-            .position_world = position});
+            .position_world = position,
+            .text = std::string(Name(track->stopping_for))});
 }
 
 bool Judge::HasArrived(VehicleId vehicle) const {
@@ -99,6 +105,16 @@ std::vector<VehicleId> Judge::Halted() const {
     if (track.halted_once) halted.push_back(track.vehicle);
   }
   return halted;
+}
+
+std::vector<Rule> Judge::HaltedFor() const {
+  std::uint32_t all = 0;
+  for (const Track& track : tracks_) all |= track.halted_for;
+  std::vector<Rule> rules;
+  for (unsigned i = 0; i < 32; ++i) {
+    if ((all >> i & 1U) != 0) rules.push_back(static_cast<Rule>(i));
+  }
+  return rules;
 }
 
 std::vector<VehicleId> Judge::Arrived() const {

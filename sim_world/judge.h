@@ -27,6 +27,8 @@ class Judge {
   // Everyone who ever halted to give way, and everyone who arrived; sorted.
   std::vector<VehicleId> Halted() const;
   std::vector<VehicleId> Arrived() const;
+  // The rules that began the halts; sorted, each once.
+  std::vector<Rule> HaltedFor() const;
   // Seconds from the start to the last arrival so far; none before the first.
   std::optional<double> LastArrival() const;
 
@@ -40,6 +42,8 @@ class Judge {
     std::uint32_t still_ticks = 0;  // in a row, standing for a give-way reason
     bool halted = false;            // stands, after a halt that was logged
     bool halted_once = false;
+    Rule stopping_for = Rule::kCruise;  // the first of the give-way rules in a row; else kCruise
+    std::uint32_t halted_for = 0;       // bit i: rule i began a halt
     bool arrived_once = false;
     std::optional<double> arrived_s;
   };

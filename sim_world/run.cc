@@ -166,6 +166,7 @@ Outcome Run::TheOutcome() const {
   Outcome outcome;
   outcome.contacts = world_.Contacts();
   outcome.halted = judge_.Halted();
+  outcome.halted_for = judge_.HaltedFor();
   outcome.arrived = judge_.Arrived();
   outcome.parted = world_.Approaches().Parted(world_.Bodies());
   if (const auto& closest = world_.Approaches().Closest()) {

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
 
-constexpr std::string_view kMagic = "giveway-world-1\n";  // the number counts formats
+constexpr std::string_view kMagic = "giveway-world-2\n";  // the number counts formats
 
 template <typename T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -174,8 +174,8 @@ void Visit(Archive& archive, Checkpoint& world) {
 
 template <typename Archive>
 void Visit(Archive& archive, Judge::Track& track) {
-  archive(track.vehicle, track.still_ticks, track.halted, track.halted_once, track.arrived_once,
-          track.arrived_s);
+  archive(track.vehicle, track.still_ticks, track.halted, track.halted_once, track.stopping_for,
+          track.halted_for, track.arrived_once, track.arrived_s);
 }
 
 template <typename Archive>

@@ -36,7 +36,9 @@ class CommandLine {
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
     }
     Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
-    Add("--behaviour", "NAME", "cooperative, lecture_avoid, stock_avoid or lecture_yield");
+    Add("--behaviour", "NAME",
+        "cooperative, lecture_avoid, stock_avoid, lecture_yield, or\n"
+        "lecture_printed, which shows the flaws of the printed scripts: it collides");
     Add("--duration", "SECONDS", "end after this time instead of the scenario's");
     lockstep_ = app_.add_flag("--lockstep");
     lockstep_->description("the world waits for every command of a tick");
@@ -101,7 +103,8 @@ ServiceFlags Read(Service service, FlagValues* values) {
   flags.seed = values->Whole("--seed", {0, kMaxWhole});
   const auto behaviour =
       values->OneOf("--behaviour", {Name(Behaviour::kCooperative), Name(Behaviour::kLectureAvoid),
-                                    Name(Behaviour::kStockAvoid), Name(Behaviour::kLectureYield)});
+                                    Name(Behaviour::kStockAvoid), Name(Behaviour::kLectureYield),
+                                    Name(Behaviour::kLecturePrinted)});
   if (behaviour) flags.behaviour = BehaviourNamed(*behaviour);
   flags.duration_s = values->Number("--duration", {0, 86400, "s", true});
   flags.lockstep = values->Switch("--lockstep");
@@ -139,8 +142,9 @@ ParsedFlags ParseWorldFlags(int argc, const char* const* argv) {
 }
 
 std::optional<Behaviour> BehaviourNamed(std::string_view name) {
-  for (const Behaviour behaviour : {Behaviour::kCooperative, Behaviour::kLectureAvoid,
-                                    Behaviour::kStockAvoid, Behaviour::kLectureYield}) {
+  for (const Behaviour behaviour :
+       {Behaviour::kCooperative, Behaviour::kLectureAvoid, Behaviour::kStockAvoid,
+        Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {
     if (Name(behaviour) == name) return behaviour;
   }
   return std::nullopt;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "services/app/scenario_read.h"
@@ -105,6 +106,19 @@ void CheckGoals(const Section& section, const KnownIds& known, const Scenario& s
   }
 }
 
+// Why whoever halts does; somebody must then be allowed to.
+std::optional<Rule> ReadReason(const Section& section, const Expectation& expect) {
+  constexpr std::array kAsNumberedInTheSchema = {Rule::kGiveWay, Rule::kNotGranted, Rule::kPeerLost,
+                                                 Rule::kDeaf};
+  const std::optional<int> reason = section.Choice("halted_for");
+  if (!reason) return std::nullopt;
+  if (expect.halted.empty() && !expect.any_halted) {
+    section.Complain("halted_for", "is given, and nobody is expected to halt",
+                     "write halted or any_halted, or remove it");
+  }
+  return kAsNumberedInTheSchema[static_cast<std::size_t>(*reason)];
+}
+
 }  // namespace
 
 KnownIds IdsOf(const Scenario& scenario) {
@@ -133,6 +147,7 @@ Expectation ReadExpectation(const Section& section, const KnownIds& known,
   expect.arrived = ReadIds(section, "arrived", known);
   expect.any_halted = ReadAny(section, "any_halted", "halted");
   expect.any_arrived = ReadAny(section, "any_arrived", "arrived");
+  expect.halted_for = ReadReason(section, expect);
   expect.parted = section.FlagOr(false, "parted");
   if (section.Has("min_separation_m")) {
     expect.min_separation_m = section.Number("min_separation_m", {0, 10000, "m"});

@@ -41,6 +41,9 @@ void Set(const VehicleOptions& options, schema::Vehicle* message) {
     Set(options.route.waypoints_world[i], message->add_waypoint());
   }
   if (options.route.loop) message->set_loop(true);
+  if (options.distance_metric != DistanceMetric::kEuclidean) {
+    message->set_distance_metric(static_cast<schema::DistanceMetric>(options.distance_metric));
+  }
 }
 
 void Set(const PlannedFault& fault, schema::Fault* message) {
@@ -89,6 +92,11 @@ void SetExpectation(const Expectation& expect, schema::Expect* message) {
   message->set_contacts(expect.contacts);
   message->set_any_halted(expect.any_halted);
   if (expect.any_arrived) message->set_any_arrived(true);
+  if (expect.halted_for) {
+    schema::Reason reason = schema::give_way;
+    GIVEWAY_CHECK(schema::Reason_Parse(std::string(Name(*expect.halted_for)), &reason));
+    message->set_halted_for(reason);
+  }
   for (const VehicleId id : expect.halted) message->add_halted(Number(id));
   for (const VehicleId id : expect.arrived) message->add_arrived(Number(id));
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "services/app/utf8.h"
@@ -33,6 +35,32 @@ std::string FieldsOf(const std::string& type) {
     names += (i == 0 ? "" : ", ") + message->field(i)->name();
   }
   return names;
+}
+
+// The names an enum field of that name takes, in whatever message of the schema it stands.
+std::string NamesOf(const std::string& field) {
+  const auto* pool = google::protobuf::DescriptorPool::generated_pool();
+  const auto* scenario = pool->FindMessageTypeByName("giveway.schema.Scenario");
+  std::string names;
+  for (int i = 0; scenario != nullptr && i < scenario->file()->message_type_count(); ++i) {
+    const auto* found = scenario->file()->message_type(i)->FindFieldByName(field);
+    if (found == nullptr || found->enum_type() == nullptr) continue;
+    for (int k = 0; k < found->enum_type()->value_count(); ++k) {
+      names += (k == 0 ? "" : ", ") + found->enum_type()->value(k)->name();
+    }
+    return names;
+  }
+  return names;
+}
+
+// The line, from 0, of the last `word` that begins before a line; the parser has read past it.
+int LineOfWordBefore(const std::string& text, const std::string& word, int line) {
+  std::size_t end = 0;  // of the line
+  for (int i = 0; i <= line && end != std::string::npos; ++i) end = text.find('\n', end + 1);
+  const std::size_t at = text.rfind(word, end);
+  if (at == std::string::npos) return line;
+  const auto stop = text.begin() + static_cast<std::ptrdiff_t>(at);
+  return static_cast<int>(std::count(text.begin(), stop, '\n'));
 }
 
 std::string LineOf(const std::string& text, int line) {
@@ -69,11 +97,28 @@ Problem UnknownField(const std::string& message) {
   return problem;
 }
 
+// The words are the parser's own: "Unknown enumeration value of "V" for field "F".".
+std::optional<Problem> UnknownName(const std::string& text, int line, const std::string& message) {
+  const std::vector<std::string> parts = Quoted(message);
+  if (!message.starts_with("Unknown enumeration value") || parts.size() != 2) return std::nullopt;
+  const int written = LineOfWordBefore(text, parts[0], line);
+  return Problem{
+      .line = written + 1,
+      .field = Shortened(parts[1], kShown),
+      .value = LineOf(text, written),
+      .message = "is none of its names",
+      .remedy = fmt::format("write one of {}; nothing after it was read", NamesOf(parts[1]))};
+}
+
 }  // namespace
 
 Problem ParserProblem(const std::string& file, const std::string& text, int line, int column,
                       const std::string& message, bool unknown_field) {
   Problem problem;
+  if (auto unknown_name = UnknownName(text, line, message)) {
+    unknown_name->file = file;
+    return *unknown_name;
+  }
   if (unknown_field) {
     problem = UnknownField(message);
   } else {

@@ -136,6 +136,10 @@ VehicleOptions ReadDriver(const Section& section, const VehicleOptions& common,
   if (const auto weights = section.Sub("braitenberg")) {
     vehicle.braitenberg = ReadBraitenberg(*weights, vehicle.braitenberg);
   }
+  if (const auto metric = section.Choice("distance_metric")) {
+    vehicle.distance_metric =
+        static_cast<DistanceMetric>(*metric);  // numbered alike, as behaviours
+  }
   return vehicle;
 }
 

@@ -47,7 +47,8 @@ Behaviour ParseBehaviour(const std::string& name) {
   if (behaviour) return *behaviour;
   throw CLI::ValidationError(
       "--behaviour",
-      "must be cooperative, lecture_avoid, stock_avoid or lecture_yield, not '" + name + "'");
+      "must be cooperative, lecture_avoid, stock_avoid, lecture_yield or lecture_printed, not '" +
+          name + "'");
 }
 
 void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
@@ -59,7 +60,8 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option_function<std::string>(
           "--behaviour",
           [options](const std::string& name) { options->behaviour = ParseBehaviour(name); },
-          "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid or lecture_yield")
+          "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
+          "lecture_printed, which shows the flaws of the printed scripts: it collides")
       ->envname("GIVEWAY_BEHAVIOUR");
   verb->add_option("--seed", options->seed, "Moves start poses and cruise speeds; 0 moves nothing")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))

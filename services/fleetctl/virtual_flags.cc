@@ -122,7 +122,8 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
         made_by->behaviour = app::BehaviourNamed(name);
         if (!made_by->behaviour) throw CLI::ValidationError("--behaviour", "unknown: " + name);
       },
-      "Every vehicle drives so");
+      "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
+      "lecture_printed, which shows the flaws of the printed scripts: it collides");
   verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
   AddRadioFlags(verb, made_by);
   AddFaultFlags(verb, made_by);

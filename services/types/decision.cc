@@ -12,6 +12,8 @@ std::string_view Name(Behaviour behaviour) {
       return "stock_avoid";
     case Behaviour::kLectureYield:
       return "lecture_yield";
+    case Behaviour::kLecturePrinted:
+      return "lecture_printed";
   }
   return "unknown";
 }

@@ -1,6 +1,7 @@
 // The vocabulary of decisions: how far down the ladder a vehicle is, and which rule won.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -8,7 +9,14 @@
 
 namespace giveway {
 
-enum class Behaviour : std::uint8_t { kCooperative, kLectureAvoid, kStockAvoid, kLectureYield };
+enum class Behaviour : std::uint8_t {
+  kCooperative,
+  kLectureAvoid,
+  kStockAvoid,
+  kLectureYield,
+  kLecturePrinted,  // the yielding scripts with their flaws: collides, never a default
+};
+inline constexpr std::size_t kBehaviourCount = 5;
 
 // The ladder. A vehicle only goes down on less evidence, never up on less.
 enum class Mode : std::uint8_t {

@@ -52,7 +52,7 @@ struct Truth {
 
 enum class EventKind : std::uint8_t {
   kStarted,   // the run begins; value: fleet size
-  kHalted,    // vehicle stood still to give way to other
+  kHalted,    // vehicle stood still to give way to other; text: the rule that began it
   kWentOn,    // vehicle moves again after a halt
   kArrived,   // value: seconds since the start
   kContact,   // vehicle and other began to touch

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace giveway {
 namespace {
@@ -17,7 +18,14 @@ constexpr double kHalfPi3 = 2.02226624879595063154e-21;
 constexpr double kLn2High = 6.93147180369123816490e-01;
 constexpr double kLn2Low = 1.90821492927058770002e-10;
 
+constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+// Beyond it a double does not tell one turn from the next well enough.
+constexpr double kMostTurns = 0x1p30;
+
+// No number for |x| beyond kMostTurns, and for what is none.
 double Nearest(double x) {
+  const bool is_near = x > -kMostTurns && x < kMostTurns;
+  if (!is_near) return kNoNumber;
   return static_cast<double>(static_cast<std::int64_t>(x + std::copysign(0.5, x)));
 }
 
@@ -69,7 +77,7 @@ struct Quadrant {
 Quadrant Reduce(double x) {
   const double n = Nearest(x * (2 / kPi));
   const double rest = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3;
-  return {static_cast<std::int64_t>(n), rest};
+  return {std::isnan(n) ? 0 : static_cast<std::int64_t>(n), rest};
 }
 
 // atan on [0, 1]: the half-angle formula twice brings z below tan(pi/16), then Taylor.
@@ -130,6 +138,8 @@ double Log(double x) {
 
 double Exp(double x) {
   if (x < -700) return 0;
+  if (x > 709) return std::numeric_limits<double>::infinity();
+  if (std::isnan(x)) return x;
   const double k = Nearest(x / (kLn2High + kLn2Low));
   const double r = (x - k * kLn2High) - k * kLn2Low;
   double sum = 1;

@@ -8,6 +8,7 @@ namespace giveway {
 inline constexpr double kPi = 3.14159265358979323846;
 
 double Sqrt(double x);
+// No number for what is no angle, or lies beyond 2^30 quarter turns.
 double Sin(double x_rad);
 double Cos(double x_rad);
 struct SineCosine {

@@ -93,9 +93,10 @@ struct Expectation {
   std::uint32_t contacts = 0;
   std::vector<VehicleId> halted;
   std::vector<VehicleId> arrived;
-  bool any_halted = false;   // who halts is not judged
-  bool any_arrived = false;  // who arrives is not judged
-  bool parted = false;       // at the end every pair is farther apart than at its closest
+  std::optional<Rule> halted_for;  // this rule began at least one halt
+  bool any_halted = false;         // who halts is not judged
+  bool any_arrived = false;        // who arrives is not judged
+  bool parted = false;             // at the end every pair is farther apart than at its closest
   std::optional<double> min_separation_m;  // at least this, shell to shell
   std::optional<double> time_to_clear_s;   // at most this
 };

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "services/types/decision.h"
+#include "services/types/distance.h"
 #include "services/types/ids.h"
 #include "services/types/profile.h"
 #include "services/types/time.h"
@@ -55,8 +56,10 @@ struct VehicleOptions {
   Pose start_world;                // given by the world's roster
   BraitenbergWeights braitenberg;  // of the avoiding behaviours
   Nanoseconds tick_period{50'000'000};
-  double gate_enter_m = 1.0;                  // the lecture's critical distance, shell to shell
-  double gate_exit_m = 1.2;                   // a latched encounter is over beyond it
+  double gate_enter_m = 1.0;  // the lecture's critical distance, shell to shell
+  double gate_exit_m = 1.2;   // a latched encounter is over beyond it
+  // How far a peer is at the gates, by GateDistance; of kCooperative and kLectureYield.
+  DistanceMetric distance_metric = DistanceMetric::kEuclidean;
   double emission_radius_m = 5.0;             // beacons stated from farther away are not heard
   Nanoseconds beacon_age_limit{200'000'000};  // receiver's clock; older is not fresh
   Nanoseconds ranges_age_limit{150'000'000};  // a scan older than this: halt

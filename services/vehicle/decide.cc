@@ -111,6 +111,7 @@ Action Decide(const Situation& s) {
   } else {
     action = DrivingAction(s, limit);
   }
+  if (s.options.behaviour == Behaviour::kLecturePrinted && !limit) action = AsPrinted(s, action);
   if (s.stop_line && !IsToldBeforeLight(action.decision.rule) && StandsAtLine(*s.stop_line, s)) {
     action.decision = {.rule = Rule::kSignal, .cause_tick = s.stop_line->tick};
   }

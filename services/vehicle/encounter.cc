@@ -22,7 +22,8 @@ double NearestEchoOf(const PeerView& view, const Situation& s) {
 // paths conflict, by beacon, or when the ultrasonics do: the union of both.
 bool Begins(const PeerView& view, const Situation& s) {
   if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
-  const bool critically_close = NearestEchoOf(view, s) < CriticalDistance(s, view);
+  const double by_metric_m = view.gap_m - view.gate_gap_m;  // nearer by so much; never negative
+  const bool critically_close = NearestEchoOf(view, s) - by_metric_m < CriticalDistance(s, view);
   if (s.options.behaviour == Behaviour::kLectureYield) {
     const bool parting = !view.conflict && view.closing_m_s <= 0;
     return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
@@ -33,7 +34,7 @@ bool Begins(const PeerView& view, const Situation& s) {
 
 bool IsOver(const PeerView& view, const Situation& s) {
   if (view.conflict) return false;
-  return view.gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
+  return view.gate_gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
 }
 
 // A silent peer holds nobody any longer once it had the time to pass and nothing near is heard; or
@@ -53,20 +54,33 @@ void UpdateLost(const PeerView& view, const Situation& s) {
   if (waited && clear) encounter.released = true;
 }
 
+// How far it may drive when it holds for the peer: up to the box; up to the conflict itself where
+// it is in the box already.
+double HoldsBefore(const PeerView& view) {
+  return view.box_begin_m > 0 ? view.box_begin_m : view.conflict->own.begin_m;
+}
+
 // True where only braking now still ends before the conflict. Inside it, standing still helps
 // nobody: the vehicle drives out.
 bool MustBrakeNow(const PeerView& view, const Situation& s) {
   return view.conflict && view.conflict->own.begin_m > 0 &&
-         view.conflict->own.begin_m <= OwnStoppingDistance(s);
+         HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 
-// Whoever is in the middle of the conflict clears it instead of standing in the way: if it can be
-// out before the other comes, or the other stands behind it and waits for just that.
+// Of two in the conflict both: this one is ahead on the way of both.
+bool IsAhead(const PeerView& view, const Situation& s) {
+  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const Vec2 peer_way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  return Dot(offset, s.path.direction_world) < 0 && Dot(offset, peer_way) < 0;
+}
+
+// Whoever is in the middle of the conflict clears it instead of standing in the way: if the other
+// is not in it yet, or behind, or it can be out before the other comes.
 bool MustClear(const PeerView& view, const Situation& s) {
   if (!view.conflict || view.conflict->own.begin_m > 0) return false;
-  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
-  const bool behind = Dot(offset, s.path.direction_world) < 0;
-  return (view.standing && behind) || IsThroughFirst(view, s);
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s))) return true;
+  return IsThroughFirst(view, s);
 }
 
 // Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going.
@@ -79,8 +93,8 @@ bool SecondMustStop(const PeerView& view, const Situation& s) {
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
   const double critical_m = CriticalDistance(s, view);
-  return (view.gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
-         view.conflict->own.begin_m <= OwnStoppingDistance(s);
+  return (view.gate_gap_m <= critical_m && view.conflict->own.begin_m <= critical_m) ||
+         HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 
 // Whom the order puts first needs the other's word, or to be through before it; the lecture's
@@ -91,10 +105,23 @@ bool FirstMayGo(const PeerView& view, const Situation& s) {
 
 // A peer that a light held let this vehicle go: once it cannot stop before the conflict any more
 // it goes through, whatever the peer's light and the order say meanwhile.
-bool HasEntered(const PeerView& view, const Situation& s) {
-  if (!view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s)) return false;
-  const bool let_go = view.at_signal && view.grants && !s.at_signal && !s.stop_line;
-  return view.peer->encounter.entered || let_go;
+bool EntersOnSignal(const PeerView& view, const Situation& s) {
+  return view.conflict->own.begin_m <= OwnStoppingDistance(s) && view.at_signal && view.grants &&
+         !s.at_signal && !s.stop_line;
+}
+
+// Past the point where it could stop before the box: it drives through, whatever becomes of the
+// order meanwhile. The others hold because it does not say that it gives way.
+bool EntersBox(const PeerView& view, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative || view.lost) return false;
+  return !view.peer->encounter.holds && s.speed_m_s >= kStandingSpeed_m_s &&
+         HoldsBefore(view) <= OwnStoppingDistance(s);
+}
+
+// Standing before the box again, the vehicle has not entered it.
+bool HasLeftBox(const PeerView& view, const Situation& s) {
+  if (!view.conflict) return true;
+  return s.speed_m_s < kStandingSpeed_m_s && view.box_begin_m > 0;
 }
 
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
@@ -126,12 +153,15 @@ bool IsThroughFirst(const PeerView& view, const Situation& s) {
 }
 
 bool CanGiveWay(const PeerView& view, const Situation& s) {
-  if (!view.goes_first || view.peer->encounter.entered) return false;
+  const Encounter& encounter = view.peer->encounter;
+  if (!view.goes_first || encounter.entered || encounter.clears || MustClear(view, s)) return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
 }
 
-void UpdateEncounter(const PeerView& view, const Situation& s) {
+namespace {
+
+void BeginOrEnd(const PeerView& view, const Situation& s) {
   Encounter& encounter = view.peer->encounter;
   if (view.peer->left || view.peer->out_of_reach) {
     encounter = {};
@@ -152,8 +182,25 @@ void UpdateEncounter(const PeerView& view, const Situation& s) {
   if (cooperative && encounter.active && !view.lost && view.goes_first && IsInTheWay(view, s)) {
     encounter.clears = true;
   }
-  encounter.entered = encounter.active && HasEntered(view, s);
-  encounter.holds = encounter.active && Holds(view, s);
+  if (!encounter.active || HasLeftBox(view, s)) encounter.entered = false;
+  if (encounter.active && view.conflict && EntersOnSignal(view, s)) encounter.entered = true;
+}
+
+}  // namespace
+
+void UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
+  bool holds = false;
+  for (const PeerView& view : views) {
+    Encounter& encounter = view.peer->encounter;
+    BeginOrEnd(view, s);
+    encounter.holds = encounter.active && Holds(view, s);
+    holds = holds || encounter.holds;
+  }
+  if (holds) return;
+  for (const PeerView& view : views) {
+    Encounter& encounter = view.peer->encounter;
+    if (encounter.active && view.conflict && EntersBox(view, s)) encounter.entered = true;
+  }
 }
 
 }  // namespace giveway

@@ -6,8 +6,8 @@
 
 namespace giveway {
 
-// Moves the peer's encounter on by one tick, and says whether this vehicle holds for it.
-void UpdateEncounter(const PeerView& view, const Situation& s);
+// Moves every peer's encounter on by one tick, and says for which of them this vehicle holds.
+void UpdateEncounters(std::span<const PeerView> views, const Situation& s);
 
 // True if this vehicle is the one to wait in the encounter, and can: it stands, or will before
 // the conflict. Only then may it say that it gives way.

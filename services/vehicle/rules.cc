@@ -128,8 +128,8 @@ std::optional<Proposal> KeepClear(const Situation& s) {
 }
 
 std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
-  static constexpr std::array<RuleFunction, 4> kAvoiding = {Leaving, NotRunning, RangesStale,
-                                                            Arrived};
+  static constexpr std::array<RuleFunction, 4> kDeadStops = {Leaving, NotRunning, RangesStale,
+                                                             Arrived};
   static constexpr std::array<RuleFunction, 8> kLecture = {
       Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle};
   static constexpr std::array<RuleFunction, 12> kCooperative = {
@@ -138,7 +138,8 @@ std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
   switch (behaviour) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:
-      return kAvoiding;
+    case Behaviour::kLecturePrinted:
+      return kDeadStops;
     case Behaviour::kLectureYield:
       return kLecture;
     case Behaviour::kCooperative:

@@ -54,12 +54,10 @@ bool WaitsAtSignal(const PeerView& view, const Situation& s) {
   return view.standing || !view.conflict || view.conflict->peer.begin_m >= stopping_m;
 }
 
-// Both vehicles' ways to where they drive next. A peer that stays put has none; nor has one that
-// stands and comes later in the order: it is a body to steer round.
-std::optional<Conflict> ConflictWith(const PeerView& view, const Situation& s) {
+// Both vehicles' ways to where they drive next. A peer that stays put has none.
+std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
   if (StaysPut(view.peer->beacon) || Follows(view, s)) return std::nullopt;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (cooperative && view.standing && !view.goes_first) return std::nullopt;
   Path peer_path{view.world_from_body.position_world, view.forward_world};
   double peer_way_m = kFarAway_m;
   if (cooperative) {
@@ -163,10 +161,16 @@ PeerView LookAt(Peer* peer, const Situation& s) {
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);
+  const double gate_distance = GateDistance(s.options.distance_metric, offset);
   view.gap_m = distance - s.options.profile.body_radius_m - beacon.body_radius_m;
+  view.gate_gap_m = gate_distance - s.options.profile.body_radius_m - beacon.body_radius_m;
   const Vec2 velocity = view.speed_m_s * view.forward_world - s.speed_m_s * s.forward_world;
   view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
-  view.conflict = ConflictWith(view, s);
+  view.leads = Follows(view, s) && Dot(offset, s.path.direction_world) > 0;
+  view.crossing = CrossingWith(view, s);
+  // One that stands and comes later in the order is a body to steer round.
+  const bool steered_round = s.options.behaviour == Behaviour::kCooperative && view.standing;
+  if (!steered_round || view.goes_first) view.conflict = view.crossing;
   view.free_m = FreeOf(view, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||

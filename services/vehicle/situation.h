@@ -8,6 +8,7 @@
 #include "services/types/range_scan.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/conflict.h"
+#include "services/vehicle/lecture.h"
 #include "services/vehicle/objects.h"
 #include "services/vehicle/peer_table.h"
 #include "services/vehicle/range_view.h"
@@ -28,9 +29,13 @@ struct PeerView {
   bool grants = false;     // fresh, and says that it gives way to this vehicle or stays where it is
   bool at_signal = false;  // fresh, and says that a light stops it
   double gap_m = 0;        // shell to shell
+  double gate_gap_m = 0;   // the same by the metric of the gates; never above gap_m
   double closing_m_s = 0;  // positive while the gap shrinks
-  std::optional<Conflict> conflict;
-  double free_m = 0;  // straight on until the own shell is at the peer's claim; huge if never
+  bool leads = false;      // drives ahead in the own lane
+  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
+  std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
+  double box_begin_m = 0;  // of `conflict`: how far to drive without standing in anyone's way
+  double free_m = 0;       // straight on until the own shell is at the peer's claim; huge if never
   std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
@@ -45,6 +50,7 @@ struct Situation {
   Vec2 forward_world;     // unit vector of the own heading
   double speed_m_s = 0;   // forward, measured
   double turn_rad_s = 0;  // measured
+  WheelSpeeds wheels;     // measured
   double sigma_position_m = 0;
   Path path;                         // towards the goal, or straight on
   double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
@@ -64,6 +70,7 @@ struct Situation {
   bool deaf = false;                  // something near moves and no fresh beacon explains it
   int deaf_sensor = -1;
   std::span<const PeerView> peers;
+  LastHeard last_heard;  // of lecture_printed alone, which has no peers
 };
 
 // Below this a vehicle stands still, as the verdict defines it.

@@ -47,6 +47,11 @@ bool Queues(const PeerView& view, const Situation& s) {
   return way_m > 0.5 && view.fresh && Dot(way, s.path.direction_world) > kSameWay * way_m;
 }
 
+// Stands only because another one does, and goes on with it.
+bool IsHeldUp(const PeerView& view) {
+  return view.fresh && view.peer->beacon.rule == Rule::kKeepClear;
+}
+
 // Whom to steer round: whoever stands. One that comes first and could start at any time is left to
 // the right of way while it says that it will.
 bool StandsInTheWay(const PeerView& view, const Situation& s) {
@@ -54,6 +59,7 @@ bool StandsInTheWay(const PeerView& view, const Situation& s) {
     return view.fresh && view.standing && view.grants && !view.goes_first;
   }
   if (!view.standing || view.peer->left) return false;
+  if (IsHeldUp(view) && !s.aimless) return false;
   return !Queues(view, s) || (s.very_aimless && !view.at_signal);
 }
 

@@ -7,6 +7,7 @@
 #include "services/types/check.h"
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
+#include "services/vehicle/box.h"
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
@@ -17,6 +18,8 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
+constexpr double kQueueWithin_m = 1.5;  // nearer than this, the one ahead in the lane holds up
+constexpr std::uint32_t kBlockedTicks = 20;
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
 // Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
 constexpr double kSharpTurn_rad_s = 0.25;
@@ -45,14 +48,23 @@ OrderKey ActingOrder(const VehicleState& state, VehicleId own) {
   return acting;
 }
 
-// Who is bodily in the way: stands where this vehicle wants to be, keeps it from driving, or is
-// what it fails to get round.
+// True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
+bool SlowsDown(const PeerView& view, const Situation& s) {
+  return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
+         view.speed_m_s < s.options.cruise_m_s;
+}
+
+// Who is bodily in the way: stands where this vehicle wants to be, leads in its lane more slowly,
+// keeps it from driving, or is what it fails to get round.
 VehicleId BlockedBy(const Situation& s, const Action& action) {
   if (s.arrived) return kNobody;
   for (const PeerView& view : s.peers) {
     const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
     if (there && Occupies(view, Toward(s), s)) return view.peer->id;
   }
+  const auto leader =
+      std::ranges::find_if(s.peers, [&s](const PeerView& view) { return SlowsDown(view, s); });
+  if (leader != s.peers.end()) return leader->peer->id;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
   return s.aimless ? action.round : kNobody;
@@ -172,6 +184,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.world_from_body = state.odometry.WorldFromBody();
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
+  s.wheels = state.wheels;
   s.sigma_position_m = state.odometry.SigmaPosition();
   s.order = ActingOrder(state, options_.id);
   s.steer_side = state.steer_side;
@@ -204,10 +217,12 @@ void Vehicle::LookAtPeers(Situation* s) {
     PeerView view = LookAt(&peer, *s);
     peers_heard_ += view.fresh ? 1 : 0;
     s->explained |= view.explains;
-    UpdateEncounter(view, *s);
     (*views_)[count++] = view;
   }
-  s->peers = {views_->data(), count};
+  const std::span<PeerView> views(views_->data(), count);
+  FindBoxes(views, *s);
+  UpdateEncounters(views, *s);
+  s->peers = views;
 }
 
 // Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
@@ -256,7 +271,23 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   state.encounters = under_way;
   state.decision = decision;
   state.steer_side = action.steer_side;
-  state.blocked_by = BlockedBy(s, action);
+  KeepBlocked(BlockedBy(s, action), s);
+}
+
+// What is in the way now and then is in the way: the order it is lent must not come and go.
+void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
+  VehicleState& state = *state_;
+  if (blocked_by != kNobody) {
+    state.blocked_by = blocked_by;
+    state.blocked_tick = s.tick;
+    return;
+  }
+  const auto still_near = [&state](const PeerView& view) {
+    return view.peer->id == state.blocked_by && view.fresh && view.gap_m < kQueueWithin_m;
+  };
+  const bool recent = state.blocked_tick != kNoTick && !s.arrived &&
+                      TicksBetween(state.blocked_tick, s.tick) <= kBlockedTicks;
+  if (!recent || std::ranges::none_of(s.peers, still_near)) state.blocked_by = kNobody;
 }
 
 Beacon Vehicle::Say(const Situation& s) {
@@ -295,9 +326,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   TakeSignalsAndObjects(inputs);
   Situation s = Look(inputs);
   LookAtSignals(&s);
-  LookAtPeers(&s);
-  ListenForMovers(&s);
-  Detour(&s);
+  LookAround(&s);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.decision);
   Remember(s, action);
@@ -341,6 +370,7 @@ std::uint64_t Vehicle::Hash() const {
   state.peers.AddTo(&hash);
   state.signals.AddTo(&hash);
   AddTo(state.objects, &hash);
+  AddTo(state.last_heard, &hash);
   return hash.Value();
 }
 

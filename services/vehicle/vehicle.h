@@ -42,6 +42,7 @@ struct VehicleState {
   Decision decision;
   VehicleId gives_way_to = kNobody;  // as last published
   VehicleId blocked_by = kNobody;    // as last published
+  Tick blocked_tick = kNoTick;       // when it was last seen in the way
   int steer_side = 0;                // 1 left, -1 right, 0 straight on
   double nearest_m = 1e9;            // the least distance to the goal so far
   std::uint32_t aimless_ticks = 0;   // driven since without coming nearer
@@ -51,6 +52,7 @@ struct VehicleState {
   PeerTable peers;
   SignalTable signals;
   SeenObjects objects;
+  LastHeard last_heard;             // of lecture_printed
   std::uint32_t scans_refused = 0;  // of any sensor
   std::uint32_t signals_refused = 0;
   BeaconCounters beacons;
@@ -86,10 +88,12 @@ class Vehicle {
   Situation Look(const Inputs& inputs);
   void LookAhead(Situation* situation);
   void LookAtSignals(Situation* situation);
+  void LookAround(Situation* situation);
   void LookAtPeers(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
   void Remember(const Situation& situation, const Action& action);
+  void KeepBlocked(VehicleId blocked_by, const Situation& situation);
   Beacon Say(const Situation& situation);
 
   VehicleOptions options_;

@@ -1,4 +1,5 @@
 // Which way a vehicle is on: along its route, to its goal, or round a crowd.
+#include <algorithm>
 #include <array>
 
 #include "services/vehicle/detour.h"
@@ -12,6 +13,9 @@ constexpr double kPassedAtDistance_m = 1.2;
 constexpr double kNoProgress_s = 6;
 constexpr double kNoPatience_s = 15;
 constexpr double kProgress_m = 0.1;
+// In a queue, behind one that comes no further either, patience lasts so many times as long.
+constexpr double kQueued_m = 1;
+constexpr std::uint32_t kQueuePatience = 8;
 constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
 
 // A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
@@ -57,6 +61,9 @@ void Vehicle::Detour(Situation* s) {
     state.detour_tick = kNoTick;
   }
   if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
+  const bool queues = std::ranges::any_of(
+      s->peers, [](const PeerView& view) { return view.leads && view.gap_m < kQueued_m; });
+  if (queues && Number(s->tick) % kQueuePatience != 0) return;
   ++state.aimless_ticks;
   if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;

@@ -121,7 +121,8 @@ Input Crowd() {
 std::vector<Input> Samples() {
   std::vector<Input> samples{Crowd()};
   constexpr unsigned kSound = On(kSealed) | On(kNamed);
-  for (const Behaviour behaviour : {Behaviour::kCooperative, Behaviour::kLectureYield}) {
+  for (const Behaviour behaviour :
+       {Behaviour::kCooperative, Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {
     samples.push_back(Crossing(behaviour, kSound));
     samples.push_back(Crossing(behaviour, On(kNamed)));
     samples.push_back(Crossing(behaviour, kSound | On(kEcho)));
@@ -135,7 +136,7 @@ std::vector<Input> Samples() {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace giveway;
   if (size == 0) return 0;
-  fuzz::Session session(static_cast<Behaviour>(data[0] % 4));
+  fuzz::Session session(static_cast<Behaviour>(data[0] % kBehaviourCount));
   fuzz::ByteSpan bytes(data + 1, size - 1);
   while (!bytes.empty()) {
     const fuzz::Record record = fuzz::NextRecord<wire::Beacon>(&bytes);

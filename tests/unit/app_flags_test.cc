@@ -61,6 +61,14 @@ TEST(Flags, TheDefaultsNeedOnlyScenarioAndDomain) {
   EXPECT_EQ(flags.log_level, "info");
 }
 
+TEST(Flags, ThePrintedScriptsCanBeAskedForByName) {
+  const ParsedFlags parsed =
+      Vehicle({"--scenario=s", "--domain", "7", "--behaviour", "lecture_printed"});
+  EXPECT_EQ(std::get<ServiceFlags>(parsed).behaviour, Behaviour::kLecturePrinted);
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle({"--scenario=s", "--domain", "7"})).behaviour,
+            std::nullopt);
+}
+
 TEST(Flags, EveryFlagReachesItsPlace) {
   const ParsedFlags parsed = Vehicle({"--scenario=s",  "--domain",   "99",          "--interface",
                                       "any",           "--qos",      "q.xml",       "--id",

@@ -75,6 +75,13 @@ TEST(Scenario, TheFiveOfTheCrossingAreShipped) {
   }
 }
 
+TEST(Scenario, TheSixOfRightOfWayAreShipped) {
+  for (const char* name :
+       {"head_on", "three_way", "four_way", "deaf", "parked_nose_to_nose", "convoy"}) {
+    EXPECT_EQ(LoadScenario(name, {}).name, name);
+  }
+}
+
 // d / v + v / (2 a): the time from standstill to the crossing.
 double ArrivalAtCrossing(const Scenario& scenario, const VehicleOptions& vehicle) {
   const double way_m = Norm(vehicle.start_world.position_world - scenario.crossing_world);
@@ -101,6 +108,8 @@ TEST(Scenario, ADefaultIsTheOneTheTypesState) {
   EXPECT_EQ(vehicle.behaviour, Behaviour::kCooperative);
   EXPECT_EQ(vehicle.ranges_age_limit, VehicleOptions{}.ranges_age_limit);
   EXPECT_EQ(vehicle.gate_enter_m, VehicleOptions{}.gate_enter_m);
+  EXPECT_EQ(vehicle.distance_metric, DistanceMetric::kEuclidean);
+  EXPECT_EQ(scenario.expect.halted_for, std::nullopt);
   EXPECT_FALSE(vehicle.goal.set);
   EXPECT_FALSE(vehicle.profile.sonar[8].enabled);
 }
@@ -114,11 +123,12 @@ TEST(Scenario, EveryFieldReachesItsPlace) {
     behaviour: stock_avoid
     vehicle { id: 7 start { x_m: 3 y_m: 4 heading_deg: -180 } cruise_m_s: 1.5
               goal { x_m: 9 y_m: 8 radius_m: 0.5 } behaviour: lecture_yield
+              distance_metric: chebyshev
               profile { body_radius_m: 0.3 max_speed_m_s: 2 acceleration_m_s2: 1
                         deceleration_m_s2: 3 rear_sonar: false } }
     wall { from { x_m: 20 y_m: 21 } to { x_m: 22 y_m: 23 } }
     fault { kill: 7 at_s: 1 before_crossing_m: 2 }
-    expect { contacts: 1 halted: [7] arrived: [7] parted: true min_separation_m: 0.5
+    expect { contacts: 1 halted: [7] halted_for: deaf arrived: [7] parted: true min_separation_m: 0.5
              time_to_clear_s: 6 })");
   EXPECT_EQ(scenario.description, "d");
   EXPECT_EQ(scenario.area, "a");
@@ -137,6 +147,7 @@ TEST(Scenario, EveryFieldReachesItsPlace) {
   EXPECT_EQ(v.goal.at_world, (Vec2{9, 8}));
   EXPECT_EQ(v.goal.radius_m, 0.5);
   EXPECT_EQ(v.behaviour, Behaviour::kLectureYield);
+  EXPECT_EQ(v.distance_metric, DistanceMetric::kChebyshev);
   EXPECT_EQ(v.profile.drive.wheel_radius_m, 0.1);
   EXPECT_EQ(v.profile.drive.axle_m, 0.4);
   EXPECT_EQ(v.profile.max_turn_rad_s, 2);
@@ -160,6 +171,7 @@ TEST(Scenario, EveryFieldReachesItsPlace) {
   EXPECT_EQ(scenario.faults[0].before_crossing_m, 2);
   EXPECT_EQ(scenario.expect.contacts, 1U);
   EXPECT_THAT(scenario.expect.halted, ElementsAre(VehicleId{7}));
+  EXPECT_EQ(scenario.expect.halted_for, Rule::kDeaf);
   EXPECT_THAT(scenario.expect.arrived, ElementsAre(VehicleId{7}));
   EXPECT_TRUE(scenario.expect.parted);
   EXPECT_EQ(scenario.expect.min_separation_m, 0.5);
@@ -176,10 +188,26 @@ TEST(Scenario, VehiclesAndExpectedIdsComeSorted) {
 }
 
 TEST(Scenario, TheNamesOfBehavioursAreThoseOfTheSchema) {
-  for (const Behaviour behaviour : {Behaviour::kCooperative, Behaviour::kLectureAvoid,
-                                    Behaviour::kStockAvoid, Behaviour::kLectureYield}) {
+  for (const Behaviour behaviour :
+       {Behaviour::kCooperative, Behaviour::kLectureAvoid, Behaviour::kStockAvoid,
+        Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {
     const std::string line = "behaviour: " + std::string(Name(behaviour));
     EXPECT_EQ(Load(kGoodScenario + line).vehicles[0].behaviour, behaviour);
+  }
+}
+
+TEST(Scenario, TheNamesOfMetricsAreThoseOfTheSchema) {
+  for (const DistanceMetric metric :
+       {DistanceMetric::kEuclidean, DistanceMetric::kManhattan, DistanceMetric::kChebyshev}) {
+    const std::string line = "id: 1 distance_metric: " + std::string(Name(metric));
+    EXPECT_EQ(Load(Spoilt("id: 1", line)).vehicles[0].distance_metric, metric);
+  }
+}
+
+TEST(Scenario, TheNamesOfReasonsAreThoseOfTheSchema) {
+  for (const Rule rule : {Rule::kGiveWay, Rule::kNotGranted, Rule::kPeerLost, Rule::kDeaf}) {
+    const std::string line = "any_halted: true halted_for: " + std::string(Name(rule)) + " }";
+    EXPECT_EQ(Load(Spoilt("arrived: [1] }", line)).expect.halted_for, rule);
   }
 }
 

@@ -14,11 +14,13 @@ Scenario AnyScenario() {
   scenario.duration_s = 12.3456;
   scenario.walls = {{{0.12345, 5}, {6, 7.00049}}};
   scenario.expect.any_halted = true;
+  scenario.expect.halted_for = Rule::kPeerLost;
   scenario.expect.arrived = {VehicleId{3}};
   VehicleOptions& vehicle = scenario.vehicles.emplace_back();
   vehicle.id = VehicleId{3};
   vehicle.profile = PioneerP3dx();
-  vehicle.behaviour = Behaviour::kLectureYield;
+  vehicle.behaviour = Behaviour::kLecturePrinted;
+  vehicle.distance_metric = DistanceMetric::kManhattan;
   vehicle.braitenberg = LectureWeights();
   vehicle.cruise_m_s = 0.333333;
   vehicle.start_world = {.position_world = {-1.23456, 2.34567}, .heading_rad = Radians(123.45678)};
@@ -37,7 +39,8 @@ TEST(WrittenScenario, ReadsBackBitForBitOnceItIsRounded) {
   ASSERT_EQ(read.vehicles.size(), 1U);
   const VehicleOptions& vehicle = read.vehicles[0];
   EXPECT_EQ(vehicle.id, VehicleId{3});
-  EXPECT_EQ(vehicle.behaviour, Behaviour::kLectureYield);
+  EXPECT_EQ(vehicle.behaviour, Behaviour::kLecturePrinted);
+  EXPECT_EQ(vehicle.distance_metric, DistanceMetric::kManhattan);
   EXPECT_EQ(vehicle.start_world, written.vehicles[0].start_world);
   EXPECT_EQ(vehicle.cruise_m_s, 0.333);
   EXPECT_EQ(vehicle.goal.at_world, (Vec2{8.765, 9}));
@@ -49,6 +52,7 @@ TEST(WrittenScenario, ReadsBackBitForBitOnceItIsRounded) {
   ASSERT_EQ(read.faults.size(), 1U);
   EXPECT_EQ(read.faults[0].at_s, 4);
   EXPECT_TRUE(read.expect.any_halted);
+  EXPECT_EQ(read.expect.halted_for, Rule::kPeerLost);
   EXPECT_EQ(read.expect.arrived, std::vector{VehicleId{3}});
 }
 

@@ -46,6 +46,18 @@ TEST(Expectation, ABoundIsKeptOrNamedWithTheFigure) {
             "time_to_clear_s: expected at most 12, got 12.05");
 }
 
+TEST(Expectation, AHaltCanBeAskedForByItsCause) {
+  Expectation expect;
+  expect.any_halted = true;
+  expect.halted_for = Rule::kDeaf;
+  Outcome outcome;
+  EXPECT_EQ(Unmet(expect, outcome), "halted_for: expected deaf, got nothing");
+  outcome.halted_for = {Rule::kGiveWay, Rule::kPeerLost};
+  EXPECT_EQ(Unmet(expect, outcome), "halted_for: expected deaf, got give_way peer_lost");
+  outcome.halted_for = {Rule::kGiveWay, Rule::kDeaf};
+  EXPECT_EQ(Unmet(expect, outcome), "");
+}
+
 TEST(Expectation, WhoHaltsOrArrivesCanBeLeftOpen) {
   Outcome outcome;
   outcome.halted = {kOne};

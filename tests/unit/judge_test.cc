@@ -59,6 +59,34 @@ TEST_F(JudgeTest, StandingHalfASecondToGiveWayIsAHaltAndOnlyOne) {
   EXPECT_EQ(judge_.Halted(), std::vector{kTwo});
 }
 
+TEST_F(JudgeTest, AHaltNamesTheRuleThatBeganTheStop) {
+  body_.command.decision.rule = Rule::kDeaf;
+  Observe(3);  // braking: heard late, the other is given way to in the end
+  body_.command.decision = {.rule = Rule::kGiveWay, .peer = VehicleId{1}};
+  SetSpeed(0);
+  Observe(10);
+  ASSERT_EQ(events_.size(), 1U);
+  EXPECT_EQ(events_[0].text, "deaf");
+  EXPECT_EQ(judge_.HaltedFor(), std::vector{Rule::kDeaf});
+}
+
+TEST_F(JudgeTest, AStopThatWasCalledOffIsNoCauseOfTheNextHalt) {
+  body_.command.decision.rule = Rule::kDeaf;
+  Observe(3);
+  body_.command.decision.rule = Rule::kCruise;
+  Observe(1);
+  body_.command.decision.rule = Rule::kPeerLost;
+  SetSpeed(0);
+  Observe(10);
+  EXPECT_EQ(judge_.HaltedFor(), std::vector{Rule::kPeerLost});
+  SetSpeed(0.1);  // on its way again, and at once in the way of another
+  body_.command.decision.rule = Rule::kGiveWay;
+  Observe(2);
+  SetSpeed(0);
+  Observe(10);
+  EXPECT_EQ(judge_.HaltedFor(), (std::vector{Rule::kGiveWay, Rule::kPeerLost}));
+}
+
 TEST_F(JudgeTest, AVehicleThatMovesAgainWentOn) {
   SetSpeed(0);
   body_.command.decision = {.rule = Rule::kDeaf};

@@ -60,6 +60,18 @@ TEST(Math, LogAndExpMatchOverTheirRange) {
   EXPECT_NEAR(Log(5e-324), std::log(5e-324), kTolerance);
 }
 
+TEST(Math, WhatIsNoAngleHasNoSine) {
+  for (const double x : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1e19}) {
+    EXPECT_TRUE(std::isnan(Sin(x))) << x;
+    EXPECT_TRUE(std::isnan(Cos(x))) << x;
+    EXPECT_TRUE(std::isnan(SinCos(x).sine)) << x;
+    EXPECT_TRUE(std::isnan(WrapAngle(x))) << x;
+    if (std::isnan(x)) {
+      EXPECT_TRUE(std::isnan(Exp(x)));
+    }
+  }
+}
+
 TEST(Math, WrapAngleLandsInTheHalfOpenTurn) {
   EXPECT_NEAR(WrapAngle(3 * kPi), kPi, kTolerance);
   EXPECT_NEAR(WrapAngle(-kPi), kPi, kTolerance);
