@@ -36,16 +36,28 @@
 
 #ifdef ORDER_NOT_FROZEN
 #define IsFrozen(under_way) false
-#elif defined(AGES_FAIRLY)
+#elif defined(RISES_WAITING)
 #define IsFrozen(under_way) ((under_way) && !(waits && !go[i]))
 #else
 #define IsFrozen(under_way) (under_way)
 #endif
 
-#ifdef AGES_FAIRLY
+#ifdef REMEMBERS_WAITING
 #define ForgetsWaiting(rests_) false
 #else
 #define ForgetsWaiting(rests_) (rests_)
+#endif
+
+#ifdef THROUGH_FIRST_GUESSED
+#define IsThroughFirst(own, peer, age) true
+#else
+#define IsThroughFirst(own, peer, age) (StepsThrough(own) < StepsToZone(peer) - (age))
+#endif
+
+#ifdef OVER_TOO_EARLY
+#define IsConflict(p_) ((p_) != FAR && !InZone(p_))
+#else
+#define IsConflict(p_) ((p_) != FAR)
 #endif
 
 #ifdef SILENCE_IS_CONSENT
@@ -92,10 +104,14 @@ bool old_grant[N];
 #ifdef NO_CLAIMS
 #define Claimed(p_, a_) false
 #else
+#ifdef CLAIM_WITHOUT_STOPPING_WAY
+#define Claimed(p_, a_) InZone(p_)
+#else
 /* Where a peer that was at p_ when its beacon of that age was said can be by the end of this tick. */
 #define Claimed(p_, a_)                                          \
   (InZone(p_) || (Rolls(p_) && (p_) - GATE + (a_) >= RUNUP) || \
    ((p_) != FAR && (p_) <= GATE && (a_) >= RUNUP))
+#endif
 #endif
 
 #ifdef NO_AGREEMENT

@@ -122,9 +122,9 @@ inline Look(i) {
   a = TrustedAge(heard[j]);
   standing = p == GATE;
   goes_first = GoesFirst(Said(j, heard[j]).waited, j, order[i], i);
-  conflict = p != FAR && !(standing && !goes_first);
+  conflict = IsConflict(p) && !(standing && !goes_first);
   grants = Grants(Said(j, heard[j]).gives_way_to == i + 1 || (standing && !goes_first));
-  through = !conflict || (IsNear(place[i]) && StepsThrough(place[i]) < StepsToZone(p) - a)
+  through = !conflict || (IsNear(place[i]) && IsThroughFirst(place[i], p, a))
 }
 
 inline UpdateFresh(i) {
