@@ -58,9 +58,8 @@ std::uint32_t EchoesOf(Vec2 centre_world, Vec2 velocity_world, double radius_m,
                        const Situation& s) {
   const VehicleProfile& profile = s.options.profile;
   std::uint32_t explains = 0;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
+  for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
     const SensorView& view = s.ranges[i];
-    if (view.kind != Echo::kEcho) continue;
     // Both bodies where they were when it fired, for their turning is slow against that.
     const double age_s = EchoAge(view, s.tick, s.options.tick_period);
     const Vec2 centre =

@@ -12,8 +12,8 @@ constexpr double kLostMargin_s = 1.0;     // on top of the time a silent peer ma
 // The nearest echo that is this peer's body; huge if no sensor hears it.
 double NearestEchoOf(const PeerView& view, const Situation& s) {
   double nearest = 1e9;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
-    if ((view.explains >> i & 1U) != 0) nearest = std::min(nearest, s.ranges[i].range_m);
+  for (const std::size_t i : BitsOf(view.explains)) {
+    nearest = std::min(nearest, s.ranges[i].range_m);
   }
   return nearest;
 }

@@ -189,7 +189,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.order = ActingOrder(state, options_.id);
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
-  s.forward_world = Forward(s.world_from_body);
+  s.forward_world = state.odometry.ForwardWorld();
   LookAhead(&s);
   s.arrived = state.arrived;
   return s;
@@ -235,11 +235,9 @@ void Vehicle::ListenForMovers(Situation* s) {
   }
   const bool turns =
       state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
-  for (std::size_t i = 0; i < kSensorCount && !turns; ++i) {
-    const bool near =
-        s->ranges[i].kind == Echo::kEcho &&
-        s->ranges[i].range_m < (state.deaf ? options_.gate_exit_m : options_.gate_enter_m);
-    if (!near || (s->explained >> i & 1U) != 0 || !MovesByItself(i, *s)) continue;
+  const double near_m = state.deaf ? options_.gate_exit_m : options_.gate_enter_m;
+  for (const std::size_t i : BitsOf(turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
+    if (s->ranges[i].range_m >= near_m || !MovesByItself(i, *s)) continue;
     moving = true;
     state.deaf_sensor = static_cast<int>(i);
   }
