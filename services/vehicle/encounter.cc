@@ -12,8 +12,8 @@ constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may n
 // The nearest echo that is this peer's body; huge if no sensor hears it.
 double NearestEchoOf(const PeerView& view, const Situation& s) {
   double nearest = 1e9;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
-    if ((view.explains >> i & 1U) != 0) nearest = std::min(nearest, s.ranges[i].range_m);
+  for (const std::size_t i : BitsOf(view.explains)) {
+    nearest = std::min(nearest, s.ranges[i].range_m);
   }
   return nearest;
 }
@@ -22,19 +22,20 @@ double NearestEchoOf(const PeerView& view, const Situation& s) {
 // paths conflict, by beacon, or when the ultrasonics do: the union of both.
 bool Begins(const PeerView& view, const Situation& s) {
   if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
+  const bool by_conflict = s.options.behaviour != Behaviour::kLectureYield;
+  if (by_conflict && !view.conflict) return false;
   const double by_metric_m = view.gap_m - view.gate_gap_m;  // nearer by so much; never negative
   const bool critically_close = NearestEchoOf(view, s) - by_metric_m < CriticalDistance(s, view);
   if (s.options.behaviour == Behaviour::kLectureYield) {
-    const bool parting = !view.conflict && view.closing_m_s <= 0;
+    const bool parting = !view.conflict && ClosingSpeed(view, s) <= 0;
     return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
   }
-  if (!view.conflict) return false;
   return critically_close || !IsThroughFirst(view, s);
 }
 
 bool IsOver(const PeerView& view, const Situation& s) {
   if (view.conflict) return false;
-  return view.gate_gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
+  return view.gate_gap_m >= s.options.gate_exit_m || ClosingSpeed(view, s) <= 0;
 }
 
 // A silent peer holds nobody any longer once it had the time to pass and nothing near is heard; or
