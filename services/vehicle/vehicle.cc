@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <type_traits>
 
 #include "services/types/check.h"
@@ -75,8 +76,8 @@ VehicleId BlockedBy(const Situation& s, const Action& action) {
 Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
     : options_(options),
       cones_(ConesOf(options.profile)),
-      state_(std::make_unique<VehicleState>()),
-      views_(std::make_unique<std::array<PeerView, kMaxPeers>>()) {
+      state_(std::make_unique_for_overwrite<VehicleState>()),
+      views_(std::make_unique_for_overwrite<std::array<PeerView, kMaxPeers>>()) {
   GIVEWAY_CHECK(options.id != kNobody);
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->boot_epoch = boot_epoch;
@@ -221,13 +222,13 @@ void Vehicle::LookAtPeers(Situation* s) {
     peers_heard_ += fresh ? 1 : 0;
     s->someone_lost = s->someone_lost || IsLost(peer, fresh);
     if (!CanMatter(peer, fresh, *s)) continue;
-    PeerView& view = (*views_)[count++];
-    view = LookAt(&peer, fresh, *s);
-    s->explained |= view.explains;
+    // Made where it stays: copying a view costs as much as making it.
+    const auto* view = new (&(*views_)[count++]) PeerView(LookAt(&peer, fresh, *s));
+    s->explained |= view->explains;
   }
   const std::span<PeerView> views(views_->data(), count);
   FindBoxes(views, *s);
-  UpdateEncounters(views, *s);
+  s->holds = UpdateEncounters(views, *s);
   s->peers = views;
 }
 
