@@ -41,6 +41,7 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   message.set_vehicle_hours_per_minute(Rounded(report.vehicle_hours_per_minute));
   if (report.delay_p50_s) message.mutable_delay_s()->set_p50(Rounded(*report.delay_p50_s));
   if (report.delay_p99_s) message.mutable_delay_s()->set_p99(Rounded(*report.delay_p99_s));
+  if (report.delay_mean_s) message.mutable_delay_s()->set_mean(Rounded(*report.delay_mean_s));
   if (report.min_separation_m) message.set_min_separation_m(Rounded(*report.min_separation_m));
   message.set_hash(report.hash);
   for (const std::uint32_t seed : report.failing_seeds) message.add_failing_seeds(seed);
@@ -75,9 +76,9 @@ std::string ToText(const VirtualReport& report) {
   }
   text += fmt::format("  {:.2f} vehicle-hours, {:.1f} a minute\n", report.vehicle_hours,
                       report.vehicle_hours_per_minute);
-  if (report.delay_p50_s && report.delay_p99_s) {
-    text += fmt::format("  delay: median {:.1f} s, 99 % below {:.1f} s\n", *report.delay_p50_s,
-                        *report.delay_p99_s);
+  if (report.delay_p50_s && report.delay_p99_s && report.delay_mean_s) {
+    text += fmt::format("  delay: mean {:.1f} s, median {:.1f} s, 99 % below {:.1f} s\n",
+                        *report.delay_mean_s, *report.delay_p50_s, *report.delay_p99_s);
   }
   if (!report.failing_seeds.empty()) {
     text += "  failing seeds:";

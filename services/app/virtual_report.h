@@ -30,6 +30,7 @@ struct VirtualReport {
   double vehicle_hours_per_minute = 0;
   std::optional<double> delay_p50_s;
   std::optional<double> delay_p99_s;
+  std::optional<double> delay_mean_s;
   std::optional<double> min_separation_m;
   std::string hash;
   std::vector<std::uint32_t> failing_seeds;

@@ -96,7 +96,7 @@ std::optional<Proposal> Deaf(const Situation& s) {
 
 std::optional<Proposal> Obstacle(const Situation& s) {
   std::optional<Proposal> nearest;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
+  for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
     const std::optional<double> free_m = FreeAhead(i, s);
     if (!free_m) continue;
     const double limit = SpeedToStopWithin(*free_m - kStandOff_m, ReactionSeconds(s.options),

@@ -74,6 +74,7 @@ VehicleId BlockedBy(const Situation& s, const Action& action) {
 
 Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
     : options_(options),
+      cones_(ConesOf(options.profile)),
       state_(std::make_unique<VehicleState>()),
       views_(std::make_unique<std::array<PeerView, kMaxPeers>>()) {
   GIVEWAY_CHECK(options.id != kNobody);
@@ -86,6 +87,7 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
 void Vehicle::Reseat(const VehicleOptions& options) {
   GIVEWAY_CHECK(options.id == options_.id, Number(options.id));
   options_ = options;
+  cones_ = ConesOf(options.profile);
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
   state_->placed_in = kNoEpoch;
 }
@@ -176,7 +178,8 @@ void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
 Situation Vehicle::Look(const Inputs& inputs) {
   VehicleState& state = *state_;
   const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
-  Situation s{.options = options_, .ranges = state.ranges, .objects = state.objects};
+  Situation s{
+      .options = options_, .ranges = state.ranges, .cones = cones_, .objects = state.objects};
   s.now = inputs.now;
   s.tick = state.tick;
   s.run_state = state.run_state;
@@ -189,7 +192,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.order = ActingOrder(state, options_.id);
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
-  s.forward_world = Forward(s.world_from_body);
+  s.forward_world = state.odometry.ForwardWorld();
   LookAhead(&s);
   s.arrived = state.arrived;
   return s;
@@ -214,10 +217,13 @@ void Vehicle::LookAtPeers(Situation* s) {
   peers_heard_ = 0;
   for (Peer& peer : state_->peers.Peers()) {
     if (!peer.known) continue;
-    PeerView view = LookAt(&peer, *s);
-    peers_heard_ += view.fresh ? 1 : 0;
+    const bool fresh = IsFresh(peer, s->now, s->tick, options_);
+    peers_heard_ += fresh ? 1 : 0;
+    s->someone_lost = s->someone_lost || IsLost(peer, fresh);
+    if (!CanMatter(peer, fresh, *s)) continue;
+    PeerView& view = (*views_)[count++];
+    view = LookAt(&peer, fresh, *s);
     s->explained |= view.explains;
-    (*views_)[count++] = view;
   }
   const std::span<PeerView> views(views_->data(), count);
   FindBoxes(views, *s);
@@ -235,11 +241,9 @@ void Vehicle::ListenForMovers(Situation* s) {
   }
   const bool turns =
       state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
-  for (std::size_t i = 0; i < kSensorCount && !turns; ++i) {
-    const bool near =
-        s->ranges[i].kind == Echo::kEcho &&
-        s->ranges[i].range_m < (state.deaf ? options_.gate_exit_m : options_.gate_enter_m);
-    if (!near || (s->explained >> i & 1U) != 0 || !MovesByItself(i, *s)) continue;
+  const double near_m = state.deaf ? options_.gate_exit_m : options_.gate_enter_m;
+  for (const std::size_t i : BitsOf(turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
+    if (s->ranges[i].range_m >= near_m || !MovesByItself(i, *s)) continue;
     moving = true;
     state.deaf_sensor = static_cast<int>(i);
   }
