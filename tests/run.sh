@@ -4,7 +4,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
-ALL_STAGES=(format rules unit golden link system asan fuzz tsan)
+ALL_STAGES=(format rules unit golden model link system asan fuzz tsan)
 
 usage() {
   cat <<'TEXT'
@@ -15,13 +15,14 @@ Stages, by default all of them:
   rules    include arrows, sizes, names, shell scripts
   unit     pure tests: no sockets, no clocks
   golden   hashes that must never change
+  model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
   asan     unit and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, beacons and scans in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
 
-  --full   more repetitions of the system tests, five minutes a fuzz target
+  --full   more repetitions of the system tests, the largest models, five minutes a fuzz target
 
 The last line counts test cases: N passed, N failed.
 TEXT
@@ -30,13 +31,14 @@ TEXT
 stages=()
 export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2
 fuzz_seconds=20
+full=false
 for argument in "$@"; do
   case $argument in
     --help | -h)
       usage
       exit 0
       ;;
-    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 fuzz_seconds=300 ;;
+    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 fuzz_seconds=300 full=true ;;
     all) stages=("${ALL_STAGES[@]}") ;;
     *)
       [[ " ${ALL_STAGES[*]} " == *" $argument "* ]] ||
@@ -124,6 +126,13 @@ stage_rules() {
 
 stage_unit() { prepare release && run_ctest release unit "$(nproc)"; }
 stage_golden() { prepare release && run_ctest release golden "$(nproc)"; }
+
+stage_model() {
+  prepare release
+  run_ctest release model "$(nproc)"
+  if $full; then run_ctest release model_full 1; fi
+}
+
 stage_link() { prepare release && run_ctest release link 1; }
 stage_system() { prepare release && run_ctest release system 1; }
 

@@ -25,7 +25,7 @@ rm -f giveway.pml.trail
 read -ra flags <<<"$switches"
 
 # Breadth first finds the shortest counter-example; where there is none, depth first takes less.
-compile=(-O2 -w -DNOREDUCE -DCOLLAPSE -DMEMLIM=$MEMORY_MB)
+compile=(-O2 -w -DNOREDUCE -DCOLLAPSE "-DMEMLIM=$MEMORY_MB")
 run=(-m3000000)
 case $property in
   safety)
