@@ -4,7 +4,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
-ALL_STAGES=(format rules unit golden virtual link system asan fuzz tsan)
+ALL_STAGES=(format rules unit golden virtual model link system asan fuzz tsan)
 
 usage() {
   cat <<'TEXT'
@@ -16,14 +16,15 @@ Stages, by default all of them:
   unit     pure tests: no sockets, no clocks
   golden   hashes that must never change
   virtual  fleets of 2-50 in virtual time, 200 seeds a generator, judged by invariants
+  model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
   asan     unit and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, beacons and scans in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
 
-  --full   more repetitions of the system tests, five minutes a fuzz target, 10 000 seeds a
-           generator (hours)
+  --full   more repetitions of the system tests, the largest models, five minutes a fuzz target,
+           10 000 seeds a generator (hours)
 
 The last line counts test cases: N passed, N failed.
 TEXT
@@ -33,13 +34,14 @@ stages=()
 export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2
 seeds=200
 fuzz_seconds=20
+full=false
 for argument in "$@"; do
   case $argument in
     --help | -h)
       usage
       exit 0
       ;;
-    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 fuzz_seconds=300 seeds=10000 ;;
+    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 fuzz_seconds=300 seeds=10000 full=true ;;
     all) stages=("${ALL_STAGES[@]}") ;;
     *)
       [[ " ${ALL_STAGES[*]} " == *" $argument "* ]] ||
@@ -134,6 +136,13 @@ stage_virtual() {
       bash tests/virtual/campaign.sh --generators "$generator" --seeds "$seeds"
   done
 }
+
+stage_model() {
+  prepare release
+  run_ctest release model "$(nproc)"
+  if $full; then run_ctest release model_full 1; fi
+}
+
 stage_link() { prepare release && run_ctest release link 1; }
 stage_system() { prepare release && run_ctest release system 1; }
 
