@@ -7,6 +7,7 @@
 
 #include "report.pb.h"
 #include "services/app/utf8.h"
+#include "services/app/violations.h"
 #include "services/types/check.h"
 
 namespace giveway::app {
@@ -19,15 +20,6 @@ schema::Report::Verdict ToSchema(Verdict verdict) {
 
 double Rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
-void SetViolations(const VirtualReport& report, schema::Violations* message) {
-  const auto* descriptor = schema::Violations::descriptor();
-  for (const BrokenInvariant& broken : report.violations) {
-    const auto* field = descriptor->FindFieldByName(broken.name);
-    GIVEWAY_CHECK(field != nullptr, broken.name);
-    message->GetReflection()->SetUInt32(message, field, broken.count);
-  }
-}
-
 schema::VirtualReport ToSchema(const VirtualReport& report) {
   schema::VirtualReport message;
   message.set_scenario(WellFormed(report.scenario));
@@ -36,7 +28,7 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   message.set_runs(report.runs);
   message.set_failed_runs(report.failed_runs);
   message.set_contacts(report.contacts);
-  SetViolations(report, message.mutable_violations());
+  SetViolations(report.violations, message.mutable_violations());
   message.set_vehicle_hours(Rounded(report.vehicle_hours));
   message.set_vehicle_hours_per_minute(Rounded(report.vehicle_hours_per_minute));
   if (report.delay_p50_s) message.mutable_delay_s()->set_p50(Rounded(*report.delay_p50_s));

@@ -11,12 +11,6 @@
 
 namespace giveway::app {
 
-// How often an invariant was broken, in the order they are printed.
-struct BrokenInvariant {
-  std::string name;
-  std::uint32_t count = 0;
-};
-
 // Field names, presence and meaning are those of the JSON object; see idl/report.proto.
 struct VirtualReport {
   std::string scenario;

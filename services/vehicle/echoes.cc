@@ -67,6 +67,7 @@ std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
 
 std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
   const VehicleProfile& profile = s.options.profile;
+  if (s.ranges.Echoes() == 0) return 0;
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.world_from_body.position_world);
   std::uint32_t explains = 0;

@@ -182,7 +182,7 @@ void BeginOrEnd(const PeerView& view, const Situation& s) {
 
 }  // namespace
 
-void UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
+bool UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
   bool holds = false;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
@@ -190,11 +190,12 @@ void UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
     encounter.holds = encounter.active && Holds(view, s);
     holds = holds || encounter.holds;
   }
-  if (holds) return;
+  if (holds) return true;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     if (encounter.active && view.conflict && EntersBox(view, s)) encounter.entered = true;
   }
+  return false;
 }
 
 }  // namespace giveway

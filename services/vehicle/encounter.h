@@ -7,7 +7,8 @@
 namespace giveway {
 
 // Moves every peer's encounter on by one tick, and says for which of them this vehicle holds.
-void UpdateEncounters(std::span<const PeerView> views, const Situation& s);
+// True if there is any.
+bool UpdateEncounters(std::span<const PeerView> views, const Situation& s);
 
 // True if this vehicle is the one to wait in the encounter, and can: it stands, or will before
 // the conflict. Only then may it say that it gives way.

@@ -149,10 +149,6 @@ double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
 
 }  // namespace
 
-double ReactionSeconds(const VehicleOptions& options) {
-  return 2 * Seconds(options.tick_period) + Seconds(options.sonar_refresh);
-}
-
 double OwnStoppingDistance(const Situation& s) {
   const double speed = std::max(0.0, s.speed_m_s);
   constexpr double kInHand_m = 0.03;
@@ -169,11 +165,6 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
                       StoppingDistance(std::max(0.0, view.speed_m_s), reaction, braking);
   const double uncertainty = 2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
   return std::max(s.options.gate_enter_m, both + kMargin_m + uncertainty);
-}
-
-Vec2 InBody(const Situation& s, Vec2 point_world) {
-  const Vec2 offset = point_world - s.world_from_body.position_world;
-  return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
 }
 
 double RoomBeside(const PeerView& view, const Situation& s) {
@@ -225,33 +216,36 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
 }
 
 PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
-  PeerView view{.peer = peer};
+  PeerView view;
   const Beacon& beacon = peer->beacon;
   const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
+  view.peer = peer;
   view.fresh = fresh;
   view.lost = IsLost(*peer, fresh);
   view.world_from_body =
       AdvanceArc(beacon.world_from_body, twist, CarriedSeconds(beacon, fresh, s));
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
-  const bool knows_lights = s.options.behaviour == Behaviour::kCooperative;
-  view.at_signal = knows_lights && fresh && beacon.rule == Rule::kSignal;
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  view.at_signal = cooperative && fresh && beacon.rule == Rule::kSignal;
   view.goes_first = ComesFirst(view, s);
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
-  view.gap_m = Norm(offset) - s.options.profile.body_radius_m - beacon.body_radius_m;
-  view.gate_gap_m = GateDistance(s.options.distance_metric, offset) -
-                    s.options.profile.body_radius_m - beacon.body_radius_m;
+  const double radius_m = s.options.profile.body_radius_m;
+  view.gap_m = Norm(offset) - radius_m - beacon.body_radius_m;
+  view.gate_gap_m =
+      GateDistance(s.options.distance_metric, offset) - radius_m - beacon.body_radius_m;
   view.leads = Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
   view.crossing = CrossingWith(view, s);
   // One that stands and comes later in the order is a body to steer round.
-  const bool steered_round = s.options.behaviour == Behaviour::kCooperative && view.standing;
-  if (!steered_round || view.goes_first) view.conflict = view.crossing;
+  const bool steered_round = cooperative && view.standing && !view.goes_first;
+  if (!steered_round) view.conflict = view.crossing;
+  view.box_begin_m = 0;
   view.free_m = FreeOf(view, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||
                           WaitsAtSignal(view, s));
-  if (fresh) view.explains = EchoesOf(view, s);
+  view.explains = fresh ? EchoesOf(view, s) : 0;
   return view;
 }
 

@@ -17,27 +17,28 @@
 
 namespace giveway {
 
-// A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
+// A peer within reach of an encounter, carried forward by its wheel speeds to this tick. LookAt
+// fills in everything.
 struct PeerView {
-  Peer* peer = nullptr;
+  Peer* peer;
   Pose world_from_body;
-  double speed_m_s = 0;  // forward, as measured by the peer
-  bool fresh = false;
-  bool lost = false;
-  bool standing = false;    // below kStandingSpeed
-  bool goes_first = false;  // before this vehicle, by both keys as published
-  bool grants = false;     // fresh, and says that it gives way to this vehicle or stays where it is
-  bool at_signal = false;  // fresh, and says that a light stops it
-  double gap_m = 0;        // shell to shell
-  double gate_gap_m = 0;   // the same by the metric of the gates; never above gap_m
-  bool leads = false;      // drives ahead in the own lane
+  double speed_m_s;  // forward, as measured by the peer
+  bool fresh;
+  bool lost;
+  bool standing;      // below kStandingSpeed
+  bool goes_first;    // before this vehicle, by both keys as published
+  bool grants;        // fresh, and says that it gives way to this vehicle or stays where it is
+  bool at_signal;     // fresh, and says that a light stops it
+  bool leads;         // drives ahead in the own lane
+  double gap_m;       // shell to shell
+  double gate_gap_m;  // the same by the metric of the gates; never above gap_m
   std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
   std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
-  double box_begin_m = 0;  // of `conflict`: how far to drive without standing in anyone's way
+  double box_begin_m;  // of `conflict`: how far to drive without standing in anyone's way
   // Straight on until the own shell is at the peer's claim; huge if never, or so far on that the
   // own cruise speed is not too fast for it.
-  double free_m = 0;
-  std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
+  double free_m;
+  std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
 struct Situation {
@@ -74,6 +75,7 @@ struct Situation {
   // Those that are near, that cross the own way, or with whom an encounter is under way.
   std::span<const PeerView> peers;
   bool someone_lost = false;  // of all peers
+  bool holds = false;         // for any of them
   LastHeard last_heard;       // of lecture_printed alone, which has no peers
 };
 
@@ -86,7 +88,9 @@ inline constexpr double kPassingMargin_m = 0.2;
 
 // From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old, of
 // readings that may be older by the ultrasonics' refresh.
-double ReactionSeconds(const VehicleOptions& options);
+inline double ReactionSeconds(const VehicleOptions& options) {
+  return 2 * Seconds(options.tick_period) + Seconds(options.sonar_refresh);
+}
 
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
 double OwnStoppingDistance(const Situation& s);
@@ -96,7 +100,10 @@ double OwnStoppingDistance(const Situation& s);
 double CriticalDistance(const Situation& s, const PeerView& view);
 
 // A point given in the world, in the own body frame.
-Vec2 InBody(const Situation& s, Vec2 point_world);
+inline Vec2 InBody(const Situation& s, Vec2 point_world) {
+  const Vec2 offset = point_world - s.world_from_body.position_world;
+  return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
+}
 
 // How far the two axle centres keep apart when one steers round the other.
 double RoomBeside(const PeerView& view, const Situation& s);

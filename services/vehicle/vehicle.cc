@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <type_traits>
 
 #include "services/types/check.h"
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
+#include "services/vehicle/blocked.h"
 #include "services/vehicle/box.h"
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
@@ -18,9 +20,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
-constexpr double kQueueWithin_m = 1.5;  // nearer than this, the one ahead in the lane holds up
-constexpr std::uint32_t kBlockedTicks = 20;
-constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
+constexpr std::uint32_t kBlockedTicks = 20;  // what was in the way is still, for so long
 // Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
 constexpr double kSharpTurn_rad_s = 0.25;
 constexpr std::uint32_t kTurnEchoTicks = 6;
@@ -36,47 +36,13 @@ double WheelError(const VehicleProfile& profile) {
               profile.encoder_noise * profile.encoder_noise);
 }
 
-// The own key, or that of the first in the order that is blocked by this vehicle: whoever it waits
-// for would otherwise make that one wait too.
-OrderKey ActingOrder(const VehicleState& state, VehicleId own) {
-  OrderKey acting = state.order;
-  for (const Peer& peer : state.peers.Peers()) {
-    if (peer.known && peer.beacon.blocked_by == own && GoesFirst(peer.beacon.order, acting)) {
-      acting = peer.beacon.order;
-    }
-  }
-  return acting;
-}
-
-// True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
-bool SlowsDown(const PeerView& view, const Situation& s) {
-  return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
-         view.speed_m_s < s.options.cruise_m_s;
-}
-
-// Who is bodily in the way: stands where this vehicle wants to be, leads in its lane more slowly,
-// keeps it from driving, or is what it fails to get round.
-VehicleId BlockedBy(const Situation& s, const Action& action) {
-  if (s.arrived) return kNobody;
-  for (const PeerView& view : s.peers) {
-    const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
-    if (there && Occupies(view, Toward(s), s)) return view.peer->id;
-  }
-  const auto leader =
-      std::ranges::find_if(s.peers, [&s](const PeerView& view) { return SlowsDown(view, s); });
-  if (leader != s.peers.end()) return leader->peer->id;
-  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
-  if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
-  return s.aimless ? action.round : kNobody;
-}
-
 }  // namespace
 
 Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
     : options_(options),
       cones_(ConesOf(options.profile)),
-      state_(std::make_unique<VehicleState>()),
-      views_(std::make_unique<std::array<PeerView, kMaxPeers>>()) {
+      state_(std::make_unique_for_overwrite<VehicleState>()),
+      views_(std::make_unique_for_overwrite<std::array<PeerView, kMaxPeers>>()) {
   GIVEWAY_CHECK(options.id != kNobody);
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->boot_epoch = boot_epoch;
@@ -189,7 +155,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.turn_rad_s = twist.turn_rad_s;
   s.wheels = state.wheels;
   s.sigma_position_m = state.odometry.SigmaPosition();
-  s.order = ActingOrder(state, options_.id);
+  s.order = ActingOrder(state.order, state.peers, options_.id);
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
   s.forward_world = state.odometry.ForwardWorld();
@@ -221,13 +187,13 @@ void Vehicle::LookAtPeers(Situation* s) {
     peers_heard_ += fresh ? 1 : 0;
     s->someone_lost = s->someone_lost || IsLost(peer, fresh);
     if (!CanMatter(peer, fresh, *s)) continue;
-    PeerView& view = (*views_)[count++];
-    view = LookAt(&peer, fresh, *s);
-    s->explained |= view.explains;
+    // Made where it stays: copying a view costs as much as making it.
+    const auto* view = new (&(*views_)[count++]) PeerView(LookAt(&peer, fresh, *s));
+    s->explained |= view->explains;
   }
   const std::span<PeerView> views(views_->data(), count);
   FindBoxes(views, *s);
-  UpdateEncounters(views, *s);
+  s->holds = UpdateEncounters(views, *s);
   s->peers = views;
 }
 
@@ -286,12 +252,9 @@ void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
     state.blocked_tick = s.tick;
     return;
   }
-  const auto still_near = [&state](const PeerView& view) {
-    return view.peer->id == state.blocked_by && view.fresh && view.gap_m < kQueueWithin_m;
-  };
   const bool recent = state.blocked_tick != kNoTick && !s.arrived &&
                       TicksBetween(state.blocked_tick, s.tick) <= kBlockedTicks;
-  if (!recent || std::ranges::none_of(s.peers, still_near)) state.blocked_by = kNobody;
+  if (!recent || !IsStillNear(state.blocked_by, s)) state.blocked_by = kNobody;
 }
 
 Beacon Vehicle::Say(const Situation& s) {

@@ -46,17 +46,17 @@ std::vector<Arrival> ArrivalsOf(const Scenario& scenario, double near_m) {
   for (const VehicleOptions& options : scenario.vehicles) {
     const Line own = LineOf(options);
     Arrival& arrival = arrivals.emplace_back();
-    double comes_m = Norm(own.along);
+    arrival.comes_m = Norm(own.along);
     for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
       if (scenario.vehicles[i].id == options.id) continue;
       const Line other = LineOf(scenario.vehicles[i]);
-      comes_m = std::min(comes_m, CrossingAt(own, other).value_or(comes_m));
+      arrival.comes_m = std::min(arrival.comes_m, CrossingAt(own, other).value_or(arrival.comes_m));
       if (!Parallel(own, other)) continue;
       const bool stands_ahead = DistanceFrom(own, other.from) < near_m;
       const bool ends_farther = DistanceFrom(other, own.from + own.along) < near_m;
       if (stands_ahead || ends_farther) arrival.let_first.push_back(i);
     }
-    arrival.comes_s = comes_m / options.cruise_m_s;
+    arrival.comes_s = arrival.comes_m / options.cruise_m_s;
   }
   return arrivals;
 }

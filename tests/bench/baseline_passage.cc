@@ -79,8 +79,8 @@ class Reach {
     return std::nullopt;
   }
 
-  // Back through the fastest there was: what time is to be lost is lost early, and the way is left
-  // to others sooner.
+  // Back through the slowest there was, so that at any time it is as far on as it can be: who
+  // comes behind or across finds the way free the sooner.
   Passage TraceBack(std::uint32_t step, std::uint32_t unit, std::uint32_t level) const {
     Passage passage = {.levels = std::vector<std::uint32_t>(step + 1, 0),
                        .units = std::vector<std::uint32_t>(step + 1, 0),
@@ -89,9 +89,10 @@ class Reach {
       passage.levels[step] = level;
       passage.units[step] = unit;
       const FreeUnits& open = passing_.free_during(step);
-      for (std::uint32_t from = std::min(level + pace_.down, pace_.top) + 1; from-- > 0;) {
+      const std::uint32_t fastest = std::min(level + pace_.down, pace_.top);
+      for (std::uint32_t from = level > 0 ? level - 1 : 0; from <= fastest; ++from) {
         const std::uint32_t driven = pace_.Units(from, level);
-        if (from + 1 < level || driven > unit || !Has(open, unit - driven)) continue;
+        if (driven > unit || !Has(open, unit - driven)) continue;
         if (!Has(steps_[step - 1][from], unit - driven)) continue;
         unit -= driven;
         level = from;

@@ -57,6 +57,13 @@ Planned PlannedAt(const Passage& passage, const Pace& pace, std::uint32_t tick) 
           .speed_m_s = (from + gain * (ticks + 1)) * pace.level_m_s};
 }
 
+// When it has driven so far, in seconds.
+double PassesAt(const Passage& passage, const Pace& pace, double driven_m) {
+  const auto there = std::ranges::lower_bound(passage.units, driven_m / pace.unit_m);
+  const double step_s = kTicksAStep * pace.unit_m / pace.level_m_s;
+  return step_s * static_cast<double>(there - passage.units.begin());
+}
+
 double LargestBody_m(const Scenario& scenario) {
   double largest_m = 0;
   for (const VehicleOptions& options : scenario.vehicles) {
@@ -101,8 +108,9 @@ bool Reservation::MayAsk(const Member& member) const {
 void Reservation::ServeEveryone() {
   std::vector<std::size_t> waiting(members_.size());
   std::iota(waiting.begin(), waiting.end(), std::size_t{0});
-  std::ranges::stable_sort(waiting, {}, [&](std::size_t i) { return members_[i].arrival.comes_s; });
   while (!waiting.empty()) {
+    std::ranges::stable_sort(waiting, {},
+                             [&](std::size_t i) { return members_[i].arrival.comes_s; });
     auto next = std::ranges::find_if(waiting, [&](std::size_t i) { return MayAsk(members_[i]); });
     // All wait for each other: the first to come begins.
     if (next == waiting.end()) next = waiting.begin();
@@ -110,7 +118,22 @@ void Reservation::ServeEveryone() {
       next = std::ranges::find_if(waiting, [&](std::size_t i) { return Serve(&members_[i]); });
       if (next == waiting.end()) return;
     }
+    HoldBackThoseBehind(*next);
     waiting.erase(next);
+  }
+}
+
+// Who is behind another in a lane comes to the crossing no sooner than that one has gone on by a
+// body's length.
+void Reservation::HoldBackThoseBehind(std::size_t ahead) {
+  const Member& first = members_[ahead];
+  const double gone_m = first.arrival.comes_m + 2 * Radius(first);
+  const double gone_s = PassesAt(*first.passage, first.pace, gone_m);
+  for (Member& behind : members_) {
+    if (std::ranges::find(behind.arrival.let_first, ahead) == behind.arrival.let_first.end()) {
+      continue;
+    }
+    behind.arrival.comes_s = std::max(behind.arrival.comes_s, gone_s);
   }
 }
 

@@ -43,6 +43,7 @@ class Reservation : public Pilot {
   };
 
   void ServeEveryone();
+  void HoldBackThoseBehind(std::size_t ahead);
   bool MayAsk(const Member& member) const;
   // False: it stays where it stands.
   bool Serve(Member* member);

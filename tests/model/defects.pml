@@ -1,5 +1,5 @@
 /* The points at which the model can be broken on purpose: as it should be, and each planted defect.
- * What each must make SPIN find stands in defects.tsv. */
+ * What SPIN must find stands in runs.txt. */
 
 /* The order, as it should be. */
 #define ComesFirst(waited_a, a_, waited_b, b_) \
@@ -118,4 +118,10 @@ bool old_grant[N];
 #define IGNORES_AGREEMENT true
 #else
 #define IGNORES_AGREEMENT false
+#endif
+
+#if defined(NO_AGREEMENT) || defined(ONLY_EXCLUSION)
+#define CHECKS_AGREEMENT false
+#else
+#define CHECKS_AGREEMENT true
 #endif

@@ -31,8 +31,9 @@
  *
  * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: nobody comes
  * again; EVEN: one speed; STALL: whoever rolls may be slow; ONE_STEP: through the zone in one tick;
- * NO_CLAIMS, NO_AGREEMENT: one of the two reasons for safety is missing; GOOD_RADIO: nothing is lost;
- * WEATHER: losses end some day. Planted defects are listed in defects.tsv, runs in runs.tsv.
+ * NO_CLAIMS, NO_AGREEMENT: one of the two reasons for safety is missing; ONLY_EXCLUSION: the other
+ * safety properties are not looked at; WEATHER: losses end some day, and WHO must pass; the planted
+ * defects. runs.txt says which are tried together, and what SPIN must find.
  */
 #ifndef N
 #define N 2
@@ -106,14 +107,21 @@ bool stood[N * N];    /* last heard standing and second: no conflict */
 byte waited[N];       /* ticks */
 byte order[N];        /* the waited part of the own key, as published */
 byte gives_way[N];    /* said at the end of this tick */
-bool frozen[N];       /* this tick: encounters are under way, as before: the order stands */
+bool under_way[N];    /* this tick: encounters are under way, and were in the tick before */
+bool frozen[N];       /* this tick: and so the order stands */
 bool rests[N];        /* this tick: no encounter, no waiting: what it waited is forgotten */
 
 /* Scratch: heard lives from Hear to the end of Decide, the rest within one step; 0 between. */
 byte heard[N];
 byte v, w, j, p, a;
 bool conflict, goes_first, standing, grants, through;
-bool clear, deaf, waits, met, meets_any;
+bool clear, deaf, waits, met, meets_any, held;
+
+/* The safety properties. SPIN names the one that is broken. */
+bool two_in_zone;  /* exclusion: never two bodies in the zone, dead or alive */
+bool out_of_order; /* order: nobody enters before one that it hears near and that comes first */
+bool unfrozen;     /* frozen: the order published stands while encounters are under way */
+bool unlatched;    /* latch: a stop for a peer lasts until that has passed or given way */
 
 #include "defects.pml"
 
@@ -132,10 +140,12 @@ inline UpdateFresh(i) {
   released[AT(i, j)] = false;
   meets[AT(i, j)] = (meets[AT(i, j)] -> p != FAR : conflict && !through);
   stood[AT(i, j)] = meets[AT(i, j)] && !conflict;
+  held = holds[AT(i, j)];
   holds[AT(i, j)] = meets[AT(i, j)] && IsNear(place[i]) &&
       (goes_first -> Latched(holds[AT(i, j)]) ||
                          (conflict && SecondMustStop(IsHeardBody(p) || place[i] == LAST))
                    : !(grants || through) && (Latched(holds[AT(i, j)]) || place[i] == LAST));
+  CheckLatch(i);
   if
   :: meets[AT(i, j)] && goes_first &&
      (gives_way[i] == NOBODY || p >= Said(gives_way[i] - 1, heard[gives_way[i] - 1]).place) ->
@@ -187,21 +197,28 @@ inline Remember(i) {
   :: waits && place[i] == GATE && waited[i] < AGED_AT_MOST -> waited[i]++
   :: else
   fi;
-  frozen[i] = AGED_AT_MOST > 0 && IsFrozen(met && meets_any);
+  under_way[i] = AGED_AT_MOST > 0 && met && meets_any;
+  frozen[i] = IsFrozen(under_way[i]);
   rests[i] = AGED_AT_MOST > 0 && ForgetsWaiting(!meets_any && !waits)
 }
 
-/* The second property: nobody enters before one that it hears near and that comes first. Said once
- * more, by the order as it should be. */
+/* By the order as it should be, whatever is planted. */
 inline CheckOrder(i) {
   for (j : 0 .. N - 1) {
     if
-    :: j != i && place[i] == LAST && go[i] && IsFresh(heard[j]) ->
-       assert(!(IsNear(Said(j, heard[j]).place) &&
-                ComesFirst(Said(j, heard[j]).waited, j, order[i], i)))
+    :: CHECKS_AGREEMENT && j != i && place[i] == LAST && go[i] && IsFresh(heard[j]) ->
+       out_of_order = IsNear(Said(j, heard[j]).place) &&
+                      ComesFirst(Said(j, heard[j]).waited, j, order[i], i);
+       assert(!out_of_order)
     :: else
     fi
   }
+}
+
+inline CheckLatch(i) {
+  unlatched = CHECKS_AGREEMENT && held && !holds[AT(i, j)] && meets[AT(i, j)] && IsNear(place[i]) &&
+              (goes_first -> conflict : !(grants || through));
+  assert(!unlatched)
 }
 
 inline Decide(i) {
@@ -223,12 +240,10 @@ inline Decide(i) {
     :: else
     fi;
     Remember(i);
-#ifdef CHECK_ORDER
     CheckOrder(i);
-#endif
     for (j : 0 .. N - 1) { heard[j] = LOST }
     j = 0; p = 0; a = 0; conflict = 0; goes_first = 0; standing = 0; grants = 0; through = 0;
-    clear = 0; deaf = 0; waits = 0; met = 0; meets_any = 0
+    clear = 0; deaf = 0; waits = 0; met = 0; meets_any = 0; held = 0
   }
 }
 
@@ -289,6 +304,8 @@ inline Say(i) {
      Said(i, 1).waited = order[i];
      if
      :: !frozen[i] && !InZone(place[i]) ->
+        unfrozen = under_way[i] && order[i] != (waited[i] > AGEING_LIMIT -> waited[i] : 0);
+        assert(!unfrozen);
         order[i] = (waited[i] > AGEING_LIMIT -> waited[i] : 0)
      :: else
      fi
@@ -302,12 +319,14 @@ inline Say(i) {
   :: else
   fi;
   gives_way[i] = NOBODY;
+  under_way[i] = false;
   frozen[i] = false;
   rests[i] = false
 }
 
-/* The rule to keep its own way apart: crashes come between decision and motion, so that the last
- * command still acts; then the body rolls on at will until it stands. */
+/* Crashes come between decision and motion: the last command still acts. Then the body rolls at most
+ * as far as a vehicle may that brakes: the watchdog's ticks are part of the reaction every stopping
+ * way allows for. */
 inline Crash() {
   if
   :: true
@@ -391,7 +410,8 @@ inline SayAndMove() {
   }
   v = 0;
   printf("tick\n");
-  assert(InZoneNow <= 1)
+  two_in_zone = InZoneNow > 1;
+  assert(!two_in_zone)
 }
 
 active proctype Fleet() {
@@ -407,9 +427,6 @@ active proctype Fleet() {
       printf("fast %d %d\n", v + 1, fast[v])
     }
     v = 0;
-#ifdef GOOD_RADIO
-    good = true
-#endif
   }
   do
   :: atomic { HearAndDecide(0) }
