@@ -69,6 +69,20 @@ double CosNearZero(double r) {
   return Polynomial(kTaylor, r * r);
 }
 
+// Both series at once, each with the very operations it would take by itself. The sine's is
+// shorter: its first term here is 0.
+using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
+
+SineCosine SinCosNearZero(double r) {
+  static constexpr auto kSine = AlternatingFactorials<9>(1);
+  static constexpr auto kCosine = AlternatingFactorials<10>(0);
+  const Lanes x = {r * r, r * r};
+  Lanes sum = {0, kCosine[9]};
+#pragma GCC unroll 9
+  for (std::size_t i = 9; i-- > 0;) sum = Lanes{kSine[i], kCosine[i]} + x * sum;
+  return {r * sum[0], sum[1]};
+}
+
 struct Quadrant {
   std::int64_t index;  // of the quarter turn nearest to x
   double rest;         // x minus that many quarter turns, in [-pi/4, pi/4]
@@ -89,8 +103,6 @@ double AtanUnit(double z) {
 
 }  // namespace
 
-double Sqrt(double x) { return std::sqrt(x); }  // correctly rounded by IEEE 754
-
 double Sin(double x_rad) {
   const auto [index, rest] = Reduce(x_rad);
   const double magnitude = index % 2 == 0 ? SinNearZero(rest) : CosNearZero(rest);
@@ -107,7 +119,8 @@ SineCosine SinCos(double x_rad) {
   const auto [index, rest] = Reduce(x_rad);
   // Looked up, not branched for: which quadrant a heading lies in is anybody's guess.
   static constexpr double kSigns[] = {1, -1};
-  const double magnitudes[] = {SinNearZero(rest), CosNearZero(rest)};
+  const auto [sine, cosine] = SinCosNearZero(rest);
+  const double magnitudes[] = {sine, cosine};
   return {kSigns[index >> 1 & 1] * magnitudes[index & 1],
           kSigns[(index + 1) >> 1 & 1] * magnitudes[(index + 1) & 1]};
 }
@@ -148,7 +161,7 @@ double Exp(double x) {
   return sum * std::bit_cast<double>(exponent << 52);
 }
 
-double WrapAngle(double angle_rad) {
+double WrapFarAngle(double angle_rad) {
   double a = angle_rad - Nearest(angle_rad / (2 * kPi)) * (2 * kPi);
   if (a <= -kPi) a += 2 * kPi;
   if (a > kPi) a -= 2 * kPi;

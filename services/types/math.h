@@ -3,11 +3,13 @@
 // Absolute error below 1e-12 for |x| up to 1e5 (tests/unit/math_test.cc measures it).
 #pragma once
 
+#include <cmath>
+
 namespace giveway {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-double Sqrt(double x);
+inline double Sqrt(double x) { return std::sqrt(x); }  // correctly rounded by IEEE 754
 // No number for what is no angle, or lies beyond 2^30 quarter turns.
 double Sin(double x_rad);
 double Cos(double x_rad);
@@ -23,8 +25,12 @@ double Atan2(double y, double x);
 double Log(double x);
 double Exp(double x);
 
+// For whatever is not in (-3.14, 3.14) already; see WrapAngle.
+double WrapFarAngle(double angle_rad);
 // The same angle in (-pi, pi].
-double WrapAngle(double angle_rad);
+inline double WrapAngle(double angle_rad) {
+  return angle_rad > -3.14 && angle_rad < 3.14 ? angle_rad : WrapFarAngle(angle_rad);
+}
 
 constexpr double Radians(double degrees) { return degrees * (kPi / 180.0); }
 constexpr double Degrees(double radians) { return radians * (180.0 / kPi); }

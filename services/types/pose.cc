@@ -4,19 +4,6 @@
 
 namespace giveway {
 
-double Norm(Vec2 a) { return Sqrt(SquaredNorm(a)); }
-
-Twist TwistFromWheels(const DriveGeometry& drive, WheelSpeeds wheels) {
-  return {drive.wheel_radius_m / 2 * (wheels.right_rad_s + wheels.left_rad_s),
-          drive.wheel_radius_m / drive.axle_m * (wheels.right_rad_s - wheels.left_rad_s)};
-}
-
-WheelSpeeds WheelsFromTwist(const DriveGeometry& drive, Twist twist) {
-  const double rim = twist.turn_rad_s * drive.axle_m / 2;
-  return {(twist.forward_m_s - rim) / drive.wheel_radius_m,
-          (twist.forward_m_s + rim) / drive.wheel_radius_m};
-}
-
 Vec2 Forward(const Pose& world_from_body) {
   const SineCosine heading = SinCos(world_from_body.heading_rad);
   return {heading.cosine, heading.sine};

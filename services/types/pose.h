@@ -35,9 +35,16 @@ struct DriveGeometry {
 };
 
 // v = r/2 (right + left), w = r/axle (right - left).
-Twist TwistFromWheels(const DriveGeometry& drive, WheelSpeeds wheels);
+inline Twist TwistFromWheels(const DriveGeometry& drive, WheelSpeeds wheels) {
+  return {drive.wheel_radius_m / 2 * (wheels.right_rad_s + wheels.left_rad_s),
+          drive.wheel_radius_m / drive.axle_m * (wheels.right_rad_s - wheels.left_rad_s)};
+}
 // The inverse of TwistFromWheels.
-WheelSpeeds WheelsFromTwist(const DriveGeometry& drive, Twist twist);
+inline WheelSpeeds WheelsFromTwist(const DriveGeometry& drive, Twist twist) {
+  const double rim = twist.turn_rad_s * drive.axle_m / 2;
+  return {(twist.forward_m_s - rim) / drive.wheel_radius_m,
+          (twist.forward_m_s + rim) / drive.wheel_radius_m};
+}
 
 // The unit vector of the pose's heading in the world.
 Vec2 Forward(const Pose& world_from_body);

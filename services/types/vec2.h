@@ -2,6 +2,8 @@
 // fixed-size vectors are not. Eigen comes in where there is linear algebra to do.
 #pragma once
 
+#include "services/types/math.h"
+
 namespace giveway {
 
 // Metres (or a direction without unit) in the frame the variable's name ends in.
@@ -21,6 +23,6 @@ constexpr double Cross(Vec2 a, Vec2 b) { return a.x * b.y - a.y * b.x; }
 // `a` turned a quarter counter-clockwise.
 constexpr Vec2 Left(Vec2 a) { return {-a.y, a.x}; }
 constexpr double SquaredNorm(Vec2 a) { return Dot(a, a); }
-double Norm(Vec2 a);
+inline double Norm(Vec2 a) { return Sqrt(SquaredNorm(a)); }
 
 }  // namespace giveway

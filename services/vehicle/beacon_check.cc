@@ -11,7 +11,6 @@ namespace {
 constexpr double kMaxCoordinate_m = 100'000.0;
 constexpr double kMaxSigma_m = 1000.0;
 constexpr double kMaxRate_m_s2 = 20;
-constexpr double kSpeedBucket_m_s = 0.05;
 
 // No part of a vehicle is smaller or larger than this. An axle of next to nothing would turn the
 // peer by angles that are no angles any more.
@@ -49,10 +48,6 @@ bool IsInRange(const Beacon& b) {
          Within(b.toward_world.y, kMaxCoordinate_m) && b.order.waited_ticks <= Number(b.tick) &&
          b.order.speed_bucket <= SpeedBucket(kMaxSpeed_m_s) &&
          (b.order.vehicle != b.vehicle || b.order.speed_bucket == SpeedBucket(b.cruise_m_s));
-}
-
-std::uint32_t SpeedBucket(double cruise_m_s) {
-  return static_cast<std::uint32_t>(cruise_m_s / kSpeedBucket_m_s + 0.5);
 }
 
 }  // namespace giveway

@@ -8,11 +8,14 @@ namespace giveway {
 // True if every floating-point field is a finite number.
 bool IsFinite(const Beacon& beacon);
 
-// True if every field lies where a vehicle of this fleet can be: see the limits in the .cc.
-// Precondition: IsFinite(beacon).
+// True if every field lies where a vehicle of this fleet can be: see the limits in the .cc. What is
+// in range is finite too.
 bool IsInRange(const Beacon& beacon);
 
 // The speed bucket of the order: round(cruise / 0.05 m/s).
-std::uint32_t SpeedBucket(double cruise_m_s);
+constexpr std::uint32_t SpeedBucket(double cruise_m_s) {
+  constexpr double kSpeedBucket_m_s = 0.05;
+  return static_cast<std::uint32_t>(cruise_m_s / kSpeedBucket_m_s + 0.5);
+}
 
 }  // namespace giveway

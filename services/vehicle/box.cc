@@ -12,7 +12,7 @@ constexpr double kPeerNear_m = 3;
 constexpr double kOwnNear_m = 8;
 
 struct Stretches {
-  std::array<Stretch, 64> of{};
+  std::array<const Stretch*, 64> of;  // the first `count`
   std::size_t count = 0;
 };
 
@@ -22,7 +22,7 @@ Stretches StretchesAhead(std::span<const PeerView> views) {
     if (!view.crossing || stretches.count == stretches.of.size()) continue;
     const Conflict& crossing = *view.crossing;
     if (crossing.peer.begin_m > kPeerNear_m || crossing.own.begin_m > kOwnNear_m) continue;
-    stretches.of[stretches.count++] = crossing.own;
+    stretches.of[stretches.count++] = &crossing.own;
   }
   return stretches;
 }
@@ -34,7 +34,7 @@ double BoxBegin(const Stretches& stretches, double point_m) {
   for (bool moved = true; moved;) {
     moved = false;
     for (std::size_t i = 0; i < stretches.count; ++i) {
-      const Stretch& stretch = stretches.of[i];
+      const Stretch& stretch = *stretches.of[i];
       if (stretch.begin_m >= begin_m || stretch.end_m < begin_m - kRoomToStand_m) continue;
       begin_m = stretch.begin_m;
       moved = true;

@@ -26,20 +26,24 @@ Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
 
 }  // namespace
 
-Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double reaction_s) {
-  const double speed = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
-  const double pace = Magnitude(speed);
+double ClaimLength(const Beacon& beacon, double unknown_s, double reaction_s) {
+  const double pace = Magnitude(TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s);
   const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
   const double fastest = std::min(most, pace + beacon.acceleration_m_s2 * unknown_s);
+  return (pace + fastest) / 2 * unknown_s +
+         StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
+}
+
+Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double reaction_s) {
+  const double speed = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
   Claim claim;
   claim.axis = {beacon.world_from_body.position_world,
                 speed < 0 ? -1.0 * forward_world : forward_world};
-  claim.length_m = (pace + fastest) / 2 * unknown_s +
-                   StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
+  claim.length_m = ClaimLength(beacon, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
   // It may turn meanwhile: the far end swings. From standstill it may leave in any direction.
   const double swing = std::min(1.0, kTurnWhileDriving_rad_s * unknown_s);
-  claim.radius_m += claim.length_m * (pace < 0.02 ? 1.0 : swing);
+  claim.radius_m += claim.length_m * (Magnitude(speed) < 0.02 ? 1.0 : swing);
   return claim;
 }
 
@@ -52,11 +56,10 @@ double FreeBefore(const Claim& claim, const Path& path, double radius_m) {
   const Path tail = {claim.axis.from_world + claim.length_m * claim.axis.direction_world,
                      -1.0 * claim.axis.direction_world};
   // A segment is what two half-lines against each other share.
-  const auto one = StretchNear(path, claim.axis, reach_m);
-  const auto other = StretchNear(path, tail, reach_m);
-  if (!one || !other) return kFar_m;
-  const double begin = std::max(one->begin_m, other->begin_m);
-  const double end = std::min(one->end_m, other->end_m);
+  const Stretch one = StretchNear(path, claim.axis, reach_m);
+  const Stretch other = StretchNear(path, tail, reach_m);
+  const double begin = std::max(one.begin_m, other.begin_m);
+  const double end = std::min(one.end_m, other.end_m);
   return begin > end || end <= 0 ? kFar_m : std::max(0.0, begin);
 }
 

@@ -19,6 +19,9 @@ struct Claim {
   double radius_m = 0;
 };
 
+// How far the sender of `beacon` may come before it stands: see ClaimOf.
+double ClaimLength(const Beacon& beacon, double unknown_s, double reaction_s);
+
 // What the sender of `beacon` may cover from its pose until it stands, if it was free to do as it
 // liked for `unknown_s` after the beacon and needs `reaction_s` before it brakes.
 Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double reaction_s);

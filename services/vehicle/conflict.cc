@@ -1,6 +1,7 @@
 #include "services/vehicle/conflict.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "services/types/math.h"
 
@@ -10,67 +11,60 @@ namespace {
 // Parallel paths run along each other for ever; this is far enough to stand for it.
 constexpr double kFar_m = 1e6;
 
+constexpr Stretch kNowhere = {std::numeric_limits<double>::infinity(),
+                              -std::numeric_limits<double>::infinity()};
+
 // {s : low <= offset + slope * s <= high}
-std::optional<Stretch> WhereBetween(double offset, double slope, double low, double high) {
+Stretch WhereBetween(double offset, double slope, double low, double high) {
   if (slope < 1e-12 && slope > -1e-12) {
-    if (offset < low || offset > high) return std::nullopt;
-    return Stretch{-kFar_m, kFar_m};
+    return offset < low || offset > high ? kNowhere : Stretch{-kFar_m, kFar_m};
   }
   const double a = (low - offset) / slope;
   const double b = (high - offset) / slope;
-  return Stretch{std::min(a, b), std::max(a, b)};
+  return {std::min(a, b), std::max(a, b)};
 }
 
-std::optional<Stretch> Intersection(const std::optional<Stretch>& a,
-                                    const std::optional<Stretch>& b) {
-  if (!a || !b) return std::nullopt;
-  const Stretch both{std::max(a->begin_m, b->begin_m), std::min(a->end_m, b->end_m)};
-  if (both.begin_m > both.end_m) return std::nullopt;
-  return both;
+Stretch Intersection(const Stretch& a, const Stretch& b) {
+  const Stretch both{std::max(a.begin_m, b.begin_m), std::min(a.end_m, b.end_m)};
+  return IsEmpty(both) ? kNowhere : both;
 }
 
-std::optional<Stretch> Hull(const std::optional<Stretch>& a, const std::optional<Stretch>& b) {
-  if (!a) return b;
-  if (!b) return a;
-  return Stretch{std::min(a->begin_m, b->begin_m), std::max(a->end_m, b->end_m)};
+Stretch Hull(const Stretch& a, const Stretch& b) {
+  return {std::min(a.begin_m, b.begin_m), std::max(a.end_m, b.end_m)};
 }
 
 // Where the line of `path` runs within `reach_m` of one point.
-std::optional<Stretch> StretchNearPoint(const Path& path, Vec2 point_world, double reach_m) {
+Stretch StretchNearPoint(const Path& path, Vec2 point_world, double reach_m) {
   const Vec2 to_point = point_world - path.from_world;
   const double along = Dot(to_point, path.direction_world);
   const double across = Cross(path.direction_world, to_point);
   const double half_squared = reach_m * reach_m - across * across;
-  if (half_squared < 0) return std::nullopt;
+  if (half_squared < 0) return kNowhere;
   const double half = Sqrt(half_squared);
-  return Stretch{along - half, along + half};
+  return {along - half, along + half};
 }
 
 }  // namespace
 
-std::optional<Stretch> StretchNear(const Path& path, const Path& other, double reach_m) {
+Stretch StretchNear(const Path& path, const Path& other, double reach_m) {
   const Vec2 offset = path.from_world - other.from_world;
   const Vec2& along = other.direction_world;
   // Beside the half-line: within reach across it and not before its start.
-  const auto across =
+  const Stretch across =
       WhereBetween(Cross(along, offset), Cross(along, path.direction_world), -reach_m, reach_m);
-  const auto ahead =
+  const Stretch ahead =
       WhereBetween(Dot(along, offset), Dot(along, path.direction_world), 0, 2 * kFar_m);
   // Round its start.
-  const auto cap = StretchNearPoint(path, other.from_world, reach_m);
+  const Stretch cap = StretchNearPoint(path, other.from_world, reach_m);
   return Hull(Intersection(across, ahead), cap);
 }
 
 std::optional<Conflict> FindConflict(const Path& own, const Path& peer, double reach_m) {
-  const auto own_stretch = StretchNear(own, peer, reach_m);
-  if (!own_stretch || own_stretch->end_m <= 0) return std::nullopt;
-  const auto peer_stretch = StretchNear(peer, own, reach_m);
-  if (!peer_stretch || peer_stretch->end_m <= 0) return std::nullopt;
-  return Conflict{*own_stretch, *peer_stretch};
-}
-
-double StoppingDistance(double speed_m_s, double reaction_s, double deceleration_m_s2) {
-  return speed_m_s * reaction_s + speed_m_s * speed_m_s / (2 * deceleration_m_s2);
+  const Stretch of_own = StretchNear(own, peer, reach_m);
+  if (IsEmpty(of_own) || of_own.end_m <= 0) return std::nullopt;
+  const Stretch of_peer = StretchNear(peer, own, reach_m);
+  if (IsEmpty(of_peer) || of_peer.end_m <= 0) return std::nullopt;
+  return Conflict{of_own, of_peer};
 }
 
 double SpeedToStopWithin(double distance_m, double reaction_s, double deceleration_m_s2) {

@@ -8,11 +8,13 @@
 
 namespace giveway {
 
-// A stretch of a path, metres from its start; begin <= end. Negative lies behind the start.
+// A stretch of a path, metres from its start. Negative lies behind the start. An empty one ends
+// before it begins.
 struct Stretch {
   double begin_m = 0;
   double end_m = 0;
 };
+constexpr bool IsEmpty(const Stretch& stretch) { return stretch.begin_m > stretch.end_m; }
 
 // A path: from a point onwards along a unit vector.
 struct Path {
@@ -22,7 +24,7 @@ struct Path {
 
 // The stretch of the whole line through `path` that lies within `reach_m` of the half-line `other`.
 // The set of points near a half-line is convex, so it is one stretch or none.
-std::optional<Stretch> StretchNear(const Path& path, const Path& other, double reach_m);
+Stretch StretchNear(const Path& path, const Path& other, double reach_m);
 
 // Both paths' stretches in conflict: where one body on its path can touch the other on its own.
 struct Conflict {
@@ -34,7 +36,9 @@ struct Conflict {
 std::optional<Conflict> FindConflict(const Path& own, const Path& peer, double reach_m);
 
 // Distance needed to stand still: v * reaction + v^2 / (2 * deceleration). All SI, v >= 0.
-double StoppingDistance(double speed_m_s, double reaction_s, double deceleration_m_s2);
+constexpr double StoppingDistance(double speed_m_s, double reaction_s, double deceleration_m_s2) {
+  return speed_m_s * reaction_s + speed_m_s * speed_m_s / (2 * deceleration_m_s2);
+}
 
 // The highest speed from which one stands still within `distance_m`; 0 if that is not positive.
 double SpeedToStopWithin(double distance_m, double reaction_s, double deceleration_m_s2);

@@ -31,9 +31,7 @@ std::optional<Proposal> MostRestrictive(const Situation& s) {
 Mode ModeOf(const Situation& s) {
   if (s.leaving) return Mode::kLeaving;
   if (s.blind_sensor >= 0) return Mode::kHalt;
-  const bool someone_lost =
-      std::any_of(s.peers.begin(), s.peers.end(), [](const PeerView& view) { return view.lost; });
-  return s.deaf || someone_lost ? Mode::kSensorOnly : Mode::kCooperative;
+  return s.deaf || s.someone_lost ? Mode::kSensorOnly : Mode::kCooperative;
 }
 
 Action AvoidingAction(const Situation& s) {

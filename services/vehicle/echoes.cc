@@ -18,13 +18,17 @@ constexpr double kNoiseSigmas = 4;
 
 double Magnitude(double x) { return x < 0 ? -x : x; }
 
-// The point of the cone's arc at `range_m` that lies nearest to the body's x axis.
-Vec2 ArcPointNearestAxis(const SensorMount& mount, double half_angle, double range_m) {
-  const double bearing = mount.bearing_rad;
-  const double straight = bearing > half_angle    ? bearing - half_angle
-                          : bearing < -half_angle ? bearing + half_angle
-                                                  : 0;
-  return mount.position_body + range_m * Vec2{Cos(straight), Sin(straight)};
+// Whether a direction is off a cone's axis by no more than limit_rad. The sine of an angle is less
+// than the angle and its tangent more: what lies between takes the angle itself.
+bool IsWithin(double limit_rad, Vec2 direction_body, const Cone& cone, double bearing_rad) {
+  const double along = Dot(cone.axis_body, direction_body);
+  const double across = Magnitude(Cross(cone.axis_body, direction_body));
+  constexpr double kRounding = 1e-9;
+  if (limit_rad < 1.5) {
+    if (along < 0 || across > (limit_rad + kRounding) * Norm(direction_body)) return false;
+    if (across < (limit_rad - kRounding) * along) return true;
+  }
+  return Magnitude(WrapAngle(Atan2(direction_body.y, direction_body.x) - bearing_rad)) <= limit_rad;
 }
 
 // Where a peer comes to stand if it brakes as soon as this vehicle does.
@@ -32,8 +36,15 @@ Vec2 WhereItStops(const PeerView& peer, const Situation& s) {
   const double braking_m =
       StoppingDistance(std::max(0.0, peer.speed_m_s), ReactionSeconds(s.options),
                        s.options.profile.deceleration_m_s2);
-  const double on_m = peer.closing_m_s > 0 ? braking_m : 0;
-  return peer.world_from_body.position_world + on_m * peer.forward_world;
+  const double on_m = ClosingSpeed(peer, s) > 0 ? braking_m : 0;
+  return peer.world_from_body.position_world + on_m * Forward(peer.world_from_body);
+}
+
+// Where the peer's body was to the own one when a sensor fired, both moving as now: their turning
+// is slow against that.
+Vec2 CentreBefore(double age_s, const PeerView& peer, const Situation& s) {
+  const Vec2 centre_world = peer.world_from_body.position_world - age_s * VelocityOf(peer);
+  return InBody(s, centre_world) + Vec2{age_s * s.speed_m_s, 0};
 }
 
 // The echo's range less what the vehicle has driven towards it since, as far as the reaction time
@@ -54,27 +65,27 @@ std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
   return std::max(0.0, centre_body.x - Sqrt(half));
 }
 
-std::uint32_t EchoesOf(Vec2 centre_world, Vec2 velocity_world, double radius_m,
-                       const Situation& s) {
+std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
   const VehicleProfile& profile = s.options.profile;
+  if (s.ranges.Echoes() == 0) return 0;
+  const double radius_m = peer.peer->beacon.body_radius_m;
+  const Vec2 centre_now = InBody(s, peer.world_from_body.position_world);
   std::uint32_t explains = 0;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
+  for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
     const SensorView& view = s.ranges[i];
-    if (view.kind != Echo::kEcho) continue;
-    // Both bodies where they were when it fired, for their turning is slow against that.
     const double age_s = EchoAge(view, s.tick, s.options.tick_period);
-    const Vec2 centre =
-        InBody(s, centre_world - age_s * velocity_world) + Vec2{age_s * s.speed_m_s, 0};
+    const Vec2 centre = age_s > 0 ? CentreBefore(age_s, peer, s) : centre_now;
     const Vec2 to_centre = centre - profile.sonar[i].position_body;
     const double distance = Norm(to_centre);
     const double expected = distance - radius_m;
     if (Magnitude(view.range_m - expected) > kSameBody_m) continue;
     // The body shows from one tangent to the other; half the body more allows for uncertainty.
-    const double off_axis =
-        Magnitude(WrapAngle(Atan2(to_centre.y, to_centre.x) - profile.sonar[i].bearing_rad));
     const double half_width = distance > 1.5 * radius_m ? 1.5 * radius_m / distance : kPi;
     const double turned = age_s * Magnitude(s.turn_rad_s);
-    if (off_axis <= profile.sonar_half_angle_rad + half_width + turned) explains |= 1U << i;
+    const double limit_rad = profile.sonar_half_angle_rad + half_width + turned;
+    if (IsWithin(limit_rad, to_centre, s.cones.of[i], profile.sonar[i].bearing_rad)) {
+      explains |= 1U << i;
+    }
   }
   return explains;
 }
@@ -83,15 +94,16 @@ std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
   const SensorView& view = s.ranges[sensor];
   const VehicleProfile& profile = s.options.profile;
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
+  const bool explained = (s.explained >> sensor & 1U) != 0;
+  // A fresh peer's claim says more than its echo: rules.cc, KeepClear.
+  if (explained && s.options.behaviour == Behaviour::kCooperative) return std::nullopt;
   for (const PeerView& peer : s.peers) {
-    if ((peer.explains >> sensor & 1U) == 0) continue;
-    // Its claim says more than its echo: rules.cc, KeepClear.
-    if (s.options.behaviour == Behaviour::kCooperative && peer.fresh) return std::nullopt;
+    if (!explained || (peer.explains >> sensor & 1U) == 0) continue;
     return FreeBeforeDisc(InBody(s, WhereItStops(peer, s)),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
   const Vec2 echo =
-      ArcPointNearestAxis(profile.sonar[sensor], profile.sonar_half_angle_rad, RangeAhead(view, s));
+      profile.sonar[sensor].position_body + RangeAhead(view, s) * s.cones.of[sensor].nearest_body;
   return FreeBeforeDisc(echo, profile.body_radius_m);
 }
 
@@ -102,15 +114,13 @@ bool MovesByItself(std::size_t sensor, const Situation& s) {
     return false;
   }
   const VehicleProfile& profile = s.options.profile;
-  const double off_axis =
-      std::max(0.0, Magnitude(profile.sonar[sensor].bearing_rad) - profile.sonar_half_angle_rad);
   // The closing speed is of the past, and so is the motion that explains it.
   const double driving = std::max(s.speed_m_s, view.own.forward_m_s);
   const double turning = std::max(Magnitude(s.turn_rad_s), view.own.turn_rad_s);
   const double by_noise = kNoiseSigmas * s.options.sonar_noise * view.range_m / kClosingTime_s;
   // The edge of a cone that looks ahead runs along a wall ahead faster than the vehicle drives; one
   // that looks to the side meets what it passes.
-  const double cosine = Cos(off_axis);
+  const double cosine = s.cones.of[sensor].nearest_cosine;
   const double faster = cosine > 0.5 ? 1 / cosine : cosine;
   const double by_driving = std::max(0.0, driving * faster);
   const double by_turning = turning * (profile.body_radius_m + 0.3 * view.range_m);

@@ -9,9 +9,9 @@
 
 namespace giveway {
 
-// Bit i is set if the echo of sensor i is where a disc centred there, moving on at that velocity,
-// would have echoed when the sensor fired.
-std::uint32_t EchoesOf(Vec2 centre_world, Vec2 velocity_world, double radius_m, const Situation& s);
+// Bit i is set if the echo of sensor i is where the peer's body would have echoed when the sensor
+// fired.
+std::uint32_t EchoesOf(const PeerView& peer, const Situation& s);
 
 // How far straight on until the own disc touches a disc at `centre_body`; empty if it passes with
 // a margin to spare. `sum_of_radii` is that of both.

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 
+#include "services/vehicle/timing.h"
+
 namespace giveway {
 namespace {
 
-constexpr double kPeerSpeedSlack = 1.1;   // a peer's seed, slip and rounding
-constexpr double kThroughMargin_s = 1.0;  // between leaving the conflict and its coming
-constexpr double kLostMargin_s = 1.0;     // on top of the time a silent peer may need to pass
+constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may need to pass
 
 // The nearest echo that is this peer's body; huge if no sensor hears it.
 double NearestEchoOf(const PeerView& view, const Situation& s) {
   double nearest = 1e9;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
-    if ((view.explains >> i & 1U) != 0) nearest = std::min(nearest, s.ranges[i].range_m);
+  for (const std::size_t i : BitsOf(view.explains)) {
+    nearest = std::min(nearest, s.ranges[i].range_m);
   }
   return nearest;
 }
@@ -22,19 +22,20 @@ double NearestEchoOf(const PeerView& view, const Situation& s) {
 // paths conflict, by beacon, or when the ultrasonics do: the union of both.
 bool Begins(const PeerView& view, const Situation& s) {
   if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
+  const bool by_conflict = s.options.behaviour != Behaviour::kLectureYield;
+  if (by_conflict && !view.conflict) return false;
   const double by_metric_m = view.gap_m - view.gate_gap_m;  // nearer by so much; never negative
   const bool critically_close = NearestEchoOf(view, s) - by_metric_m < CriticalDistance(s, view);
   if (s.options.behaviour == Behaviour::kLectureYield) {
-    const bool parting = !view.conflict && view.closing_m_s <= 0;
+    const bool parting = !view.conflict && ClosingSpeed(view, s) <= 0;
     return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
   }
-  if (!view.conflict) return false;
   return critically_close || !IsThroughFirst(view, s);
 }
 
 bool IsOver(const PeerView& view, const Situation& s) {
   if (view.conflict) return false;
-  return view.gate_gap_m >= s.options.gate_exit_m || view.closing_m_s <= 0;
+  return view.gate_gap_m >= s.options.gate_exit_m || ClosingSpeed(view, s) <= 0;
 }
 
 // A silent peer holds nobody any longer once it had the time to pass and nothing near is heard; or
@@ -128,29 +129,22 @@ bool HasLeftBox(const PeerView& view, const Situation& s) {
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
 bool Holds(const PeerView& view, const Situation& s) {
   const bool held = view.peer->encounter.holds;
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
     if (view.peer->encounter.released) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
   if (view.peer->encounter.clears) return false;
   if (view.peer->encounter.entered) return false;
-  if (view.goes_first) return !MustClear(view, s) && (held || SecondMustStop(view, s));
+  if (view.goes_first) {
+    if (cooperative && IsGoneInTime(view, s)) return false;
+    return !MustClear(view, s) && (held || SecondMustStop(view, s));
+  }
   if (FirstMayGo(view, s)) return false;
   return held || MustBrakeNow(view, s);
 }
 
 }  // namespace
-
-bool IsThroughFirst(const PeerView& view, const Situation& s) {
-  if (!view.conflict) return true;
-  const VehicleProfile& profile = s.options.profile;
-  const double own_s = TimeToCover(view.conflict->own.end_m, std::max(0.0, s.speed_m_s),
-                                   s.options.cruise_m_s, profile.acceleration_m_s2);
-  const double peer_speed =
-      kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
-  if (peer_speed <= 0) return true;
-  return own_s + kThroughMargin_s < view.conflict->peer.begin_m / peer_speed;
-}
 
 bool CanGiveWay(const PeerView& view, const Situation& s) {
   const Encounter& encounter = view.peer->encounter;
@@ -188,7 +182,7 @@ void BeginOrEnd(const PeerView& view, const Situation& s) {
 
 }  // namespace
 
-void UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
+bool UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
   bool holds = false;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
@@ -196,11 +190,12 @@ void UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
     encounter.holds = encounter.active && Holds(view, s);
     holds = holds || encounter.holds;
   }
-  if (holds) return;
+  if (holds) return true;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     if (encounter.active && view.conflict && EntersBox(view, s)) encounter.entered = true;
   }
+  return false;
 }
 
 }  // namespace giveway

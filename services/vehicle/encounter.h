@@ -7,14 +7,11 @@
 namespace giveway {
 
 // Moves every peer's encounter on by one tick, and says for which of them this vehicle holds.
-void UpdateEncounters(std::span<const PeerView> views, const Situation& s);
+// True if there is any.
+bool UpdateEncounters(std::span<const PeerView> views, const Situation& s);
 
 // True if this vehicle is the one to wait in the encounter, and can: it stands, or will before
 // the conflict. Only then may it say that it gives way.
 bool CanGiveWay(const PeerView& view, const Situation& s);
-
-// True if every way of the peer at up to a tenth above its cruise speed leaves this vehicle out of
-// the conflict before the peer can reach it.
-bool IsThroughFirst(const PeerView& view, const Situation& s);
 
 }  // namespace giveway

@@ -28,25 +28,24 @@ bool IsUsable(const PoseFix& fix) {
 void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s, double wheel_error,
                     double guessed_m) {
   const Vec2 before = pose_.position_world;
-  const Vec2 forward = Forward(pose_);
+  const Vec2 forward = forward_world_;
   pose_ = AdvanceArc(pose_, TwistFromWheels(drive, wheels), dt_s);
+  forward_world_ = Forward(pose_);
   const Vec2 way = pose_.position_world - before;
 
-  // How the end of the way depends on its start, and on the way of each wheel.
-  Matrix3 by_state = Matrix3::Identity();
-  by_state(0, 2) = -way.y;
-  by_state(1, 2) = way.x;
-  Eigen::Matrix<double, 3, 2> by_wheel;
-  by_wheel << forward.x / 2, forward.x / 2, forward.y / 2, forward.y / 2, -1 / drive.axle_m,
-      1 / drive.axle_m;
+  // How the end of the way depends on its start: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
+  Covariance covariance(covariance_.data());
+  covariance.row(0) += -way.y * covariance.row(2);
+  covariance.row(1) += way.x * covariance.row(2);
+  covariance.col(0) += -way.y * covariance.col(2);
+  covariance.col(1) += way.x * covariance.col(2);
+  // And on the way of each wheel.
   const double left = wheel_error * wheels.left_rad_s * drive.wheel_radius_m * dt_s;
   const double right = wheel_error * wheels.right_rad_s * drive.wheel_radius_m * dt_s;
-
-  Covariance covariance(covariance_.data());
-  const Matrix3 carried = by_state * covariance * by_state.transpose();
-  const Vector3 of_left = left * by_wheel.col(0);
-  const Vector3 of_right = right * by_wheel.col(1);
-  covariance = carried + of_left * of_left.transpose() + of_right * of_right.transpose();
+  const Vector3 of_left = left * Vector3(forward.x / 2, forward.y / 2, -1 / drive.axle_m);
+  const Vector3 of_right = right * Vector3(forward.x / 2, forward.y / 2, 1 / drive.axle_m);
+  covariance += of_left.lazyProduct(of_left.transpose());
+  covariance += of_right.lazyProduct(of_right.transpose());
   covariance(0, 0) += guessed_m * guessed_m;
   covariance(1, 1) += guessed_m * guessed_m;
 }
@@ -66,6 +65,7 @@ bool Odometry::Fix(const PoseFix& fix) {
   const Vector3 step = gain * difference;
   pose_.position_world = pose_.position_world + Vec2{step(0), step(1)};
   pose_.heading_rad = WrapAngle(pose_.heading_rad + step(2));
+  forward_world_ = Forward(pose_);
   // Joseph's form: stays symmetric and positive whatever is rounded.
   const Matrix3 kept = Matrix3::Identity() - gain;
   const Matrix3 updated = kept * covariance * kept.transpose() + gain * noise * gain.transpose();

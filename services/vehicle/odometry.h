@@ -14,7 +14,8 @@ namespace giveway {
 class Odometry {
  public:
   // Knows exactly where it is.
-  explicit Odometry(const Pose& world_from_body = {}) : pose_(world_from_body) {}
+  explicit Odometry(const Pose& world_from_body = {})
+      : pose_(world_from_body), forward_world_(Forward(world_from_body)) {}
 
   // Rolls on for dt_s at the measured wheel speeds, each of which is wrong by a standard deviation
   // of wheel_error times itself, plus guessed_m of way where the speeds are a guess.
@@ -25,6 +26,7 @@ class Odometry {
   bool Fix(const PoseFix& fix);
 
   const Pose& WorldFromBody() const { return pose_; }
+  Vec2 ForwardWorld() const { return forward_world_; }  // the unit vector of its heading
   // Standard deviations: of the position along its worst axis, and of the heading.
   double SigmaPosition() const;
   double SigmaHeading() const;
@@ -33,6 +35,7 @@ class Odometry {
 
  private:
   Pose pose_;
+  Vec2 forward_world_;
   std::array<double, 9> covariance_{};  // of x, y, heading; row by row
 };
 

@@ -8,23 +8,30 @@
 
 namespace giveway {
 
+// Where the id is, or would have to be.
+std::uint32_t PeerTable::IndexOf(VehicleId id) {
+  if (guess_ >= count_ || ids_[guess_] != id) {
+    const auto end = ids_.begin() + count_;
+    guess_ = static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), end, id) - ids_.begin());
+  }
+  return guess_++;
+}
+
 Peer* PeerTable::Find(VehicleId id) {
-  const auto end = peers_.begin() + count_;
-  const auto at = std::lower_bound(
-      peers_.begin(), end, id, [](const Peer& peer, VehicleId wanted) { return peer.id < wanted; });
-  return at != end && at->id == id ? &*at : nullptr;
+  const std::uint32_t at = IndexOf(id);
+  return at < count_ && ids_[at] == id ? &peers_[at] : nullptr;
 }
 
 Peer* PeerTable::FindOrInsert(VehicleId id) {
-  const auto end = peers_.begin() + count_;
-  const auto at = std::lower_bound(
-      peers_.begin(), end, id, [](const Peer& peer, VehicleId wanted) { return peer.id < wanted; });
-  if (at != end && at->id == id) return &*at;
+  const std::uint32_t at = IndexOf(id);
+  if (at < count_ && ids_[at] == id) return &peers_[at];
   if (count_ == kMaxPeers) return nullptr;
-  std::move_backward(at, end, end + 1);
-  *at = Peer{.id = id};
+  std::move_backward(peers_.begin() + at, peers_.begin() + count_, peers_.begin() + count_ + 1);
+  std::move_backward(ids_.begin() + at, ids_.begin() + count_, ids_.begin() + count_ + 1);
+  peers_[at] = Peer{.id = id};
+  ids_[at] = id;
   ++count_;
-  return &*at;
+  return &peers_[at];
 }
 
 // One writer speaks for an id. Another is believed once the first is silent past its lease or has
@@ -85,8 +92,10 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   if (beacon.vehicle == self.id) return refuse(&BeaconCounters::rejected_own);
   if (!received.name_valid) return refuse(&BeaconCounters::rejected_wrong_name);
   if (!received.crc_valid) return refuse(&BeaconCounters::rejected_crc);
-  if (!IsFinite(beacon)) return refuse(&BeaconCounters::rejected_not_finite);
-  if (!IsInRange(beacon)) return refuse(&BeaconCounters::rejected_out_of_range);
+  if (!IsInRange(beacon)) {
+    return refuse(IsFinite(beacon) ? &BeaconCounters::rejected_out_of_range
+                                   : &BeaconCounters::rejected_not_finite);
+  }
   // Before either has heard the world, positions have no common frame to be near in.
   if (beacon.world_epoch == kNoEpoch || self.epoch == kNoEpoch) {
     ++counters->not_heard;
@@ -148,7 +157,9 @@ void PeerTable::Note(const QosEvent& event, QosCounters* counters) {
 }
 
 void PeerTable::Advance(SteadyTime now, Tick tick) {
+  bool anyone_silent = false;
   for (Peer& peer : Peers()) {
+    anyone_silent = anyone_silent || now - peer.spoke > kForgetAfter;
     while (peer.waiting_count > 0 && peer.waiting[0].tick < tick) {
       peer.beacon = peer.waiting[0];
       peer.received = peer.waiting_received[0];
@@ -158,10 +169,15 @@ void PeerTable::Advance(SteadyTime now, Tick tick) {
       --peer.waiting_count;
     }
   }
+  if (anyone_silent) ForgetSilent(now);
+}
+
+void PeerTable::ForgetSilent(SteadyTime now) {
   const auto end = peers_.begin() + count_;
   const auto kept = std::remove_if(
       peers_.begin(), end, [now](const Peer& peer) { return now - peer.spoke > kForgetAfter; });
   count_ = static_cast<std::uint32_t>(kept - peers_.begin());
+  for (std::uint32_t i = 0; i < count_; ++i) ids_[i] = peers_[i].id;
 }
 
 void PeerTable::LeaveWorld() {
@@ -185,8 +201,8 @@ bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& 
          Age(peer, now, tick, options.tick_period) <= options.beacon_age_limit;
 }
 
-bool IsLost(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
-  return peer.known && !peer.left && !peer.out_of_reach && !IsFresh(peer, now, tick, options);
+bool IsLost(const Peer& peer, bool fresh) {
+  return peer.known && !fresh && !peer.left && !peer.out_of_reach;
 }
 
 void PeerTable::AddTo(StateHash* hash) const {

@@ -29,20 +29,17 @@ struct Encounter {
   double lost_wait_s = 0;  // how long the silent peer may take to pass at its cruise speed
 };
 
+// What every step looks at comes first, what waits last: few cache lines a peer are ever touched.
 struct Peer {
   VehicleId id = kNobody;
-  Beacon beacon;  // newest of a tick before this vehicle's; valid if `known`
-  bool known = false;
-  SteadyTime received{0};           // of `beacon`
-  std::array<Beacon, 2> waiting{};  // of this tick or later, older first
-  std::array<SteadyTime, 2> waiting_received{};
-  std::uint32_t waiting_count = 0;
-
-  std::uint64_t writer = 0;  // who speaks for this id
   std::uint32_t boot_epoch = 0;
+  std::uint64_t writer = 0;  // who speaks for this id
   std::uint32_t last_seq = 0;
+  std::uint32_t waiting_count = 0;
   SteadyTime spoke{0};        // last beacon of `writer`, accepted or not
   SteadyTime rival_spoke{0};  // last beacon of another writer for the same id
+  SteadyTime received{0};     // of `beacon`
+  bool known = false;         // `beacon` is valid
   bool rivalled = false;      // two writers spoke within one lease: both are distrusted
 
   bool deadline_missed = false;  // since the last accepted beacon
@@ -50,6 +47,9 @@ struct Peer {
   bool left = false;             // said good-bye: a departure, not a loss
   bool out_of_reach = false;     // last heard of from beyond the emission radius
   Encounter encounter;
+  Beacon beacon;                    // newest of a tick before this vehicle's
+  std::array<Beacon, 2> waiting{};  // of this tick or later, older first
+  std::array<SteadyTime, 2> waiting_received{};
 };
 
 // What the table needs to know of its owner.
@@ -62,6 +62,8 @@ struct Self {
 
 class PeerTable {
  public:
+  PeerTable() {}  // not `= default`: for the union's sake that would be deleted
+
   // Takes one beacon in or refuses it; exactly one counter of `counters` beside `taken` moves.
   void Take(const ReceivedBeacon& received, const Self& self, const VehicleOptions& options,
             BeaconCounters* counters);
@@ -85,11 +87,20 @@ class PeerTable {
 
  private:
   Peer* FindOrInsert(VehicleId id);
+  void ForgetSilent(SteadyTime now);
   bool BelongsTo(Peer* peer, const ReceivedBeacon& received);
   void Store(Peer* peer, const ReceivedBeacon& received, Tick tick);
 
-  std::array<Peer, kMaxPeers> peers_{};  // sorted by id
+  std::uint32_t IndexOf(VehicleId id);
+
+  // Sorted by id. In a union, so that those beyond the count are not made: most of a table is never
+  // touched, and clearing all of it costs a fleet in virtual time as much as hundreds of ticks.
+  union {
+    std::array<Peer, kMaxPeers> peers_;
+  };
+  std::array<VehicleId, kMaxPeers> ids_;  // theirs, side by side: these are searched
   std::uint32_t count_ = 0;
+  std::uint32_t guess_ = 0;  // beacons tend to come in order: the place after the last one found
   VehicleId last_deadline_missed_ = kNobody;
   VehicleId last_liveliness_lost_ = kNobody;
   VehicleId last_rejected_ = kNobody;
@@ -107,6 +118,7 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options);
 
 // True if the peer should be heard and is not: it neither left nor went out of reach.
-bool IsLost(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options);
+// `fresh` is whether it is.
+bool IsLost(const Peer& peer, bool fresh);
 
 }  // namespace giveway

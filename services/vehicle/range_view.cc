@@ -82,12 +82,18 @@ double EchoAge(const SensorView& view, Tick tick, Nanoseconds tick_period) {
   return Seconds(TicksBetween(view.echo_tick, tick) * tick_period) + view.echo_before_s;
 }
 
+void RangeView::Mark(std::size_t sensor) {
+  const std::uint32_t bit = 1U << sensor;
+  echoes_ = sensors_[sensor].kind == Echo::kEcho ? echoes_ | bit : echoes_ & ~bit;
+}
+
 void RangeView::Take(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period) {
   taken_ = now;
   any_ = true;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (IsSame(sensors_[i], scan.readings[i])) continue;
     Update(&sensors_[i], scan.readings[i], tick_period);
+    Mark(i);
   }
 }
 
@@ -100,25 +106,25 @@ void RangeView::TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (IsSame(sensors_[i], scan.readings[i])) continue;
     UpdateImperfect(&sensors_[i], scan.readings[i], tick_period, way_);
+    Mark(i);
   }
 }
 
 int RangeView::FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& options) const {
   if (!any_ || now - taken_ > options.ranges_age_limit) return kSensorCount;
-  const Nanoseconds limit = options.ranges_age_limit + options.sonar_refresh;
+  const auto limit_ticks = (options.ranges_age_limit + options.sonar_refresh) / options.tick_period;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (!options.profile.sonar[i].enabled) continue;
-    const auto age = TicksBetween(sensors_[i].tick, tick) * options.tick_period;
-    if (sensors_[i].kind == Echo::kNoData || age > limit) return static_cast<int>(i);
+    const bool old = TicksBetween(sensors_[i].tick, tick) > limit_ticks;
+    if (old || sensors_[i].kind == Echo::kNoData) return static_cast<int>(i);
   }
   return -1;
 }
 
 double RangeView::NearestEcho() const {
   double nearest = -1;
-  for (const SensorView& view : sensors_) {
-    if (view.kind != Echo::kEcho) continue;
-    if (nearest < 0 || view.range_m < nearest) nearest = view.range_m;
+  for (const std::size_t i : BitsOf(echoes_)) {
+    if (nearest < 0 || sensors_[i].range_m < nearest) nearest = sensors_[i].range_m;
   }
   return nearest;
 }

@@ -7,6 +7,7 @@
 #include "services/types/range_scan.h"
 #include "services/types/state_hash.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle/bits.h"
 
 namespace giveway {
 
@@ -53,6 +54,8 @@ class RangeView {
   void TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period, OwnWay moved);
 
   const SensorView& operator[](std::size_t sensor) const { return sensors_[sensor]; }
+  // Which sensors hold an echo: bit i for sensor i.
+  std::uint32_t Echoes() const { return echoes_; }
   // The first enabled sensor without usable data, -1 if every one has it; kSensorCount if the scan
   // as a whole is too old or has never come. A reading may be older by the sonar's refresh.
   int FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& options) const;
@@ -62,7 +65,10 @@ class RangeView {
   void AddTo(StateHash* hash) const;
 
  private:
+  void Mark(std::size_t sensor);
+
   std::array<SensorView, kSensorCount> sensors_{};
+  std::uint32_t echoes_ = 0;
   OwnWay way_;
   SteadyTime taken_{0};
   bool any_ = false;

@@ -15,6 +15,7 @@ Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .r
 // A dead stop for the nearest peer that this vehicle holds for and `applies` to.
 template <typename Predicate>
 std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies) {
+  if (!s.holds) return std::nullopt;
   const PeerView* nearest = nullptr;
   for (const PeerView& view : s.peers) {
     if (!view.peer->encounter.holds || !applies(view)) continue;
@@ -96,7 +97,7 @@ std::optional<Proposal> Deaf(const Situation& s) {
 
 std::optional<Proposal> Obstacle(const Situation& s) {
   std::optional<Proposal> nearest;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
+  for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
     const std::optional<double> free_m = FreeAhead(i, s);
     if (!free_m) continue;
     const double limit = SpeedToStopWithin(*free_m - kStandOff_m, ReactionSeconds(s.options),

@@ -25,11 +25,16 @@ bool IsPlace(Vec2 point_world) {
   return Within(point_world.x, kMaxCoordinate_m) && Within(point_world.y, kMaxCoordinate_m);
 }
 
-bool IsBelievable(const RangeReading& reading, Tick scanned, const VehicleOptions& options) {
-  if (reading.tick > scanned) return false;  // it would never grow old
-  if (!IsBetween(reading.fired_before_s, 0, Seconds(options.tick_period))) return false;
-  const double max_range_m = options.profile.sonar_max_range_m + kBeyondRange_m;
-  return reading.kind != Echo::kEcho || IsBetween(reading.range_m, 0, max_range_m);
+struct ReadingLimits {
+  Tick scanned;  // one of later would never grow old
+  double max_fired_before_s;
+  double max_range_m;
+};
+
+bool IsBelievable(const RangeReading& reading, const ReadingLimits& limits) {
+  return reading.tick <= limits.scanned &&
+         IsBetween(reading.fired_before_s, 0, limits.max_fired_before_s) &&
+         (reading.kind != Echo::kEcho || IsBetween(reading.range_m, 0, limits.max_range_m));
 }
 
 }  // namespace
@@ -38,11 +43,12 @@ bool IsBelievable(const RangeScan& scan, const VehicleOptions& options) {
   if (scan.epoch == kNoEpoch || scan.tick == kNoTick) return false;
   const VehicleProfile& profile = options.profile;
   const Twist twist = TwistFromWheels(profile.drive, scan.wheels);
+  const ReadingLimits limits = {scan.tick, Seconds(options.tick_period),
+                                profile.sonar_max_range_m + kBeyondRange_m};
   return Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
          Within(twist.turn_rad_s, kOvershoot * profile.max_turn_rad_s) &&
-         std::all_of(scan.readings.begin(), scan.readings.end(), [&](const RangeReading& reading) {
-           return IsBelievable(reading, scan.tick, options);
-         });
+         std::all_of(scan.readings.begin(), scan.readings.end(),
+                     [&](const RangeReading& reading) { return IsBelievable(reading, limits); });
 }
 
 bool IsBelievable(const RadarScan& scan) {

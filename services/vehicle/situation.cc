@@ -18,9 +18,9 @@ bool StaysPut(const Beacon& beacon) {
 }
 
 // How near the two centres may come: both bodies, a margin, and what is not known for sure.
-double Reach(const PeerView& view, const Situation& s) {
-  const Beacon& beacon = view.peer->beacon;
-  return s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m +
+double Reach(const Beacon& beacon, const Situation& s) {
+  constexpr double kMargin_m = 0.1;
+  return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m +
          2 * (s.sigma_position_m + beacon.sigma_position_m);
 }
 
@@ -28,13 +28,13 @@ double Reach(const PeerView& view, const Situation& s) {
 // of way. Side by side, or coming from another lane, it is not following.
 bool Follows(const PeerView& view, const Situation& s) {
   constexpr double kSameWay = 0.94;  // the cosine of 20 degrees
-  if (Dot(s.path.direction_world, view.forward_world) < kSameWay) return false;
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
-  const double along = Dot(s.path.direction_world, offset);
   const double across = Cross(s.path.direction_world, offset);
   const double bodies = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m;
-  const bool same_lane = across < bodies && across > -bodies;
-  return same_lane && (along > bodies || along < -bodies);
+  if (across >= bodies || across <= -bodies) return false;
+  const double along = Dot(s.path.direction_world, offset);
+  if (along <= bodies && along >= -bodies) return false;
+  return Dot(s.path.direction_world, Forward(view.world_from_body)) >= kSameWay;
 }
 
 // By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
@@ -54,20 +54,41 @@ bool WaitsAtSignal(const PeerView& view, const Situation& s) {
   return view.standing || !view.conflict || view.conflict->peer.begin_m >= stopping_m;
 }
 
+// True if no point of the way comes within reach_m of the own path.
+bool StaysAway(Vec2 from_world, Vec2 to_world, double reach_m, const Path& own) {
+  const Vec2 from = from_world - own.from_world;
+  const Vec2 to = to_world - own.from_world;
+  const double from_across_m = Cross(own.direction_world, from);
+  const double to_across_m = Cross(own.direction_world, to);
+  if (from_across_m > reach_m && to_across_m > reach_m) return true;
+  if (from_across_m < -reach_m && to_across_m < -reach_m) return true;
+  return Dot(own.direction_world, from) < -reach_m && Dot(own.direction_world, to) < -reach_m;
+}
+
+// Which way a peer drives says little about one that is there.
+constexpr double kThere_m = 0.05;
+// What is out of reach by this much is so however it is rounded, and whatever way it turns when it
+// is there.
+constexpr double kWellAway_m = 2 * kThere_m + 0.001;
+
 // Both vehicles' ways to where they drive next. A peer that stays put has none.
 std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
-  if (StaysPut(view.peer->beacon) || Follows(view, s)) return std::nullopt;
+  if (StaysPut(view.peer->beacon)) return std::nullopt;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  Path peer_path{view.world_from_body.position_world, view.forward_world};
-  double peer_way_m = kFarAway_m;
-  if (cooperative) {
-    const Vec2 way = view.peer->beacon.toward_world - peer_path.from_world;
-    peer_way_m = Norm(way);
-    if (peer_way_m > 0.05) peer_path.direction_world = (1 / peer_way_m) * way;
+  const Vec2 from_world = view.world_from_body.position_world;
+  const Vec2 to_world = view.peer->beacon.toward_world;
+  const double reach_m = Reach(view.peer->beacon, s);
+  if (cooperative && StaysAway(from_world, to_world, reach_m + kWellAway_m, s.path)) {
+    return std::nullopt;
   }
-  auto conflict = FindConflict(s.path, peer_path, Reach(view, s));
+  if (Follows(view, s)) return std::nullopt;
+  const Vec2 way = to_world - from_world;
+  const double way_m = cooperative ? Norm(way) : kFarAway_m;
+  const bool drives_on = !cooperative || way_m <= kThere_m;
+  const Path peer_path{from_world, drives_on ? Forward(view.world_from_body) : (1 / way_m) * way};
+  const auto conflict = FindConflict(s.path, peer_path, reach_m);
   if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
-  if (conflict->peer.begin_m > peer_way_m) return std::nullopt;
+  if (conflict->peer.begin_m > way_m) return std::nullopt;
   return conflict;
 }
 
@@ -76,25 +97,57 @@ constexpr double kClaimLasts_s = 1.0;
 // Kept from a claim on top of what is not known: steering bends the straight way a little.
 constexpr double kClearance_m = 0.05;
 
+// How long a peer may have done as it liked when what this decision moves comes to its end.
+double UnknownSeconds(const Beacon& beacon, const Situation& s) {
+  return Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
+}
+
+// How far apart the centre of this vehicle keeps from a claim.
+double ApartFrom(const Beacon& beacon, const Situation& s) {
+  return s.options.profile.body_radius_m + kClearance_m +
+         2 * (s.sigma_position_m + beacon.sigma_position_m);
+}
+
+// True if the claim lies beyond where it could slow this vehicle down: a claim reaches no farther
+// than its length and is no wider than that and the body.
+bool IsClaimFar(const Beacon& beacon, double unknown_s, const Situation& s) {
+  const double reaction_s = ReactionSeconds(s.options);
+  const double slows_m =
+      StoppingDistance(s.options.cruise_m_s, reaction_s, s.options.profile.deceleration_m_s2);
+  const double far_m = slows_m + ApartFrom(beacon, s) + beacon.body_radius_m +
+                       2 * ClaimLength(beacon, unknown_s, reaction_s) + kWellAway_m;
+  const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
+  return SquaredNorm(offset) > far_m * far_m;
+}
+
 // The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
 // have done since is unknown up to the end of the tick that this decision moves.
 double FreeOf(const PeerView& view, const Situation& s) {
   const Beacon& beacon = view.peer->beacon;
   if (view.peer->out_of_reach || view.peer->left) return kFarAway_m;
-  const double unknown_s = Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
-  if (unknown_s > kClaimLasts_s) return kFarAway_m;
+  const double unknown_s = UnknownSeconds(beacon, s);
+  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, unknown_s, s)) return kFarAway_m;
   const Claim claim =
       ClaimOf(beacon, Forward(beacon.world_from_body), unknown_s, ReactionSeconds(s.options));
-  const double apart_m = s.options.profile.body_radius_m + kClearance_m +
-                         2 * (s.sigma_position_m + beacon.sigma_position_m);
-  return FreeBefore(claim, {s.world_from_body.position_world, s.forward_world}, apart_m);
+  return FreeBefore(claim, {s.world_from_body.position_world, s.forward_world},
+                    ApartFrom(beacon, s));
+}
+
+// Beyond this, shell to shell, nothing is looked for but claims and ways: detours and echoes of the
+// ultrasonics are nearer, what radar and lidar show may be this far.
+constexpr double kLooksAround_m = 8;
+constexpr double kSeesFar_m = 25;
+bool SeesFar(const VehicleProfile& profile) {
+  return profile.radar || profile.lidar || profile.camera || profile.sonar_max_range_m > 5;
+}
+
+// For how long a peer is carried forward since its beacon, as views carry it forward.
+double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
+  // A silent peer is left where it was last heard: what it did since is not known.
+  return fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
 }
 
 }  // namespace
-
-double ReactionSeconds(const VehicleOptions& options) {
-  return 2 * Seconds(options.tick_period) + Seconds(options.sonar_refresh);
-}
 
 double OwnStoppingDistance(const Situation& s) {
   const double speed = std::max(0.0, s.speed_m_s);
@@ -112,11 +165,6 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
                       StoppingDistance(std::max(0.0, view.speed_m_s), reaction, braking);
   const double uncertainty = 2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
   return std::max(s.options.gate_enter_m, both + kMargin_m + uncertainty);
-}
-
-Vec2 InBody(const Situation& s, Vec2 point_world) {
-  const Vec2 offset = point_world - s.world_from_body.position_world;
-  return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
 }
 
 double RoomBeside(const PeerView& view, const Situation& s) {
@@ -142,43 +190,62 @@ bool IsOnGoalOf(const PeerView& view, const Situation& s) {
   return SquaredNorm(beacon.toward_world - s.world_from_body.position_world) < room_m * room_m;
 }
 
-PeerView LookAt(Peer* peer, const Situation& s) {
-  PeerView view{.peer = peer};
+Vec2 VelocityOf(const PeerView& view) { return view.speed_m_s * Forward(view.world_from_body); }
+
+double ClosingSpeed(const PeerView& view, const Situation& s) {
+  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const double distance = Norm(offset);
+  const Vec2 velocity = VelocityOf(view) - s.speed_m_s * s.forward_world;
+  return distance > 0 ? -Dot(offset, velocity) / distance : 0;
+}
+
+bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative || peer.encounter.active) return true;
+  const Beacon& beacon = peer.beacon;
+  const VehicleProfile& profile = s.options.profile;
+  const double speed_m_s = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
+  const double moved_m =
+      CarriedSeconds(beacon, fresh, s) * (speed_m_s < 0 ? -speed_m_s : speed_m_s);
+  const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
+  const double near_m = SeesFar(profile) ? kSeesFar_m : kLooksAround_m;
+  const double far_m = near_m + profile.body_radius_m + beacon.body_radius_m + moved_m;
+  if (SquaredNorm(offset) <= far_m * far_m) return true;
+  const double reach_m = Reach(beacon, s) + moved_m + kWellAway_m;
+  return !StaysAway(beacon.world_from_body.position_world, beacon.toward_world, reach_m, s.path) ||
+         !IsClaimFar(beacon, UnknownSeconds(beacon, s), s);
+}
+
+PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
+  PeerView view;
   const Beacon& beacon = peer->beacon;
   const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
-  view.fresh = IsFresh(*peer, s.now, s.tick, s.options);
-  view.lost = IsLost(*peer, s.now, s.tick, s.options);
-  // A silent peer is left where it was last heard: what it did since is not known.
-  const double ahead_s =
-      view.fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
-  view.world_from_body = AdvanceArc(beacon.world_from_body, twist, ahead_s);
-  view.forward_world = Forward(view.world_from_body);
+  view.peer = peer;
+  view.fresh = fresh;
+  view.lost = IsLost(*peer, fresh);
+  view.world_from_body =
+      AdvanceArc(beacon.world_from_body, twist, CarriedSeconds(beacon, fresh, s));
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
-  const bool knows_lights = s.options.behaviour == Behaviour::kCooperative;
-  view.at_signal = knows_lights && view.fresh && beacon.rule == Rule::kSignal;
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  view.at_signal = cooperative && fresh && beacon.rule == Rule::kSignal;
   view.goes_first = ComesFirst(view, s);
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
-  const double distance = Norm(offset);
-  const double gate_distance = GateDistance(s.options.distance_metric, offset);
-  view.gap_m = distance - s.options.profile.body_radius_m - beacon.body_radius_m;
-  view.gate_gap_m = gate_distance - s.options.profile.body_radius_m - beacon.body_radius_m;
-  const Vec2 velocity = view.speed_m_s * view.forward_world - s.speed_m_s * s.forward_world;
-  view.closing_m_s = distance > 0 ? -Dot(offset, velocity) / distance : 0;
-  view.leads = Follows(view, s) && Dot(offset, s.path.direction_world) > 0;
+  const double radius_m = s.options.profile.body_radius_m;
+  view.gap_m = Norm(offset) - radius_m - beacon.body_radius_m;
+  view.gate_gap_m =
+      GateDistance(s.options.distance_metric, offset) - radius_m - beacon.body_radius_m;
+  view.leads = Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
   view.crossing = CrossingWith(view, s);
   // One that stands and comes later in the order is a body to steer round.
-  const bool steered_round = s.options.behaviour == Behaviour::kCooperative && view.standing;
-  if (!steered_round || view.goes_first) view.conflict = view.crossing;
+  const bool steered_round = cooperative && view.standing && !view.goes_first;
+  if (!steered_round) view.conflict = view.crossing;
+  view.box_begin_m = 0;
   view.free_m = FreeOf(view, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
-  view.grants = view.fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||
-                               WaitsAtSignal(view, s));
-  if (view.fresh) {
-    view.explains = EchoesOf(view.world_from_body.position_world,
-                             view.speed_m_s * view.forward_world, beacon.body_radius_m, s);
-  }
+  view.grants = fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||
+                          WaitsAtSignal(view, s));
+  view.explains = fresh ? EchoesOf(view, s) : 0;
   return view;
 }
 

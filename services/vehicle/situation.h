@@ -7,6 +7,7 @@
 
 #include "services/types/range_scan.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle/cones.h"
 #include "services/vehicle/conflict.h"
 #include "services/vehicle/lecture.h"
 #include "services/vehicle/objects.h"
@@ -16,27 +17,28 @@
 
 namespace giveway {
 
-// A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
+// A peer within reach of an encounter, carried forward by its wheel speeds to this tick. LookAt
+// fills in everything.
 struct PeerView {
-  Peer* peer = nullptr;
+  Peer* peer;
   Pose world_from_body;
-  Vec2 forward_world;    // unit vector of its heading
-  double speed_m_s = 0;  // forward, as measured by the peer
-  bool fresh = false;
-  bool lost = false;
-  bool standing = false;    // below kStandingSpeed
-  bool goes_first = false;  // before this vehicle, by both keys as published
-  bool grants = false;     // fresh, and says that it gives way to this vehicle or stays where it is
-  bool at_signal = false;  // fresh, and says that a light stops it
-  double gap_m = 0;        // shell to shell
-  double gate_gap_m = 0;   // the same by the metric of the gates; never above gap_m
-  double closing_m_s = 0;  // positive while the gap shrinks
-  bool leads = false;      // drives ahead in the own lane
+  double speed_m_s;  // forward, as measured by the peer
+  bool fresh;
+  bool lost;
+  bool standing;      // below kStandingSpeed
+  bool goes_first;    // before this vehicle, by both keys as published
+  bool grants;        // fresh, and says that it gives way to this vehicle or stays where it is
+  bool at_signal;     // fresh, and says that a light stops it
+  bool leads;         // drives ahead in the own lane
+  double gap_m;       // shell to shell
+  double gate_gap_m;  // the same by the metric of the gates; never above gap_m
   std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
   std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
-  double box_begin_m = 0;  // of `conflict`: how far to drive without standing in anyone's way
-  double free_m = 0;       // straight on until the own shell is at the peer's claim; huge if never
-  std::uint32_t explains = 0;  // bit i: the echo of sensor i is where this peer's body should be
+  double box_begin_m;  // of `conflict`: how far to drive without standing in anyone's way
+  // Straight on until the own shell is at the peer's claim; huge if never, or so far on that the
+  // own cruise speed is not too fast for it.
+  double free_m;
+  std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
 struct Situation {
@@ -62,6 +64,7 @@ struct Situation {
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   int steer_side = 0;                // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
+  const Cones& cones;
   const SeenObjects& objects;
   std::optional<StopLine> stop_line;  // a light ahead that says stop
   bool at_signal = false;             // a light stops this vehicle, as last published
@@ -69,8 +72,11 @@ struct Situation {
   std::uint32_t explained = 0;        // union of the peers' `explains`
   bool deaf = false;                  // something near moves and no fresh beacon explains it
   int deaf_sensor = -1;
+  // Those that are near, that cross the own way, or with whom an encounter is under way.
   std::span<const PeerView> peers;
-  LastHeard last_heard;  // of lecture_printed alone, which has no peers
+  bool someone_lost = false;  // of all peers
+  bool holds = false;         // for any of them
+  LastHeard last_heard;       // of lecture_printed alone, which has no peers
 };
 
 // Below this a vehicle stands still, as the verdict defines it.
@@ -82,7 +88,9 @@ inline constexpr double kPassingMargin_m = 0.2;
 
 // From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old, of
 // readings that may be older by the ultrasonics' refresh.
-double ReactionSeconds(const VehicleOptions& options);
+inline double ReactionSeconds(const VehicleOptions& options) {
+  return 2 * Seconds(options.tick_period) + Seconds(options.sonar_refresh);
+}
 
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
 double OwnStoppingDistance(const Situation& s);
@@ -92,7 +100,10 @@ double OwnStoppingDistance(const Situation& s);
 double CriticalDistance(const Situation& s, const PeerView& view);
 
 // A point given in the world, in the own body frame.
-Vec2 InBody(const Situation& s, Vec2 point_world);
+inline Vec2 InBody(const Situation& s, Vec2 point_world) {
+  const Vec2 offset = point_world - s.world_from_body.position_world;
+  return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
+}
 
 // How far the two axle centres keep apart when one steers round the other.
 double RoomBeside(const PeerView& view, const Situation& s);
@@ -107,7 +118,17 @@ bool IsOnGoalOf(const PeerView& view, const Situation& s);
 // True if the peer's body leaves no room for the own one at that point.
 bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s);
 
+// The velocity of a peer where it is now.
+Vec2 VelocityOf(const PeerView& view);
+
+// How fast the gap to a peer shrinks.
+double ClosingSpeed(const PeerView& view, const Situation& s);
+
+// False if the peer is so far away, and so is all of its way, that no rule has anything to say of
+// it. It costs a fraction of LookAt, and most of a large fleet is far away.
+bool CanMatter(const Peer& peer, bool fresh, const Situation& s);
+
 // Carries `peer` forward to now and relates it to the own path.
-PeerView LookAt(Peer* peer, const Situation& s);
+PeerView LookAt(Peer* peer, bool fresh, const Situation& s);
 
 }  // namespace giveway

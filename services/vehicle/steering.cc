@@ -19,14 +19,14 @@ constexpr double kKeepSide_rad = 0.6;
 // What stands in the way, as seen from the axle centre: no heading between `middle` - `half` and
 // `middle` + `half` gets past it.
 struct Blocked {
-  double middle_rad = 0;
-  double half_rad = 0;
-  double distance_m = 0;
-  VehicleId peer = kNobody;
+  double middle_rad;
+  double half_rad;
+  double distance_m;
+  VehicleId peer;
 };
 
 struct BlockedHeadings {
-  std::array<Blocked, 64> of{};
+  std::array<Blocked, 64> of;  // the first `count`
   std::size_t count = 0;
 };
 
@@ -93,10 +93,9 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   constexpr double kNear_m = 0.6;
   constexpr double kHalf_rad = 0.6;
   const VehicleProfile& profile = s.options.profile;
-  for (std::size_t i = 0; i < kSensorCount && headings->count < headings->of.size(); ++i) {
+  for (const std::size_t i : BitsOf(s.ranges.Echoes() & ~s.explained)) {
     const SensorView& view = s.ranges[i];
-    if (view.kind != Echo::kEcho || view.range_m > kNear_m || (s.explained >> i & 1U) != 0)
-      continue;
+    if (view.range_m > kNear_m || headings->count == headings->of.size()) continue;
     headings->of[headings->count++] = {
         WrapAngle(s.world_from_body.heading_rad + profile.sonar[i].bearing_rad), kHalf_rad,
         view.range_m, kNobody};

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <type_traits>
 
 #include "services/types/check.h"
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
+#include "services/vehicle/blocked.h"
 #include "services/vehicle/box.h"
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
@@ -18,9 +20,7 @@ namespace {
 
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
-constexpr double kQueueWithin_m = 1.5;  // nearer than this, the one ahead in the lane holds up
-constexpr std::uint32_t kBlockedTicks = 20;
-constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
+constexpr std::uint32_t kBlockedTicks = 20;  // what was in the way is still, for so long
 // Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
 constexpr double kSharpTurn_rad_s = 0.25;
 constexpr std::uint32_t kTurnEchoTicks = 6;
@@ -36,46 +36,13 @@ double WheelError(const VehicleProfile& profile) {
               profile.encoder_noise * profile.encoder_noise);
 }
 
-// The own key, or that of the first in the order that is blocked by this vehicle: whoever it waits
-// for would otherwise make that one wait too.
-OrderKey ActingOrder(const VehicleState& state, VehicleId own) {
-  OrderKey acting = state.order;
-  for (const Peer& peer : state.peers.Peers()) {
-    if (peer.known && peer.beacon.blocked_by == own && GoesFirst(peer.beacon.order, acting)) {
-      acting = peer.beacon.order;
-    }
-  }
-  return acting;
-}
-
-// True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
-bool SlowsDown(const PeerView& view, const Situation& s) {
-  return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
-         view.speed_m_s < s.options.cruise_m_s;
-}
-
-// Who is bodily in the way: stands where this vehicle wants to be, leads in its lane more slowly,
-// keeps it from driving, or is what it fails to get round.
-VehicleId BlockedBy(const Situation& s, const Action& action) {
-  if (s.arrived) return kNobody;
-  for (const PeerView& view : s.peers) {
-    const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
-    if (there && Occupies(view, Toward(s), s)) return view.peer->id;
-  }
-  const auto leader =
-      std::ranges::find_if(s.peers, [&s](const PeerView& view) { return SlowsDown(view, s); });
-  if (leader != s.peers.end()) return leader->peer->id;
-  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
-  if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
-  return s.aimless ? action.round : kNobody;
-}
-
 }  // namespace
 
 Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
     : options_(options),
-      state_(std::make_unique<VehicleState>()),
-      views_(std::make_unique<std::array<PeerView, kMaxPeers>>()) {
+      cones_(ConesOf(options.profile)),
+      state_(std::make_unique_for_overwrite<VehicleState>()),
+      views_(std::make_unique_for_overwrite<std::array<PeerView, kMaxPeers>>()) {
   GIVEWAY_CHECK(options.id != kNobody);
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->boot_epoch = boot_epoch;
@@ -86,6 +53,7 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
 void Vehicle::Reseat(const VehicleOptions& options) {
   GIVEWAY_CHECK(options.id == options_.id, Number(options.id));
   options_ = options;
+  cones_ = ConesOf(options.profile);
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
   state_->placed_in = kNoEpoch;
 }
@@ -176,7 +144,8 @@ void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
 Situation Vehicle::Look(const Inputs& inputs) {
   VehicleState& state = *state_;
   const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
-  Situation s{.options = options_, .ranges = state.ranges, .objects = state.objects};
+  Situation s{
+      .options = options_, .ranges = state.ranges, .cones = cones_, .objects = state.objects};
   s.now = inputs.now;
   s.tick = state.tick;
   s.run_state = state.run_state;
@@ -186,10 +155,10 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.turn_rad_s = twist.turn_rad_s;
   s.wheels = state.wheels;
   s.sigma_position_m = state.odometry.SigmaPosition();
-  s.order = ActingOrder(state, options_.id);
+  s.order = ActingOrder(state.order, state.peers, options_.id);
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
-  s.forward_world = Forward(s.world_from_body);
+  s.forward_world = state.odometry.ForwardWorld();
   LookAhead(&s);
   s.arrived = state.arrived;
   return s;
@@ -214,14 +183,17 @@ void Vehicle::LookAtPeers(Situation* s) {
   peers_heard_ = 0;
   for (Peer& peer : state_->peers.Peers()) {
     if (!peer.known) continue;
-    PeerView view = LookAt(&peer, *s);
-    peers_heard_ += view.fresh ? 1 : 0;
-    s->explained |= view.explains;
-    (*views_)[count++] = view;
+    const bool fresh = IsFresh(peer, s->now, s->tick, options_);
+    peers_heard_ += fresh ? 1 : 0;
+    s->someone_lost = s->someone_lost || IsLost(peer, fresh);
+    if (!CanMatter(peer, fresh, *s)) continue;
+    // Made where it stays: copying a view costs as much as making it.
+    const auto* view = new (&(*views_)[count++]) PeerView(LookAt(&peer, fresh, *s));
+    s->explained |= view->explains;
   }
   const std::span<PeerView> views(views_->data(), count);
   FindBoxes(views, *s);
-  UpdateEncounters(views, *s);
+  s->holds = UpdateEncounters(views, *s);
   s->peers = views;
 }
 
@@ -235,11 +207,9 @@ void Vehicle::ListenForMovers(Situation* s) {
   }
   const bool turns =
       state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
-  for (std::size_t i = 0; i < kSensorCount && !turns; ++i) {
-    const bool near =
-        s->ranges[i].kind == Echo::kEcho &&
-        s->ranges[i].range_m < (state.deaf ? options_.gate_exit_m : options_.gate_enter_m);
-    if (!near || (s->explained >> i & 1U) != 0 || !MovesByItself(i, *s)) continue;
+  const double near_m = state.deaf ? options_.gate_exit_m : options_.gate_enter_m;
+  for (const std::size_t i : BitsOf(turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
+    if (s->ranges[i].range_m >= near_m || !MovesByItself(i, *s)) continue;
     moving = true;
     state.deaf_sensor = static_cast<int>(i);
   }
@@ -282,12 +252,9 @@ void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
     state.blocked_tick = s.tick;
     return;
   }
-  const auto still_near = [&state](const PeerView& view) {
-    return view.peer->id == state.blocked_by && view.fresh && view.gap_m < kQueueWithin_m;
-  };
   const bool recent = state.blocked_tick != kNoTick && !s.arrived &&
                       TicksBetween(state.blocked_tick, s.tick) <= kBlockedTicks;
-  if (!recent || std::ranges::none_of(s.peers, still_near)) state.blocked_by = kNobody;
+  if (!recent || !IsStillNear(state.blocked_by, s)) state.blocked_by = kNobody;
 }
 
 Beacon Vehicle::Say(const Situation& s) {

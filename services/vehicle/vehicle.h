@@ -97,6 +97,7 @@ class Vehicle {
   Beacon Say(const Situation& situation);
 
   VehicleOptions options_;
+  Cones cones_;  // of options_.profile
   std::unique_ptr<VehicleState> state_;
   std::unique_ptr<std::array<PeerView, kMaxPeers>> views_;  // scratch of one step
   std::uint32_t peers_heard_ = 0;

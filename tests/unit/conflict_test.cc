@@ -63,8 +63,8 @@ TEST(Conflict, StretchesAgreeWithSampling) {
     along = along < 0 ? 0 : along;
     const double distance = Norm(point - other.from_world - along * other.direction_world);
     if (distance > 0.699999 && distance < 0.700001) continue;  // on the edge to rounding
-    const auto stretch = StretchNear(own, other, 0.7);
-    const bool inside = stretch && s >= stretch->begin_m && s <= stretch->end_m;
+    const Stretch stretch = StretchNear(own, other, 0.7);
+    const bool inside = s >= stretch.begin_m && s <= stretch.end_m;
     ASSERT_EQ(inside, distance <= 0.7) << "placement " << i;
   }
 }

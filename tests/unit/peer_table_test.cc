@@ -122,7 +122,7 @@ TEST_F(PeerTableTest, BeyondTheEmissionRadiusIsNotHeardAndNoLoss) {
   Take(Received(BeaconOf(2, 98, {.position_world = {5.1, 0}}), milliseconds(50)));
   EXPECT_EQ(counters_.not_heard, 1U);
   EXPECT_FALSE(Fresh(2, milliseconds(50)));
-  EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), milliseconds(900), self_.tick, options_));
+  EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(900))));
   Hear(2, 99, milliseconds(100));
   EXPECT_TRUE(Fresh(2, milliseconds(100)));
   EXPECT_EQ(counters_.lost, 0U);
@@ -212,7 +212,7 @@ TEST_F(PeerTableTest, AfterAGoodByeSilenceIsNeitherLossNorMiss) {
   table_->Note({QosEventKind::kLivelinessLost, VehicleId{2}, milliseconds(250)}, &qos_);
   EXPECT_EQ(qos_.deadline_missed, 0U);
   EXPECT_EQ(qos_.liveliness_lost, 0U);
-  EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), milliseconds(900), self_.tick, options_));
+  EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(900))));
 }
 
 TEST_F(PeerTableTest, AFullTableRefusesTheNextAndSaysSo) {

@@ -1,0 +1,49 @@
+#include "services/vehicle/blocked.h"
+
+#include <algorithm>
+
+namespace giveway {
+namespace {
+
+constexpr double kQueueWithin_m = 1.5;   // nearer than this, the one ahead in the lane holds up
+constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
+
+// True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
+bool SlowsDown(const PeerView& view, const Situation& s) {
+  return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
+         view.speed_m_s < s.options.cruise_m_s;
+}
+
+}  // namespace
+
+OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id) {
+  OrderKey acting = own;
+  for (const Peer& peer : peers.Peers()) {
+    if (peer.known && peer.beacon.blocked_by == own_id && GoesFirst(peer.beacon.order, acting)) {
+      acting = peer.beacon.order;
+    }
+  }
+  return acting;
+}
+
+VehicleId BlockedBy(const Situation& s, const Action& action) {
+  if (s.arrived) return kNobody;
+  for (const PeerView& view : s.peers) {
+    const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
+    if (there && Occupies(view, Toward(s), s)) return view.peer->id;
+  }
+  const auto leader =
+      std::ranges::find_if(s.peers, [&s](const PeerView& view) { return SlowsDown(view, s); });
+  if (leader != s.peers.end()) return leader->peer->id;
+  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
+  if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
+  return s.aimless ? action.round : kNobody;
+}
+
+bool IsStillNear(VehicleId peer, const Situation& s) {
+  return std::ranges::any_of(s.peers, [peer](const PeerView& view) {
+    return view.peer->id == peer && view.fresh && view.gap_m < kQueueWithin_m;
+  });
+}
+
+}  // namespace giveway

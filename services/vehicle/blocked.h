@@ -1,0 +1,21 @@
+// Whose body is in whose way, and what follows for the order: whoever blocks one that comes earlier
+// acts by that one's key, or the earlier one would wait for all that the blocker waits for. Says
+// nothing about conflicts of ways that are free.
+#pragma once
+
+#include "services/vehicle/decide.h"
+#include "services/vehicle/peer_table.h"
+
+namespace giveway {
+
+// The own key, or that of the first in the order that says it is blocked by this vehicle.
+OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id);
+
+// Who is bodily in the way: stands where this vehicle wants to be, leads in its lane more slowly,
+// keeps it from driving, or is what it fails to get round. kNobody if nobody is.
+VehicleId BlockedBy(const Situation& s, const Action& action);
+
+// True if that peer is fresh and near enough to be in the way again at once.
+bool IsStillNear(VehicleId peer, const Situation& s);
+
+}  // namespace giveway

@@ -1,0 +1,30 @@
+#include "services/vehicle/cones.h"
+
+#include <algorithm>
+
+#include "services/types/math.h"
+
+namespace giveway {
+namespace {
+
+Cone ConeOf(double bearing_rad, double half_angle_rad) {
+  const double off_axis_rad = bearing_rad < 0 ? -bearing_rad : bearing_rad;
+  const double nearest_rad = bearing_rad > half_angle_rad    ? bearing_rad - half_angle_rad
+                             : bearing_rad < -half_angle_rad ? bearing_rad + half_angle_rad
+                                                             : 0;
+  return {.axis_body = {Cos(bearing_rad), Sin(bearing_rad)},
+          .nearest_body = {Cos(nearest_rad), Sin(nearest_rad)},
+          .nearest_cosine = Cos(std::max(0.0, off_axis_rad - half_angle_rad))};
+}
+
+}  // namespace
+
+Cones ConesOf(const VehicleProfile& profile) {
+  Cones cones;
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    cones.of[i] = ConeOf(profile.sonar[i].bearing_rad, profile.sonar_half_angle_rad);
+  }
+  return cones;
+}
+
+}  // namespace giveway

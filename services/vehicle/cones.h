@@ -1,0 +1,23 @@
+// What follows from how the ultrasonics are mounted, worked out once and not every tick.
+#pragma once
+
+#include <array>
+
+#include "services/types/profile.h"
+
+namespace giveway {
+
+// One transducer's cone, in the body frame.
+struct Cone {
+  Vec2 axis_body;         // unit vector
+  Vec2 nearest_body;      // unit vector of the ray in it that is nearest to straight ahead
+  double nearest_cosine;  // of the angle between that ray and straight ahead
+};
+
+struct Cones {
+  std::array<Cone, kSensorCount> of;
+};
+
+Cones ConesOf(const VehicleProfile& profile);
+
+}  // namespace giveway
