@@ -34,7 +34,9 @@ void Clearance::FindTouches() {
   for (std::uint32_t sample = 0; sample <= samples; ++sample) {
     book_.TilesUnder(way_.PoseAt(sample * kSample_m).position_world, radius_m_ + kSample_m / 2,
                      &tiles);
-    for (const Tile tile : tiles) seen.emplace_back(tile, sample);
+    for (const Tile tile : tiles) {
+      if (book_.IsEverTaken(tile)) seen.emplace_back(tile, sample);
+    }
   }
   std::ranges::sort(seen);
   for (std::size_t first = 0; first < seen.size();) {

@@ -16,7 +16,8 @@ inline constexpr double kSample_m = 0.02;
 
 class Clearance {
  public:
-  // Refers to all of them. `radius_m` is of the disc that books the tiles under it.
+  // Refers to all of them, and to the book as it is now. `radius_m` is of the disc that books the
+  // tiles under it.
   Clearance(const Way& way, const Pace& pace, const TileBook& book, double radius_m);
 
   std::uint32_t LastUnit() const { return last_unit_; }

@@ -175,9 +175,12 @@ bool Reservation::Serve(Member* member) {
       WayRound(member->options.start_world.position_world, member->options.goal.at_world,
                StandingBeside(*member), BrakingBeyond_m(member->options));
   if (round) Try(*round, last_step_, member);
-  // Past whoever stands in the way for a time only, where that is sooner.
-  const Step sooner = member->passage ? member->passage->arrival_step - 1 : last_step_;
-  Try(WayAlone(member->options), sooner, member);
+  const Way alone = WayAlone(member->options);
+  constexpr double kSame_m = 1e-6;
+  if (!round || round->Length_m() > alone.Length_m() + kSame_m) {
+    // Past whoever stands in the way for a time only, where that is sooner.
+    Try(alone, member->passage ? member->passage->arrival_step - 1 : last_step_, member);
+  }
   if (member->passage) {
     Book(*member);
   } else {

@@ -20,7 +20,7 @@
 namespace giveway::bench {
 
 struct ReservationSettings {
-  double tile_m = 0.1;
+  double tile_m = 0.05;
   double margin_m = 0.1;  // that bodies keep from each other at least, shell to shell
 };
 

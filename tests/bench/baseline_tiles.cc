@@ -6,8 +6,6 @@
 namespace giveway::bench {
 namespace {
 
-constexpr Tile kWordBits = 64;
-
 std::int32_t Cells(double length_m, double tile_m) {
   return std::max(1, static_cast<std::int32_t>(std::ceil(length_m / tile_m)));
 }
@@ -43,12 +41,6 @@ void TileBook::TilesUnder(Vec2 centre_world, double radius_m, std::vector<Tile>*
       tiles->push_back(static_cast<Tile>(row * columns_ + column));
     }
   }
-}
-
-bool TileBook::IsTaken(Tile tile, Step step) const {
-  if (step >= stood_from_[tile]) return true;
-  if (step >= taken_.size()) return false;
-  return (taken_[step][tile / kWordBits] >> (tile % kWordBits) & 1U) != 0;
 }
 
 bool TileBook::Book(std::span<const Tile> tiles, Step step) {

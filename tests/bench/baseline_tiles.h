@@ -17,7 +17,7 @@ using Step = std::uint32_t;  // of time, from the start on
 struct Ground {
   Vec2 low_world;  // corners, m
   Vec2 high_world;
-  double tile_m = 0.1;
+  double tile_m = 0.05;
 };
 
 class TileBook {
@@ -27,7 +27,13 @@ class TileBook {
   // The tiles a disc touches, in order. What lies outside the ground is nobody's.
   void TilesUnder(Vec2 centre_world, double radius_m, std::vector<Tile>* tiles) const;
 
-  bool IsTaken(Tile tile, Step step) const;
+  bool IsTaken(Tile tile, Step step) const {
+    if (step >= stood_from_[tile]) return true;
+    return step < free_from_[tile] &&
+           (taken_[step][tile / kWordBits] >> (tile % kWordBits) & 1U) != 0;
+  }
+  // At any time.
+  bool IsEverTaken(Tile tile) const { return stood_from_[tile] != kNever || free_from_[tile] > 0; }
   // All of them, or none: false if one is taken.
   bool Book(std::span<const Tile> tiles, Step step);
 
@@ -40,6 +46,7 @@ class TileBook {
   bool IsFreeFrom(Tile tile, Step step) const;
 
  private:
+  static constexpr Tile kWordBits = 64;
   static constexpr Step kNever = std::numeric_limits<Step>::max();
 
   Ground ground_;
