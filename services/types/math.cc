@@ -33,7 +33,6 @@ double Nearest(double x) {
 template <std::size_t N>
 double Polynomial(const std::array<double, N>& c, double x) {
   double sum = c[N - 1];
-#pragma GCC unroll 16
   for (std::size_t i = N - 1; i-- > 0;) sum = c[i] + x * sum;
   return sum;
 }
