@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/app/process.h"
+#include "services/app/recorder.h"
 #include "services/app/scenario_file.h"
 #include "services/link/vehicle_link.h"
 #include "services/service_main.h"
@@ -104,14 +105,20 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
 // The loop and what it must remember between two turns.
 class Loop {
  public:
-  Loop(link::VehicleLink* link, const Scenario& scenario, const RosterEntry& entry, bool lockstep)
+  // `recorder` is null where nothing is recorded.
+  Loop(link::VehicleLink* link, const Scenario& scenario, const RosterEntry& entry, bool lockstep,
+       app::Recorder* recorder)
       : link_(*link),
         scenario_(scenario),
         lockstep_(lockstep),
+        recorder_(recorder),
         place_(entry),
         options_(OptionsOf(scenario, entry)),
-        vehicle_(options_, app::RandomNonZero()),
-        news_(entry) {}
+        boot_epoch_(app::RandomNonZero()),
+        vehicle_(options_, boot_epoch_),
+        news_(entry) {
+    if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_);
+  }
 
   // Until the run has ended, `stop` is set, or the world refuses it: false in that case. Says
   // good-bye in the second.
@@ -143,6 +150,7 @@ class Loop {
     asking_.reset();
     options_ = OptionsOf(scenario_, entry);
     vehicle_.Reseat(options_);
+    if (recorder_ != nullptr) recorder_->Reseat(options_);
     app::LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
   }
 
@@ -178,6 +186,8 @@ class Loop {
     link_.Send(outputs);
     last_beacon_ = woke;
     report_.NoteStep(after - before, woken ? app::SteadyNow() - woke : Nanoseconds{0});
+    // After the wheels have their command: nobody waits for what follows.
+    if (recorder_ != nullptr) recorder_->Step(inputs, outputs, vehicle_.Hash());
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
     if (outputs.decision_changed || woke >= next_status_) {
       report_.Send(vehicle_, link_);
@@ -205,8 +215,10 @@ class Loop {
   link::VehicleLink& link_;
   const Scenario& scenario_;
   const bool lockstep_;
+  app::Recorder* const recorder_;
   RosterEntry place_;
   VehicleOptions options_;
+  const std::uint32_t boot_epoch_;
   Vehicle vehicle_;
   std::optional<RosterEntry> news_;  // that the brain has yet to hear
   std::optional<Asking> asking_;     // for another place
@@ -225,6 +237,8 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  std::optional<app::Recorder> recorder;
+  if (!flags.record.empty()) recorder.emplace(flags.record);
   link::VehicleLink link(LinkOptionsOf(flags, scenario));
   const auto entry = Join(&link, stop, VehicleId{flags.id});
   if (!entry) return 0;
@@ -235,7 +249,8 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   if (flags.id == 0) app::LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   const VehicleOptions options = OptionsOf(scenario, *entry);
   link.Open(options.id, options.profile, !scenario.signals.empty());
-  return Loop(&link, scenario, *entry, flags.lockstep).Drive(stop) ? 0 : 2;
+  Loop loop(&link, scenario, *entry, flags.lockstep, recorder ? &*recorder : nullptr);
+  return loop.Drive(stop) ? 0 : 2;
 }
 
 }  // namespace

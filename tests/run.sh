@@ -4,7 +4,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
-ALL_STAGES=(format rules unit golden link system asan fuzz tsan)
+ALL_STAGES=(format rules unit golden virtual link system asan fuzz tsan)
 
 usage() {
   cat <<'TEXT'
@@ -15,13 +15,15 @@ Stages, by default all of them:
   rules    include arrows, sizes, names, shell scripts
   unit     pure tests: no sockets, no clocks
   golden   hashes that must never change
+  virtual  fleets of 2-50 in virtual time, 200 seeds a generator, judged by invariants
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
   asan     unit and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, beacons and scans in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
 
-  --full   more repetitions of the system tests, five minutes a fuzz target
+  --full   more repetitions of the system tests, five minutes a fuzz target, 10 000 seeds a
+           generator (hours)
 
 The last line counts test cases: N passed, N failed.
 TEXT
@@ -29,6 +31,7 @@ TEXT
 
 stages=()
 export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2
+seeds=200
 fuzz_seconds=20
 for argument in "$@"; do
   case $argument in
@@ -36,7 +39,7 @@ for argument in "$@"; do
       usage
       exit 0
       ;;
-    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 fuzz_seconds=300 ;;
+    --full) GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 fuzz_seconds=300 seeds=10000 ;;
     all) stages=("${ALL_STAGES[@]}") ;;
     *)
       [[ " ${ALL_STAGES[*]} " == *" $argument "* ]] ||
@@ -124,6 +127,13 @@ stage_rules() {
 
 stage_unit() { prepare release && run_ctest release unit "$(nproc)"; }
 stage_golden() { prepare release && run_ctest release golden "$(nproc)"; }
+stage_virtual() {
+  prepare release
+  for generator in crossing roundabout corridor swarm merge convoy warehouse; do
+    check "$seeds seeds of $generator" \
+      bash tests/virtual/campaign.sh --generators "$generator" --seeds "$seeds"
+  done
+}
 stage_link() { prepare release && run_ctest release link 1; }
 stage_system() { prepare release && run_ctest release system 1; }
 

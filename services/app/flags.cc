@@ -31,6 +31,9 @@ class CommandLine {
     Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
     if (service == Service::kVehicle) {
       Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
+      Add("--record", "FILE",
+          "write all the brain is told and says, for fleetctl replay; a FILE that\n"
+          "is there is kept as FILE.old");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
@@ -95,7 +98,10 @@ ServiceFlags Read(Service service, FlagValues* values) {
   flags.domain = values->Whole("--domain", {1, 99}).value_or(0);
   flags.interface = values->TextOr(flags.interface, "--interface");
   flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
-  if (service == Service::kVehicle) flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
+  if (service == Service::kVehicle) {
+    flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
+    if (values->Text("--record")) flags.record = values->TextOr("", "--record");
+  }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
     if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");

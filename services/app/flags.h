@@ -20,6 +20,7 @@ struct ServiceFlags {
   std::uint32_t id = 0;                 // vehicle only; 0 asks the world for any free id
   std::uint32_t threads = 1;            // world only; the result does not depend on it
   std::string checkpoint;               // world only; the file it is kept in; empty: none is
+  std::string record;                   // vehicle only; the file it is written to; empty: none is
   // Overrides of the scenario's; 0 moves nothing. Without the flag: the scenario's own seed.
   std::optional<std::uint32_t> seed;
   std::optional<Behaviour> behaviour;

@@ -7,6 +7,7 @@
 
 #include "report.pb.h"
 #include "services/app/utf8.h"
+#include "services/app/violations.h"
 #include "services/types/check.h"
 
 namespace giveway::app {
@@ -40,6 +41,21 @@ void SetReaction(const Report& report, schema::Report* message) {
     message->mutable_reaction_ms()->set_max(*max);
 }
 
+void SetInvariants(const Report& report, schema::Report* message) {
+  if (!report.violations.empty()) {
+    SetViolations(report.violations, message->mutable_violations());
+  }
+  for (const FirstViolation& first : report.first_violations) {
+    schema::Violation& violation = *message->add_first_violations();
+    violation.set_invariant(first.invariant);
+    violation.set_tick(Number(first.tick));
+    violation.set_vehicle(Number(first.vehicle));
+    violation.set_other(Number(first.other));
+  }
+  message->set_ticks_judged(report.ticks_judged);
+  message->set_ticks_unseen(report.ticks_unseen);
+}
+
 schema::Report ToSchema(const Report& report) {
   schema::Report message;
   message.set_scenario(WellFormed(report.scenario));
@@ -61,6 +77,7 @@ schema::Report ToSchema(const Report& report) {
   message.set_seed(report.seed);
   message.set_domain(report.domain);
   message.set_state_hash(WellFormed(report.state_hash));
+  SetInvariants(report, &message);
   return message;
 }
 

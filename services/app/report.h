@@ -12,6 +12,19 @@ namespace giveway::app {
 
 enum class Verdict : std::uint8_t { kPassed, kFailed, kNotRun };
 
+// How often an invariant was broken, in the order they are printed.
+struct BrokenInvariant {
+  std::string name;
+  std::uint32_t count = 0;
+};
+
+struct FirstViolation {
+  std::string invariant;
+  Tick tick = kNoTick;
+  VehicleId vehicle = kNobody;
+  VehicleId other = kNobody;
+};
+
 // Field names, presence and meaning are those of the JSON object; see idl/report.proto.
 struct Report {
   std::string scenario;
@@ -32,7 +45,11 @@ struct Report {
   std::uint32_t tick_overruns = 0;
   std::uint32_t seed = 0;
   std::uint32_t domain = 0;
-  std::string state_hash;  // 16 hex digits
+  std::string state_hash;                   // 16 hex digits
+  std::vector<BrokenInvariant> violations;  // empty where nothing was judged
+  std::vector<FirstViolation> first_violations;
+  std::uint32_t ticks_judged = 0;
+  std::uint32_t ticks_unseen = 0;
 };
 
 // One JSON object on one line, proto field names, defaults printed, absent values left out.

@@ -48,6 +48,19 @@ std::string Reaction(const Report& report) {
                      Measure(report.reaction_max_ms, 1, "ms"));
 }
 
+std::string Invariants(const Report& report) {
+  if (report.ticks_judged == 0) return "not judged: nobody was seen";
+  const std::string over =
+      fmt::format("over {} ticks, {} not seen whole", report.ticks_judged, report.ticks_unseen);
+  if (report.first_violations.empty()) return "all held " + over;
+  const FirstViolation& first = report.first_violations.front();
+  std::string text =
+      fmt::format("BROKEN {}; first {} at tick {}", over, first.invariant, Number(first.tick));
+  if (first.vehicle != kNobody) text += fmt::format(", vehicle {}", Number(first.vehicle));
+  if (first.other != kNobody) text += fmt::format(" with {}", Number(first.other));
+  return text;
+}
+
 std::vector<Row> Rows(const Report& report) {
   return {
       {"contacts", fmt::format("{}", report.contacts)},
@@ -60,6 +73,7 @@ std::vector<Row> Rows(const Report& report) {
        fmt::format("{} sent, {} received", report.beacons_sent, report.beacons_received)},
       {"QoS events", fmt::format("{} deadlines missed, {} liveliness lost", report.deadline_missed,
                                  report.liveliness_lost)},
+      {"invariants", Invariants(report)},
       {"overruns", fmt::format("{} ticks", report.tick_overruns)},
       {"run", fmt::format("seed {}, domain {}", report.seed, report.domain)},
       {"state hash", report.state_hash.empty() ? kNone : report.state_hash},

@@ -7,6 +7,7 @@
 
 #include "report.pb.h"
 #include "services/app/utf8.h"
+#include "services/app/violations.h"
 #include "services/types/check.h"
 
 namespace giveway::app {
@@ -19,15 +20,6 @@ schema::Report::Verdict ToSchema(Verdict verdict) {
 
 double Rounded(double value) { return std::round(value * 1e6) / 1e6; }
 
-void SetViolations(const VirtualReport& report, schema::Violations* message) {
-  const auto* descriptor = schema::Violations::descriptor();
-  for (const BrokenInvariant& broken : report.violations) {
-    const auto* field = descriptor->FindFieldByName(broken.name);
-    GIVEWAY_CHECK(field != nullptr, broken.name);
-    message->GetReflection()->SetUInt32(message, field, broken.count);
-  }
-}
-
 schema::VirtualReport ToSchema(const VirtualReport& report) {
   schema::VirtualReport message;
   message.set_scenario(WellFormed(report.scenario));
@@ -36,11 +28,12 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   message.set_runs(report.runs);
   message.set_failed_runs(report.failed_runs);
   message.set_contacts(report.contacts);
-  SetViolations(report, message.mutable_violations());
+  SetViolations(report.violations, message.mutable_violations());
   message.set_vehicle_hours(Rounded(report.vehicle_hours));
   message.set_vehicle_hours_per_minute(Rounded(report.vehicle_hours_per_minute));
   if (report.delay_p50_s) message.mutable_delay_s()->set_p50(Rounded(*report.delay_p50_s));
   if (report.delay_p99_s) message.mutable_delay_s()->set_p99(Rounded(*report.delay_p99_s));
+  if (report.delay_mean_s) message.mutable_delay_s()->set_mean(Rounded(*report.delay_mean_s));
   if (report.min_separation_m) message.set_min_separation_m(Rounded(*report.min_separation_m));
   message.set_hash(report.hash);
   for (const std::uint32_t seed : report.failing_seeds) message.add_failing_seeds(seed);
@@ -75,9 +68,9 @@ std::string ToText(const VirtualReport& report) {
   }
   text += fmt::format("  {:.2f} vehicle-hours, {:.1f} a minute\n", report.vehicle_hours,
                       report.vehicle_hours_per_minute);
-  if (report.delay_p50_s && report.delay_p99_s) {
-    text += fmt::format("  delay: median {:.1f} s, 99 % below {:.1f} s\n", *report.delay_p50_s,
-                        *report.delay_p99_s);
+  if (report.delay_p50_s && report.delay_p99_s && report.delay_mean_s) {
+    text += fmt::format("  delay: mean {:.1f} s, median {:.1f} s, 99 % below {:.1f} s\n",
+                        *report.delay_mean_s, *report.delay_p50_s, *report.delay_p99_s);
   }
   if (!report.failing_seeds.empty()) {
     text += "  failing seeds:";

@@ -11,12 +11,6 @@
 
 namespace giveway::app {
 
-// How often an invariant was broken, in the order they are printed.
-struct BrokenInvariant {
-  std::string name;
-  std::uint32_t count = 0;
-};
-
 // Field names, presence and meaning are those of the JSON object; see idl/report.proto.
 struct VirtualReport {
   std::string scenario;
@@ -30,6 +24,7 @@ struct VirtualReport {
   double vehicle_hours_per_minute = 0;
   std::optional<double> delay_p50_s;
   std::optional<double> delay_p99_s;
+  std::optional<double> delay_mean_s;
   std::optional<double> min_separation_m;
   std::string hash;
   std::vector<std::uint32_t> failing_seeds;

@@ -51,14 +51,20 @@ std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCom
     return child;
   };
   std::vector<ChildCommand> commands{make("the world", "giveway-world", "world")};
+  const auto add_vehicle = [&](const std::string& kind, const std::string& number) {
+    const std::string file = kind + "-" + number;
+    commands.push_back(make(kind + " " + number, "giveway-vehicle", file));
+    if (options.record_folder.empty()) return;
+    const auto record = std::filesystem::path(options.record_folder) / (file + ".recording");
+    commands.back().words.insert(commands.back().words.end(), {"--record", record.string()});
+  };
   for (const VehicleOptions& vehicle : scenario.vehicles) {
     const std::string id = std::to_string(Number(vehicle.id));
-    commands.push_back(make("vehicle " + id, "giveway-vehicle", "vehicle-" + id));
+    add_vehicle("vehicle", id);
     commands.back().words.insert(commands.back().words.end(), {"--id", id});
   }
   for (std::uint32_t i = 1; i <= NewcomerCount(options, scenario); ++i) {
-    const std::string number = std::to_string(i);
-    commands.push_back(make("newcomer " + number, "giveway-vehicle", "newcomer-" + number));
+    add_vehicle("newcomer", std::to_string(i));
   }
   return commands;
 }

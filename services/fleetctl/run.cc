@@ -54,6 +54,7 @@ int StartAndWatch(const RunOptions& options) {
   }
   if (!options.picture_file.empty()) CheckWritable(options.picture_file);
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
+  if (!options.record_folder.empty()) CheckFolder(options.record_folder);
 
   const DomainLock lock(options.domain);
   FleetCommand command{ProgramFolder(), app::ResolveScenario(options.scenario), lock.Domain(),

@@ -25,6 +25,7 @@ struct RunOptions {
   bool lockstep = false;
   std::string log_level = "info";  // of the world and the vehicles
   std::string logs_folder;         // empty: no logs are kept
+  std::string record_folder;       // empty: vehicles record nothing
   std::string picture_file;        // empty: none is drawn
   bool json = false;               // one JSON object on stdout and nothing else
 };

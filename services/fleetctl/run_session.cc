@@ -60,6 +60,7 @@ RunSession::RunSession(const RunOptions& options, const Scenario& scenario,
       domain_(command.domain),
       time_limit_(TimeLimit(scenario, options.lockstep)),
       watch_(scenario, !options.picture_file.empty()),
+      invariants_(scenario),
       observer_(ObserverOptions(options, scenario, command)),
       processes_(MakeCommands(options, command, scenario), scenario),
       screen_(!options.json && IsTerminal()) {}
@@ -79,7 +80,9 @@ app::Report RunSession::Run() {
     ShowTrouble(*bad, "did not leave in good order");
   }
   screen_.Finish();
+  invariants_.Finish(!overruled && watch_.HasEnded());
   app::Report report = watch_.MakeReport(overruled);
+  invariants_.AddTo(&report);
   report.domain = domain_;
   return report;
 }
@@ -128,7 +131,7 @@ bool RunSession::WaitUntilAllEnded(Nanoseconds grace) {
 void RunSession::DrainLast() {
   const SteadyTime limit = app::SteadyNow() + kLastWords;
   do {
-    watch_.Fold(observer_.Take());
+    Drain();
     if (watch_.HasFigures() && watch_.HasAllFinalStatuses()) return;
     Turn();
   } while (app::SteadyNow() < limit && Interrupts::Count() == 0);
@@ -149,9 +152,15 @@ std::optional<Overruled> RunSession::JudgeExits() {
   return std::nullopt;
 }
 
+void RunSession::Drain() {
+  const link::Observed observed = observer_.Take();
+  watch_.Fold(observed);
+  invariants_.Fold(observed);
+}
+
 void RunSession::Turn() {
   app::SleepUntil(app::SteadyNow() + kTurn);
-  watch_.Fold(observer_.Take());
+  Drain();
   for (const VehicleId vehicle : watch_.TakeDueKills()) processes_.Kill(vehicle);
   processes_.Poll();
   for (const ChildProcess* child : processes_.TakeNewlyEnded()) {

@@ -9,6 +9,7 @@
 #include "services/fleetctl/fleet_processes.h"
 #include "services/fleetctl/fleet_watch.h"
 #include "services/fleetctl/interrupts.h"
+#include "services/fleetctl/invariant_watch.h"
 #include "services/fleetctl/live_screen.h"
 #include "services/fleetctl/run.h"
 #include "services/link/observer_link.h"
@@ -37,6 +38,8 @@ class RunSession {
   void DrainLast();
   // How the processes ended says more than the world could know.
   std::optional<Overruled> JudgeExits();
+  // Takes in what has come.
+  void Drain();
   // One turn of the loop: sleep, drain, carry out faults, poll, show.
   void Turn();
   void ShowTrouble(const ChildProcess& child, const std::string& what);
@@ -46,6 +49,7 @@ class RunSession {
   Nanoseconds time_limit_;
   Interrupts interrupts_;
   FleetWatch watch_;
+  InvariantWatch invariants_;
   link::ObserverLink observer_;
   FleetProcesses processes_;
   LiveScreen screen_;

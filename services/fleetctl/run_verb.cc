@@ -21,6 +21,7 @@ Examples
   fleetctl run intersection_equal --picture equal.svg
   fleetctl run intersection_yield --seed 7 --json | jq .min_separation_m
   fleetctl run open_fleet --vehicles 4
+  fleetctl run intersection_yield --record tapes && fleetctl replay tapes/*
   fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
 
 Exit code: 0 passed, 1 failed or interrupted, 2 could not run.
@@ -94,6 +95,10 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
       ->check(CheckNotEmpty);
   verb->add_option("--logs", options->logs_folder, "Keep the log of every process in this folder")
       ->check(CheckNotEmpty);
+  verb->add_option("--record", options->record_folder,
+                   "Every vehicle records its inputs and decisions in this folder; see replay")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_RECORD");
   verb->add_option("--log-level", options->log_level, "Of the world and the vehicles")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
@@ -49,6 +50,8 @@ app::VirtualReport ReportOf(const BatchTotals& totals, double wall_s) {
   if (!totals.delays_s.empty()) {
     report.delay_p50_s = Percentile(totals.delays_s, 0.5);
     report.delay_p99_s = Percentile(totals.delays_s, 0.99);
+    report.delay_mean_s = std::accumulate(totals.delays_s.begin(), totals.delays_s.end(), 0.0) /
+                          static_cast<double>(totals.delays_s.size());
   }
   report.min_separation_m = totals.separation_m;
   report.hash = fmt::format("{:016x}", totals.hash);

@@ -2,32 +2,24 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 #include "services/app/picture.h"
+#include "services/fleetctl/decision_trace.h"
 #include "services/fleetctl/output_file.h"
 #include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::fleetctl {
 namespace {
 
-constexpr std::string_view kTraceHead =
-    "tick\ttime_s\tvehicle\tx_m\ty_m\theading_rad\tforward_m_s\tmode\trule\tpeer\tsensor\t"
-    "gives_way_to\twaited_ticks\tarrived\n";
-
 void Trace(const sim::VirtualFleet& fleet, std::string* text) {
   std::size_t index = 0;
   for (const Truth& truth : fleet.World().Truths()) {
-    const Outputs& said = fleet.Said(index++);
-    const Decision& decision = said.command.decision;
-    fmt::format_to(std::back_inserter(*text),
-                   "{}\t{:.2f}\t{}\t{:.4f}\t{:.4f}\t{:.4f}\t{:.4f}\t{}\t{}\t{}\t{}\t{}\t{}\t{}\n",
-                   Number(truth.tick), truth.time_s, Number(truth.vehicle),
-                   truth.world_from_body.position_world.x, truth.world_from_body.position_world.y,
-                   truth.world_from_body.heading_rad, truth.forward_m_s, Name(decision.mode),
-                   Name(decision.rule), Number(decision.peer), decision.sensor,
-                   Number(said.beacon.gives_way_to), said.beacon.order.waited_ticks,
-                   truth.arrived ? 1 : 0);
+    AppendLine({.tick = truth.tick,
+                .time_s = truth.time_s,
+                .vehicle = truth.vehicle,
+                .world_from_body = truth.world_from_body,
+                .forward_m_s = truth.forward_m_s,
+                .arrived = truth.arrived},
+               fleet.Said(index++), text);
   }
 }
 

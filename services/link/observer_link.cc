@@ -1,5 +1,6 @@
 #include "services/link/observer_link.h"
 
+#include "services/link/beacon_inbox.h"
 #include "services/link/convert.h"
 #include "services/link/participant.h"
 #include "services/link/writer_names.h"
@@ -8,6 +9,7 @@ namespace giveway::link {
 namespace {
 
 constexpr char kWorld[] = "world";
+constexpr std::int32_t kBeaconDepth = 32;  // an observer that looks once a second misses none
 
 // Appends every sample that this build can read.
 template <typename Wire, typename Ours>
@@ -24,6 +26,8 @@ struct ObserverLink::Impl {
   explicit Impl(const LinkOptions& options)
       : participant(options, "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*")),
+        beacons(participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth), names,
+                participant.Prefix()),
         truth_reader(participant.MakeReader<wire::Truth>(kWorld)),
         event_reader(participant.MakeReader<wire::Event>(kWorld, EventDepth(options.fleet_size))),
         roster_reader(participant.MakeReader<wire::Roster>(kWorld)),
@@ -46,6 +50,7 @@ struct ObserverLink::Impl {
   WriterNames names;  // the library calls it until the participant is gone
   Participant participant;
   Reader<wire::Status> status_reader;
+  BeaconInbox beacons;
   Reader<wire::Truth> truth_reader;
   Reader<wire::Event> event_reader;
   Reader<wire::Roster> roster_reader;
@@ -60,6 +65,7 @@ Observed ObserverLink::Take() {
   impl_->names.Update();
   Observed observed;
   impl_->TakeStatuses(observed);
+  impl_->beacons.Drain(SteadyTime{0}, observed.beacons);
   Append(impl_->truth_reader, observed.truths);
   Append(impl_->event_reader, observed.events);
   Append(impl_->roster_reader, observed.roster);

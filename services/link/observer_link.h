@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/link/link_options.h"
+#include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/signal.h"
 
@@ -16,6 +17,7 @@ struct Observed {
   std::vector<Truth> truths;
   std::vector<WorldEvent> events;
   std::vector<VehicleStatus> statuses;
+  std::vector<ReceivedBeacon> beacons;  // the time of their arrival is not told
   std::vector<RosterEntry> roster;
   std::vector<SignalState> signals;
   std::optional<RunFigures> figures;

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "services/vehicle/timing.h"
+
 namespace giveway {
 namespace {
 
-constexpr double kPeerSpeedSlack = 1.1;   // a peer's seed, slip and rounding
-constexpr double kThroughMargin_s = 1.0;  // between leaving the conflict and its coming
-constexpr double kLostMargin_s = 1.0;     // on top of the time a silent peer may need to pass
+constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may need to pass
 
 // The nearest echo that is this peer's body; huge if no sensor hears it.
 double NearestEchoOf(const PeerView& view, const Situation& s) {
@@ -129,29 +129,22 @@ bool HasLeftBox(const PeerView& view, const Situation& s) {
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
 bool Holds(const PeerView& view, const Situation& s) {
   const bool held = view.peer->encounter.holds;
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
     if (view.peer->encounter.released) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
   if (view.peer->encounter.clears) return false;
   if (view.peer->encounter.entered) return false;
-  if (view.goes_first) return !MustClear(view, s) && (held || SecondMustStop(view, s));
+  if (view.goes_first) {
+    if (cooperative && IsGoneInTime(view, s)) return false;
+    return !MustClear(view, s) && (held || SecondMustStop(view, s));
+  }
   if (FirstMayGo(view, s)) return false;
   return held || MustBrakeNow(view, s);
 }
 
 }  // namespace
-
-bool IsThroughFirst(const PeerView& view, const Situation& s) {
-  if (!view.conflict) return true;
-  const VehicleProfile& profile = s.options.profile;
-  const double own_s = TimeToCover(view.conflict->own.end_m, std::max(0.0, s.speed_m_s),
-                                   s.options.cruise_m_s, profile.acceleration_m_s2);
-  const double peer_speed =
-      kPeerSpeedSlack * std::max(view.peer->beacon.cruise_m_s, view.speed_m_s);
-  if (peer_speed <= 0) return true;
-  return own_s + kThroughMargin_s < view.conflict->peer.begin_m / peer_speed;
-}
 
 bool CanGiveWay(const PeerView& view, const Situation& s) {
   const Encounter& encounter = view.peer->encounter;

@@ -14,8 +14,4 @@ bool UpdateEncounters(std::span<const PeerView> views, const Situation& s);
 // the conflict. Only then may it say that it gives way.
 bool CanGiveWay(const PeerView& view, const Situation& s);
 
-// True if every way of the peer at up to a tenth above its cruise speed leaves this vehicle out of
-// the conflict before the peer can reach it.
-bool IsThroughFirst(const PeerView& view, const Situation& s);
-
 }  // namespace giveway

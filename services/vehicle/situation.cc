@@ -19,7 +19,8 @@ bool StaysPut(const Beacon& beacon) {
 
 // How near the two centres may come: both bodies, a margin, and what is not known for sure.
 double Reach(const Beacon& beacon, const Situation& s) {
-  return s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m +
+  constexpr double kMargin_m = 0.1;
+  return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m +
          2 * (s.sigma_position_m + beacon.sigma_position_m);
 }
 

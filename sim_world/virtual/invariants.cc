@@ -28,6 +28,11 @@ bool Waits(const Observed& vehicle) {
 
 }  // namespace
 
+double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels) {
+  return drive.wheel_radius_m *
+         std::max({wheels.left_rad_s, -wheels.left_rad_s, wheels.right_rad_s, -wheels.right_rad_s});
+}
+
 std::string_view Name(Invariant invariant) {
   constexpr std::array<std::string_view, kInvariantCount> kNames = {
       "contact", "stale_motion", "wait_cycle", "wait_bound", "all_halted", "order", "arrival"};
@@ -40,14 +45,25 @@ Invariants::Invariants(const Scenario& scenario, const InvariantLimits& limits)
       wait_ticks_(TicksCovering(FromSeconds(limits.wait_s), scenario.tick_period)),
       watchdog_ticks_(scenario.watchdog_ticks) {
   GIVEWAY_CHECK(limits.key_age_ticks < kRememberedKeys, limits.key_age_ticks);
-  for (const VehicleOptions& options : scenario.vehicles) {
-    tracks_.push_back({.vehicle = options.id,
-                       .deceleration_m_s2 = options.profile.deceleration_m_s2,
-                       .acceleration_m_s2 = options.profile.acceleration_m_s2,
-                       .has_goal = options.goal.set,
-                       .last_position_world = options.start_world.position_world});
-  }
+  for (const VehicleOptions& options : scenario.vehicles) tracks_.push_back(TrackOf(options));
   first_.reserve(kKeptViolations);
+}
+
+Invariants::Track Invariants::TrackOf(const VehicleOptions& options) {
+  return {.vehicle = options.id,
+          .deceleration_m_s2 = options.profile.deceleration_m_s2,
+          .acceleration_m_s2 = options.profile.acceleration_m_s2,
+          .has_goal = options.goal.set,
+          .last_position_world = options.start_world.position_world};
+}
+
+void Invariants::Admit(const VehicleOptions& options) {
+  const auto place = std::ranges::lower_bound(tracks_, options.id, {}, &Track::vehicle);
+  if (place != tracks_.end() && place->vehicle == options.id) {
+    *place = TrackOf(options);
+  } else {
+    tracks_.insert(place, TrackOf(options));
+  }
 }
 
 void Invariants::Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other) {
@@ -68,6 +84,8 @@ std::uint32_t Invariants::IndexOf(VehicleId vehicle) const {
 void Invariants::Observe(Tick tick, std::span<const Observed> vehicles,
                          std::span<const WorldEvent> events) {
   GIVEWAY_CHECK(vehicles.size() == tracks_.size());
+  if (last_tick_ != kNoTick && tick != After(last_tick_, 1)) NoteGap(tick);
+  last_tick_ = tick;
   for (const WorldEvent& event : events) {
     if (event.kind == EventKind::kContact) JudgeContact(event);
   }
@@ -83,6 +101,12 @@ void Invariants::Observe(Tick tick, std::span<const Observed> vehicles,
   for (std::size_t i = 0; i < vehicles.size(); ++i) JudgeOrder(tick, vehicles[i], &tracks_[i]);
   JudgeCircles(tick, vehicles);
   JudgeAllHalted(tick, vehicles);
+}
+
+void Invariants::NoteGap(Tick tick) {
+  circle_ticks_ = 0;
+  halted_ticks_ = 0;
+  keys_known_at_ = Number(tick) + limits_.key_age_ticks;
 }
 
 // Of two that touch the one that was driving is at fault, of two that drove the faster.
@@ -105,7 +129,7 @@ void Invariants::JudgeContact(const WorldEvent& event) {
 
 // Data is stale where the vehicle says so, or where its last command is older than the world's
 // watchdog allows. From then on it must brake: one tick for the command to arrive, then down by the
-// deceleration every tick.
+// deceleration every tick. Seen from outside it may be seen too early, and braking begins later.
 void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
   const bool says_so = now.decision.rule == Rule::kRangesStale;
   const bool is_so =
@@ -116,8 +140,9 @@ void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
     return;
   }
   const double speed = now.rim_m_s;
-  if (!track->stale) {
-    track->stale = true;
+  if (!track->stale) track->stale_ticks = 0;
+  track->stale = true;
+  if (track->stale_ticks++ <= limits_.stale_ticks) {
     track->stale_limit_m_s = speed + track->acceleration_m_s2 * dt_s_;
     return;
   }
@@ -138,7 +163,8 @@ void Invariants::JudgeWait(Tick tick, const Observed& now, Track* track) {
 // It went by the peer's key of a while ago and by its own, of now or as it was published before:
 // one such pair of keys must put the peer first.
 void Invariants::JudgeOrder(Tick tick, const Observed& now, Track* track) {
-  const bool claims = Waits(now) && now.decision.rule == Rule::kGiveWay;
+  const bool claims =
+      Waits(now) && now.decision.rule == Rule::kGiveWay && Number(tick) >= keys_known_at_;
   const std::uint32_t peer = claims ? IndexOf(now.decision.peer) : kUnknown;
   if (peer == kUnknown) {
     track->order_told = false;

@@ -56,7 +56,12 @@ struct InvariantLimits {
   std::uint32_t cycle_ticks = 1;
   // kOrder: how old a published key may be that a vehicle goes by; at most kRememberedKeys - 1.
   std::uint32_t key_age_ticks = 6;
+  // kStaleMotion: how much later than it is seen the braking may begin.
+  std::uint32_t stale_ticks = 0;
 };
+
+// Of the faster wheel.
+double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels);
 
 class Invariants {
  public:
@@ -65,7 +70,11 @@ class Invariants {
 
   Invariants(const Scenario& scenario, const InvariantLimits& limits);
 
-  // Takes in one tick. Vehicles in the scenario's order; events are those of this tick.
+  // Another vehicle, that the scenario does not name; one of the same id is forgotten.
+  void Admit(const VehicleOptions& options);
+
+  // Takes in one tick. Vehicles in order of their ids; events are those since the last one. Ticks
+  // may be missing: what must last from tick to tick to be wrong then begins anew.
   void Observe(Tick tick, std::span<const Observed> vehicles, std::span<const WorldEvent> events);
   // At the end of the run: who has not arrived?
   void Finish(Tick tick, std::span<const Observed> vehicles);
@@ -87,6 +96,7 @@ class Invariants {
     double last_forward_m_s = 0;
     Vec2 last_position_world;
     bool stale = false;
+    std::uint32_t stale_ticks = 0;
     double stale_limit_m_s = 0;  // what the faster wheel may still be rolling at
     bool stale_told = false;
     std::uint32_t waited_ticks = 0;
@@ -95,6 +105,8 @@ class Invariants {
     std::uint32_t walk = 0;                        // scratch of the search for circles
   };
 
+  static Track TrackOf(const VehicleOptions& options);
+  void NoteGap(Tick tick);
   void Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other = kNobody);
   void JudgeContact(const WorldEvent& event);
   void JudgeStaleness(Tick tick, const Observed& now, Track* track);
@@ -112,6 +124,8 @@ class Invariants {
   std::vector<Track> tracks_;
   std::array<std::uint32_t, kInvariantCount> counts_{};
   std::vector<Violation> first_;
+  Tick last_tick_ = kNoTick;
+  std::uint32_t keys_known_at_ = 0;  // the tick from which on enough keys are remembered
   std::uint32_t circle_ticks_ = 0;
   std::uint32_t halted_ticks_ = 0;
 };

@@ -9,11 +9,6 @@
 namespace giveway::sim {
 namespace {
 
-double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels) {
-  return drive.wheel_radius_m *
-         std::max({wheels.left_rad_s, -wheels.left_rad_s, wheels.right_rad_s, -wheels.right_rad_s});
-}
-
 void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
   std::size_t index = 0;
   for (const Truth& truth : fleet.World().Truths()) {
@@ -81,23 +76,28 @@ double FreeFlowSeconds(const VehicleOptions& options) {
          cruise / (2 * options.profile.deceleration_m_s2);
 }
 
-InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
+InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses) {
   InvariantLimits limits;
-  const RadioSettings& radio = plan.radio;
-  const bool loses = radio.loss > 0 || radio.burst.enter > 0 || !radio.blackouts.empty() ||
-                     radio.reorder > 0 || !plan.faults.empty();
   // A beacon lost is made up for by the next; a peer silent for the age limit is lost, not waited
   // for.
   constexpr Nanoseconds kAgeLimit{200'000'000};
-  const std::uint32_t late = TicksCovering(radio.delay + radio.jitter, scenario.tick_period);
   const std::uint32_t lost = loses ? TicksCovering(kAgeLimit, scenario.tick_period) : 0;
-  limits.halted_ticks += 2 * (late + lost);
-  limits.cycle_ticks += late + lost;
-  limits.key_age_ticks = std::min(Invariants::kRememberedKeys - 1, 2 + late + lost);
+  limits.halted_ticks += 2 * (late_ticks + lost);
+  limits.cycle_ticks += late_ticks + lost;
+  limits.key_age_ticks = std::min(Invariants::kRememberedKeys - 1, 2 + late_ticks + lost);
   constexpr double kWaitAlone_s = 60;
   constexpr double kWaitEach_s = 10;
-  limits.wait_s = kWaitAlone_s + kWaitEach_s * static_cast<double>(scenario.vehicles.size());
+  const std::size_t most = scenario.vehicles.size() + scenario.spawns.size();
+  limits.wait_s = kWaitAlone_s + kWaitEach_s * static_cast<double>(most);
   return limits;
+}
+
+InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
+  const RadioSettings& radio = plan.radio;
+  const bool loses = radio.loss > 0 || radio.burst.enter > 0 || !radio.blackouts.empty() ||
+                     radio.reorder > 0 || !plan.faults.empty();
+  return LimitsFor(scenario, TicksCovering(radio.delay + radio.jitter, scenario.tick_period),
+                   loses);
 }
 
 VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,

@@ -36,6 +36,8 @@ double FreeFlowSeconds(const VehicleOptions& options);
 // The limits under which a run with this plan can be held to its invariants: what is lost or late
 // on the radio is known later, and long queues wait longer.
 InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan);
+// The same for news that come up to so many ticks late, or not at all.
+InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses);
 
 // Called after every tick, for pictures and traces.
 using TickWatcher = std::function<void(const VirtualFleet& fleet)>;

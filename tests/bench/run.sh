@@ -3,7 +3,8 @@
 # exit code is 0 however they come out, and 2 if one could not be taken.
 #
 #   bash tests/bench/run.sh            every figure
-#   bash tests/bench/run.sh step       one group: step, link, world, peers, reaction or rss
+#   bash tests/bench/run.sh step       one group: step, link, world, peers, right_of_way,
+#                                      reaction or rss
 #
 # The group peers installs Box2D and Embree, which nothing else needs. A bound of - is none.
 set -euo pipefail
@@ -18,7 +19,7 @@ trap 'rm -rf "$scratch"' EXIT
 
 wanted() { [[ $1 == "$only"* ]]; }
 
-print_figure() { printf '%-28s %10s %10s %s\n' "$@"; }
+print_figure() { printf '%-32s %10s %10s %s\n' "$@"; }
 
 # figure NAME VALUE BOUND: at most the bound is ok.
 figure() {
@@ -102,6 +103,31 @@ if wanted peers; then
     interleaved giveway-peers-bench "Agree/$peer"
     figure "range_disagreements_${peer,}" "$(counter disagreements 0)" 0
     figure "range_grazing_ppm_${peer,}" "$(counter grazing_ppm 0)" 1000
+  done
+fi
+
+# Mean delay beyond the time alone and arrivals a minute, of our vehicles, of a reservation scheme in
+# order of arrival and of reciprocal velocity obstacles; contacts, and who is missing at the end.
+# Simulated time. GIVEWAY_CASES sets the seeds a size; with all 40 it takes minutes.
+if wanted right_of_way; then
+  for place in crossing swarm; do
+    echo "driving through the $place" >&2
+    interleaved giveway-bench "RightOfWay${place^}"
+    if [[ $place == crossing ]]; then
+      figure right_of_way_delay_ratio "$(counter delay_ratio 2)" 1.2
+      for size in 2 4 8 16 32 50; do
+        figure_alone "right_of_way_delay_ratio_$size" "$(counter "delay_ratio_$size" 2)"
+      done
+    fi
+    for driver in cooperative reservation rvo; do
+      for size in 2 4 8 16 32 50; do
+        figure_alone "${place}_${driver}_delay_s_$size" "$(counter "${driver}_delay_s_$size" 2)"
+      done
+      figure_alone "${place}_${driver}_delay_s" "$(counter "${driver}_delay_s" 2)"
+      figure_alone "${place}_${driver}_per_min" "$(counter "${driver}_per_min" 1)"
+      figure "${place}_${driver}_contacts" "$(counter "${driver}_contacts" 0)" 0
+      figure "${place}_${driver}_missing" "$(counter "${driver}_missing" 0)" 0
+    done
   done
 fi
 

@@ -1,14 +1,26 @@
-// World and brains together, pinned: the same crossing gives the same bits in every build and on
-// every machine, down to what each brain remembers. A change of a hash is a change of behaviour.
+// World and brains together, pinned: the same run gives the same bits in every build and on every
+// machine, down to what each brain remembers. A change of a hash is a change of behaviour.
 #include <gtest/gtest.h>
 
 #include <ostream>
 
+#include "services/app/scenario_file.h"
 #include "services/types/state_hash.h"
 #include "tests/support/crossing.h"
 
 namespace giveway {
 namespace {
+
+// Of every tick.
+std::uint64_t HashOf(const Scenario& scenario) {
+  sim::VirtualFleet fleet(scenario);
+  StateHash hash;
+  while (fleet.Advance()) {
+    hash.Add(fleet.World().Hash());
+    for (std::size_t i = 0; i < fleet.Size(); ++i) hash.Add(fleet.Brain(i).Hash());
+  }
+  return hash.Value();
+}
 
 struct Golden {
   Behaviour behaviour;
@@ -20,22 +32,43 @@ struct Golden {
 class FleetHash : public testing::TestWithParam<Golden> {};
 
 TEST_P(FleetHash, IsTheSameEverywhere) {
-  sim::VirtualFleet fleet(test::Crossing(GetParam().behaviour, 0.4, 0.3));
-  StateHash hash;
-  while (fleet.Advance()) {
-    hash.Add(fleet.World().Hash());
-    hash.Add(fleet.Brain(0).Hash());
-    hash.Add(fleet.Brain(1).Hash());
-  }
-  EXPECT_EQ(hash.Value(), GetParam().hash) << std::hex << "got 0x" << hash.Value();
+  const std::uint64_t hash = HashOf(test::Crossing(GetParam().behaviour, 0.4, 0.3));
+  EXPECT_EQ(hash, GetParam().hash) << std::hex << "got 0x" << hash;
 }
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
                          testing::Values(Golden{Behaviour::kCooperative, 0x99fce240ad40fb99ULL},
                                          Golden{Behaviour::kLectureAvoid, 0x198adc168f55c55dULL},
                                          Golden{Behaviour::kStockAvoid, 0x81d4b84dc0c96424ULL},
-                                         Golden{Behaviour::kLectureYield, 0x883612c5e72b625fULL}),
+                                         Golden{Behaviour::kLectureYield, 0x883612c5e72b625fULL},
+                                         Golden{Behaviour::kLecturePrinted, 0x3dc35c2d9b0f98daULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
+
+struct GoldenScenario {
+  const char* name;
+  std::uint64_t hash;
+
+  friend void PrintTo(const GoldenScenario& golden, std::ostream* out) { *out << golden.name; }
+};
+
+class ScenarioHash : public testing::TestWithParam<GoldenScenario> {};
+
+TEST_P(ScenarioHash, IsTheSameEverywhere) {
+  app::ScenarioOverrides overrides;
+  overrides.seed = 1;
+  const std::uint64_t hash = HashOf(app::LoadScenario(GetParam().name, overrides));
+  EXPECT_EQ(hash, GetParam().hash) << std::hex << "got 0x" << hash;
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioHash,
+                         testing::Values(GoldenScenario{"head_on", 0x0f2625407ce16f84ULL},
+                                         GoldenScenario{"three_way", 0x534fac7f4c16a360ULL},
+                                         GoldenScenario{"four_way", 0x703427907044b68fULL},
+                                         GoldenScenario{"deaf", 0xf8aceb106159a54bULL},
+                                         GoldenScenario{"parked_nose_to_nose",
+                                                        0x9ff58eb48b905197ULL},
+                                         GoldenScenario{"convoy", 0x2a8ef5a4f517f5b1ULL}),
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace giveway

@@ -48,7 +48,7 @@ may_include() {
     virtual) [[ $2 == services/@(types|vehicle)/* || $2 == sim_world/* ]] ;;
     link) [[ $2 == services/@(link|types)/* || $2 == fleet*.h || $2 == idl/* ]] ;;
     app) [[ $2 == services/@(app|types)/* || $2 == *.pb.h ]] ;;
-    fleetctl) [[ $2 == services/@(fleetctl|link|app|types)/* || $2 == sim_world/virtual/* ]] ;;
+    fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
       [[ $2 == services/@(vehicle|link|app|types)/* ||
         $2 == services/@(vehicle_report|service_main).h ]]

@@ -22,6 +22,12 @@ case $scenario in
   intersection_equal) expected='.halted == [2] and .arrived == [1, 2]' ;;
   intersection_avoid) expected='.halted == []' ;;
   wall_only) expected='.halted == [] and .arrived == [1, 2]' ;;
+  head_on) expected='.halted == [2] and .arrived == [1, 2]' ;;
+  three_way) expected='.halted == [2, 3] and .arrived == [1, 2, 3]' ;;
+  four_way) expected='(.halted | length > 0) and .arrived == [1, 2, 3, 4]' ;;
+  deaf) expected='(.halted | length > 0) and .arrived == [1, 2]' ;;
+  parked_nose_to_nose) expected='.arrived == [1, 2]' ;;
+  convoy) expected='.halted == [] and .arrived == [1, 2, 3, 4]' ;;
   peer_dies) expected='.halted == [1] and .arrived == [1] and .liveliness_lost > 0' ;;
   *)
     echo "unknown scenario '$scenario'" >&2

@@ -24,7 +24,9 @@ restart() {
 lines_until() { grep -n "$2" "$SCRATCH/$1.log" | tail -n 1 | cut -d: -f1; }
 
 start world1 giveway-world --checkpoint "$checkpoint"
-for vehicle in a b c; do start "$vehicle" giveway-vehicle; done
+for vehicle in a b c; do
+  start "$vehicle" giveway-vehicle --record "$SCRATCH/$vehicle.recording"
+done
 for vehicle in a b c; do await "at first: $vehicle drives" 15 "$vehicle" 'cruise'; done
 
 kill_now world1
@@ -53,4 +55,6 @@ for vehicle in a b c d; do
   [[ $code -eq 0 ]] || fail "after the end: exit code $code of $vehicle"
 done
 no_contact
+# Their decisions in four worlds come out the same again.
+"$FLEETCTL" replay "$SCRATCH"/*.recording || fail "replay: exit code $?"
 [[ $failures -eq 0 ]]

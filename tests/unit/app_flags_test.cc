@@ -98,6 +98,22 @@ TEST(Flags, OnlyTheWorldKeepsACheckpointAndOnlyIfAsked) {
   EXPECT_THAT(Refusal(words), HasSubstr("--checkpoint"));
 }
 
+TEST(Flags, OnlyAVehicleRecordsAndOnlyIfAsked) {
+  const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(least)).record, "");
+  std::vector<const char*> words = least;
+  words.insert(words.end(), {"--record", "tape"});
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(words)).record, "tape");
+  CaptureStderr();
+  EXPECT_EQ(std::get<int>(World(words)), 2);
+  EXPECT_THAT(GetCapturedStderr(), HasSubstr("--record"));
+  words.back() = "";
+  EXPECT_THAT(Refusal(words), HasSubstr("must not be empty"));
+  const Variable twin("GIVEWAY_RECORD", "other");
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(least)).record, "other");
+  EXPECT_EQ(std::get<ServiceFlags>(World(least)).record, "");
+}
+
 TEST(Flags, OnlyTheWorldSharesItsWorkAmongThreads) {
   const auto threads = [](std::vector<const char*> words) {
     words.insert(words.begin(), {"--scenario", "s", "--domain", "1"});

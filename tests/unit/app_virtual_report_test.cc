@@ -22,6 +22,7 @@ VirtualReport Failed() {
   report.vehicle_hours = 12.5;
   report.delay_p50_s = 1.25;
   report.delay_p99_s = 9;
+  report.delay_mean_s = 2.5;
   report.hash = "00000000000000ff";
   report.failing_seeds = {7, 99};
   return report;
@@ -32,7 +33,7 @@ TEST(VirtualReportAsJson, HasTheFieldsOfTheSchemaOnOneLine) {
   EXPECT_THAT(json, Not(HasSubstr("\n")));
   for (const char* part : {R"("scenario":"swarm")", R"("verdict":"failed")", R"("runs":200)",
                            R"("contacts":3)", R"("violations":{"contact":3,)", R"("wait_cycle":0)",
-                           R"("vehicle_hours":12.5)", R"("delay_s":{"p50":1.25,"p99":9})",
+                           R"("vehicle_hours":12.5)", R"("delay_s":{"p50":1.25,"p99":9,"mean":2.5})",
                            R"("hash":"00000000000000ff")", R"("failing_seeds":[7,99])"}) {
     EXPECT_THAT(json, HasSubstr(part));
   }
@@ -42,6 +43,7 @@ TEST(VirtualReportAsJson, LeavesOutTheDelayIfNobodyArrived) {
   VirtualReport report = Failed();
   report.delay_p50_s.reset();
   report.delay_p99_s.reset();
+  report.delay_mean_s.reset();
   EXPECT_THAT(ToJson(report), Not(HasSubstr("delay_s")));
 }
 

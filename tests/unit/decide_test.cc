@@ -184,7 +184,7 @@ TEST(Decide, TheFirstInOrderStopsToo) {
   BrainBench bench(test::DefaultOptions());
   const Outputs out = DriveUpTo(&bench, 0.2, kNobody, kCreeping);
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
-  EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.3 - 0.075);
+  EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.4 - 0.075);
 }
 
 TEST(Decide, TheFirstInOrderDrivesOnOnceThePeerHasSaidSo) {
@@ -237,7 +237,7 @@ TEST(Decide, APeersOwnSizeDecidesHowMuchRoomItNeeds) {
   for (const double radius_m : {0.25, 1.7}) {
     BrainBench bench(test::DefaultOptions());
     bench.Step(Driving(0));
-    Beacon beacon = BeaconOf(2, 1, {.position_world = {4.5, 2.1}, .heading_rad = kPi}, 0.4);
+    Beacon beacon = BeaconOf(2, 1, {.position_world = {4.5, 2.0}, .heading_rad = kPi}, 0.4);
     beacon.body_radius_m = radius_m;
     const VehicleId expected = radius_m > 1 ? VehicleId{2} : kNobody;
     EXPECT_EQ(bench.Step(Driving(0), {beacon}).beacon.gives_way_to, expected) << radius_m;

@@ -56,6 +56,23 @@ TEST(MakeCommands, EveryoneIsToldTheSameScenarioDomainAndQos) {
   }
 }
 
+TEST(MakeCommands, EveryVehicleRecordsIntoAFileOfItsOwnIfAsked) {
+  RunOptions options;
+  options.record_folder = "tapes";
+  Scenario scenario = TwoVehicles();
+  scenario.spawns.resize(1);
+  options.vehicles = 1;
+  const auto commands = MakeCommands(options, OnDomainFive(), scenario);
+  ASSERT_THAT(commands, SizeIs(4));
+  EXPECT_THAT(commands[0].words, Not(Contains("--record")));
+  EXPECT_TRUE(Says(commands[1], "--record", "tapes/vehicle-3.recording"));
+  EXPECT_TRUE(Says(commands[2], "--record", "tapes/vehicle-8.recording"));
+  EXPECT_TRUE(Says(commands[3], "--record", "tapes/newcomer-1.recording"));
+  for (const ChildCommand& command : MakeCommands({}, OnDomainFive(), scenario)) {
+    EXPECT_THAT(command.words, Not(Contains("--record")));
+  }
+}
+
 TEST(MakeCommands, WhatTheOperatorLeftOutIsLeftToTheScenario) {
   for (const ChildCommand& command : MakeCommands({}, OnDomainFive(), TwoVehicles())) {
     for (const char* flag : {"--seed", "--behaviour", "--duration", "--lockstep"}) {

@@ -225,7 +225,7 @@ TEST(SignalsOfOthers, WhoStandsAtRedComesAfterWhoDoesNot) {
 TEST(SignalsOfOthers, APeerThatCouldNotStopAnyMoreIsNotCountedOn) {
   BrainBench bench(test::DefaultOptions());
   Outputs out;
-  for (std::uint32_t tick = 1; tick < 47; ++tick) {
+  for (std::uint32_t tick = 1; tick < 54; ++tick) {
     Beacon beacon = Southern(tick - 1, Rule::kSignal, 0.75);
     beacon.wheels = {0.5 / 0.0975, 0.5 / 0.0975};
     std::vector<Beacon> beacons;
@@ -241,9 +241,9 @@ TEST(SignalsOfOthers, OfTwoThatLightsStoppedNeitherCountsOnTheOthersLight) {
   VehicleOptions options = test::DefaultOptions();
   options.cruise_m_s = 0.8;  // first in the order
   BrainBench bench(options);
-  // On to 0.78 m; the conflict with the path at x = 1.5 begins a centimetre farther on.
+  // On to 0.87 m; the conflict with the path at x = 1.5 begins three centimetres farther on.
   bench.Step(ClearScan(0));
-  for (int i = 0; i < 26; ++i) bench.Step(Driving(0.6));
+  for (int i = 0; i < 29; ++i) bench.Step(Driving(0.6));
   for (int i = 0; i < 2; ++i) {
     const Beacon other = Southern(bench.NextTick() - 1, Rule::kSignal, 0.8);
     bench.WithNext().signals = {Head(SignalPhase::kRed, 1.17)};

@@ -1,0 +1,27 @@
+// Decisions as lines of tab-separated values, a vehicle and tick each, for virtual runs and
+// replays alike.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "services/types/vehicle_io.h"
+
+namespace giveway::fleetctl {
+
+inline constexpr std::string_view kTraceHead =
+    "tick\ttime_s\tvehicle\tx_m\ty_m\theading_rad\tforward_m_s\tmode\trule\tpeer\tsensor\t"
+    "gives_way_to\twaited_ticks\tarrived\n";
+
+struct TraceLine {
+  Tick tick = kNoTick;
+  double time_s = 0;
+  VehicleId vehicle = kNobody;
+  Pose world_from_body;  // the truth, or what the vehicle believes where there is none
+  double forward_m_s = 0;
+  bool arrived = false;
+};
+
+void AppendLine(const TraceLine& line, const Outputs& said, std::string* text);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,19 @@
+// The verb `fleetctl replay`: recordings of vehicles led through a fresh brain. Values in; the exit
+// code out.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace giveway::fleetctl {
+
+struct ReplayOptions {
+  std::vector<std::string> files;
+  std::string trace_file;  // of a single recording; empty: none
+  bool json = false;
+};
+
+// 0 every step came out the same, 1 one did not, 2 a file could not be replayed to its end.
+int RunReplay(const ReplayOptions& options);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,70 @@
+// Any bytes as a recording: it is replayed or refused in words, and both times alike.
+//
+// An input is one byte and a file. Where the byte is odd the sums of the frames are made right
+// first, so that what they guard is spoilt too.
+#include <sstream>
+
+#include "services/fleetctl/replayer.h"
+#include "services/types/check.h"
+#include "tests/fuzz/target.h"
+#include "tests/support/recorded_crossing.h"
+
+namespace giveway::fuzz {
+namespace {
+
+constexpr std::size_t kHeadBytes = 12;  // of a frame
+
+std::uint32_t LengthAt(const Input& file, std::size_t at) {
+  std::uint32_t length = 0;
+  for (std::size_t i = 4; i-- > 0;)
+    length = length << 8U | static_cast<unsigned char>(file[at + i]);
+  return length;
+}
+
+// The same frames with right sums; the last takes what is left.
+Input Resealed(const Input& file) {
+  Input sealed(app::kRecordingMark);
+  for (std::size_t at = sealed.size(); at + kHeadBytes <= file.size();) {
+    const std::size_t length =
+        std::min<std::size_t>(LengthAt(file, at), file.size() - at - kHeadBytes);
+    sealed += app::Framed(std::string_view(file).substr(at + kHeadBytes, length));
+    at += kHeadBytes + length;
+  }
+  return sealed;
+}
+
+std::string Replayed(const Input& file) {
+  std::istringstream stream(file);
+  const app::ReplayedFile outcome = fleetctl::Replay(&stream);
+  GIVEWAY_CHECK(outcome.vehicle != kNobody || !outcome.finding.empty());
+  GIVEWAY_CHECK(outcome.complete || outcome.difference || !outcome.finding.empty() ||
+                outcome.steps > 0);
+  return app::ToJson({outcome});
+}
+
+}  // namespace
+
+std::vector<Input> Samples() {
+  std::vector<app::Record> records = test::RecordedCrossing(20);
+  const std::string plain = test::FileOf(records);
+  auto& step = std::get<app::RecordedStep>(records[2]);
+  step.radar.emplace();
+  step.lidar.emplace();
+  step.camera.emplace();
+  step.signals.resize(2);
+  step.roster.emplace().accepted = true;
+  step.pose_fix.emplace();
+  records.insert(records.begin() + 8, app::RecordedReseat{test::DefaultOptions()});
+  const std::string full = test::FileOf(records);
+  return {std::string("\0", 1) + plain, "\1" + plain, "\1" + full};
+}
+
+}  // namespace giveway::fuzz
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const giveway::fuzz::Input file(reinterpret_cast<const char*>(data + 1), size - 1);
+  const giveway::fuzz::Input tried = data[0] % 2 == 1 ? giveway::fuzz::Resealed(file) : file;
+  GIVEWAY_CHECK(giveway::fuzz::Replayed(tried) == giveway::fuzz::Replayed(tried));
+  return 0;
+}

@@ -1,0 +1,463 @@
+/* The right of way of 2 or 3 vehicles at one crossing, for SPIN: every way in which beacons can be
+ * lost, late, out of order or doubled, vehicles can die and come back, and all of it can be timed.
+ *
+ * What stands for what (services/vehicle, services/types):
+ *
+ *   here            there
+ *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
+ *   ComesFirst      ComesFirst, GoesFirst: by both keys as published            beacon.h
+ *   Look            LookAt, ConflictWith: conflict, grants, goes_first          situation.cc
+ *   IsThroughFirst  IsThroughFirst                                              encounter.cc
+ *   UpdateFresh     UpdateEncounter, Begins, IsOver, Holds, SecondMustStop      encounter.cc
+ *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
+ *   Claimed         ClaimOf, FreeBefore, KeepClear                              claim.cc, rules.cc
+ *   Listen          ListenForMovers, NearestEcho; the rule Deaf                 vehicle.cc, rules.cc
+ *   Remember, Say   Remember, GivesWayTo, CanGiveWay, Say                       vehicle.cc, decide.cc
+ *   Move            World::Step; of the dead: watchdog, removal of the body     sim_world
+ *
+ * Time is ticks, all vehicles step in each. In tick k a brain knows beacons of ticks k-1 .. k-AGE, at
+ * will any one of them or none: so they get lost, come late, overtake each other and come twice, and
+ * the model needs neither sequence number nor boot epoch. Lost for how long is free too.
+ *
+ * Geometry is one line of places a vehicle: FAR (nobody hears it), COMING, NEARER, GATE (stands before
+ * the zone), RUNUP rolling places from which it can still stop, ZONE, PAST. Standing it needs RUNUP
+ * ticks to be where it cannot stop any more: more than a beacon may be old, as in the real fleet.
+ *
+ * Not in the model, so not proven here: steering and everything it is for (detours, backing out, the
+ * lent order, blocked_by, clears), traffic lights, queues in one lane, three zones instead of one,
+ * speeds other than none and full, errors of pose, ultrasonics that miss a body, stale ranges, spoofed
+ * or spoilt beacons, duplicate ids, restarts of the world. Ultrasonics hear exactly the bodies from
+ * the gate to the end of the zone. The virtual fleet tries these things; it proves nothing.
+ *
+ * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: nobody comes
+ * again; EVEN: one speed; STALL: whoever rolls may be slow; ONE_STEP: through the zone in one tick;
+ * NO_CLAIMS, NO_AGREEMENT: one of the two reasons for safety is missing; ONLY_EXCLUSION: the other
+ * safety properties are not looked at; WEATHER: losses end some day, and WHO must pass; the planted
+ * defects. runs.txt says which are tried together, and what SPIN must find.
+ */
+#ifndef N
+#define N 2
+#endif
+#ifndef AGE
+#define AGE 2 /* ticks: beacon_age_limit */
+#endif
+#define RUNUP (AGE + 1)
+#ifndef AGED_AT_MOST
+#define AGED_AT_MOST 2 /* ticks of waiting that are counted; 0: no ageing */
+#endif
+#define AGEING_LIMIT 1 /* ticks of waiting beyond which they count */
+#ifndef CRASHES
+#define CRASHES 0
+#endif
+#ifndef RESTARTS
+#define RESTARTS 0
+#endif
+
+/* Places. */
+#define FAR 0
+#define COMING 1
+#define NEARER 2
+#define GATE 3
+#define LAST (GATE + RUNUP) /* one step further lies the zone */
+#define ZONE (LAST + 1)
+#define ZONE_END (LAST + 2)
+#define PAST (LAST + 3)
+#define GONE (LAST + 4) /* a dead body that was taken away; as a place that was said: silence */
+
+#define IsNear(p) ((p) >= GATE && (p) <= LAST)
+#define Rolls(p) ((p) > GATE && (p) <= LAST)
+#define InZone(p) ((p) == ZONE || (p) == ZONE_END)
+#define IsHeardBody(p) ((p) >= GATE && (p) <= ZONE_END)
+/* At the fastest, from a place that was said. */
+#define StepsToZone(p) ((p) <= NEARER -> NEARER - (p) + RUNUP + 1 : ZONE - (p))
+#define StepsThrough(p) (PAST - (p))
+
+/* What is heard of a peer in a tick: the age of its beacon, or one of these. */
+#define LOST 0            /* nothing fresh */
+#define LOST_LONG (AGE + 1) /* for so long that it had the time to pass */
+#define IsFresh(a) ((a) >= 1 && (a) <= AGE)
+
+#define NOBODY 0 /* in gives_way_to; others are index + 1 */
+
+typedef Beacon {
+  byte place;
+  byte gives_way_to;
+  byte waited; /* the part of the order key that changes */
+};
+
+/* The world. */
+byte place[N];
+bool up[N];   /* the process lives */
+bool go[N];   /* the motor command of this tick */
+bool fast[N]; /* the cruise-speed bucket */
+byte crashes = CRASHES;
+byte restarts = RESTARTS;
+bool good = false; /* the radio loses nothing any more */
+
+/* The air: what was said, [sender * AGE + age - 1]. */
+Beacon said[N * AGE];
+#define Said(j, a) said[(j) * AGE + (a) - 1]
+
+/* The brains. */
+#define AT(i, j) ((i) * N + (j))
+bool meets[N * N];    /* Encounter::active, the latch */
+bool holds[N * N];    /* Encounter::holds */
+bool released[N * N]; /* Encounter::released */
+bool stood[N * N];    /* last heard standing and second: no conflict */
+byte waited[N];       /* ticks */
+byte order[N];        /* the waited part of the own key, as published */
+byte gives_way[N];    /* said at the end of this tick */
+bool under_way[N];    /* this tick: encounters are under way, and were in the tick before */
+bool frozen[N];       /* this tick: and so the order stands */
+bool rests[N];        /* this tick: no encounter, no waiting: what it waited is forgotten */
+
+/* Scratch: heard lives from Hear to the end of Decide, the rest within one step; 0 between. */
+byte heard[N];
+byte v, w, j, p, a;
+bool conflict, goes_first, standing, grants, through;
+bool clear, deaf, waits, met, meets_any, held;
+
+/* The safety properties. SPIN names the one that is broken. */
+bool two_in_zone;  /* exclusion: never two bodies in the zone, dead or alive */
+bool out_of_order; /* order: nobody enters before one that it hears near and that comes first */
+bool unfrozen;     /* frozen: the order published stands while encounters are under way */
+bool unlatched;    /* latch: a stop for a peer lasts until that has passed or given way */
+
+#include "defects.pml"
+
+inline Look(i) {
+  p = Said(j, heard[j]).place;
+  a = TrustedAge(heard[j]);
+  standing = p == GATE;
+  goes_first = GoesFirst(Said(j, heard[j]).waited, j, order[i], i);
+  conflict = IsConflict(p) && !(standing && !goes_first);
+  grants = Grants(Said(j, heard[j]).gives_way_to == i + 1 || (standing && !goes_first));
+  through = !conflict || (IsNear(place[i]) && IsThroughFirst(place[i], p, a))
+}
+
+inline UpdateFresh(i) {
+  Look(i);
+  released[AT(i, j)] = false;
+  meets[AT(i, j)] = (meets[AT(i, j)] -> p != FAR : conflict && !through);
+  stood[AT(i, j)] = meets[AT(i, j)] && !conflict;
+  held = holds[AT(i, j)];
+  holds[AT(i, j)] = meets[AT(i, j)] && IsNear(place[i]) &&
+      (goes_first -> Latched(holds[AT(i, j)]) ||
+                         (conflict && SecondMustStop(IsHeardBody(p) || place[i] == LAST))
+                   : !(grants || through) && (Latched(holds[AT(i, j)]) || place[i] == LAST));
+  CheckLatch(i);
+  if
+  :: meets[AT(i, j)] && goes_first &&
+     (gives_way[i] == NOBODY || p >= Said(gives_way[i] - 1, heard[gives_way[i] - 1]).place) ->
+     gives_way[i] = j + 1 /* the nearest */
+  :: else
+  fi;
+  if
+  :: place[i] == LAST && Claimed(p, a) -> go[i] = false
+  :: else
+  fi
+}
+
+inline UpdateLost(i) {
+  released[AT(i, j)] = meets[AT(i, j)] &&
+      (released[AT(i, j)] || (heard[j] == LOST_LONG && MayRelease(clear)));
+  holds[AT(i, j)] = meets[AT(i, j)] && !released[AT(i, j)] && HoldsForLost(
+      holds[AT(i, j)] || (place[i] == LAST && !stood[AT(i, j)]))
+}
+
+inline Update(i) {
+  met = met || meets[AT(i, j)];
+  if
+  :: IsFresh(heard[j]) -> UpdateFresh(i)
+  :: else -> UpdateLost(i)
+  fi;
+  meets_any = meets_any || meets[AT(i, j)];
+  if
+  :: holds[AT(i, j)] && !IGNORES_AGREEMENT -> waits = true; go[i] = false
+  :: else
+  fi
+}
+
+/* A body explained by a fresh beacon says nothing new; any other that moves is a reason to stop. */
+inline Listen(i) {
+  clear = true;
+  deaf = false;
+  for (j : 0 .. N - 1) {
+    if
+    :: j != i && IsHeardBody(place[j]) ->
+       clear = false;
+       deaf = deaf || (place[j] > GATE && !IsExplained(i, j))
+    :: else
+    fi
+  }
+}
+
+inline Remember(i) {
+  if
+  :: waits && place[i] == GATE && waited[i] < AGED_AT_MOST -> waited[i]++
+  :: else
+  fi;
+  under_way[i] = AGED_AT_MOST > 0 && met && meets_any;
+  frozen[i] = IsFrozen(under_way[i]);
+  rests[i] = AGED_AT_MOST > 0 && ForgetsWaiting(!meets_any && !waits)
+}
+
+/* By the order as it should be, whatever is planted. */
+inline CheckOrder(i) {
+  for (j : 0 .. N - 1) {
+    if
+    :: CHECKS_AGREEMENT && j != i && place[i] == LAST && go[i] && IsFresh(heard[j]) ->
+       out_of_order = IsNear(Said(j, heard[j]).place) &&
+                      ComesFirst(Said(j, heard[j]).waited, j, order[i], i);
+       assert(!out_of_order)
+    :: else
+    fi
+  }
+}
+
+inline CheckLatch(i) {
+  unlatched = CHECKS_AGREEMENT && held && !holds[AT(i, j)] && meets[AT(i, j)] && IsNear(place[i]) &&
+              (goes_first -> conflict : !(grants || through));
+  assert(!unlatched)
+}
+
+inline Decide(i) {
+  d_step {
+    go[i] = true;
+    gives_way[i] = NOBODY;
+    waits = false;
+    met = false;
+    meets_any = false;
+    Listen(i);
+    for (j : 0 .. N - 1) {
+      if
+      :: HearsAsPeer(i, j) -> Update(i)
+      :: else
+      fi
+    }
+    if
+    :: deaf && IsNear(place[i]) -> go[i] = false; waits = true
+    :: else
+    fi;
+    Remember(i);
+    CheckOrder(i);
+    for (j : 0 .. N - 1) { heard[j] = LOST }
+    j = 0; p = 0; a = 0; conflict = 0; goes_first = 0; standing = 0; grants = 0; through = 0;
+    clear = 0; deaf = 0; waits = 0; met = 0; meets_any = 0; held = 0
+  }
+}
+
+#define IsOnAir(j) (Said(j, 1).place != GONE || Said(j, AGE).place != GONE)
+
+/* The youngest beacon of v's that i believes in this tick is of any age, or there is none. */
+inline Hear(i) {
+  if
+  :: !(good && IsOnAir(w)) && meets[AT(i, w)] -> heard[w] = LOST_LONG
+  :: !(good && (IsOnAir(w) || meets[AT(i, w)])) -> heard[w] = LOST
+  :: Said(w, 1).place != GONE -> heard[w] = 1
+#if AGE >= 2
+  :: Said(w, 2).place != GONE -> heard[w] = 2
+#endif
+  fi;
+  printf("hears %d %d %d\n", i + 1, w + 1, heard[w])
+}
+
+#define Decides(i) (up[i] && place[i] > FAR && place[i] <= LAST)
+
+inline HearAndDecide(i) {
+  if
+  :: Decides(i) ->
+     for (w : 0 .. N - 1) {
+       if
+       :: HearsAsPeer(i, w) -> Hear(i)
+       :: else
+       fi
+     }
+     w = 0;
+     Decide(i)
+  :: else
+  fi
+}
+
+inline Forget(i) {
+  for (j : 0 .. N - 1) {
+    meets[AT(i, j)] = false;
+    holds[AT(i, j)] = false;
+    released[AT(i, j)] = false;
+    stood[AT(i, j)] = false
+  }
+  waited[i] = 0;
+  j = 0
+}
+
+/* Whoever is past, or out of reach, is no conflict for anybody. */
+inline Say(i) {
+#if AGE >= 2
+  Said(i, 2).place = Said(i, 1).place;
+  Said(i, 2).gives_way_to = Said(i, 1).gives_way_to;
+  Said(i, 2).waited = Said(i, 1).waited;
+#endif
+  if
+  :: up[i] ->
+     Said(i, 1).place = (place[i] == PAST -> FAR : place[i]);
+     Said(i, 1).gives_way_to = gives_way[i];
+     Said(i, 1).waited = order[i];
+     if
+     :: !frozen[i] && !InZone(place[i]) ->
+        unfrozen = under_way[i] && order[i] != (waited[i] > AGEING_LIMIT -> waited[i] : 0);
+        assert(!unfrozen);
+        order[i] = (waited[i] > AGEING_LIMIT -> waited[i] : 0)
+     :: else
+     fi
+  :: else ->
+     Said(i, 1).place = GONE;
+     Said(i, 1).gives_way_to = NOBODY;
+     Said(i, 1).waited = 0
+  fi;
+  if
+  :: rests[i] -> waited[i] = 0
+  :: else
+  fi;
+  gives_way[i] = NOBODY;
+  under_way[i] = false;
+  frozen[i] = false;
+  rests[i] = false
+}
+
+/* Crashes come between decision and motion: the last command still acts. Then the body rolls at most
+ * as far as a vehicle may that brakes: the watchdog's ticks are part of the reaction every stopping
+ * way allows for. */
+inline Crash() {
+  if
+  :: true
+  :: crashes > 0 && up[v] && place[v] != FAR && place[v] != PAST ->
+     d_step {
+       printf("crash %d\n", v + 1);
+       crashes--;
+       up[v] = false;
+       KeepGrant(v);
+       Forget(v);
+       order[v] = 0
+     }
+  :: restarts > 0 && !up[v] && place[v] != GONE && !Rolls(place[v]) ->
+     d_step {
+       printf("restart %d\n", v + 1);
+       restarts--;
+       up[v] = true
+     }
+  fi
+}
+
+inline MoveDead() {
+  if
+  :: !Rolls(place[v])
+  :: Rolls(place[v]) && (go[v] || place[v] < LAST) -> place[v]++
+  :: Rolls(place[v]) -> place[v] = GATE
+  :: InZone(place[v]) -> place[v] = PAST
+#ifndef WEATHER
+  :: !Rolls(place[v]) -> place[v] = GONE
+#endif
+  fi
+}
+
+inline MoveAlive() {
+  if
+  :: place[v] == FAR
+  :: place[v] == FAR -> place[v] = COMING
+  :: place[v] == COMING -> place[v] = NEARER
+  :: place[v] == NEARER -> place[v] = GATE + 1
+  :: IsNear(place[v]) && !go[v] -> place[v] = GATE
+  :: IsNear(place[v]) && go[v] ->
+     d_step {
+       place[v]++;
+       if
+       :: place[v] == ZONE -> Forget(v)
+       :: else
+       fi
+     }
+#ifdef STALL
+  :: Rolls(place[v]) && go[v]
+#endif
+#ifndef ONE_STEP
+  :: place[v] == ZONE -> place[v] = ZONE_END
+#endif
+  :: InZone(place[v]) -> place[v] = PAST
+  :: place[v] == PAST
+#ifndef ONCE
+  :: place[v] == PAST -> place[v] = FAR
+#endif
+  fi
+}
+
+#if N == 2
+#define InZoneNow (InZone(place[0]) + InZone(place[1]))
+#else
+#define InZoneNow (InZone(place[0]) + InZone(place[1]) + InZone(place[2]))
+#endif
+
+inline SayAndMove() {
+  for (v : 0 .. N - 1) {
+    Crash();
+    d_step { Say(v) }
+  }
+  for (v : 0 .. N - 1) {
+    if
+    :: up[v] -> MoveAlive()
+    :: else -> MoveDead()
+    fi;
+    go[v] = false;
+    printf("place %d %d\n", v + 1, place[v])
+  }
+  v = 0;
+  printf("tick\n");
+  two_in_zone = InZoneNow > 1;
+  assert(!two_in_zone)
+}
+
+active proctype Fleet() {
+  atomic {
+    for (v : 0 .. N - 1) {
+      up[v] = true;
+      if
+      :: true
+#ifndef EVEN
+      :: fast[v] = true
+#endif
+      fi;
+      printf("fast %d %d\n", v + 1, fast[v])
+    }
+    v = 0;
+  }
+  do
+  :: atomic { HearAndDecide(0) }
+#if N == 3
+     atomic { HearAndDecide(1) }
+#endif
+     atomic {
+       HearAndDecide(N - 1);
+       SayAndMove()
+     }
+  od
+}
+
+#ifdef WEATHER
+/* Losses end some day: by weak fairness, not by any day in particular. */
+active proctype Weather() { good = true }
+
+/* A dead body that no longer rolls is taken away some day, unless it comes back before. */
+active proctype Undertaker() {
+  do
+  :: atomic { !up[0] && !Rolls(place[0]) && place[0] != GONE -> place[0] = GONE }
+  :: atomic { !up[1] && !Rolls(place[1]) && place[1] != GONE -> place[1] = GONE }
+#if N == 3
+  :: atomic { !up[2] && !Rolls(place[2]) && place[2] != GONE -> place[2] = GONE }
+#endif
+  od
+}
+
+#ifndef WHO
+#define WHO 0
+#endif
+/* Whoever lives and has come near gets through. */
+ltl passes { [] ((up[WHO] && IsNear(place[WHO])) -> <> (!up[WHO] || place[WHO] > LAST)) }
+#endif

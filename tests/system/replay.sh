@@ -1,0 +1,52 @@
+#!/usr/bin/env bash
+# What vehicles of real runs recorded comes out the same to the bit: of a crossing, of one whose
+# second vehicle is killed with -9, and of a file that was spoilt on the disk, as far as it can be.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+
+# replayed FILE CONDITION: true of the only file's entry in the report.
+replayed() {
+  "$FLEETCTL" replay "$1" --json >"$SCRATCH/replay.json" || true
+  jq -e ".files | length == 1 and (.[0] | $2)" "$SCRATCH/replay.json" >/dev/null ||
+    fail "$1: not true of $(cat "$SCRATCH/replay.json"): $2"
+}
+same='.steps > 100 and .difference == null and .finding == "" and .lost == 0'
+
+record() { # SCENARIO
+  "$FLEETCTL" run "$1" --record "$SCRATCH/$1" --json >"$SCRATCH/run.json" 2>"$SCRATCH/run.err" ||
+    fail "$1: $(cat "$SCRATCH/run.json"; tail -n 5 "$SCRATCH/run.err")"
+}
+
+record intersection_yield
+crossing=$SCRATCH/intersection_yield
+"$FLEETCTL" replay "$crossing"/*.recording || fail "the crossing: exit code $?"
+for id in 1 2; do replayed "$crossing/vehicle-$id.recording" "$same and .complete"; done
+[[ $(find "$crossing" -name '*.recording' | wc -l) -eq 2 ]] || fail "not two recordings"
+
+# Every step says what the status and the log said: somebody gave way.
+"$FLEETCTL" replay "$crossing/vehicle-2.recording" --trace "$SCRATCH/2.tsv" >/dev/null
+[[ $(awk -F'\t' '$9 == "give_way"' "$SCRATCH/2.tsv" | wc -l) -gt 20 ]] ||
+  fail "the trace of vehicle 2 shows no giving way"
+
+# The killed one's file has no end; what is in it is whole.
+record peer_dies
+died=$SCRATCH/peer_dies
+replayed "$died/vehicle-1.recording" "$same and .complete"
+replayed "$died/vehicle-2.recording" "$same and (.complete | not)"
+"$FLEETCTL" replay "$died"/*.recording || fail "peer_dies: exit code $?"
+
+# spoilt NAME COMMAND...: the file FILE as the command leaves it is refused with exit code 2.
+spoilt() {
+  local name=$1 code=0
+  shift
+  cp "$crossing/vehicle-1.recording" "$SCRATCH/$name"
+  (cd "$SCRATCH" && "$@")
+  "$FLEETCTL" replay "$SCRATCH/$name" >"$SCRATCH/out" 2>&1 || code=$?
+  cat "$SCRATCH/out"
+  [[ $code -eq 2 ]] || fail "$name: exit code $code"
+}
+spoilt empty truncate -s 0 empty
+spoilt no_mark dd if=/dev/zero of=no_mark bs=1 count=1 conv=notrunc status=none
+spoilt one_byte dd if=/dev/zero of=one_byte bs=1 seek=30000 count=5 conv=notrunc status=none
+spoilt other_format sed -i '1s/1$/9/' other_format
+
+[[ $failures -eq 0 ]]

@@ -1,0 +1,157 @@
+// The recorder never waits, and says what it could not write.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "services/app/recorder.h"
+#include "services/app/recording_file.h"
+#include "services/app/slot_ring.h"
+#include "tests/support/recorded_crossing.h"
+#include "tests/unit/app_files.h"
+
+namespace giveway::app {
+namespace {
+
+std::string BytesOf(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::uint32_t StepsIn(const std::string& bytes, std::optional<RecordedEnd>* end = nullptr) {
+  std::istringstream stream(bytes);
+  RecordingFile file(&stream);
+  std::uint32_t steps = 0;
+  while (file.Next()) ++steps;
+  EXPECT_EQ(file.Complaint(), "");
+  if (end != nullptr) *end = file.End();
+  return steps;
+}
+
+// Feeds a recorder what a loop would.
+void Drive(const std::vector<Record>& records, Recorder* recorder) {
+  for (const Record& record : records) {
+    if (const auto* life = std::get_if<RecordedLife>(&record)) {
+      recorder->Begin(life->options, life->boot_epoch);
+    } else if (const auto* step = std::get_if<RecordedStep>(&record)) {
+      recorder->Step(step->AsInputs(), step->outputs, step->hash);
+    }
+  }
+}
+
+TEST(Recorder, WritesWhatItWasGivenInOrder) {
+  const TempFolder folder;
+  const std::string file = folder.Path() + "/tape";
+  const std::vector<Record> records = test::RecordedCrossing(60);  // fewer than the queue holds
+  {
+    Recorder recorder(file);
+    Drive(records, &recorder);
+    const RecorderTally tally = recorder.Close();
+    EXPECT_EQ(tally.steps, 60U);
+    EXPECT_EQ(tally.lost, 0U);
+  }
+  std::vector<Record> expected = records;
+  std::get<RecordedLife>(expected[0]).recorded_by = GIVEWAY_VERSION;
+  EXPECT_EQ(BytesOf(file), test::FileOf(expected));
+}
+
+TEST(Recorder, KeepsTheRecordingOfTheLifeBefore) {
+  const TempFolder folder;
+  const std::string file = folder.Write("tape", "of the life before");
+  Recorder(file).Close();
+  EXPECT_EQ(BytesOf(file + ".old"), "of the life before");
+  EXPECT_EQ(BytesOf(file).substr(0, kRecordingMark.size()), kRecordingMark);
+}
+
+TEST(Recorder, AFileThatCannotBeMadeIsAnErrorAtTheStart) {
+  EXPECT_THROW(Recorder("/nowhere/at/all"), std::runtime_error);
+}
+
+TEST(Recorder, AFullDiskIsCountedAndNothingElse) {
+  Recorder recorder("/dev/full");
+  Drive(test::RecordedCrossing(20), &recorder);
+  const RecorderTally tally = recorder.Close();
+  EXPECT_EQ(tally.steps, 0U);
+  EXPECT_EQ(tally.lost, 20U);
+}
+
+// A pipe nobody reads from is the slowest disk there is.
+TEST(Recorder, ADiskThatHangsDoesNotHoldUpWhoSteps) {
+  const TempFolder folder;
+  const std::string pipe = folder.Path() + "/pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  constexpr std::uint32_t kSteps = 2000;
+  auto recorder = std::make_unique<Recorder>(pipe);
+  Drive(test::RecordedCrossing(kSteps), recorder.get());
+
+  ::fcntl(reader, F_SETFL, 0);  // now the disk is back
+  std::string bytes;
+  std::thread disk([&] {
+    char part[4096];
+    for (ssize_t got; (got = ::read(reader, part, sizeof part)) > 0;) {
+      bytes.append(part, static_cast<std::size_t>(got));
+    }
+  });
+  const RecorderTally tally = recorder->Close();
+  recorder.reset();  // closes the pipe
+  disk.join();
+  ::close(reader);
+  EXPECT_GT(tally.lost, 0U);
+  EXPECT_GT(tally.steps, 100U);
+  EXPECT_EQ(tally.steps + tally.lost, kSteps);
+  std::optional<RecordedEnd> end;
+  EXPECT_EQ(StepsIn(bytes, &end), tally.steps);
+  ASSERT_TRUE(end.has_value());
+  EXPECT_EQ(end->lost, tally.lost);
+}
+
+TEST(SlotRing, IsFullWhenNobodyEmptiesIt) {
+  SlotRing<int> ring(2);
+  for (const int number : {7, 8}) {
+    ASSERT_NE(ring.Free(), nullptr);
+    *ring.Free() = number;
+    ring.Push();
+  }
+  EXPECT_EQ(ring.Free(), nullptr);
+  EXPECT_EQ(*ring.Next(), 7);
+  ring.Pop();
+  EXPECT_NE(ring.Free(), nullptr);
+  ring.Close();
+  EXPECT_EQ(*ring.Next(), 8);
+  ring.Pop();
+  EXPECT_EQ(ring.Next(), nullptr);
+}
+
+TEST(SlotRing, CarriesEverythingFromOneThreadToAnother) {
+  constexpr int kCount = 100000;
+  SlotRing<int> ring(4);
+  std::int64_t sum = 0;
+  std::thread emptying([&] {
+    while (const int* number = ring.Next()) {
+      sum += *number;
+      ring.Pop();
+    }
+  });
+  for (int i = 1; i <= kCount;) {
+    int* const slot = ring.Free();
+    if (slot == nullptr) {
+      std::this_thread::yield();
+      continue;
+    }
+    *slot = i++;
+    ring.Push();
+  }
+  ring.Close();
+  emptying.join();
+  EXPECT_EQ(sum, std::int64_t{kCount} * (kCount + 1) / 2);
+}
+
+}  // namespace
+}  // namespace giveway::app

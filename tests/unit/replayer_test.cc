@@ -1,0 +1,135 @@
+// A replay is bit for bit, and whatever is not the same is found at its step.
+#include "services/fleetctl/replayer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <sstream>
+
+#include "services/fleetctl/decision_trace.h"
+#include "tests/support/recorded_crossing.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr std::uint32_t kSteps = 60;
+
+app::ReplayedFile ReplayOf(const std::vector<app::Record>& records) {
+  std::istringstream stream(test::FileOf(records));
+  return Replay(&stream);
+}
+
+class ReplayTest : public testing::Test {
+ protected:
+  app::RecordedStep& Step(std::uint32_t number) {
+    return std::get<app::RecordedStep>(records_[number]);
+  }
+  std::vector<app::Record> records_ = test::RecordedCrossing(kSteps);
+};
+
+TEST_F(ReplayTest, ComesOutTheSame) {
+  const app::ReplayedFile outcome = ReplayOf(records_);
+  EXPECT_EQ(outcome.vehicle, VehicleId{1});
+  EXPECT_EQ(outcome.steps, kSteps);
+  EXPECT_TRUE(outcome.complete);
+  EXPECT_FALSE(outcome.difference.has_value());
+  EXPECT_EQ(outcome.finding, "");
+}
+
+TEST_F(ReplayTest, OneFlippedBitOfAReadingIsFound) {
+  double& range_m = Step(20).scan->readings[3].range_m;
+  range_m = std::bit_cast<double>(std::bit_cast<std::uint64_t>(range_m) ^ 1U);
+  const app::ReplayedFile outcome = ReplayOf(records_);
+  ASSERT_TRUE(outcome.difference.has_value());
+  EXPECT_EQ(outcome.difference->step, 20U);
+  EXPECT_EQ(outcome.difference->tick, Tick{20});
+  EXPECT_EQ(outcome.steps, 19U);
+}
+
+TEST_F(ReplayTest, ADifferenceIsToldWithItsFieldAndBothValues) {
+  Step(20).scan->wheels.left_rad_s += 1e-12;
+  const app::ReplayedFile outcome = ReplayOf(records_);
+  ASSERT_TRUE(outcome.difference.has_value());
+  EXPECT_EQ(outcome.difference->field.field, "command.target.left_rad_s");
+  const Outputs& recorded = Step(20).outputs;
+  EXPECT_EQ(std::stod(outcome.difference->field.recorded), recorded.command.target.left_rad_s);
+  EXPECT_NE(std::stod(outcome.difference->field.replayed), recorded.command.target.left_rad_s);
+}
+
+TEST_F(ReplayTest, AMissingBeaconIsFound) {
+  Step(30).beacons.clear();
+  EXPECT_TRUE(ReplayOf(records_).difference.has_value());
+}
+
+TEST_F(ReplayTest, AnotherHashIsFoundThoughTheOutputsAgree) {
+  Step(7).hash ^= 1;
+  const app::ReplayedFile outcome = ReplayOf(records_);
+  ASSERT_TRUE(outcome.difference.has_value());
+  EXPECT_EQ(outcome.difference->step, 7U);
+  EXPECT_EQ(outcome.difference->field.field, "hash");
+}
+
+TEST_F(ReplayTest, OtherOptionsAreAnotherVehicle) {
+  std::get<app::RecordedLife>(records_[0]).options.cruise_m_s = 0.5;
+  EXPECT_TRUE(ReplayOf(records_).difference.has_value());
+}
+
+TEST_F(ReplayTest, AnotherPlaceIsTakenFromTheStepOnAtWhichItWasGiven) {
+  const VehicleOptions faster = [] {
+    VehicleOptions options = test::DefaultOptions();
+    options.cruise_m_s = 0.6;
+    return options;
+  }();
+  records_.insert(records_.begin() + 11, app::RecordedReseat{faster});
+  const app::ReplayedFile outcome = ReplayOf(records_);
+  ASSERT_TRUE(outcome.difference.has_value());
+  EXPECT_EQ(outcome.difference->step, 11U);
+  EXPECT_EQ(outcome.difference->field.field, "command.target.left_rad_s");
+}
+
+TEST_F(ReplayTest, ACutRecordingIsTheSameAsFarAsItGoes) {
+  records_.pop_back();
+  const app::ReplayedFile outcome = ReplayOf(records_);
+  EXPECT_EQ(outcome.steps, kSteps);
+  EXPECT_FALSE(outcome.complete);
+  EXPECT_EQ(outcome.finding, "");
+}
+
+TEST_F(ReplayTest, ARecordingThatComparesNothingProvesNothing) {
+  EXPECT_THAT(ReplayOf({records_[0]}).finding, HasSubstr("no step"));
+  records_.erase(records_.begin() + kSteps);
+  EXPECT_THAT(ReplayOf(records_).finding, HasSubstr("says it holds 60 steps"));
+}
+
+TEST_F(ReplayTest, WhoWatchesSeesEveryStep) {
+  std::istringstream stream(test::FileOf(records_));
+  std::uint32_t seen = 0;
+  std::string trace;
+  Replay(&stream, [&](const app::RecordedStep& step, const Vehicle& brain, const Outputs& said) {
+    ++seen;
+    EXPECT_EQ(step.hash, brain.Hash());
+    AppendLine({.tick = brain.State().tick, .vehicle = said.command.vehicle}, said, &trace);
+  });
+  EXPECT_EQ(seen, kSteps);
+  EXPECT_THAT(trace, HasSubstr("\n60\t0.00\t1\t"));
+}
+
+TEST(ReplayVerdict, UnreadableOutweighsDifferentOutweighsIdentical) {
+  app::ReplayedFile same;
+  app::ReplayedFile other;
+  other.difference.emplace();
+  app::ReplayedFile bad;
+  bad.finding = "is empty";
+  EXPECT_EQ(app::Judge({same}), app::Verdict::kPassed);
+  EXPECT_EQ(app::Judge({same, other}), app::Verdict::kFailed);
+  EXPECT_EQ(app::Judge({same, other, bad}), app::Verdict::kNotRun);
+  EXPECT_EQ(app::Judge({}), app::Verdict::kNotRun);
+  EXPECT_THAT(app::ToJson({same, other, bad}), HasSubstr("\"finding\":\"is empty\""));
+  EXPECT_THAT(app::ToText({bad}), HasSubstr("unreadable: 0 steps of 1 recordings"));
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl
