@@ -4,11 +4,6 @@
 
 namespace giveway {
 
-Vec2 Forward(const Pose& world_from_body) {
-  const SineCosine heading = SinCos(world_from_body.heading_rad);
-  return {heading.cosine, heading.sine};
-}
-
 Vec2 ToWorld(const Pose& world_from_body, Vec2 point_body) {
   const Vec2 x_axis = Forward(world_from_body);
   return world_from_body.position_world + point_body.x * x_axis + point_body.y * Left(x_axis);

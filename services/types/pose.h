@@ -47,7 +47,10 @@ inline WheelSpeeds WheelsFromTwist(const DriveGeometry& drive, Twist twist) {
 }
 
 // The unit vector of the pose's heading in the world.
-Vec2 Forward(const Pose& world_from_body);
+inline Vec2 Forward(const Pose& world_from_body) {
+  const SineCosine heading = SinCos(world_from_body.heading_rad);
+  return {heading.cosine, heading.sine};
+}
 
 // A point given in the body frame, in the world.
 Vec2 ToWorld(const Pose& world_from_body, Vec2 point_body);

@@ -18,6 +18,15 @@ constexpr double kNoiseSigmas = 4;
 
 double Magnitude(double x) { return x < 0 ? -x : x; }
 
+// True where a distance is off the one that the echo is for by more than it may be. Most are, and
+// it takes no root to see it.
+bool IsElsewhere(double squared_distance, double expected_m) {
+  constexpr double kRounding_m = 1e-6;
+  const double most_m = expected_m + kSameBody_m + kRounding_m;
+  const double least_m = std::max(0.0, expected_m - kSameBody_m - kRounding_m);
+  return squared_distance > most_m * most_m || squared_distance < least_m * least_m;
+}
+
 // Whether a direction is off a cone's axis by no more than limit_rad. The sine of an angle is less
 // than the angle and its tangent more: what lies between takes the angle itself.
 bool IsWithin(double limit_rad, Vec2 direction_body, const Cone& cone, double bearing_rad) {
@@ -66,25 +75,23 @@ std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
 }
 
 std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
-  const VehicleProfile& profile = s.options.profile;
-  if (s.ranges.Echoes() == 0) return 0;
+  if (s.echoes.empty()) return 0;
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.world_from_body.position_world);
   std::uint32_t explains = 0;
-  for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
-    const SensorView& view = s.ranges[i];
-    const double age_s = EchoAge(view, s.tick, s.options.tick_period);
-    const Vec2 centre = age_s > 0 ? CentreBefore(age_s, peer, s) : centre_now;
-    const Vec2 to_centre = centre - profile.sonar[i].position_body;
+  for (const HeardEcho& echo : s.echoes) {
+    const Vec2 centre = echo.age_s > 0 ? CentreBefore(echo.age_s, peer, s) : centre_now;
+    const Vec2 to_centre = centre - echo.from_body;
+    if (IsElsewhere(SquaredNorm(to_centre), echo.range_m + radius_m)) continue;
     const double distance = Norm(to_centre);
-    const double expected = distance - radius_m;
-    if (Magnitude(view.range_m - expected) > kSameBody_m) continue;
+    if (Magnitude(echo.range_m - (distance - radius_m)) > kSameBody_m) continue;
     // The body shows from one tangent to the other; half the body more allows for uncertainty.
     const double half_width = distance > 1.5 * radius_m ? 1.5 * radius_m / distance : kPi;
-    const double turned = age_s * Magnitude(s.turn_rad_s);
-    const double limit_rad = profile.sonar_half_angle_rad + half_width + turned;
-    if (IsWithin(limit_rad, to_centre, s.cones.of[i], profile.sonar[i].bearing_rad)) {
-      explains |= 1U << i;
+    const double turned = echo.age_s * Magnitude(s.turn_rad_s);
+    const double limit_rad = s.options.profile.sonar_half_angle_rad + half_width + turned;
+    if (IsWithin(limit_rad, to_centre, s.cones.of[echo.sensor],
+                 s.options.profile.sonar[echo.sensor].bearing_rad)) {
+      explains |= 1U << echo.sensor;
     }
   }
   return explains;

@@ -41,6 +41,14 @@ struct PeerView {
   std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
+// An echo as one of the sensors holds it.
+struct HeardEcho {
+  std::size_t sensor;
+  double range_m;
+  double age_s;
+  Vec2 from_body;  // the sensor's place
+};
+
 struct Situation {
   const VehicleOptions& options;
   SteadyTime now{0};
@@ -64,6 +72,7 @@ struct Situation {
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   int steer_side = 0;                // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
+  std::span<const HeardEcho> echoes;  // in `ranges`, with their ages
   const Cones& cones;
   const SeenObjects& objects;
   std::optional<StopLine> stop_line;  // a light ahead that says stop

@@ -159,9 +159,20 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
   s.forward_world = state.odometry.ForwardWorld();
+  HearEchoes(&s);
   LookAhead(&s);
   s.arrived = state.arrived;
   return s;
+}
+
+void Vehicle::HearEchoes(Situation* s) {
+  std::size_t count = 0;
+  for (const std::size_t i : BitsOf(s->ranges.Echoes())) {
+    const SensorView& view = s->ranges[i];
+    echoes_[count++] = {i, view.range_m, EchoAge(view, s->tick, options_.tick_period),
+                        options_.profile.sonar[i].position_body};
+  }
+  s->echoes = {echoes_.data(), count};
 }
 
 // Lights are for cooperative vehicles; the lecture's behaviours know none.
