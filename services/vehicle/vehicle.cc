@@ -325,31 +325,4 @@ double Vehicle::SpeedMps() const {
   return TwistFromWheels(options_.profile.drive, state_->wheels).forward_m_s;
 }
 
-std::uint64_t Vehicle::Hash() const {
-  StateHash hash;
-  const VehicleState& state = *state_;
-  hash.Add(VehicleState::kVersion);
-  hash.Add(state.seq);
-  hash.Add(state.epoch);
-  hash.Add(state.tick);
-  hash.Add(state.run_state);
-  hash.Add(state.wheels.left_rad_s);
-  hash.Add(state.wheels.right_rad_s);
-  state.odometry.AddTo(&hash);
-  hash.Add(state.arrived);
-  hash.Add(state.order.waited_ticks);
-  hash.Add(state.waited_ticks);
-  hash.Add(state.deaf);
-  hash.Add(state.decision.mode);
-  hash.Add(state.decision.rule);
-  hash.Add(state.decision.peer);
-  hash.Add(state.gives_way_to);
-  state.ranges.AddTo(&hash);
-  state.peers.AddTo(&hash);
-  state.signals.AddTo(&hash);
-  AddTo(state.objects, &hash);
-  AddTo(state.last_heard, &hash);
-  return hash.Value();
-}
-
 }  // namespace giveway
