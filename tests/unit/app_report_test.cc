@@ -41,6 +41,7 @@ TEST(Report, JsonIsOneObjectOnOneLine) {
             R"("beacons_received":728,"deadline_missed":0,"liveliness_lost":0,)"
             R"("reaction_ms":{"p50":50.5,"p99":51,"max":52},"tick_overruns":0,)"
             R"("seed":4294967295,"domain":17,"state_hash":"00ff00ff00ff00ff",)"
+            R"("first_violations":[],"ticks_judged":0,"ticks_unseen":0,)"
             R"("min_separation_m":0.625,"time_to_clear_s":18.25})");
 }
 
@@ -48,7 +49,8 @@ TEST(Report, JsonPrintsDefaultsAndLeavesOutWhatDoesNotExist) {
   EXPECT_EQ(ToJson(Report{}),
             R"({"scenario":"","verdict":"not_run","reason":"","contacts":0,"halted":[],)"
             R"("arrived":[],"beacons_sent":0,"beacons_received":0,"deadline_missed":0,)"
-            R"("liveliness_lost":0,"tick_overruns":0,"seed":0,"domain":0,"state_hash":""})");
+            R"("liveliness_lost":0,"tick_overruns":0,"seed":0,"domain":0,"state_hash":"",)"
+            R"("first_violations":[],"ticks_judged":0,"ticks_unseen":0})");
 }
 
 TEST(Report, JsonLeavesOutWhatIsNotFinite) {
