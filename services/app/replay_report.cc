@@ -87,8 +87,8 @@ std::string ToJson(const std::vector<ReplayedFile>& files) {
 std::string ToText(const std::vector<ReplayedFile>& files) {
   std::string text;
   for (const ReplayedFile& file : files) text += Line(file);
-  return text + fmt::format("{}: {} steps of {} recordings\n", Reason(Judge(files)), StepsOf(files),
-                            files.size());
+  return text + fmt::format("{}: {} steps of {} recording{}\n", Reason(Judge(files)),
+                            StepsOf(files), files.size(), files.size() == 1 ? "" : "s");
 }
 
 }  // namespace giveway::app

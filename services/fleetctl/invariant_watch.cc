@@ -130,6 +130,7 @@ void InvariantWatch::Finish(bool came_to_its_end) {
 void InvariantWatch::AddTo(app::Report* report) const {
   report->ticks_judged = ticks_judged_;
   report->ticks_unseen = ticks_unseen_;
+  if (ticks_judged_ == 0) return;
   std::string broken;
   for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
     const auto invariant = static_cast<sim::Invariant>(i);

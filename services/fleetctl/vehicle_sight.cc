@@ -7,11 +7,17 @@ namespace {
 
 Tick Before(Tick tick) { return Tick{Number(tick) - 1}; }
 
-// The last element that is not after `tick`; null if there is none.
+// The last element that is not after `tick`, and the one behind it; null where there is none.
 template <typename T>
-const T* LastAt(const std::deque<T>& list, Tick tick, Tick T::*when) {
+struct Around {
+  const T* last = nullptr;
+  const T* next = nullptr;
+};
+
+template <typename T>
+Around<T> AroundOf(const std::deque<T>& list, Tick tick, Tick T::*when) {
   const auto after = std::ranges::upper_bound(list, tick, {}, when);
-  return after == list.begin() ? nullptr : &*(after - 1);
+  return {after == list.begin() ? nullptr : &*(after - 1), after == list.end() ? nullptr : &*after};
 }
 
 // All but the last of what is not after `tick`.
@@ -51,7 +57,7 @@ void VehicleSight::Take(const VehicleStatus& status) {
 
 bool VehicleSight::AddBody(Tick tick, sim::Observed* seen) const {
   if (truths_.empty() || truths_.front().tick > tick) return true;  // it is still to come
-  const Truth* const truth = LastAt(truths_, tick, &Truth::tick);
+  const Truth* const truth = AroundOf(truths_, tick, &Truth::tick).last;
   if (truth->tick != tick) return false;
   seen->present = truth->present;
   seen->arrived = truth->arrived;
@@ -71,7 +77,7 @@ Tick VehicleSight::Answered(const Said& last, const Said* next, Tick tick) const
 // of another rule than the beacon, as one that was overtaken.
 Decision VehicleSight::DecisionOf(const Beacon& beacon) const {
   Decision decision{.mode = beacon.mode, .rule = beacon.rule};
-  const VehicleStatus* const status = LastAt(status_, beacon.tick, &VehicleStatus::tick);
+  const VehicleStatus* const status = AroundOf(status_, beacon.tick, &VehicleStatus::tick).last;
   if (status != nullptr && status->decision.mode == beacon.mode &&
       status->decision.rule == beacon.rule) {
     decision.peer = status->decision.peer;
@@ -80,9 +86,8 @@ Decision VehicleSight::DecisionOf(const Beacon& beacon) const {
 }
 
 bool VehicleSight::AddWords(Tick tick, sim::Observed* seen) const {
-  const Said* const last = LastAt(said_, tick, &Said::at);
+  const auto [last, next] = AroundOf(said_, tick, &Said::at);
   if (last == nullptr) return true;  // nothing yet: it stands and says nothing
-  const Said* const next = last == &said_.back() ? nullptr : last + 1;
   const bool missed = next == nullptr || !next->follows;
   if (lives_ && missed && TicksBetween(last->at, tick) > kHeldTicks) return false;
   seen->answered = Answered(*last, next, tick);

@@ -128,7 +128,7 @@ TEST(ReplayVerdict, UnreadableOutweighsDifferentOutweighsIdentical) {
   EXPECT_EQ(app::Judge({same, other, bad}), app::Verdict::kNotRun);
   EXPECT_EQ(app::Judge({}), app::Verdict::kNotRun);
   EXPECT_THAT(app::ToJson({same, other, bad}), HasSubstr("\"finding\":\"is empty\""));
-  EXPECT_THAT(app::ToText({bad}), HasSubstr("unreadable: 0 steps of 1 recordings"));
+  EXPECT_THAT(app::ToText({bad}), HasSubstr("unreadable: 0 steps of 1 recording\n"));
 }
 
 }  // namespace
