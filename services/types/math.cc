@@ -88,7 +88,8 @@ struct Quadrant {
   double rest;         // x minus that many quarter turns, in [-pi/4, pi/4]
 };
 
-Quadrant Reduce(double x) {
+// Inline: it is half of a sine's way, and too long for the compiler to think so.
+[[gnu::always_inline]] inline Quadrant Reduce(double x) {
   const double n = Nearest(x * (2 / kPi));
   const double rest = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3;
   return {std::isnan(n) ? 0 : static_cast<std::int64_t>(n), rest};

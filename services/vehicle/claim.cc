@@ -34,6 +34,13 @@ double ClaimLength(const Beacon& beacon, double unknown_s, double reaction_s) {
          StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
 }
 
+bool IsClaimShort(const Beacon& beacon, double reaction_s, double length_m) {
+  const double pace = Magnitude(TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s);
+  const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
+  const double braking_m = length_m - most * (1 + reaction_s);
+  return most * most < 2 * beacon.deceleration_m_s2 * braking_m;
+}
+
 Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double reaction_s) {
   const double speed = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
   Claim claim;

@@ -22,6 +22,10 @@ struct Claim {
 // How far the sender of `beacon` may come before it stands: see ClaimOf.
 double ClaimLength(const Beacon& beacon, double unknown_s, double reaction_s);
 
+// True if ClaimLength is surely no more than length_m, however much of a second is unknown. Takes
+// no division.
+bool IsClaimShort(const Beacon& beacon, double reaction_s, double length_m);
+
 // What the sender of `beacon` may cover from its pose until it stands, if it was free to do as it
 // liked for `unknown_s` after the beacon and needs `reaction_s` before it brakes.
 Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double reaction_s);

@@ -1,6 +1,7 @@
 #include "services/vehicle/echoes.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "services/types/math.h"
 
@@ -18,13 +19,31 @@ constexpr double kNoiseSigmas = 4;
 
 double Magnitude(double x) { return x < 0 ? -x : x; }
 
-// True where a distance is off the one that the echo is for by more than it may be. Most are, and
-// it takes no root to see it.
-bool IsElsewhere(double squared_distance, double expected_m) {
+using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
+
+Lanes Load(const double* from) {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+// Bit k is set unless the echo in place k is for another distance than that of the body by more
+// than it may be. Most are, and two at a time and without a root it takes little to see.
+std::uint32_t PerhapsOf(Vec2 centre_body, double radius_m, const HeardEchoes& echoes) {
   constexpr double kRounding_m = 1e-6;
-  const double most_m = expected_m + kSameBody_m + kRounding_m;
-  const double least_m = std::max(0.0, expected_m - kSameBody_m - kRounding_m);
-  return squared_distance > most_m * most_m || squared_distance < least_m * least_m;
+  const double slack_m = kSameBody_m + kRounding_m;
+  std::uint32_t perhaps = 0;
+  for (std::size_t k = 0; k < echoes.count; k += 2) {
+    const Lanes x = centre_body.x - Load(&echoes.from_x_body[k]);
+    const Lanes y = centre_body.y - Load(&echoes.from_y_body[k]);
+    const Lanes expected = Load(&echoes.range_m[k]) + radius_m;
+    const Lanes squared = x * x + y * y;
+    const Lanes most = expected + slack_m;
+    const Lanes least = expected - slack_m;
+    const auto within = squared <= most * most && (least < 0 || squared >= least * least);
+    perhaps |= (within[0] != 0 ? 1U << k : 0U) | (within[1] != 0 ? 2U << k : 0U);
+  }
+  return perhaps;
 }
 
 // Whether a direction is off a cone's axis by no more than limit_rad. The sine of an angle is less
@@ -74,24 +93,46 @@ std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
   return std::max(0.0, centre_body.x - Sqrt(half));
 }
 
+void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
+                HeardEchoes* heard) {
+  constexpr double kNowhere_m = -1e6;
+  heard->any_old = false;
+  heard->range_m.fill(kNowhere_m);
+  std::size_t count = 0;
+  for (const std::size_t i : BitsOf(ranges.Echoes())) {
+    const SensorMount& mount = options.profile.sonar[i];
+    heard->from_x_body[count] = mount.position_body.x;
+    heard->from_y_body[count] = mount.position_body.y;
+    heard->range_m[count] = ranges[i].range_m;
+    heard->age_s[count] = EchoAge(ranges[i], tick, options.tick_period);
+    heard->sensor[count] = i;
+    heard->any_old = heard->any_old || heard->age_s[count] > 0;
+    ++count;
+  }
+  heard->count = count;
+}
+
 std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
-  if (s.echoes.empty()) return 0;
+  const HeardEchoes& echoes = s.echoes;
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.world_from_body.position_world);
+  const std::uint32_t all = (1U << echoes.count) - 1;
   std::uint32_t explains = 0;
-  for (const HeardEcho& echo : s.echoes) {
-    const Vec2 centre = echo.age_s > 0 ? CentreBefore(echo.age_s, peer, s) : centre_now;
-    const Vec2 to_centre = centre - echo.from_body;
-    if (IsElsewhere(SquaredNorm(to_centre), echo.range_m + radius_m)) continue;
+  for (const std::size_t k :
+       BitsOf(all & (echoes.any_old ? all : PerhapsOf(centre_now, radius_m, echoes)))) {
+    const double age_s = echoes.age_s[k];
+    const Vec2 centre = age_s > 0 ? CentreBefore(age_s, peer, s) : centre_now;
+    const Vec2 to_centre = centre - Vec2{echoes.from_x_body[k], echoes.from_y_body[k]};
     const double distance = Norm(to_centre);
-    if (Magnitude(echo.range_m - (distance - radius_m)) > kSameBody_m) continue;
+    if (Magnitude(echoes.range_m[k] - (distance - radius_m)) > kSameBody_m) continue;
     // The body shows from one tangent to the other; half the body more allows for uncertainty.
     const double half_width = distance > 1.5 * radius_m ? 1.5 * radius_m / distance : kPi;
-    const double turned = echo.age_s * Magnitude(s.turn_rad_s);
+    const double turned = age_s * Magnitude(s.turn_rad_s);
     const double limit_rad = s.options.profile.sonar_half_angle_rad + half_width + turned;
-    if (IsWithin(limit_rad, to_centre, s.cones.of[echo.sensor],
-                 s.options.profile.sonar[echo.sensor].bearing_rad)) {
-      explains |= 1U << echo.sensor;
+    const std::size_t sensor = echoes.sensor[k];
+    if (IsWithin(limit_rad, to_centre, s.cones.of[sensor],
+                 s.options.profile.sonar[sensor].bearing_rad)) {
+      explains |= 1U << sensor;
     }
   }
   return explains;

@@ -9,6 +9,10 @@
 
 namespace giveway {
 
+// Lists what the sensors hold at `tick`.
+void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
+                HeardEchoes* heard);
+
 // Bit i is set if the echo of sensor i is where the peer's body would have echoed when the sensor
 // fired.
 std::uint32_t EchoesOf(const PeerView& peer, const Situation& s);

@@ -29,10 +29,10 @@ double SecondsBetween(const SensorView& view, const RangeReading& reading,
 
 // One reading into the sensor's running view.
 void Update(SensorView* view, const RangeReading& reading, Nanoseconds tick_period) {
-  const double dt_s = SecondsBetween(*view, reading, tick_period);
-  const bool both_echo = view->kind == Echo::kEcho && reading.kind == Echo::kEcho && dt_s > 0;
-  const double closing = both_echo ? (view->range_m - reading.range_m) / dt_s : 0;
-  if (both_echo && IsOneObject(closing)) {
+  const bool both_echo = view->kind == Echo::kEcho && reading.kind == Echo::kEcho;
+  const double dt_s = both_echo ? SecondsBetween(*view, reading, tick_period) : 0;
+  const double closing = dt_s > 0 ? (view->range_m - reading.range_m) / dt_s : 0;
+  if (dt_s > 0 && IsOneObject(closing)) {
     view->closing_m_s = view->streak == 0 ? closing : 0.5 * (view->closing_m_s + closing);
     ++view->streak;
   } else {
@@ -114,9 +114,9 @@ int RangeView::FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& optio
   if (!any_ || now - taken_ > options.ranges_age_limit) return kSensorCount;
   const auto limit_ticks = (options.ranges_age_limit + options.sonar_refresh) / options.tick_period;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
-    if (!options.profile.sonar[i].enabled) continue;
     const bool old = TicksBetween(sensors_[i].tick, tick) > limit_ticks;
-    if (old || sensors_[i].kind == Echo::kNoData) return static_cast<int>(i);
+    const bool blind = old || sensors_[i].kind == Echo::kNoData;
+    if (blind && options.profile.sonar[i].enabled) return static_cast<int>(i);
   }
   return -1;
 }

@@ -108,14 +108,16 @@ double ApartFrom(const Beacon& beacon, const Situation& s) {
          2 * (s.sigma_position_m + beacon.sigma_position_m);
 }
 
+// How far the centre of this vehicle surely keeps from a claim without length, and a bit more.
+double KeptFrom(const Beacon& beacon, const Situation& s) {
+  return ApartFrom(beacon, s) + beacon.body_radius_m + kWellAway_m;
+}
+
 // True if the claim lies beyond where it could slow this vehicle down: a claim reaches no farther
 // than its length and is no wider than that and the body.
 bool IsClaimFar(const Beacon& beacon, double unknown_s, const Situation& s) {
-  const double reaction_s = ReactionSeconds(s.options);
-  const double slows_m =
-      StoppingDistance(s.options.cruise_m_s, reaction_s, s.options.profile.deceleration_m_s2);
-  const double far_m = slows_m + ApartFrom(beacon, s) + beacon.body_radius_m +
-                       2 * ClaimLength(beacon, unknown_s, reaction_s) + kWellAway_m;
+  const double length_m = ClaimLength(beacon, unknown_s, ReactionSeconds(s.options));
+  const double far_m = s.slows_m + KeptFrom(beacon, s) + 2 * length_m;
   const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
   return SquaredNorm(offset) > far_m * far_m;
 }
@@ -137,8 +139,12 @@ double FreeOf(const PeerView& view, const Situation& s) {
 // ultrasonics are nearer, what radar and lidar show may be this far.
 constexpr double kLooksAround_m = 8;
 constexpr double kSeesFar_m = 25;
-bool SeesFar(const VehicleProfile& profile) {
-  return profile.radar || profile.lidar || profile.camera || profile.sonar_max_range_m > 5;
+
+double NearReach(const Situation& s) {
+  const VehicleProfile& profile = s.options.profile;
+  const bool sees_far =
+      profile.radar || profile.lidar || profile.camera || profile.sonar_max_range_m > 5;
+  return (sees_far ? kSeesFar_m : kLooksAround_m) + profile.body_radius_m;
 }
 
 // For how long a peer is carried forward since its beacon, as views carry it forward.
@@ -202,16 +208,16 @@ double ClosingSpeed(const PeerView& view, const Situation& s) {
 bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || peer.encounter.active) return true;
   const Beacon& beacon = peer.beacon;
-  const VehicleProfile& profile = s.options.profile;
   const double speed_m_s = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
   const double moved_m =
       CarriedSeconds(beacon, fresh, s) * (speed_m_s < 0 ? -speed_m_s : speed_m_s);
-  const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
-  const double near_m = SeesFar(profile) ? kSeesFar_m : kLooksAround_m;
-  const double far_m = near_m + profile.body_radius_m + beacon.body_radius_m + moved_m;
-  if (SquaredNorm(offset) <= far_m * far_m) return true;
+  const Vec2 from_world = beacon.world_from_body.position_world;
+  const double near_m = NearReach(s) + beacon.body_radius_m + moved_m;
+  if (SquaredNorm(from_world - s.world_from_body.position_world) <= near_m * near_m) return true;
   const double reach_m = Reach(beacon, s) + moved_m + kWellAway_m;
-  return !StaysAway(beacon.world_from_body.position_world, beacon.toward_world, reach_m, s.path) ||
+  if (!StaysAway(from_world, beacon.toward_world, reach_m, s.path)) return true;
+  const double short_m = (near_m - s.slows_m - KeptFrom(beacon, s)) / 2;
+  return !IsClaimShort(beacon, ReactionSeconds(s.options), short_m) &&
          !IsClaimFar(beacon, UnknownSeconds(beacon, s), s);
 }
 

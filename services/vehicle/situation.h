@@ -2,6 +2,7 @@
 // now. Built once a step from the tables; the rules only read it.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -41,12 +42,16 @@ struct PeerView {
   std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
-// An echo as one of the sensors holds it.
-struct HeardEcho {
-  std::size_t sensor;
-  double range_m;
-  double age_s;
-  Vec2 from_body;  // the sensor's place
+// The echoes that the sensors hold, side by side: entry by entry `count` of them, and one more
+// where that is odd, which is nowhere.
+struct HeardEchoes {
+  std::size_t count = 0;
+  bool any_old;                                              // has an age
+  alignas(16) std::array<double, kSensorCount> from_x_body;  // the sensor's place
+  alignas(16) std::array<double, kSensorCount> from_y_body;
+  alignas(16) std::array<double, kSensorCount> range_m;
+  std::array<double, kSensorCount> age_s;
+  std::array<std::size_t, kSensorCount> sensor;
 };
 
 struct Situation {
@@ -62,7 +67,8 @@ struct Situation {
   double turn_rad_s = 0;  // measured
   WheelSpeeds wheels;     // measured
   double sigma_position_m = 0;
-  Path path;                         // towards the goal, or straight on
+  double slows_m = 0;  // a free way no longer than this is too short for the cruise speed
+  Path path;           // towards the goal, or straight on
   double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
   bool stops_there = false;          // at the goal; a waypoint is driven through
   OrderKey order;                    // as last published
@@ -72,7 +78,7 @@ struct Situation {
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   int steer_side = 0;                // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
-  std::span<const HeardEcho> echoes;  // in `ranges`, with their ages
+  const HeardEchoes& echoes;  // in `ranges`
   const Cones& cones;
   const SeenObjects& objects;
   std::optional<StopLine> stop_line;  // a light ahead that says stop

@@ -144,8 +144,12 @@ void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
 Situation Vehicle::Look(const Inputs& inputs) {
   VehicleState& state = *state_;
   const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
-  Situation s{
-      .options = options_, .ranges = state.ranges, .cones = cones_, .objects = state.objects};
+  HearEchoes(state.ranges, state.tick, options_, &echoes_);
+  Situation s{.options = options_,
+              .ranges = state.ranges,
+              .echoes = echoes_,
+              .cones = cones_,
+              .objects = state.objects};
   s.now = inputs.now;
   s.tick = state.tick;
   s.run_state = state.run_state;
@@ -155,24 +159,15 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.turn_rad_s = twist.turn_rad_s;
   s.wheels = state.wheels;
   s.sigma_position_m = state.odometry.SigmaPosition();
+  s.slows_m = StoppingDistance(options_.cruise_m_s, ReactionSeconds(options_),
+                               options_.profile.deceleration_m_s2);
   s.order = ActingOrder(state.order, state.peers, options_.id);
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
   s.forward_world = state.odometry.ForwardWorld();
-  HearEchoes(&s);
   LookAhead(&s);
   s.arrived = state.arrived;
   return s;
-}
-
-void Vehicle::HearEchoes(Situation* s) {
-  std::size_t count = 0;
-  for (const std::size_t i : BitsOf(s->ranges.Echoes())) {
-    const SensorView& view = s->ranges[i];
-    echoes_[count++] = {i, view.range_m, EchoAge(view, s->tick, options_.tick_period),
-                        options_.profile.sonar[i].position_body};
-  }
-  s->echoes = {echoes_.data(), count};
 }
 
 // Lights are for cooperative vehicles; the lecture's behaviours know none.

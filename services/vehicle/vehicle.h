@@ -86,7 +86,6 @@ class Vehicle {
   void TakePeers(const Inputs& inputs);
   void TakeSignalsAndObjects(const Inputs& inputs);
   Situation Look(const Inputs& inputs);
-  void HearEchoes(Situation* situation);
   void LookAhead(Situation* situation);
   void LookAtSignals(Situation* situation);
   void LookAround(Situation* situation);
@@ -98,8 +97,8 @@ class Vehicle {
   Beacon Say(const Situation& situation);
 
   VehicleOptions options_;
-  Cones cones_;                                 // of options_.profile
-  std::array<HeardEcho, kSensorCount> echoes_;  // scratch of one step
+  Cones cones_;         // of options_.profile
+  HeardEchoes echoes_;  // scratch of one step
   std::unique_ptr<VehicleState> state_;
   std::unique_ptr<std::array<PeerView, kMaxPeers>> views_;  // scratch of one step
   std::uint32_t peers_heard_ = 0;

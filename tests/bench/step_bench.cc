@@ -59,7 +59,7 @@ void Drive(benchmark::State& bench, const std::vector<Beacon>& peers) {
     ++tick;
     inputs.now = tick * options.tick_period;
     inputs.scan->tick = Tick{tick};
-    for (RangeReading& reading : inputs.scan->readings) reading.tick = Tick{tick};
+    for (std::size_t i = 0; i < 8; ++i) inputs.scan->readings[i].tick = Tick{tick};
     for (std::size_t i = 0; i < heard.size(); ++i) {
       heard[i].beacon.tick = Tick{tick - 1};
       heard[i].beacon.seq = tick - 1;
