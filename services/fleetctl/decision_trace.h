@@ -11,7 +11,7 @@ namespace giveway::fleetctl {
 
 inline constexpr std::string_view kTraceHead =
     "tick\ttime_s\tvehicle\tx_m\ty_m\theading_rad\tforward_m_s\tmode\trule\tpeer\tsensor\t"
-    "gives_way_to\twaited_ticks\tarrived\n";
+    "gives_way_to\tblocked_by\twaited_ticks\torder_of\ttoward_x_m\ttoward_y_m\tarrived\n";
 
 struct TraceLine {
   Tick tick = kNoTick;

@@ -28,9 +28,12 @@ constexpr bool GoesFirst(const OrderKey& a, const OrderKey& b) {
   return a.vehicle < b.vehicle;
 }
 
-// The same for keys that may be lent: of two vehicles that act by one key the lower id goes first.
+// The same for keys that may be lent: of two vehicles that act by one key the one that lends it
+// goes last, for the other is in its way; of two that were lent it the lower id goes first.
 constexpr bool ComesFirst(const OrderKey& a, VehicleId id_a, const OrderKey& b, VehicleId id_b) {
-  return a == b ? id_a < id_b : GoesFirst(a, b);
+  if (a != b) return GoesFirst(a, b);
+  if (a.vehicle == id_a) return false;
+  return b.vehicle == id_b || id_a < id_b;
 }
 
 struct Beacon {

@@ -70,7 +70,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   }
   action.round = steering.round;
   action.steer_side = steering.side;
-  action.target = Drive(profile, steering, speed, may_turn);
+  action.target = Drive(profile, {s.speed_m_s, s.turn_rad_s}, steering, speed, may_turn);
   return action;
 }
 

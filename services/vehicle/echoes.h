@@ -21,6 +21,9 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s);
 // a margin to spare. `sum_of_radii` is that of both.
 std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii);
 
+// Left between the shell and what an echo may be of.
+inline constexpr double kStandOff_m = 0.15;
+
 // How far the own shell may still go before it touches what sensor `sensor` hears, if that can be
 // in the swept path; a known peer's body counts by its place, anything else anywhere on the arc of
 // the cone. Empty if it cannot be in the path.

@@ -8,7 +8,6 @@ namespace giveway {
 namespace {
 
 constexpr double kLookAhead_m = 10;
-constexpr double kStandOff_m = 0.15;  // left between the shell and what stands in the path
 
 Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "services/types/math.h"
+#include "services/vehicle/echoes.h"
 
 namespace giveway {
 namespace {
@@ -92,13 +93,19 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
 void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   constexpr double kNear_m = 0.6;
   constexpr double kHalf_rad = 0.6;
+  constexpr double kTurnAway_rad = 0.15;  // at a time, from what stops the vehicle as it stands
+  constexpr double kCreeps_m = 0.05;      // so near to where it would stop it comes no further
   const VehicleProfile& profile = s.options.profile;
   for (const std::size_t i : BitsOf(s.ranges.Echoes() & ~s.explained)) {
     const SensorView& view = s.ranges[i];
     if (view.range_m > kNear_m || headings->count == headings->of.size()) continue;
+    const double bearing_rad = profile.sonar[i].bearing_rad;
+    const std::optional<double> free_m = FreeAhead(i, s);
+    const bool stops = free_m && *free_m <= kStandOff_m + kCreeps_m;
     headings->of[headings->count++] = {
-        WrapAngle(s.world_from_body.heading_rad + profile.sonar[i].bearing_rad), kHalf_rad,
-        view.range_m, kNobody};
+        WrapAngle(s.world_from_body.heading_rad + bearing_rad),
+        std::max(kHalf_rad, stops ? Magnitude(bearing_rad) + kTurnAway_rad : 0), view.range_m,
+        kNobody};
   }
 }
 
@@ -176,8 +183,21 @@ Avoidance Avoid(const BraitenbergWeights& weights, const RangeView& ranges) {
   return avoidance;
 }
 
-WheelSpeeds Drive(const VehicleProfile& profile, const Steering& steering, double speed_m_s,
-                  bool may_turn) {
+namespace {
+
+// Both rims speed up no faster than the drive allows. Turning comes first: asked for all of both, a
+// vehicle that speeds up keeps the turn it has, and sways from side to side.
+double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s) {
+  constexpr double kAhead_s = 0.25;
+  const double rim_m_s = profile.drive.axle_m / 2 * Magnitude(turn_rad_s - now.turn_rad_s);
+  return std::max(0.0, now.forward_m_s) +
+         std::max(0.0, kAhead_s * profile.acceleration_m_s2 - rim_m_s);
+}
+
+}  // namespace
+
+WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
+                  double speed_m_s, bool may_turn) {
   if (speed_m_s <= 0 && !may_turn) return {};
   constexpr double kGain_per_s = 2.0;
   constexpr double kTurnOnTheSpot_rad = 0.3;
@@ -185,7 +205,8 @@ WheelSpeeds Drive(const VehicleProfile& profile, const Steering& steering, doubl
   const double turn =
       std::clamp(kGain_per_s * error, -profile.max_turn_rad_s / 2, profile.max_turn_rad_s / 2);
   const bool on_the_spot = error > kTurnOnTheSpot_rad || error < -kTurnOnTheSpot_rad;
-  return WheelsFromTwist(profile.drive, {on_the_spot ? 0 : speed_m_s, turn});
+  const double forward = std::min(speed_m_s, SpeedBesideTurn(profile, now, turn));
+  return WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
 }
 
 }  // namespace giveway

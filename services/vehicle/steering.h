@@ -23,9 +23,10 @@ struct Avoidance {
 };
 Avoidance Avoid(const BraitenbergWeights& weights, const RangeView& ranges);
 
-// Wheel speeds for a forward speed limit and a steering: turns on the spot before it drives where
-// the error is large. `may_turn` false stands dead still when the limit is 0.
-WheelSpeeds Drive(const VehicleProfile& profile, const Steering& steering, double speed_m_s,
-                  bool may_turn);
+// Wheel speeds for a forward speed limit and a steering, of a vehicle that moves as `now`: turns on
+// the spot before it drives where the error is large. `may_turn` false stands dead still when the
+// limit is 0.
+WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
+                  double speed_m_s, bool may_turn);
 
 }  // namespace giveway

@@ -15,9 +15,12 @@ double Magnitude(double x) { return x < 0 ? -x : x; }
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
 
-// Keys may be lent: of two vehicles that act by one key the lower id goes first.
+// Keys may be lent: of two vehicles that act by one key its owner goes last, for the other is in
+// its way; else the lower id goes first.
 bool ComesFirst(VehicleId id, const OrderKey& key, VehicleId other_id, const OrderKey& other) {
-  return key == other ? id < other_id : GoesFirst(key, other);
+  if (key != other) return GoesFirst(key, other);
+  if (key.vehicle == id || key.vehicle == other_id) return key.vehicle == other_id;
+  return id < other_id;
 }
 
 // Halts to give way, by its own word and by the truth.

@@ -44,13 +44,13 @@ TEST(Steering, TheStockVehicleBrakesAndTurnsAway) {
 
 TEST(Steering, ALargeErrorTurnsOnTheSpotFirst) {
   const VehicleProfile p3dx = PioneerP3dx();
-  const WheelSpeeds wheels = Drive(p3dx, {.heading_error_rad = 0.5}, 0.3, true);
+  const WheelSpeeds wheels = Drive(p3dx, {}, {.heading_error_rad = 0.5}, 0.3, true);
   EXPECT_NEAR(wheels.left_rad_s, -wheels.right_rad_s, 1e-12);
   EXPECT_GT(wheels.right_rad_s, 0);
 }
 
 TEST(Steering, ADeadStopDoesNotTurn) {
-  EXPECT_EQ(Drive(PioneerP3dx(), {.heading_error_rad = 0.5}, 0, false), WheelSpeeds{});
+  EXPECT_EQ(Drive(PioneerP3dx(), {}, {.heading_error_rad = 0.5}, 0, false), WheelSpeeds{});
 }
 
 }  // namespace
