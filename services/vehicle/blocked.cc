@@ -14,6 +14,17 @@ bool SlowsDown(const PeerView& view, const Situation& s) {
          view.speed_m_s < s.options.cruise_m_s;
 }
 
+// The nearest of those that halt for this vehicle.
+VehicleId NearestThatWaits(const Situation& s) {
+  const PeerView* nearest = nullptr;
+  for (const PeerView& view : s.peers) {
+    const bool waits =
+        view.fresh && view.standing && view.peer->beacon.gives_way_to == s.options.id;
+    if (waits && (nearest == nullptr || view.gap_m < nearest->gap_m)) nearest = &view;
+  }
+  return nearest == nullptr ? kNobody : nearest->peer->id;
+}
+
 }  // namespace
 
 OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id) {
@@ -37,7 +48,10 @@ VehicleId BlockedBy(const Situation& s, const Action& action) {
   if (leader != s.peers.end()) return leader->peer->id;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
   if (action.decision.rule == Rule::kKeepClear && stands) return action.decision.peer;
-  return s.aimless ? action.round : kNobody;
+  if (!s.aimless) return kNobody;
+  // Whoever finds no way through those that wait for it lets one of them go.
+  const VehicleId waiting = s.very_aimless ? NearestThatWaits(s) : kNobody;
+  return waiting != kNobody ? waiting : action.blocked_by;
 }
 
 bool IsStillNear(VehicleId peer, const Situation& s) {

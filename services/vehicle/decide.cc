@@ -68,8 +68,9 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                        .sensor = limit->sensor,
                        .cause_tick = limit->cause_tick};
   }
-  action.round = steering.round;
+  action.blocked_by = steering.blocked_by;
   action.steer_side = steering.side;
+  action.away_rad = steering.away_rad;
   action.target = Drive(profile, {s.speed_m_s, s.turn_rad_s}, steering, speed, may_turn);
   return action;
 }

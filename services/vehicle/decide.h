@@ -8,8 +8,9 @@ namespace giveway {
 struct Action {
   Decision decision;
   WheelSpeeds target;
-  VehicleId round = kNobody;  // what it turns past
-  int steer_side = 0;         // which way it turns past something: 1 left, -1 right
+  VehicleId blocked_by = kNobody;  // see Steering
+  int steer_side = 0;              // which way it turns past something: 1 left, -1 right
+  std::optional<double> away_rad;  // see Steering
 };
 
 Action Decide(const Situation& s);

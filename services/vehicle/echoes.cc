@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kPathMargin_m = 0.05;   // on either side of the body
 constexpr double kSameBody_m = 0.25;     // an echo this near to the expected range is that body
+constexpr double kNearer_m = 0.06;       // but not nearer than by this and what is unsure
 constexpr double kOwnMotion_m_s = 0.15;  // closing speed the own motion may leave unexplained
 // Readings in a row before a closing speed counts; where each takes its time, fewer must do.
 constexpr std::uint32_t kMotionStreak = 4;
@@ -57,6 +58,26 @@ bool IsWithin(double limit_rad, Vec2 direction_body, const Cone& cone, double be
     if (across < (limit_rad - kRounding) * along) return true;
   }
   return Magnitude(WrapAngle(Atan2(direction_body.y, direction_body.x) - bearing_rad)) <= limit_rad;
+}
+
+// The least range at which a cone that looks `off_rad` past the centre of a disc echoes it, metres
+// from the sensor: at its nearest point inside the cone, or else where its edge meets it or passes.
+double LeastRange(double distance_m, double radius_m, double off_rad) {
+  if (distance_m <= radius_m) return 0;
+  if (off_rad <= 0) return distance_m - radius_m;
+  const double across_m = distance_m * Sin(std::min(off_rad, kPi / 2));
+  if (across_m >= radius_m) return Sqrt(distance_m * distance_m - radius_m * radius_m);
+  return distance_m * Cos(off_rad) - Sqrt(radius_m * radius_m - across_m * across_m);
+}
+
+// Something before the body, or beside it: too near for what is unsure to be its echo.
+bool IsBefore(double range_m, double radius_m, double unsure_m, Vec2 to_centre, double cone_rad,
+              double bearing_rad) {
+  constexpr double kUnsure_rad = 0.1;
+  const double distance_m = Norm(to_centre);
+  const double off_rad = Magnitude(WrapAngle(Atan2(to_centre.y, to_centre.x) - bearing_rad));
+  const double slack_rad = kUnsure_rad + unsure_m / std::max(distance_m, radius_m);
+  return range_m < LeastRange(distance_m, radius_m, off_rad - cone_rad - slack_rad) - unsure_m;
 }
 
 // Where a peer comes to stand if it brakes as soon as this vehicle does.
@@ -117,6 +138,7 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.world_from_body.position_world);
   const std::uint32_t all = (1U << echoes.count) - 1;
+  const double unsure_m = kNearer_m + 2 * (s.sigma_position_m + peer.peer->beacon.sigma_position_m);
   std::uint32_t explains = 0;
   for (const std::size_t k :
        BitsOf(all & (echoes.any_old ? all : PerhapsOf(centre_now, radius_m, echoes)))) {
@@ -131,7 +153,11 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
     const double limit_rad = s.options.profile.sonar_half_angle_rad + half_width + turned;
     const std::size_t sensor = echoes.sensor[k];
     if (IsWithin(limit_rad, to_centre, s.cones.of[sensor],
-                 s.options.profile.sonar[sensor].bearing_rad)) {
+                 s.options.profile.sonar[sensor].bearing_rad) &&
+        !IsBefore(echoes.range_m[k], radius_m,
+                  unsure_m + kNoiseSigmas * s.options.sonar_noise * echoes.range_m[k], to_centre,
+                  s.options.profile.sonar_half_angle_rad + turned,
+                  s.options.profile.sonar[sensor].bearing_rad)) {
       explains |= 1U << sensor;
     }
   }

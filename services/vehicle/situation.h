@@ -76,7 +76,10 @@ struct Situation {
   bool very_aimless = false;         // for so long that it does not stay in line any more
   bool aimless = false;              // has driven about for seconds without coming nearer
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
-  int steer_side = 0;                // the side of the last turn past something: 1 left, -1 right
+  // World frame: taken of late, to get away from echoes that stopped it. They turn with the
+  // vehicle: choosing anew with every tick it would turn to and fro for ever.
+  std::optional<double> away_rad;
+  int steer_side = 0;  // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
   const HeardEchoes& echoes;  // in `ranges`
   const Cones& cones;

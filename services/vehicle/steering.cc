@@ -16,6 +16,10 @@ constexpr double kBesideIt_rad = kPi / 2 - 0.03;
 constexpr double kLookAhead_m = 3;
 // A heading on the side of the last turn is kept although another is this much nearer.
 constexpr double kKeepSide_rad = 0.6;
+// Away from what stops it, but not back against whoever follows.
+constexpr double kNoWayBack_rad = 1.7;
+// A gap no wider than this is none.
+constexpr double kNarrow_rad = 0.05;
 
 // What stands in the way, as seen from the axle centre: no heading between `middle` - `half` and
 // `middle` + `half` gets past it.
@@ -29,6 +33,7 @@ struct Blocked {
 struct BlockedHeadings {
   std::array<Blocked, 64> of;  // the first `count`
   std::size_t count = 0;
+  bool stops = false;  // one of them keeps the vehicle where it stands
 };
 
 double Magnitude(double x) { return x < 0 ? -x : x; }
@@ -102,6 +107,7 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
     const double bearing_rad = profile.sonar[i].bearing_rad;
     const std::optional<double> free_m = FreeAhead(i, s);
     const bool stops = free_m && *free_m <= kStandOff_m + kCreeps_m;
+    headings->stops = headings->stops || stops;
     headings->of[headings->count++] = {
         WrapAngle(s.world_from_body.heading_rad + bearing_rad),
         std::max(kHalf_rad, stops ? Magnitude(bearing_rad) + kTurnAway_rad : 0), view.range_m,
@@ -119,6 +125,17 @@ const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad) {
   return nearest;
 }
 
+// The nearest vehicle among what blocks a heading.
+VehicleId PeerAt(const BlockedHeadings& headings, double heading_rad) {
+  const Blocked* nearest = nullptr;
+  for (std::size_t i = 0; i < headings.count; ++i) {
+    const Blocked& blocked = headings.of[i];
+    if (blocked.peer == kNobody || !IsBlockedBy(blocked, heading_rad)) continue;
+    if (nearest == nullptr || blocked.distance_m < nearest->distance_m) nearest = &blocked;
+  }
+  return nearest == nullptr ? kNobody : nearest->peer;
+}
+
 // The free heading nearest to the wanted one, along an edge of something; the side of the last
 // turn is kept unless the other is much nearer. The wanted one itself where none is free.
 double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side) {
@@ -126,9 +143,10 @@ double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side)
   double best_cost = 1e9;
   for (std::size_t i = 0; i < headings.count; ++i) {
     const Blocked& blocked = headings.of[i];
-    for (const double edge :
-         {blocked.middle_rad + blocked.half_rad, blocked.middle_rad - blocked.half_rad}) {
+    for (const int end : {1, -1}) {
+      const double edge = blocked.middle_rad + end * blocked.half_rad;
       if (BlockedAt(headings, edge) != nullptr) continue;
+      if (BlockedAt(headings, edge + end * kNarrow_rad) != nullptr) continue;
       const double turn = WrapAngle(edge - wanted_rad);
       // Passing on the right, with the obstacle to the left, where both sides are alike.
       const bool other_side = side == 0 ? turn > 0 : turn * side < 0;
@@ -139,6 +157,24 @@ double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side)
     }
   }
   return best;
+}
+
+// Among others it leaves to them to make room: turning away in front of them it would only be in
+// the way of more.
+bool HasCompany(const Situation& s) {
+  constexpr double kNear_m = 1;
+  return std::ranges::any_of(s.peers, [&s](const PeerView& view) {
+    const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+    return view.gap_m < kNear_m && !view.peer->left && Dot(offset, s.path.direction_world) > 0;
+  });
+}
+
+// Once it has turned the way it took, and something stops it there too, it looks for another.
+bool LeadsAway(const BlockedHeadings& headings, const Situation& s) {
+  constexpr double kTurned_rad = 0.1;
+  if (!s.away_rad) return false;
+  const double error_rad = WrapAngle(*s.away_rad - s.world_from_body.heading_rad);
+  return !headings.stops || Magnitude(error_rad) > kTurned_rad;
 }
 
 double Activation(const BraitenbergWeights& weights, const SensorView& view) {
@@ -158,11 +194,19 @@ Steering SteerToGoal(const Situation& s) {
   const double way_m = s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
   BlockedHeadings headings = WhatBlocks(s, way_m);
   if (s.aimless) AddEchoes(s, &headings);
+  steering.blocked_by = PeerAt(headings, Atan2(s.path.direction_world.y, s.path.direction_world.x));
+  if (LeadsAway(headings, s)) {
+    steering.side = s.steer_side;
+    steering.heading_error_rad = WrapAngle(*s.away_rad - s.world_from_body.heading_rad);
+    return steering;
+  }
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {
     heading = FreeHeading(headings, wanted, s.steer_side);
     steering.round = blocked->peer;
     const double turn = WrapAngle(heading - wanted);
     steering.side = turn > 0 ? 1 : -1;
+    const bool back = turn > kNoWayBack_rad || turn < -kNoWayBack_rad;
+    if (headings.stops && heading != wanted && !back && !HasCompany(s)) steering.away_rad = heading;
   }
   steering.heading_error_rad = WrapAngle(heading - s.world_from_body.heading_rad);
   return steering;
@@ -187,11 +231,14 @@ namespace {
 
 // Both rims speed up no faster than the drive allows. Turning comes first: asked for all of both, a
 // vehicle that speeds up keeps the turn it has, and sways from side to side.
-double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s) {
+double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s,
+                       double speed_m_s) {
   constexpr double kAhead_s = 0.25;
+  constexpr double kNoTurn_m_s = 0.005;
   const double rim_m_s = profile.drive.axle_m / 2 * Magnitude(turn_rad_s - now.turn_rad_s);
-  return std::max(0.0, now.forward_m_s) +
-         std::max(0.0, kAhead_s * profile.acceleration_m_s2 - rim_m_s);
+  if (rim_m_s < kNoTurn_m_s) return speed_m_s;
+  const double more_m_s = std::max(0.0, kAhead_s * profile.acceleration_m_s2 - rim_m_s);
+  return std::min(speed_m_s, std::max(0.0, now.forward_m_s) + more_m_s);
 }
 
 }  // namespace
@@ -205,7 +252,7 @@ WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steerin
   const double turn =
       std::clamp(kGain_per_s * error, -profile.max_turn_rad_s / 2, profile.max_turn_rad_s / 2);
   const bool on_the_spot = error > kTurnOnTheSpot_rad || error < -kTurnOnTheSpot_rad;
-  const double forward = std::min(speed_m_s, SpeedBesideTurn(profile, now, turn));
+  const double forward = SpeedBesideTurn(profile, now, turn, speed_m_s);
   return WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
 }
 

@@ -68,6 +68,10 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.wheels = {};
   state.waypoint = 0;
   state.nearest_m = kNoGoal_m;
+  state.aimless_ticks = 0;
+  state.detour_tick = kNoTick;
+  state.away_tick = kNoTick;
+  state.blocked_tick = kNoTick;
   state.arrived = false;
   state.order.waited_ticks = 0;
   state.waited_ticks = 0;
@@ -247,6 +251,10 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   state.encounters = under_way;
   state.decision = decision;
   state.steer_side = action.steer_side;
+  if (action.away_rad) {
+    state.away_rad = *action.away_rad;
+    state.away_tick = s.tick;
+  }
   KeepBlocked(BlockedBy(s, action), s);
 }
 

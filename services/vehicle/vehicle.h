@@ -48,6 +48,8 @@ struct VehicleState {
   std::uint32_t aimless_ticks = 0;   // driven since without coming nearer
   Vec2 detour_world;                 // where the way round leads first, if detour_tick is set
   Tick detour_tick = kNoTick;        // when it was looked for
+  double away_rad = 0;               // the heading taken from what stopped it, if away_tick is set
+  Tick away_tick = kNoTick;          // when it was taken
   RangeView ranges;
   PeerTable peers;
   SignalTable signals;

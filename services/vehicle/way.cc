@@ -17,6 +17,8 @@ constexpr double kProgress_m = 0.1;
 constexpr double kQueued_m = 1;
 constexpr std::uint32_t kQueuePatience = 8;
 constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
+constexpr std::uint32_t kAwayTicks = 60;    // it drives away from what stopped it for so many
+constexpr std::uint32_t kStuckTicks = 200;  // and may be stopped again, along a wall, for so many
 
 // A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
 bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
@@ -66,9 +68,13 @@ void Vehicle::Detour(Situation* s) {
   if (queues && Number(s->tick) % kQueuePatience != 0) return;
   ++state.aimless_ticks;
   if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
-  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
+  const std::uint32_t away_ticks =
+      state.away_tick == kNoTick ? kStuckTicks + 1 : TicksBetween(state.away_tick, s->tick);
+  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s ||
+               away_ticks <= kStuckTicks;
   s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
   if (!s->aimless) return;
+  if (away_ticks <= kAwayTicks) s->away_rad = state.away_rad;
   if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
     std::array<KeepOut, 64> discs;
     std::size_t count = 0;

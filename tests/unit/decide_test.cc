@@ -279,6 +279,15 @@ TEST(Decide, AKnownPeerBesideThePathIsNoObstacle) {
   EXPECT_EQ(bench.Step(scan, {beside}).command.decision.rule, Rule::kCruise);
 }
 
+// The end of a wall by the left shoulder; the body of the peer is farther and more to the side.
+TEST(Decide, AWallBeforeAKnownPeerIsAnObstacle) {
+  BrainBench bench(test::DefaultOptions());
+  RangeScan scan = ClearScan(0);
+  test::SetEcho(&scan, 1, 0.117);
+  const Beacon beside = BeaconOf(2, 1, {.position_world = {0.3, 0.62}});
+  EXPECT_EQ(bench.Step(scan, {beside}).command.decision.rule, Rule::kObstacle);
+}
+
 TEST(Decide, LeavingStopsAndSaysSo) {
   Vehicle vehicle(test::DefaultOptions(), 42);
   Inputs inputs;

@@ -38,5 +38,14 @@ TEST(Order, IsStrictAndTotalOverDistinctIds) {
   }
 }
 
+// 4 is blocked by 1 and 1 by 33: all act by the key of 4, and only 33 can make room.
+TEST(Order, WhoLendsItsKeyComesAfterWhomItIsLentTo) {
+  const OrderKey lent = Key(0, 9, 4);
+  EXPECT_TRUE(ComesFirst(lent, VehicleId{33}, lent, VehicleId{4}));
+  EXPECT_FALSE(ComesFirst(lent, VehicleId{4}, lent, VehicleId{33}));
+  EXPECT_TRUE(ComesFirst(lent, VehicleId{1}, lent, VehicleId{4}));
+  EXPECT_TRUE(ComesFirst(lent, VehicleId{1}, lent, VehicleId{33}));
+}
+
 }  // namespace
 }  // namespace giveway

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "services/types/math.h"
 #include "tests/support/brain_bench.h"
 
@@ -51,6 +53,46 @@ TEST(Steering, ALargeErrorTurnsOnTheSpotFirst) {
 
 TEST(Steering, ADeadStopDoesNotTurn) {
   EXPECT_EQ(Drive(PioneerP3dx(), {}, {.heading_error_rad = 0.5}, 0, false), WheelSpeeds{});
+}
+
+// The rim of a wheel after one tick of 50 ms towards `target`, radians a second.
+double RimAfterTick(const VehicleProfile& profile, double now, double target) {
+  const double limit = 0.05 * profile.acceleration_m_s2 / profile.drive.wheel_radius_m;
+  return now + std::clamp(target - now, -limit, limit);
+}
+
+TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
+  const VehicleProfile p3dx = PioneerP3dx();
+  WheelSpeeds wheels;
+  double error_rad = 1;
+  double most_rad = 0;  // beyond the wanted heading
+  for (int tick = 0; tick < 100; ++tick) {
+    const Twist now = TwistFromWheels(p3dx.drive, wheels);
+    const WheelSpeeds target = Drive(p3dx, now, {.heading_error_rad = error_rad}, 0.8, true);
+    error_rad -= 0.05 * now.turn_rad_s;
+    wheels = {RimAfterTick(p3dx, wheels.left_rad_s, target.left_rad_s),
+              RimAfterTick(p3dx, wheels.right_rad_s, target.right_rad_s)};
+    most_rad = std::max(most_rad, -error_rad);
+  }
+  EXPECT_LT(most_rad, 0.15);
+  EXPECT_NEAR(error_rad, 0, 0.01);
+  EXPECT_NEAR(TwistFromWheels(p3dx.drive, wheels).forward_m_s, 0.8, 1e-9);
+}
+
+// A wall near the left shoulder, as far as a cone tells; the goal is straight ahead. Where the
+// wall is does not change while the vehicle turns: what the sensors hear is set once.
+TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {
+  test::BrainBench bench(test::DefaultOptions());
+  RangeScan scan = test::ClearScan(0);
+  test::SetEcho(&scan, 1, 0.12);
+  Outputs out;
+  for (int tick = 0; tick < 100; ++tick) {  // 5 s: it waits for what may go away again
+    out = bench.Step(scan);
+    ASSERT_EQ(out.command.decision.rule, Rule::kObstacle);
+    EXPECT_EQ(out.command.target, WheelSpeeds{});
+  }
+  for (int tick = 0; tick < 40; ++tick) out = bench.Step(scan);
+  EXPECT_LT(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0);
 }
 
 }  // namespace
