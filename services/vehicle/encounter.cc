@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/vehicle/planted.h"
 #include "services/vehicle/timing.h"
 
 namespace giveway {
@@ -34,7 +35,7 @@ bool Begins(const PeerView& view, const Situation& s) {
 }
 
 bool IsOver(const PeerView& view, const Situation& s) {
-  if (view.conflict) return false;
+  if (view.conflict || Has(Defect::kEncounterNeverEnds)) return false;
   return view.gate_gap_m >= s.options.gate_exit_m || ClosingSpeed(view, s) <= 0;
 }
 
@@ -52,7 +53,7 @@ void UpdateLost(const PeerView& view, const Situation& s) {
   const double nearest = s.ranges.NearestEcho();
   const bool clear = nearest < 0 || nearest >= s.options.gate_exit_m;
   const bool waited = Seconds(s.now - encounter.lost_at) >= encounter.lost_wait_s;
-  if (waited && clear) encounter.released = true;
+  if (waited && clear && !Has(Defect::kLostPeerHeldForEver)) encounter.released = true;
 }
 
 // How far it may drive when it holds for the peer: up to the box; up to the conflict itself where
@@ -79,6 +80,7 @@ bool IsAhead(const PeerView& view, const Situation& s) {
 // is not in it yet, or behind, or it can be out before the other comes.
 bool MustClear(const PeerView& view, const Situation& s) {
   if (!view.conflict || view.conflict->own.begin_m > 0) return false;
+  if (Has(Defect::kConflictNotCleared)) return false;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s))) return true;
   return IsThroughFirst(view, s);
@@ -101,6 +103,7 @@ bool SecondMustStop(const PeerView& view, const Situation& s) {
 // Whom the order puts first needs the other's word, or to be through before it; the lecture's
 // behaviour trusts the order alone.
 bool FirstMayGo(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kGrantNotNeeded)) return true;
   return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
 }
 
@@ -115,6 +118,7 @@ bool EntersOnSignal(const PeerView& view, const Situation& s) {
 // order meanwhile. The others hold because it does not say that it gives way.
 bool EntersBox(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || view.lost) return false;
+  if (Has(Defect::kEnteredForgotten)) return false;
   return !view.peer->encounter.holds && s.speed_m_s >= kStandingSpeed_m_s &&
          HoldsBefore(view) <= OwnStoppingDistance(s);
 }
@@ -128,7 +132,7 @@ bool HasLeftBox(const PeerView& view, const Situation& s) {
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
 bool Holds(const PeerView& view, const Situation& s) {
-  const bool held = view.peer->encounter.holds;
+  const bool held = view.peer->encounter.holds && !Has(Defect::kLatchDropped);
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
     if (view.peer->encounter.released) return false;
@@ -150,6 +154,7 @@ bool CanGiveWay(const PeerView& view, const Situation& s) {
   const Encounter& encounter = view.peer->encounter;
   if (!view.goes_first || encounter.entered || encounter.clears || MustClear(view, s)) return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
+  if (Has(Defect::kWordGivenTooLate)) return true;
   return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
 }
 

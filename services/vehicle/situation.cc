@@ -5,6 +5,7 @@
 #include "services/types/math.h"
 #include "services/vehicle/claim.h"
 #include "services/vehicle/echoes.h"
+#include "services/vehicle/planted.h"
 
 namespace giveway {
 namespace {
@@ -14,6 +15,7 @@ constexpr double kLongestWay_m = 1000;
 
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {
+  if (Has(Defect::kArrivedClaimsWay)) return false;
   return beacon.rule == Rule::kArrived || beacon.rule == Rule::kNotRunning;
 }
 
@@ -27,6 +29,7 @@ double Reach(const Beacon& beacon, const Situation& s) {
 // True if one drives behind the other in the same lane: that is a matter of distance, not of right
 // of way. Side by side, or coming from another lane, it is not following.
 bool Follows(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kLeaderIsConflict)) return false;
   constexpr double kSameWay = 0.94;  // the cosine of 20 degrees
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double across = Cross(s.path.direction_world, offset);
@@ -37,11 +40,21 @@ bool Follows(const PeerView& view, const Situation& s) {
   return Dot(s.path.direction_world, Forward(view.world_from_body)) >= kSameWay;
 }
 
+// What a defect makes of a key.
+OrderKey WithoutId(OrderKey key) {
+  key.vehicle = kNobody;
+  return key;
+}
+
 // By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
 // it stands before its line, and would only block the ones with green.
 bool ComesFirst(const PeerView& view, const Situation& s) {
   if (view.at_signal != s.at_signal) return s.at_signal;
-  return giveway::ComesFirst(view.peer->beacon.order, view.peer->id, s.order, s.options.id);
+  const OrderKey& peers = view.peer->beacon.order;
+  if (Has(Defect::kPriorityReversed)) return GoesFirst(s.order, peers);
+  if (Has(Defect::kTieYieldsBoth)) return !GoesFirst(WithoutId(s.order), WithoutId(peers));
+  if (Has(Defect::kTieFreesBoth)) return GoesFirst(WithoutId(peers), WithoutId(s.order));
+  return giveway::ComesFirst(peers, view.peer->id, s.order, s.options.id);
 }
 
 // The light's word counts only while the peer could still keep it: it stands, or can stop before
@@ -170,6 +183,7 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
   const double both = StoppingDistance(std::max(0.0, s.speed_m_s), reaction, braking) +
                       StoppingDistance(std::max(0.0, view.speed_m_s), reaction, braking);
   const double uncertainty = 2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
+  if (Has(Defect::kCriticalWithoutBraking)) return s.options.gate_enter_m;
   return std::max(s.options.gate_enter_m, both + kMargin_m + uncertainty);
 }
 
@@ -251,6 +265,7 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||
                           WaitsAtSignal(view, s));
+  if (Has(Defect::kGrantOfAnybody) && beacon.gives_way_to != kNobody) view.grants = fresh;
   view.explains = fresh ? EchoesOf(view, s) : 0;
   return view;
 }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "services/vehicle/detour.h"
+#include "services/vehicle/planted.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {
@@ -66,9 +67,10 @@ void Vehicle::Detour(Situation* s) {
   if (queues && Number(s->tick) % kQueuePatience != 0) return;
   ++state.aimless_ticks;
   if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
+  if (Has(Defect::kPatienceDropped)) state.aimless_ticks += 1000;
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
   s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
-  if (!s->aimless) return;
+  if (!s->aimless || Has(Defect::kDetourDropped)) return;
   if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
     std::array<KeepOut, 64> discs;
     std::size_t count = 0;

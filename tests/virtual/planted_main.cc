@@ -1,0 +1,79 @@
+// `fleetctl virtual` over vehicles with one defect planted: GIVEWAY_DEFECT names it; none without.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "services/fleetctl/verbs.h"
+#include "services/vehicle/planted.h"
+
+namespace giveway {
+namespace {
+
+struct NamedDefect {
+  std::string_view name;
+  Defect defect;
+};
+
+constexpr NamedDefect kDefects[] = {
+    {"priority_reversed", Defect::kPriorityReversed},
+    {"tie_yields_both", Defect::kTieYieldsBoth},
+    {"tie_frees_both", Defect::kTieFreesBoth},
+    {"measured_speed_in_order", Defect::kMeasuredSpeedInOrder},
+    {"order_not_frozen", Defect::kOrderNotFrozen},
+    {"ageing_dropped", Defect::kAgeingDropped},
+    {"lending_dropped", Defect::kLendingDropped},
+    {"own_beacon_heard", Defect::kOwnBeaconHeard},
+    {"stale_beacon_trusted", Defect::kStaleBeaconTrusted},
+    {"replayed_beacon_taken", Defect::kReplayedBeaconTaken},
+    {"lost_peer_forgotten", Defect::kLostPeerForgotten},
+    {"lost_peer_held_for_ever", Defect::kLostPeerHeldForEver},
+    {"latch_dropped", Defect::kLatchDropped},
+    {"encounter_never_ends", Defect::kEncounterNeverEnds},
+    {"grant_not_needed", Defect::kGrantNotNeeded},
+    {"grant_of_anybody", Defect::kGrantOfAnybody},
+    {"word_given_too_late", Defect::kWordGivenTooLate},
+    {"conflict_not_cleared", Defect::kConflictNotCleared},
+    {"entered_forgotten", Defect::kEnteredForgotten},
+    {"box_not_looked_at", Defect::kBoxNotLookedAt},
+    {"critical_without_braking", Defect::kCriticalWithoutBraking},
+    {"leader_is_conflict", Defect::kLeaderIsConflict},
+    {"arrived_claims_way", Defect::kArrivedClaimsWay},
+    {"claim_ignored", Defect::kClaimIgnored},
+    {"claim_without_way", Defect::kClaimWithoutWay},
+    {"reaction_left_out", Defect::kReactionLeftOut},
+    {"obstacle_ignored", Defect::kObstacleIgnored},
+    {"mover_ignored", Defect::kMoverIgnored},
+    {"signal_ignored", Defect::kSignalIgnored},
+    {"detour_dropped", Defect::kDetourDropped},
+    {"steers_round_nobody", Defect::kSteersRoundNobody},
+    {"queue_overtaken", Defect::kQueueOvertaken},
+    {"patience_dropped", Defect::kPatienceDropped},
+};
+
+// False where no defect has the name.
+bool PlantNamed(std::string_view name) {
+  const auto* const found = std::ranges::find(kDefects, name, &NamedDefect::name);
+  if (found == std::ranges::end(kDefects)) return false;
+  Plant(found->defect);
+  return true;
+}
+
+}  // namespace
+}  // namespace giveway
+
+int main(int argc, char** argv) {
+  constexpr int kWrongArguments = 2;
+  const char* const defect = std::getenv("GIVEWAY_DEFECT");
+  if (defect != nullptr && !giveway::PlantNamed(defect)) {
+    std::fprintf(stderr, "fleetctl_planted: GIVEWAY_DEFECT: no defect is called '%s'\n", defect);
+    return kWrongArguments;
+  }
+  CLI::App fleetctl("Runs fleets of defective vehicles.", "fleetctl_planted");
+  fleetctl.require_subcommand(1);
+  int exit_code = kWrongArguments;
+  giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);
+  CLI11_PARSE(fleetctl, argc, argv);
+  return exit_code;
+}
