@@ -35,7 +35,7 @@ bool Begins(const PeerView& view, const Situation& s) {
 }
 
 bool IsOver(const PeerView& view, const Situation& s) {
-  if (view.conflict || Has(Defect::kEncounterNeverEnds)) return false;
+  if (view.conflict) return false;
   return view.gate_gap_m >= s.options.gate_exit_m || ClosingSpeed(view, s) <= 0;
 }
 
@@ -52,8 +52,9 @@ void UpdateLost(const PeerView& view, const Situation& s) {
   }
   const double nearest = s.ranges.NearestEcho();
   const bool clear = nearest < 0 || nearest >= s.options.gate_exit_m;
+  const bool looks = !Has(Defect::kReleasedWithoutLooking);
   const bool waited = Seconds(s.now - encounter.lost_at) >= encounter.lost_wait_s;
-  if (waited && clear && !Has(Defect::kLostPeerHeldForEver)) encounter.released = true;
+  if (waited && (clear || !looks) && !Has(Defect::kLostPeerHeldForEver)) encounter.released = true;
 }
 
 // How far it may drive when it holds for the peer: up to the box; up to the conflict itself where
@@ -93,6 +94,7 @@ bool IsInTheWay(const PeerView& view, const Situation& s) {
 
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kSecondDrivesOn)) return false;
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
   const double critical_m = CriticalDistance(s, view);
@@ -135,7 +137,7 @@ bool Holds(const PeerView& view, const Situation& s) {
   const bool held = view.peer->encounter.holds && !Has(Defect::kLatchDropped);
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
-    if (view.peer->encounter.released) return false;
+    if (view.peer->encounter.released || Has(Defect::kSilenceIsConsent)) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
   if (view.peer->encounter.clears) return false;

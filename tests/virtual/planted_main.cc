@@ -1,7 +1,9 @@
-// `fleetctl virtual` over vehicles with one defect planted: GIVEWAY_DEFECT names it; none without.
+// `fleetctl virtual` over vehicles with the defects planted that GIVEWAY_DEFECT names, commas
+// between.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -28,9 +30,12 @@ constexpr NamedDefect kDefects[] = {
     {"stale_beacon_trusted", Defect::kStaleBeaconTrusted},
     {"replayed_beacon_taken", Defect::kReplayedBeaconTaken},
     {"lost_peer_forgotten", Defect::kLostPeerForgotten},
+    {"silence_is_consent", Defect::kSilenceIsConsent},
+    {"released_without_looking", Defect::kReleasedWithoutLooking},
     {"lost_peer_held_for_ever", Defect::kLostPeerHeldForEver},
     {"latch_dropped", Defect::kLatchDropped},
-    {"encounter_never_ends", Defect::kEncounterNeverEnds},
+    {"second_drives_on", Defect::kSecondDrivesOn},
+    {"through_first_guessed", Defect::kThroughFirstGuessed},
     {"grant_not_needed", Defect::kGrantNotNeeded},
     {"grant_of_anybody", Defect::kGrantOfAnybody},
     {"word_given_too_late", Defect::kWordGivenTooLate},
@@ -65,9 +70,12 @@ bool PlantNamed(std::string_view name) {
 
 int main(int argc, char** argv) {
   constexpr int kWrongArguments = 2;
-  const char* const defect = std::getenv("GIVEWAY_DEFECT");
-  if (defect != nullptr && !giveway::PlantNamed(defect)) {
-    std::fprintf(stderr, "fleetctl_planted: GIVEWAY_DEFECT: no defect is called '%s'\n", defect);
+  const char* const names = std::getenv("GIVEWAY_DEFECT");
+  std::istringstream defects(names == nullptr ? "" : names);
+  for (std::string name; std::getline(defects, name, ',');) {
+    if (giveway::PlantNamed(name)) continue;
+    std::fprintf(stderr, "fleetctl_planted: GIVEWAY_DEFECT: no defect is called '%s'\n",
+                 name.c_str());
     return kWrongArguments;
   }
   CLI::App fleetctl("Runs fleets of defective vehicles.", "fleetctl_planted");
