@@ -40,7 +40,7 @@ enum class Defect : std::uint8_t {
   // What never rests on agreement.
   kClaimIgnored,
   kClaimWithoutWay,
-  kReactionLeftOut,
+  kBrakesTooLate,
   kObstacleIgnored,
   kMoverIgnored,
   kSignalIgnored,

@@ -118,9 +118,9 @@ std::optional<Proposal> KeepClear(const Situation& s) {
   std::optional<Proposal> lowest;
   for (const PeerView& view : s.peers) {
     if (view.peer->left || view.free_m > kLookAhead_m) continue;
-    const double reaction_s = Has(Defect::kReactionLeftOut) ? 0 : ReactionSeconds(s.options);
-    const double limit =
-        SpeedToStopWithin(view.free_m, reaction_s, s.options.profile.deceleration_m_s2);
+    if (Has(Defect::kBrakesTooLate) && view.free_m > 0) continue;
+    const double limit = SpeedToStopWithin(view.free_m, ReactionSeconds(s.options),
+                                           s.options.profile.deceleration_m_s2);
     if (limit >= s.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
     lowest = Proposal{.max_speed_m_s = limit,
                       .may_turn = true,

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Plants every defect of services/vehicle/planted.h, one at a time, and sees it caught by an
-# invariant of the virtual fleet. Each line of defects.txt names a defect, the invariants of which
-# one at least must break, and the run that shows it. Without a defect the same run must pass, and
-# end in the same hash as the product's. A line "ok" or "FAILED" each.
-# Exit code 0: every defect was caught; 1: one was not, or is not in the table; 2: could not run.
+# Plants every defect of services/vehicle/planted.h and sees it caught by an invariant of the virtual
+# fleet. Each line of defects.txt names a defect, what is planted beside it, the invariants of which
+# one at least must break, and the run that shows it: a generator, a shipped scenario, or one of the
+# folder scenarios. Without the defect the same run must pass, and where nothing is planted end in
+# the same hash as the product's. A line "ok" or "FAILED" each.
+# Exit code 0: every defect was caught; 1: one was not, or has no line; 2: could not run.
 # Usage: defects.sh [DEFECT ...]
 set -euo pipefail
 
@@ -36,43 +37,46 @@ outcome() {
 # The invariants a batch broke, each with a space behind it; "none " where all held.
 broken() { jq -r '[.violations | to_entries[] | select(.value > 0).key + " "] | add // "none "'; }
 
-# sound ARGUMENTS: nothing breaks where nothing is planted.
+# sound BASE ARGUMENTS: all invariants hold; the product makes the same run.
 sound() {
-  local product planted
-  product=$(outcome fleetctl "$@")
-  planted=$(outcome fleetctl_planted "$@")
-  if jq -e -n --argjson a "${product:-0}" --argjson b "${planted:-1}" \
-    '$a.verdict == "passed" and $b.verdict == "passed" and $a.hash == $b.hash' >/dev/null 2>&1; then
-    report true "nothing planted: $*"
+  local base=$1 planted product
+  shift
+  planted=$(GIVEWAY_DEFECT=$base outcome fleetctl_planted "$@")
+  product=$planted
+  [[ -n $base ]] || product=$(outcome fleetctl "$@")
+  if jq -e -n --argjson a "${planted:-0}" --argjson b "${product:-1}" \
+    '$a.verdict == "passed" and $a.hash == $b.hash' >/dev/null 2>&1; then
+    report true "${base:-nothing} planted: all held by $*"
   else
-    report false "nothing planted: $*"
+    report false "${base:-nothing} planted: $(broken <<<"$planted")by $*"
   fi
 }
 
-# caught DEFECT INVARIANTS ARGUMENTS: one of the invariants, given with commas between, breaks.
+# caught DEFECT BASE INVARIANTS ARGUMENTS: one of the invariants, given with commas between, breaks.
 caught() {
-  local defect=$1 expected=$2 names invariant is_caught=false
-  shift 2
-  names=$(GIVEWAY_DEFECT=$defect outcome fleetctl_planted "$@" | broken)
+  local defect=$1 base=$2 expected=$3 names invariant is_caught=false
+  shift 3
+  names=$(GIVEWAY_DEFECT=$defect${base:+,$base} outcome fleetctl_planted "$@" | broken)
   for invariant in ${expected//,/ }; do
     [[ " $names" != *" $invariant "* ]] || is_caught=true
   done
   report "$is_caught" "$defect: ${names:-no result }by $*"
 }
 
-declare -A known_sound=()
-declare -A tried=()
+declare -A known_sound=() tried=()
 wanted=" $* "
-while read -r defect expected arguments; do
+while read -r defect base expected scenario arguments; do
   [[ -n $defect && $defect != \#* ]] || continue
   tried[$defect]=1
   [[ $wanted == "  " || $wanted == *" $defect "* ]] || continue
-  read -ra words <<<"$arguments"
-  if [[ -z ${known_sound[$arguments]:-} ]]; then
-    known_sound[$arguments]=1
-    sound "${words[@]}"
+  [[ $base != - ]] || base=""
+  [[ ! -f $here/scenarios/$scenario.textproto ]] || scenario=$here/scenarios/$scenario.textproto
+  read -ra words <<<"$scenario $arguments"
+  if [[ -z ${known_sound[$base ${words[*]}]:-} ]]; then
+    known_sound[$base ${words[*]}]=1
+    sound "$base" "${words[@]}"
   fi
-  caught "$defect" "$expected" "${words[@]}"
+  caught "$defect" "$base" "$expected" "${words[@]}"
 done <"$here/defects.txt"
 
 # A defect without a line is one that nobody looks for.

@@ -47,7 +47,7 @@ constexpr NamedDefect kDefects[] = {
     {"arrived_claims_way", Defect::kArrivedClaimsWay},
     {"claim_ignored", Defect::kClaimIgnored},
     {"claim_without_way", Defect::kClaimWithoutWay},
-    {"reaction_left_out", Defect::kReactionLeftOut},
+    {"brakes_too_late", Defect::kBrakesTooLate},
     {"obstacle_ignored", Defect::kObstacleIgnored},
     {"mover_ignored", Defect::kMoverIgnored},
     {"signal_ignored", Defect::kSignalIgnored},
