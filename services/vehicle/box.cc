@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "services/vehicle/planted.h"
-
 namespace giveway {
 namespace {
 
@@ -48,9 +46,8 @@ double BoxBegin(const Stretches& stretches, double point_m) {
 }  // namespace
 
 void FindBoxes(std::span<PeerView> views, const Situation& s) {
-  const bool looks =
-      s.options.behaviour == Behaviour::kCooperative && !Has(Defect::kBoxNotLookedAt);
-  const Stretches stretches = looks ? StretchesAhead(views) : Stretches{};
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  const Stretches stretches = cooperative ? StretchesAhead(views) : Stretches{};
   for (PeerView& view : views) {
     if (!view.conflict) continue;
     view.box_begin_m = BoxBegin(stretches, view.conflict->own.begin_m);

@@ -51,10 +51,10 @@ void UpdateLost(const PeerView& view, const Situation& s) {
         (view.conflict ? view.conflict->peer.end_m / cruise : 0) + kLostMargin_s;
   }
   const double nearest = s.ranges.NearestEcho();
-  const bool clear = nearest < 0 || nearest >= s.options.gate_exit_m;
-  const bool looks = !Has(Defect::kReleasedWithoutLooking);
+  const bool clear =
+      nearest < 0 || nearest >= s.options.gate_exit_m || Has(Defect::kReleasedWithoutLooking);
   const bool waited = Seconds(s.now - encounter.lost_at) >= encounter.lost_wait_s;
-  if (waited && (clear || !looks) && !Has(Defect::kLostPeerHeldForEver)) encounter.released = true;
+  if (waited && clear && !Has(Defect::kLostPeerHeldForEver)) encounter.released = true;
 }
 
 // How far it may drive when it holds for the peer: up to the box; up to the conflict itself where
@@ -81,7 +81,6 @@ bool IsAhead(const PeerView& view, const Situation& s) {
 // is not in it yet, or behind, or it can be out before the other comes.
 bool MustClear(const PeerView& view, const Situation& s) {
   if (!view.conflict || view.conflict->own.begin_m > 0) return false;
-  if (Has(Defect::kConflictNotCleared)) return false;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s))) return true;
   return IsThroughFirst(view, s);
@@ -120,7 +119,6 @@ bool EntersOnSignal(const PeerView& view, const Situation& s) {
 // order meanwhile. The others hold because it does not say that it gives way.
 bool EntersBox(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || view.lost) return false;
-  if (Has(Defect::kEnteredForgotten)) return false;
   return !view.peer->encounter.holds && s.speed_m_s >= kStandingSpeed_m_s &&
          HoldsBefore(view) <= OwnStoppingDistance(s);
 }
@@ -156,7 +154,6 @@ bool CanGiveWay(const PeerView& view, const Situation& s) {
   const Encounter& encounter = view.peer->encounter;
   if (!view.goes_first || encounter.entered || encounter.clears || MustClear(view, s)) return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
-  if (Has(Defect::kWordGivenTooLate)) return true;
   return stands || !view.conflict || view.conflict->own.begin_m > OwnStoppingDistance(s) - 0.1;
 }
 

@@ -122,8 +122,7 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   if (!BelongsTo(peer, received)) return refuse(&BeaconCounters::rejected_duplicate_id);
   const bool replayed = peer->boot_epoch != 0 &&
                         (beacon.boot_epoch != peer->boot_epoch || beacon.seq <= peer->last_seq);
-  if (replayed && !Has(Defect::kReplayedBeaconTaken))
-    return refuse(&BeaconCounters::rejected_replayed);
+  if (replayed) return refuse(&BeaconCounters::rejected_replayed);
   if (peer->boot_epoch != 0) counters->lost += beacon.seq - peer->last_seq - 1;
   ++counters->accepted;
   Store(peer, received, self.tick);

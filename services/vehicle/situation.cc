@@ -40,10 +40,9 @@ bool Follows(const PeerView& view, const Situation& s) {
   return Dot(s.path.direction_world, Forward(view.world_from_body)) >= kSameWay;
 }
 
-// What a defect makes of a key.
-OrderKey WithoutId(OrderKey key) {
-  key.vehicle = kNobody;
-  return key;
+// Only the ids tell the two keys apart.
+bool IsTie(const OrderKey& a, const OrderKey& b) {
+  return a.waited_ticks == b.waited_ticks && a.speed_bucket == b.speed_bucket;
 }
 
 // By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
@@ -52,8 +51,8 @@ bool ComesFirst(const PeerView& view, const Situation& s) {
   if (view.at_signal != s.at_signal) return s.at_signal;
   const OrderKey& peers = view.peer->beacon.order;
   if (Has(Defect::kPriorityReversed)) return GoesFirst(s.order, peers);
-  if (Has(Defect::kTieYieldsBoth)) return !GoesFirst(WithoutId(s.order), WithoutId(peers));
-  if (Has(Defect::kTieFreesBoth)) return GoesFirst(WithoutId(peers), WithoutId(s.order));
+  if (Has(Defect::kTieYieldsBoth) && IsTie(s.order, peers)) return true;
+  if (Has(Defect::kTieFreesBoth) && IsTie(s.order, peers)) return false;
   return giveway::ComesFirst(peers, view.peer->id, s.order, s.options.id);
 }
 
@@ -183,7 +182,6 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
   const double both = StoppingDistance(std::max(0.0, s.speed_m_s), reaction, braking) +
                       StoppingDistance(std::max(0.0, view.speed_m_s), reaction, braking);
   const double uncertainty = 2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
-  if (Has(Defect::kCriticalWithoutBraking)) return s.options.gate_enter_m;
   return std::max(s.options.gate_enter_m, both + kMargin_m + uncertainty);
 }
 
@@ -265,7 +263,6 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||
                           WaitsAtSignal(view, s));
-  if (Has(Defect::kGrantOfAnybody) && beacon.gives_way_to != kNobody) view.grants = fresh;
   view.explains = fresh ? EchoesOf(view, s) : 0;
   return view;
 }

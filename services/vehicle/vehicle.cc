@@ -241,10 +241,9 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   const auto limit = static_cast<std::uint32_t>(options_.ageing_limit / options_.tick_period);
   const bool waits = IsGiveWay(decision.rule) && s.speed_m_s < kStandingSpeed_m_s;
   if (waits) ++state.waited_ticks;
-  if (under_way == 0 || state.encounters == 0 || Has(Defect::kOrderNotFrozen)) {
+  if (under_way == 0 || state.encounters == 0) {
     state.order.waited_ticks = state.waited_ticks > limit ? state.waited_ticks : 0;
   }
-  if (Has(Defect::kAgeingDropped)) state.order.waited_ticks = 0;
   if (Has(Defect::kMeasuredSpeedInOrder)) state.order.speed_bucket = SpeedBucket(s.speed_m_s);
   if (under_way == 0 && !waits) state.waited_ticks = 0;
   state.encounters = under_way;

@@ -70,7 +70,7 @@ void Vehicle::Detour(Situation* s) {
   if (Has(Defect::kPatienceDropped)) state.aimless_ticks += 1000;
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s;
   s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
-  if (!s->aimless || Has(Defect::kDetourDropped)) return;
+  if (!s->aimless) return;
   if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
     std::array<KeepOut, 64> discs;
     std::size_t count = 0;
