@@ -16,7 +16,7 @@ failed=0
 # What is taken away, so that only the base named stands.
 declare -A taken_away=(
   [all]=""
-  [agreement]="claim_ignored,obstacle_ignored,mover_ignored"
+  [agreement]="claim_ignored,obstacle_ignored"
   [claims]="second_drives_on,through_first_guessed"
 )
 for program in fleetctl fleetctl_planted; do
