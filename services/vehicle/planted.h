@@ -1,6 +1,6 @@
-// Defects of the rules that tests plant, one at a time, to see that each is caught
-// (tests/virtual/defects.sh). A vehicle is compiled without them: nothing is planted there, the
-// compiler knows it, and leaves no instruction of any.
+// Defects of the rules that tests plant to see that each is caught (tests/virtual/defects.sh). A
+// vehicle is compiled without them: nothing is planted there, the compiler knows it, and leaves no
+// instruction of any.
 #pragma once
 
 #include <cstdint>
