@@ -15,7 +15,8 @@ Stages, by default all of them:
   rules    include arrows, sizes, names, shell scripts
   unit     pure tests: no sockets, no clocks
   golden   hashes that must never change
-  virtual  fleets of 2-50 in virtual time, 200 seeds a generator, judged by invariants
+  virtual  fleets of 2-50 in virtual time, 200 seeds a generator, judged by invariants; what is
+           planted in the rules on purpose is caught
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
@@ -82,6 +83,18 @@ check() {
   fi
 }
 
+# check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints.
+check_lines() {
+  local lines code=0 good bad
+  lines=$("$@") || code=$?
+  printf '%s\n' "$lines"
+  good=$(grep -c '^ok ' <<<"$lines") || true
+  bad=$(grep -c '^FAILED ' <<<"$lines") || true
+  [[ $code -eq 0 || $bad -gt 0 ]] || bad=1
+  passed=$((passed + good))
+  failed=$((failed + bad))
+}
+
 # An attribute of the first testsuite element of a JUnit file; 0 if there is none.
 junit() {
   local value
@@ -135,6 +148,7 @@ stage_virtual() {
     check "$seeds seeds of $generator" \
       bash tests/virtual/campaign.sh --generators "$generator" --seeds "$seeds"
   done
+  check_lines bash tests/virtual/defects.sh
 }
 
 stage_model() {

@@ -81,6 +81,7 @@ std::string ReplayFlags(const sim::VirtualPlan& plan) {
   add("--jitter", Milliseconds(radio.jitter));
   add("--reorder", 100 * radio.reorder);
   add("--duplicate", 100 * radio.duplicate);
+  if (radio.loops_back) flags += " --loopback";
   if (!flags.empty()) flags += fmt::format(" --radio-seed {}", plan.seed);
   for (const sim::ProcessFault& fault : plan.faults) {
     flags += fmt::format(" --fault {}:{}@{}", Word(fault.kind), Number(fault.vehicle), fault.at_s);

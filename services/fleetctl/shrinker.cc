@@ -119,6 +119,7 @@ class Shrinker {
     }
     smaller = Reset(&sim::RadioSettings::jitter) || smaller;
     smaller = Reset(&sim::RadioSettings::delay) || smaller;
+    smaller = Reset(&sim::RadioSettings::loops_back) || smaller;
     if (best_.plan.radio.burst.enter > 0) {
       VirtualCase candidate = best_;
       candidate.plan.radio.burst = {};

@@ -32,6 +32,7 @@ sim::RadioSettings RadioOf(const CaseOptions& options, Random* dice) {
   radio.jitter = FromSeconds(options.jitter_ms / 1000);
   radio.reorder = options.reorder_percent / 100;
   radio.duplicate = options.duplicate_percent / 100;
+  radio.loops_back = options.loops_back;
   return radio;
 }
 

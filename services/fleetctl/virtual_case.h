@@ -34,6 +34,7 @@ struct CaseOptions {
   double jitter_ms = 0;
   double reorder_percent = 0;
   double duplicate_percent = 0;
+  bool loops_back = false;    // everyone hears its own beacons too
   std::uint32_t crashes = 0;  // vehicles that die, pause, or start anew, each at a time drawn
   std::uint32_t pauses = 0;
   std::uint32_t restarts = 0;

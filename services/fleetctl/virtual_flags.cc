@@ -62,6 +62,7 @@ void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
       ->check(Between(0, 100));
   verb->add_option("--duplicate", made_by->duplicate_percent, "Percent heard twice")
       ->check(Between(0, 100));
+  verb->add_flag("--loopback", made_by->loops_back, "Everyone hears its own beacons too");
 }
 
 // KIND:ID@AT+FOR, seconds: pause:3@12.5+0.4.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "services/vehicle/planted.h"
+
 namespace giveway {
 namespace {
 
@@ -29,6 +31,7 @@ VehicleId NearestThatWaits(const Situation& s) {
 
 OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id) {
   OrderKey acting = own;
+  if (Has(Defect::kLendingDropped)) return acting;
   for (const Peer& peer : peers.Peers()) {
     if (peer.known && peer.beacon.blocked_by == own_id && GoesFirst(peer.beacon.order, acting)) {
       acting = peer.beacon.order;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math.h"
+#include "services/vehicle/planted.h"
 
 namespace giveway {
 namespace {
@@ -46,7 +47,7 @@ Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double
   Claim claim;
   claim.axis = {beacon.world_from_body.position_world,
                 speed < 0 ? -1.0 * forward_world : forward_world};
-  claim.length_m = ClaimLength(beacon, unknown_s, reaction_s);
+  claim.length_m = Has(Defect::kClaimWithoutWay) ? 0 : ClaimLength(beacon, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
   // It may turn meanwhile: the far end swings. From standstill it may leave in any direction.
   const double swing = std::min(1.0, kTurnWhileDriving_rad_s * unknown_s);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/vehicle/planted.h"
 #include "services/vehicle/timing.h"
 
 namespace giveway {
@@ -50,9 +51,10 @@ void UpdateLost(const PeerView& view, const Situation& s) {
         (view.conflict ? view.conflict->peer.end_m / cruise : 0) + kLostMargin_s;
   }
   const double nearest = s.ranges.NearestEcho();
-  const bool clear = nearest < 0 || nearest >= s.options.gate_exit_m;
+  const bool clear =
+      nearest < 0 || nearest >= s.options.gate_exit_m || Has(Defect::kReleasedWithoutLooking);
   const bool waited = Seconds(s.now - encounter.lost_at) >= encounter.lost_wait_s;
-  if (waited && clear) encounter.released = true;
+  if (waited && clear && !Has(Defect::kLostPeerHeldForEver)) encounter.released = true;
 }
 
 // How far it may drive when it holds for the peer: up to the box; up to the conflict itself where
@@ -91,6 +93,7 @@ bool IsInTheWay(const PeerView& view, const Situation& s) {
 
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kSecondDrivesOn)) return false;
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
   const double critical_m = CriticalDistance(s, view);
@@ -101,6 +104,7 @@ bool SecondMustStop(const PeerView& view, const Situation& s) {
 // Whom the order puts first needs the other's word, or to be through before it; the lecture's
 // behaviour trusts the order alone.
 bool FirstMayGo(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kGrantNotNeeded)) return true;
   return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
 }
 
@@ -128,10 +132,10 @@ bool HasLeftBox(const PeerView& view, const Situation& s) {
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
 bool Holds(const PeerView& view, const Situation& s) {
-  const bool held = view.peer->encounter.holds;
+  const bool held = view.peer->encounter.holds && !Has(Defect::kLatchDropped);
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
-    if (view.peer->encounter.released) return false;
+    if (view.peer->encounter.released || Has(Defect::kSilenceIsConsent)) return false;
     return held || s.options.behaviour == Behaviour::kLectureYield || MustBrakeNow(view, s);
   }
   if (view.peer->encounter.clears) return false;

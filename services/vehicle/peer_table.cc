@@ -5,6 +5,7 @@
 
 #include "services/types/math.h"
 #include "services/vehicle/beacon_check.h"
+#include "services/vehicle/planted.h"
 
 namespace giveway {
 
@@ -89,7 +90,8 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
     ++(counters->*counter);
     last_rejected_ = beacon.vehicle;
   };
-  if (beacon.vehicle == self.id) return refuse(&BeaconCounters::rejected_own);
+  const bool own = beacon.vehicle == self.id && !Has(Defect::kOwnBeaconHeard);
+  if (own) return refuse(&BeaconCounters::rejected_own);
   if (!received.name_valid) return refuse(&BeaconCounters::rejected_wrong_name);
   if (!received.crc_valid) return refuse(&BeaconCounters::rejected_crc);
   if (!IsInRange(beacon)) {
@@ -196,12 +198,14 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 }
 
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
+  if (Has(Defect::kStaleBeaconTrusted)) return peer.known && !peer.left;
   return peer.known && !peer.left && !peer.rivalled && !peer.deadline_missed &&
          !peer.liveliness_lost && !peer.out_of_reach &&
          Age(peer, now, tick, options.tick_period) <= options.beacon_age_limit;
 }
 
 bool IsLost(const Peer& peer, bool fresh) {
+  if (Has(Defect::kLostPeerForgotten)) return false;
   return peer.known && !fresh && !peer.left && !peer.out_of_reach;
 }
 

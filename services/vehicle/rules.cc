@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/vehicle/echoes.h"
+#include "services/vehicle/planted.h"
 
 namespace giveway {
 namespace {
@@ -67,7 +68,7 @@ std::optional<Proposal> PeerLost(const Situation& s) {
 }
 
 std::optional<Proposal> Signal(const Situation& s) {
-  if (!s.stop_line) return std::nullopt;
+  if (!s.stop_line || Has(Defect::kSignalIgnored)) return std::nullopt;
   return Proposal{
       .max_speed_m_s = SpeedToStopWithin(s.stop_line->free_m, ReactionSeconds(s.options),
                                          s.options.profile.deceleration_m_s2),
@@ -87,7 +88,7 @@ std::optional<Proposal> Object(const Situation& s) {
 }
 
 std::optional<Proposal> Deaf(const Situation& s) {
-  if (!s.deaf) return std::nullopt;
+  if (!s.deaf || Has(Defect::kMoverIgnored)) return std::nullopt;
   Proposal proposal = DeadStop(Rule::kDeaf);
   proposal.sensor = s.deaf_sensor;
   proposal.cause_tick = s.tick;
@@ -95,6 +96,7 @@ std::optional<Proposal> Deaf(const Situation& s) {
 }
 
 std::optional<Proposal> Obstacle(const Situation& s) {
+  if (Has(Defect::kObstacleIgnored)) return std::nullopt;
   std::optional<Proposal> nearest;
   for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
     const std::optional<double> free_m = FreeAhead(i, s);
@@ -112,9 +114,11 @@ std::optional<Proposal> Obstacle(const Situation& s) {
 }
 
 std::optional<Proposal> KeepClear(const Situation& s) {
+  if (Has(Defect::kClaimIgnored)) return std::nullopt;
   std::optional<Proposal> lowest;
   for (const PeerView& view : s.peers) {
     if (view.peer->left || view.free_m > kLookAhead_m) continue;
+    if (Has(Defect::kBrakesTooLate) && view.free_m > 0) continue;
     const double limit = SpeedToStopWithin(view.free_m, ReactionSeconds(s.options),
                                            s.options.profile.deceleration_m_s2);
     if (limit >= s.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;

@@ -5,6 +5,7 @@
 #include "services/types/math.h"
 #include "services/vehicle/claim.h"
 #include "services/vehicle/echoes.h"
+#include "services/vehicle/planted.h"
 
 namespace giveway {
 namespace {
@@ -14,6 +15,7 @@ constexpr double kLongestWay_m = 1000;
 
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {
+  if (Has(Defect::kArrivedClaimsWay)) return false;
   return beacon.rule == Rule::kArrived || beacon.rule == Rule::kNotRunning;
 }
 
@@ -27,6 +29,7 @@ double Reach(const Beacon& beacon, const Situation& s) {
 // True if one drives behind the other in the same lane: that is a matter of distance, not of right
 // of way. Side by side, or coming from another lane, it is not following.
 bool Follows(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kLeaderIsConflict)) return false;
   constexpr double kSameWay = 0.94;  // the cosine of 20 degrees
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double across = Cross(s.path.direction_world, offset);
@@ -37,11 +40,20 @@ bool Follows(const PeerView& view, const Situation& s) {
   return Dot(s.path.direction_world, Forward(view.world_from_body)) >= kSameWay;
 }
 
+// Only the ids tell the two keys apart.
+bool IsTie(const OrderKey& a, const OrderKey& b) {
+  return a.waited_ticks == b.waited_ticks && a.speed_bucket == b.speed_bucket;
+}
+
 // By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
 // it stands before its line, and would only block the ones with green.
 bool ComesFirst(const PeerView& view, const Situation& s) {
   if (view.at_signal != s.at_signal) return s.at_signal;
-  return giveway::ComesFirst(view.peer->beacon.order, view.peer->id, s.order, s.options.id);
+  const OrderKey& peers = view.peer->beacon.order;
+  if (Has(Defect::kPriorityReversed)) return GoesFirst(s.order, peers);
+  if (Has(Defect::kTieYieldsBoth) && IsTie(s.order, peers)) return true;
+  if (Has(Defect::kTieFreesBoth) && IsTie(s.order, peers)) return false;
+  return giveway::ComesFirst(peers, view.peer->id, s.order, s.options.id);
 }
 
 // The light's word counts only while the peer could still keep it: it stands, or can stop before

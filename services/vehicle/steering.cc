@@ -5,6 +5,7 @@
 
 #include "services/types/math.h"
 #include "services/vehicle/echoes.h"
+#include "services/vehicle/planted.h"
 
 namespace giveway {
 namespace {
@@ -45,6 +46,7 @@ bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
 // Stands ahead on the same way and means to go on: one lines up behind it. Overtaking a queue ends
 // in front of whatever comes the other way.
 bool Queues(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kQueueOvertaken)) return false;
   const Rule rule = view.peer->beacon.rule;
   if (rule == Rule::kArrived || rule == Rule::kNotRunning) return false;
   constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
@@ -64,7 +66,7 @@ bool StandsInTheWay(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative) {
     return view.fresh && view.standing && view.grants && !view.goes_first;
   }
-  if (!view.standing || view.peer->left) return false;
+  if (!view.standing || view.peer->left || Has(Defect::kSteersRoundNobody)) return false;
   if (IsHeldUp(view) && !s.aimless) return false;
   return !Queues(view, s) || (s.very_aimless && !view.at_signal);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math.h"
+#include "services/vehicle/planted.h"
 
 namespace giveway {
 namespace {
@@ -34,7 +35,7 @@ Vec2 PeerWay(const PeerView& view) {
 }  // namespace
 
 bool IsThroughFirst(const PeerView& view, const Situation& s) {
-  if (!view.conflict) return true;
+  if (!view.conflict || Has(Defect::kThroughFirstGuessed)) return true;
   const Beacon& beacon = view.peer->beacon;
   const Conflict conflict = InTurn(*view.conflict, s.path.direction_world, PeerWay(view));
   const double own_s = TimeToCover(conflict.own.end_m, std::max(0.0, s.speed_m_s),

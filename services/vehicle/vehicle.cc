@@ -13,6 +13,7 @@
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
+#include "services/vehicle/planted.h"
 #include "services/vehicle/scan_check.h"
 
 namespace giveway {
@@ -247,6 +248,7 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   if (under_way == 0 || state.encounters == 0) {
     state.order.waited_ticks = state.waited_ticks > limit ? state.waited_ticks : 0;
   }
+  if (Has(Defect::kMeasuredSpeedInOrder)) state.order.speed_bucket = SpeedBucket(s.speed_m_s);
   if (under_way == 0 && !waits) state.waited_ticks = 0;
   state.encounters = under_way;
   state.decision = decision;

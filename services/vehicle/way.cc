@@ -3,6 +3,7 @@
 #include <array>
 
 #include "services/vehicle/detour.h"
+#include "services/vehicle/planted.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {
@@ -68,6 +69,7 @@ void Vehicle::Detour(Situation* s) {
   if (queues && Number(s->tick) % kQueuePatience != 0) return;
   ++state.aimless_ticks;
   if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
+  if (Has(Defect::kPatienceDropped)) state.aimless_ticks += 1000;
   const std::uint32_t away_ticks =
       state.away_tick == kNoTick ? kStuckTicks + 1 : TicksBetween(state.away_tick, s->tick);
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s ||

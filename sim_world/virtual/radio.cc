@@ -134,7 +134,7 @@ void Radio::Hear(std::size_t receiver, std::vector<ReceivedBeacon>* heard) {
              [&](std::uint32_t begin, std::uint32_t end) {
                for (std::uint32_t at = begin; at < end; ++at) {
                  const std::size_t sender = grid_.Order()[at];
-                 if (sender != receiver && IsInReach(receiver, sender)) {
+                 if ((sender != receiver || settings_.loops_back) && IsInReach(receiver, sender)) {
                    HearSender(receiver, sender, heard);
                  }
                }

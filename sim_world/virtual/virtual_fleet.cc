@@ -136,6 +136,7 @@ void VirtualFleet::Step(const RangeScan& scan, std::size_t index) {
   inputs_.scan = scan;
   inputs_.beacons = heard_;
   inputs_.events = events_;
+  inputs_.signals = run_.Signals();
   member.said = member.brain->Step(inputs_);
   member.answered = true;
   radio_.Say(index, scan.tick, member.said.beacon);

@@ -32,8 +32,9 @@ struct RadioSettings {
   // at the tick it was said.
   Nanoseconds delay{0};
   Nanoseconds jitter{0};
-  double reorder = 0;    // share held back for two ticks more, so that later ones overtake them
-  double duplicate = 0;  // share heard a second time, a tick after the first
+  double reorder = 0;       // share held back for two ticks more, so that later ones overtake them
+  double duplicate = 0;     // share heard a second time, a tick after the first
+  bool loops_back = false;  // everyone hears its own beacons too
   std::vector<Blackout> blackouts;
   // The radio's own reach by true positions. Without one it carries farther than anyone listens, as
   // the middleware does: brains leave out what was stated from beyond their emission radius.

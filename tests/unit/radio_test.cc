@@ -82,6 +82,16 @@ TEST_F(RadioTest, EveryBeaconIsHeardATickAfterItWasSaidAndNotBefore) {
   EXPECT_EQ(heard_[0].writer, 7U);
 }
 
+TEST_F(RadioTest, WhoTalksHearsItselfOnlyWhereTheRadioLoopsBack) {
+  for (const bool loops_back : {false, true}) {
+    Begin({.loops_back = loops_back});
+    Ticks(3);
+    heard_.clear();
+    radio_->Hear(kTalker, &heard_);
+    EXPECT_EQ(heard_.size(), loops_back ? 1U : 0U);
+  }
+}
+
 TEST_F(RadioTest, LosesTheShareItIsToldTo) {
   Begin({.loss = 0.2});
   constexpr std::uint32_t kTicks = 40'000;

@@ -1,0 +1,57 @@
+// Defects of the rules that tests plant to see that each is caught (tests/virtual/defects.sh). A
+// vehicle is compiled without them: nothing is planted there, the compiler knows it, and leaves no
+// instruction of any.
+#pragma once
+
+#include <cstdint>
+
+namespace giveway {
+
+enum class Defect : std::uint8_t {
+  // The order.
+  kPriorityReversed,
+  kTieYieldsBoth,
+  kTieFreesBoth,
+  kMeasuredSpeedInOrder,
+  kLendingDropped,
+  // Whom to believe, and for how long.
+  kOwnBeaconHeard,
+  kStaleBeaconTrusted,
+  kLostPeerForgotten,
+  kSilenceIsConsent,
+  kReleasedWithoutLooking,
+  kLostPeerHeldForEver,
+  // Encounters.
+  kLatchDropped,
+  kSecondDrivesOn,
+  kThroughFirstGuessed,
+  kGrantNotNeeded,
+  kLeaderIsConflict,
+  kArrivedClaimsWay,
+  // What never rests on agreement.
+  kClaimIgnored,
+  kClaimWithoutWay,
+  kBrakesTooLate,
+  kObstacleIgnored,
+  kMoverIgnored,
+  kSignalIgnored,
+  // Ways.
+  kSteersRoundNobody,
+  kQueueOvertaken,
+  kPatienceDropped,
+};
+
+#ifdef GIVEWAY_PLANTED_DEFECTS
+namespace internal {
+inline std::uint64_t planted = 0;  // a bit a defect
+}
+// Before the first vehicle is made.
+inline void Plant(Defect defect) { internal::planted |= 1ULL << static_cast<unsigned>(defect); }
+inline bool Has(Defect defect) {
+  return (internal::planted >> static_cast<unsigned>(defect) & 1U) != 0;
+}
+#else
+constexpr bool Has(Defect /*defect*/) { return false; }
+#endif
+
+}  // namespace giveway
