@@ -16,10 +16,14 @@ constexpr double kPoseSlack_m = 0.15;
 constexpr double kSpeedSlack = 1.5;
 constexpr double kGain_m_s = 0.1;  // and to what is gained from one beacon to the next
 
+// Of a reading's noise, in standard deviations.
+constexpr double kNoiseSigmas = 4;
+
 // A body that must be heard is not, so often in a row.
 constexpr std::uint32_t kMissingTicks = 5;
 // It stands, by its own word, for longer than any smoothed closing speed remembers its driving.
 constexpr double kStands_s = 1;
+constexpr double kTurning_rad_s = 0.02;  // slower is straight on, or standing
 // Longer than a beacon is fresh: within that it may have driven off without being heard to.
 constexpr double kCloses_s = 0.4;
 
@@ -37,8 +41,8 @@ double Pace(const Beacon& beacon) {
 // Farther than it could have come.
 bool Jumps(const Beacon& before, const Beacon& now, double dt_s) {
   const double fastest = kSpeedSlack * std::max({Pace(before), Pace(now), now.cruise_m_s});
-  const double most_m = fastest * dt_s + kPoseSlack_m +
-                        kSigmas * (before.sigma_position_m + now.sigma_position_m);
+  const double most_m =
+      fastest * dt_s + kPoseSlack_m + kSigmas * (before.sigma_position_m + now.sigma_position_m);
   const Vec2 way = now.world_from_body.position_world - before.world_from_body.position_world;
   return SquaredNorm(way) > most_m * most_m;
 }
@@ -52,40 +56,47 @@ bool IsTooFast(const Beacon& before, const Beacon& now, double dt_s) {
   return pace > kSpeedSlack * (Pace(before) + rate_m_s2 * dt_s) + kGain_m_s;
 }
 
-// How far off the place of a peer may be, to this vehicle.
-double PlaceError(const PeerView& view, const Situation& s) {
-  return kPoseSlack_m + kSigmas * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
-}
+// Where a peer says its centre is, and by how much that may be off, to this vehicle.
+struct Place {
+  Vec2 centre_body;
+  double error_m = 0;
+};
 
-// True if the sensor fired just now and did not hear what it must have heard, if the body's centre
-// is where it is said to be: it lies well inside the cone, and whatever hides it is nearer still.
-// By the centre, not the shell: a box may have no corner there.
-bool MissesBody(std::size_t sensor, Vec2 centre_body, double error_m, const Situation& s) {
-  constexpr double kTooNear_m = 0.4;
-  const SensorMount& mount = s.options.profile.sonar[sensor];
-  const SensorView& heard = s.ranges[sensor];
-  if (!mount.enabled || heard.kind == Echo::kNoData) return false;
-  if (heard.tick != s.tick || heard.missed) return false;
-  const Vec2 to = centre_body - mount.position_body;
-  if (Dot(s.cones.of[sensor].axis_body, to) < kTooNear_m) return false;
-  const double squared = SquaredNorm(to);
-  const double across = Magnitude(Cross(s.cones.of[sensor].axis_body, to)) + error_m;
-  if (across * across > s.cones.half_sine * s.cones.half_sine * squared) return false;
-  const double reach_m = heard.kind == Echo::kClear ? s.options.profile.sonar_max_range_m
-                                                    : std::max(0.0, heard.range_m);
-  const double surely_m = reach_m * (1 - 4 * s.options.sonar_noise) - error_m;
-  return surely_m > 0 && squared < surely_m * surely_m;
-}
-
-bool IsMissed(const PeerView& view, const Situation& s) {
+Place PlaceOf(const PeerView& view, const Situation& s) {
   const Vec2 centre = InBody(s, view.world_from_body.position_world);
+  return {centre,
+          kPoseSlack_m + kSigmas * (s.sigma_position_m + view.peer->beacon.sigma_position_m +
+                                    s.sigma_heading_rad * Norm(centre))};
+}
+
+// True if the centre surely lies in the cone, and not so near that it is all around it.
+bool IsSquarelyIn(std::size_t sensor, const Place& place, const Situation& s) {
+  constexpr double kTooNear_m = 0.4;
+  const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
+  if (Dot(s.cones.of[sensor].axis_body, to) < kTooNear_m) return false;
+  const double across = Magnitude(Cross(s.cones.of[sensor].axis_body, to)) + place.error_m;
+  return across * across <= s.cones.half_sine * s.cones.half_sine * SquaredNorm(to);
+}
+
+// True if the sensor fired just now and heard nothing as near as the centre, which lies in its
+// cone: whatever hides a body is nearer still. By the centre, not the shell, for the body need not
+// be round.
+bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
+  const SensorView& heard = s.ranges[sensor];
+  if (!s.options.profile.sonar[sensor].enabled || heard.kind == Echo::kNoData) return false;
+  if (heard.tick != s.tick || heard.missed || !IsSquarelyIn(sensor, place, s)) return false;
+  const double free_m =
+      heard.kind == Echo::kClear ? s.options.profile.sonar_max_range_m : heard.range_m;
+  const double surely_m = free_m * (1 - kNoiseSigmas * s.options.sonar_noise) - place.error_m;
+  const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
+  return surely_m > 0 && SquaredNorm(to) < surely_m * surely_m;
+}
+
+bool IsMissed(const Place& place, const Situation& s) {
   const double far_m = s.options.profile.sonar_max_range_m + s.options.profile.body_radius_m;
-  const double distance_squared = SquaredNorm(centre);
-  if (distance_squared > far_m * far_m) return false;
-  const double distance = Sqrt(distance_squared);
-  const double error_m = PlaceError(view, s) + kSigmas * s.sigma_heading_rad * distance;
+  if (SquaredNorm(place.centre_body) > far_m * far_m) return false;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
-    if (MissesBody(i, centre, error_m, s)) return true;
+    if (MissesBody(i, place, s)) return true;
   }
   return false;
 }
@@ -97,17 +108,25 @@ bool IsItAlone(const PeerView& view, std::size_t sensor, std::span<const PeerVie
   });
 }
 
+// True where nothing that stands can seem to come nearer by more than the own speed: the vehicle
+// stands as well, or drives straight on and the cone holds what is straight ahead. Into any other
+// cone the end of a wall may come from the side, and its echo leaps.
+bool TellsMotion(std::size_t sensor, const Situation& s) {
+  if (s.turns || Magnitude(s.turn_rad_s) > kTurning_rad_s) return false;
+  if (Magnitude(s.speed_m_s) < kStandingSpeed_m_s) return true;
+  return s.speed_m_s > 0 && s.cones.of[sensor].nearest_cosine >= 1;
+}
+
+// Whether its echo moves by itself. Not while one that has fallen silent may roll by.
 bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
-  // A cone that swings, and one that has fallen silent and rolls on, make echoes of any kind.
-  if (s.turns || s.someone_lost) return false;
+  if (s.someone_lost) return false;
   for (const std::size_t i : BitsOf(view.explains)) {
-    if (MovesByItself(i, s) && IsItAlone(view, i, views)) return true;
+    if (TellsMotion(i, s) && MovesByItself(i, s) && IsItAlone(view, i, views)) return true;
   }
   return false;
 }
 
 bool SaysItStands(const PeerView& view) {
-  constexpr double kTurning_rad_s = 0.02;
   const Beacon& beacon = view.peer->beacon;
   const double turn_rad_s = TwistFromWheels(beacon.drive, beacon.wheels).turn_rad_s;
   return view.standing && Magnitude(turn_rad_s) < kTurning_rad_s;
@@ -144,7 +163,7 @@ void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCount
       trust.missing_ticks = trust.standing_ticks = trust.closing_ticks = 0;
       continue;
     }
-    trust.missing_ticks = IsMissed(view, s) ? trust.missing_ticks + 1 : 0;
+    trust.missing_ticks = IsMissed(PlaceOf(view, s), s) ? trust.missing_ticks + 1 : 0;
     if (trust.missing_ticks == kMissingTicks) ++counters->beacon_without_echo;
     // Ultrasonics that miss what is there, by its slant or by chance, accuse nobody.
     if (trust.missing_ticks >= kMissingTicks && !HasImperfectSonar(s.options)) Doubt(&trust, s.now);
