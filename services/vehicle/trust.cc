@@ -11,7 +11,7 @@ namespace {
 // Beyond which errors are no errors any more, in standard deviations of each pose.
 constexpr double kSigmas = 3;
 // On top of that: slip within a tick, speeding up since the beacon.
-constexpr double kPoseSlack_m = 0.15;
+constexpr double kPoseSlack_m = 0.1;
 // What encoders and slip may add to a speed, as a share of it.
 constexpr double kSpeedSlack = 1.5;
 constexpr double kGain_m_s = 0.1;  // and to what is gained from one beacon to the next
@@ -117,11 +117,18 @@ bool TellsMotion(std::size_t sensor, const Situation& s) {
   return s.speed_m_s > 0 && s.cones.of[sensor].nearest_cosine >= 1;
 }
 
+// True if whoever made the echo is surely in reach of the radio: its centre lies behind its shell.
+bool IsInReach(std::size_t sensor, const Situation& s) {
+  constexpr double kDeepest_m = 1;
+  return s.ranges[sensor].range_m + kDeepest_m < s.options.emission_radius_m;
+}
+
 // Whether its echo moves by itself. Not while one that has fallen silent may roll by.
 bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
   if (s.someone_lost) return false;
   for (const std::size_t i : BitsOf(view.explains)) {
-    if (TellsMotion(i, s) && MovesByItself(i, s) && IsItAlone(view, i, views)) return true;
+    if (!IsInReach(i, s) || !TellsMotion(i, s) || !MovesByItself(i, s)) continue;
+    if (IsItAlone(view, i, views)) return true;
   }
   return false;
 }
