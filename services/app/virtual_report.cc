@@ -73,11 +73,11 @@ std::string ToText(const VirtualReport& report) {
     text += fmt::format("  delay: mean {:.1f} s, median {:.1f} s, 99 % below {:.1f} s\n",
                         *report.delay_mean_s, *report.delay_p50_s, *report.delay_p99_s);
   }
-  text += fmt::format("  did not fit: {} beacons without echo, {} halted but closing, {} jumps, "
-                      "{} impossible speeds; {} echoes without beacon\n",
-                      report.trust.beacon_without_echo, report.trust.halted_but_closing,
-                      report.trust.jumps, report.trust.impossible_speeds,
-                      report.trust.echo_without_beacon);
+  text += fmt::format(
+      "  did not fit: {} beacons without echo, {} halted but closing, {} jumps, "
+      "{} impossible speeds; {} echoes without beacon\n",
+      report.trust.beacon_without_echo, report.trust.halted_but_closing, report.trust.jumps,
+      report.trust.impossible_speeds, report.trust.echo_without_beacon);
   if (!report.failing_seeds.empty()) {
     text += "  failing seeds:";
     for (const std::uint32_t seed : report.failing_seeds) text += fmt::format(" {}", seed);

@@ -251,8 +251,8 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   view.box_begin_m = 0;
   view.free_m = FreeOf(view, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
-  view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||
-                          WaitsAtSignal(view, s));
+  view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
+                                  halted || WaitsAtSignal(view, s));
   view.explains = fresh ? EchoesOf(view, s) : 0;
   return view;
 }

@@ -164,6 +164,9 @@ void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCount
   if (s.run_state != RunState::kRunning) return;
   const std::uint32_t stands = TicksOf(kStands_s, s.options);
   const std::uint32_t closes = TicksOf(kCloses_s + 2 * Seconds(s.options.sonar_refresh), s.options);
+  // Ultrasonics that miss what is there, by its slant or by chance, or take a neighbour's ping for
+  // an echo accuse nobody.
+  const bool believes_ears = !HasImperfectSonar(s.options);
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
     if (!view.fresh) {
@@ -172,14 +175,13 @@ void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCount
     }
     trust.missing_ticks = IsMissed(PlaceOf(view, s), s) ? trust.missing_ticks + 1 : 0;
     if (trust.missing_ticks == kMissingTicks) ++counters->beacon_without_echo;
-    // Ultrasonics that miss what is there, by its slant or by chance, accuse nobody.
-    if (trust.missing_ticks >= kMissingTicks && !HasImperfectSonar(s.options)) Doubt(&trust, s.now);
+    if (trust.missing_ticks >= kMissingTicks && believes_ears) Doubt(&trust, s.now);
 
     trust.standing_ticks = SaysItStands(view) ? trust.standing_ticks + 1 : 0;
     const bool closing = trust.standing_ticks > stands && ComesNearer(view, views, s);
     trust.closing_ticks = closing ? trust.closing_ticks + 1 : 0;
     if (trust.closing_ticks == closes) ++counters->halted_but_closing;
-    if (trust.closing_ticks >= closes) Doubt(&trust, s.now);
+    if (trust.closing_ticks >= closes && believes_ears) Doubt(&trust, s.now);
   }
 }
 
