@@ -92,9 +92,13 @@ bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
   return surely_m > 0 && SquaredNorm(to) < surely_m * surely_m;
 }
 
-bool IsMissed(const Place& place, const Situation& s) {
+// True if no echo is where its body should be, and a sensor should have heard one.
+bool IsMissed(const PeerView& view, const Situation& s) {
+  if (view.explains != 0) return false;
   const double far_m = s.options.profile.sonar_max_range_m + s.options.profile.body_radius_m;
-  if (SquaredNorm(place.centre_body) > far_m * far_m) return false;
+  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  if (SquaredNorm(offset) > far_m * far_m) return false;
+  const Place place = PlaceOf(view, s);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (MissesBody(i, place, s)) return true;
   }
@@ -173,7 +177,7 @@ void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCount
       trust.missing_ticks = trust.standing_ticks = trust.closing_ticks = 0;
       continue;
     }
-    trust.missing_ticks = IsMissed(PlaceOf(view, s), s) ? trust.missing_ticks + 1 : 0;
+    trust.missing_ticks = IsMissed(view, s) ? trust.missing_ticks + 1 : 0;
     if (trust.missing_ticks == kMissingTicks) ++counters->beacon_without_echo;
     if (trust.missing_ticks >= kMissingTicks && believes_ears) Doubt(&trust, s.now);
 
