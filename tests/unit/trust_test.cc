@@ -183,6 +183,13 @@ TEST_F(SaysItStands, AndAnotherMayBeWhoComesNearer) {
   EXPECT_EQ(Counted().Total(), 0U);
 }
 
+TEST_F(SaysItStands, AndOneThatFellSilentMayBeWhoComesNearer) {
+  Hear(ClearScan(0), Ahead(0, 2.5));
+  bench_.Step(HearingAhead(2.5), {BeaconOf(3, 1, {.position_world = {-4, 0}})});
+  ComeNearer(0.015, 16, false);
+  EXPECT_EQ(Counted().Total(), 0U);
+}
+
 // Its shell is nearer than the radio reaches, its centre is not.
 TEST_F(SaysItStands, AndOneOutOfReachOfTheRadioComesNearer) {
   VehicleOptions options = test::DefaultOptions();
