@@ -50,6 +50,7 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::VehicleL
   if (nearest >= 0) status.nearest_echo_m = nearest;
   status.peers_heard = vehicle.PeersHeard();
   status.beacons = state.beacons;
+  status.trust = state.trust;
   status.beacons_superseded = counters.beacons_superseded;
   status.qos = state.qos;
   status.last_deadline_missed = state.peers.LastDeadlineMissed();

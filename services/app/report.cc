@@ -72,6 +72,7 @@ schema::Report ToSchema(const Report& report) {
   message.set_beacons_received(report.beacons_received);
   message.set_deadline_missed(report.deadline_missed);
   message.set_liveliness_lost(report.liveliness_lost);
+  SetTrust(report.trust, message.mutable_trust());
   SetReaction(report, &message);
   message.set_tick_overruns(report.tick_overruns);
   message.set_seed(report.seed);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/types/counters.h"
 #include "services/types/ids.h"
 
 namespace giveway::app {
@@ -39,6 +40,7 @@ struct Report {
   std::uint32_t beacons_received = 0;
   std::uint32_t deadline_missed = 0;
   std::uint32_t liveliness_lost = 0;
+  TrustCounters trust;  // of all vehicles
   std::optional<double> reaction_p50_ms;
   std::optional<double> reaction_p99_ms;
   std::optional<double> reaction_max_ms;

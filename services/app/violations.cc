@@ -14,4 +14,12 @@ void SetViolations(const std::vector<BrokenInvariant>& violations, schema::Viola
   }
 }
 
+void SetTrust(const TrustCounters& counters, schema::Trust* message) {
+  message->set_beacon_without_echo(counters.beacon_without_echo);
+  message->set_echo_without_beacon(counters.echo_without_beacon);
+  message->set_halted_but_closing(counters.halted_but_closing);
+  message->set_jumps(counters.jumps);
+  message->set_impossible_speeds(counters.impossible_speeds);
+}
+
 }  // namespace giveway::app

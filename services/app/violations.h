@@ -1,4 +1,4 @@
-// Broken invariants of a run as both reports print them.
+// Broken invariants of a run, and what did not fit, as both reports print them.
 #pragma once
 
 #include <vector>
@@ -6,11 +6,13 @@
 #include "services/app/report.h"
 
 namespace giveway::schema {
+class Trust;
 class Violations;
 }
 
 namespace giveway::app {
 
 void SetViolations(const std::vector<BrokenInvariant>& violations, schema::Violations* message);
+void SetTrust(const TrustCounters& counters, schema::Trust* message);
 
 }  // namespace giveway::app

@@ -35,6 +35,7 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   if (report.delay_p99_s) message.mutable_delay_s()->set_p99(Rounded(*report.delay_p99_s));
   if (report.delay_mean_s) message.mutable_delay_s()->set_mean(Rounded(*report.delay_mean_s));
   if (report.min_separation_m) message.set_min_separation_m(Rounded(*report.min_separation_m));
+  SetTrust(report.trust, message.mutable_trust());
   message.set_hash(report.hash);
   for (const std::uint32_t seed : report.failing_seeds) message.add_failing_seeds(seed);
   message.set_jobs(report.jobs);
@@ -72,6 +73,11 @@ std::string ToText(const VirtualReport& report) {
     text += fmt::format("  delay: mean {:.1f} s, median {:.1f} s, 99 % below {:.1f} s\n",
                         *report.delay_mean_s, *report.delay_p50_s, *report.delay_p99_s);
   }
+  text += fmt::format(
+      "  did not fit: {} beacons without echo, {} halted but closing, {} jumps, "
+      "{} impossible speeds; {} echoes without beacon\n",
+      report.trust.beacon_without_echo, report.trust.halted_but_closing, report.trust.jumps,
+      report.trust.impossible_speeds, report.trust.echo_without_beacon);
   if (!report.failing_seeds.empty()) {
     text += "  failing seeds:";
     for (const std::uint32_t seed : report.failing_seeds) text += fmt::format(" {}", seed);

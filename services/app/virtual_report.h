@@ -26,6 +26,7 @@ struct VirtualReport {
   std::optional<double> delay_p99_s;
   std::optional<double> delay_mean_s;
   std::optional<double> min_separation_m;
+  TrustCounters trust;
   std::string hash;
   std::vector<std::uint32_t> failing_seeds;
   std::uint32_t jobs = 0;

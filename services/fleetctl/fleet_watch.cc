@@ -33,6 +33,7 @@ void AddStatus(const VehicleStatus& status, app::Report* report) {
   report->beacons_received += status.beacons.accepted;
   report->deadline_missed += status.qos.deadline_missed;
   report->liveliness_lost += status.qos.liveliness_lost;
+  report->trust += status.trust;
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ std::string QosText(const VehicleStatus& status) {
   std::string text = fmt::format("{} missed, {} lost", qos.deadline_missed, qos.liveliness_lost);
   if (qos.incompatible_qos > 0) text += fmt::format(", {} incompatible", qos.incompatible_qos);
   if (status.beacons.Rejected() > 0) text += fmt::format(", {} refused", status.beacons.Rejected());
+  if (status.trust.Total() > 0) text += fmt::format(", {} do not fit", status.trust.Total());
   return text;
 }
 

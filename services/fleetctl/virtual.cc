@@ -54,6 +54,7 @@ app::VirtualReport ReportOf(const BatchTotals& totals, double wall_s) {
                           static_cast<double>(totals.delays_s.size());
   }
   report.min_separation_m = totals.separation_m;
+  report.trust = totals.trust;
   report.hash = fmt::format("{:016x}", totals.hash);
   const std::size_t shown = std::min(totals.failing_seeds.size(), kFailingSeedsShown);
   report.failing_seeds.assign(totals.failing_seeds.begin(),

@@ -21,6 +21,7 @@ struct BatchTotals {
   double vehicle_seconds = 0;
   std::vector<double> delays_s;
   std::optional<double> separation_m;
+  TrustCounters trust;
   std::uint64_t hash = 0;
   std::vector<std::uint32_t> failing_seeds;  // ascending once the batch is over
 

@@ -41,6 +41,24 @@ BeaconCounters FromWirePart(const wire::BeaconCounts& sent) {
           .rejected_table_full = sent.rejected_table_full()};
 }
 
+wire::TrustCounts ToWirePart(const TrustCounters& counters) {
+  wire::TrustCounts sent;
+  sent.beacon_without_echo(counters.beacon_without_echo);
+  sent.echo_without_beacon(counters.echo_without_beacon);
+  sent.halted_but_closing(counters.halted_but_closing);
+  sent.jumps(counters.jumps);
+  sent.impossible_speeds(counters.impossible_speeds);
+  return sent;
+}
+
+TrustCounters FromWirePart(const wire::TrustCounts& sent) {
+  return {.beacon_without_echo = sent.beacon_without_echo(),
+          .echo_without_beacon = sent.echo_without_beacon(),
+          .halted_but_closing = sent.halted_but_closing(),
+          .jumps = sent.jumps(),
+          .impossible_speeds = sent.impossible_speeds()};
+}
+
 wire::QosCounts ToWirePart(const QosCounters& counters) {
   wire::QosCounts sent;
   sent.deadline_missed(counters.deadline_missed);
@@ -72,6 +90,7 @@ wire::Status ToWire(const VehicleStatus& status) {
   sent.nearest_echo_m(ToWirePart(status.nearest_echo_m));
   sent.peers_heard(status.peers_heard);
   sent.beacons(ToWirePart(status.beacons));
+  sent.trust(ToWirePart(status.trust));
   sent.beacons_superseded(status.beacons_superseded);
   sent.qos(ToWirePart(status.qos));
   sent.last_deadline_missed(Number(status.last_deadline_missed));
@@ -95,6 +114,7 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.nearest_echo_m = FromWirePart(sample.nearest_echo_m());
   status.peers_heard = sample.peers_heard();
   status.beacons = FromWirePart(sample.beacons());
+  status.trust = FromWirePart(sample.trust());
   status.beacons_superseded = sample.beacons_superseded();
   status.qos = FromWirePart(sample.qos());
   status.last_deadline_missed = VehicleId{sample.last_deadline_missed()};

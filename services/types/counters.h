@@ -31,6 +31,29 @@ struct BeaconCounters {
   }
 };
 
+// What did not fit, by kind (services/vehicle/trust.h). The first three count its beginnings,
+// whatever it lasts; the others each beacon. All wrap at 2^32, which takes years.
+struct TrustCounters {
+  std::uint32_t beacon_without_echo = 0;  // a body was said to be where the ultrasonics hear none
+  std::uint32_t echo_without_beacon = 0;  // something near moved by itself, and nobody said so
+  std::uint32_t halted_but_closing = 0;   // said it stood, and its echo came nearer by itself
+  std::uint32_t jumps = 0;                // farther from the beacon before than it could have come
+  std::uint32_t impossible_speeds = 0;    // faster than anybody, or than it could have become
+
+  constexpr TrustCounters& operator+=(const TrustCounters& more) {
+    beacon_without_echo += more.beacon_without_echo;
+    echo_without_beacon += more.echo_without_beacon;
+    halted_but_closing += more.halted_but_closing;
+    jumps += more.jumps;
+    impossible_speeds += more.impossible_speeds;
+    return *this;
+  }
+  constexpr std::uint32_t Total() const {
+    return beacon_without_echo + echo_without_beacon + halted_but_closing + jumps +
+           impossible_speeds;
+  }
+};
+
 struct QosCounters {
   std::uint32_t deadline_missed = 0;
   std::uint32_t liveliness_lost = 0;

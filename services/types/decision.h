@@ -21,7 +21,7 @@ inline constexpr std::size_t kBehaviourCount = 5;
 // The ladder. A vehicle only goes down on less evidence, never up on less.
 enum class Mode : std::uint8_t {
   kCooperative,  // beacons and ranges are fresh
-  kSensorOnly,   // a peer that matters is not heard: only the own ranges prove anything
+  kSensorOnly,   // a peer that matters is not heard or not believed: only the own ranges prove
   kHalt,         // ranges are stale: no motion
   kLeaving,      // the last beacons of a vehicle that stops in good order
 };

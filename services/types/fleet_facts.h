@@ -108,6 +108,7 @@ struct VehicleStatus {
   std::optional<double> nearest_echo_m;
   std::uint32_t peers_heard = 0;  // with a fresh beacon
   BeaconCounters beacons;
+  TrustCounters trust;
   std::uint32_t beacons_superseded = 0;  // overwritten in the reader before they were drained
   QosCounters qos;
   VehicleId last_deadline_missed = kNobody;

@@ -16,6 +16,7 @@ struct Cone {
 
 struct Cones {
   std::array<Cone, kSensorCount> of;
+  double half_sine;  // of half the angle of any of them
 };
 
 Cones ConesOf(const VehicleProfile& profile);

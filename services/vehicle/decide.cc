@@ -31,7 +31,7 @@ std::optional<Proposal> MostRestrictive(const Situation& s) {
 Mode ModeOf(const Situation& s) {
   if (s.leaving) return Mode::kLeaving;
   if (s.blind_sensor >= 0) return Mode::kHalt;
-  return s.deaf || s.someone_lost ? Mode::kSensorOnly : Mode::kCooperative;
+  return s.deaf || s.someone_lost || s.someone_doubted ? Mode::kSensorOnly : Mode::kCooperative;
 }
 
 Action AvoidingAction(const Situation& s) {

@@ -56,6 +56,7 @@ Action AsPrinted(const Situation& s, const Action& wanted) {
 // The printed scripts look at nobody: they know neither places nor ways, only the one variable.
 void Vehicle::LookAround(Situation* s) {
   if (options_.behaviour != Behaviour::kLecturePrinted) {
+    NoteTurning(s);
     LookAtPeers(s);
     ListenForMovers(s);
     Detour(s);

@@ -9,6 +9,17 @@
 
 namespace giveway {
 
+namespace {
+
+// The newest believed to be of this world and life, and in reach; null if there is none.
+const Beacon* LastBeaconOf(const Peer& peer) {
+  if (peer.left || peer.out_of_reach) return nullptr;
+  if (peer.waiting_count > 0) return &peer.waiting[peer.waiting_count - 1];
+  return peer.known ? &peer.beacon : nullptr;
+}
+
+}  // namespace
+
 // Where the id is, or would have to be.
 std::uint32_t PeerTable::IndexOf(VehicleId id) {
   if (guess_ >= count_ || ids_[guess_] != id) {
@@ -44,7 +55,10 @@ bool PeerTable::BelongsTo(Peer* peer, const ReceivedBeacon& received) {
     const bool silent = now - peer->spoke > kWriterLease || peer->left;
     const bool restarted = received.beacon.boot_epoch != peer->boot_epoch;
     if (silent && restarted) {
-      *peer = Peer{.id = peer->id, .writer = received.writer, .encounter = peer->encounter};
+      *peer = Peer{.id = peer->id,
+                   .writer = received.writer,
+                   .encounter = peer->encounter,
+                   .trust = peer->trust};
     } else {
       peer->rivalled = true;
       peer->rival_spoke = now;
@@ -83,7 +97,8 @@ void PeerTable::Store(Peer* peer, const ReceivedBeacon& received, Tick tick) {
 }
 
 void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
-                     const VehicleOptions& options, BeaconCounters* counters) {
+                     const VehicleOptions& options, BeaconCounters* counters,
+                     TrustCounters* trust) {
   const Beacon& beacon = received.beacon;
   ++counters->taken;
   const auto refuse = [&](std::uint32_t BeaconCounters::*counter) {
@@ -125,6 +140,9 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   if (replayed) return refuse(&BeaconCounters::rejected_replayed);
   if (peer->boot_epoch != 0) counters->lost += beacon.seq - peer->last_seq - 1;
   ++counters->accepted;
+  if (const Beacon* before = LastBeaconOf(*peer)) {
+    JudgeBeacon(*before, received, options, &peer->trust, trust);
+  }
   Store(peer, received, self.tick);
 }
 
@@ -188,6 +206,7 @@ void PeerTable::LeaveWorld() {
     peer.waiting_count = 0;
     peer.out_of_reach = false;
     peer.encounter = {};
+    peer.trust = {};
   }
 }
 
@@ -234,6 +253,7 @@ void PeerTable::AddTo(StateHash* hash) const {
     hash->Add(peer.encounter.lost);
     hash->Add(peer.encounter.released);
     if (peer.encounter.entered) hash->Add(peer.encounter.entered);
+    if (peer.trust.ever_doubted) hash->Add(peer.trust.doubted_at.count());
   }
 }
 

@@ -12,6 +12,7 @@
 #include "services/types/qos_event.h"
 #include "services/types/state_hash.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle/trust.h"
 
 namespace giveway {
 
@@ -47,6 +48,7 @@ struct Peer {
   bool left = false;             // said good-bye: a departure, not a loss
   bool out_of_reach = false;     // last heard of from beyond the emission radius
   Encounter encounter;
+  PeerTrust trust;
   Beacon beacon;                    // newest of a tick before this vehicle's
   std::array<Beacon, 2> waiting{};  // of this tick or later, older first
   std::array<SteadyTime, 2> waiting_received{};
@@ -64,9 +66,10 @@ class PeerTable {
  public:
   PeerTable() {}  // not `= default`: for the union's sake that would be deleted
 
-  // Takes one beacon in or refuses it; exactly one counter of `counters` beside `taken` moves.
+  // Takes one beacon in or refuses it; exactly one counter of `counters` beside `taken` moves. One
+  // that does not fit the one before is taken, counted in `trust`, and its sender doubted.
   void Take(const ReceivedBeacon& received, const Self& self, const VehicleOptions& options,
-            BeaconCounters* counters);
+            BeaconCounters* counters, TrustCounters* trust);
   // Notes what the middleware says. Only ever makes a peer less believed.
   void Note(const QosEvent& event, QosCounters* counters);
   // Moves waiting beacons of ticks before `tick` up, and drops peers silent for kForgetAfter.

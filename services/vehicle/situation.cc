@@ -239,13 +239,14 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
   view.peer = peer;
   view.fresh = fresh;
+  view.believed = fresh && !IsDoubted(peer->trust, s.now);
   view.lost = IsLost(*peer, fresh);
   view.world_from_body =
       AdvanceArc(beacon.world_from_body, twist, CarriedSeconds(beacon, fresh, s));
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  view.at_signal = cooperative && fresh && beacon.rule == Rule::kSignal;
+  view.at_signal = cooperative && view.believed && beacon.rule == Rule::kSignal;
   view.goes_first = ComesFirst(view, s);
 
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
@@ -256,13 +257,14 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   view.leads = Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
   view.crossing = CrossingWith(view, s);
   // One that stands and comes later in the order is a body to steer round.
-  const bool steered_round = cooperative && view.standing && !view.goes_first;
+  const bool stands = view.standing && (view.believed || !fresh);
+  const bool steered_round = cooperative && stands && !view.goes_first;
   if (!steered_round) view.conflict = view.crossing;
   view.box_begin_m = 0;
   view.free_m = FreeOf(view, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
-  view.grants = fresh && (beacon.gives_way_to == s.options.id || StaysPut(beacon) || halted ||
-                          WaitsAtSignal(view, s));
+  view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
+                                  halted || WaitsAtSignal(view, s));
   view.explains = fresh ? EchoesOf(view, s) : 0;
   return view;
 }

@@ -28,8 +28,9 @@ struct PeerView {
   bool lost;
   bool standing;      // below kStandingSpeed
   bool goes_first;    // before this vehicle, by both keys as published
-  bool grants;        // fresh, and says that it gives way to this vehicle or stays where it is
-  bool at_signal;     // fresh, and says that a light stops it
+  bool believed;      // fresh and not doubted
+  bool grants;        // believed, and says that it gives way to this vehicle or stays where it is
+  bool at_signal;     // believed, and says that a light stops it
   bool leads;         // drives ahead in the own lane
   double gap_m;       // shell to shell
   double gate_gap_m;  // the same by the metric of the gates; never above gap_m
@@ -67,6 +68,7 @@ struct Situation {
   double turn_rad_s = 0;  // measured
   WheelSpeeds wheels;     // measured
   double sigma_position_m = 0;
+  double sigma_heading_rad = 0;
   double slows_m = 0;  // a free way no longer than this is too short for the cruise speed
   Path path;           // towards the goal, or straight on
   double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
@@ -87,12 +89,14 @@ struct Situation {
   std::optional<StopLine> stop_line;  // a light ahead that says stop
   bool at_signal = false;             // a light stops this vehicle, as last published
   int blind_sensor = -1;              // see RangeView::FirstBlind
-  std::uint32_t explained = 0;        // union of the peers' `explains`
+  bool turns = false;                 // sharply, or did just now: echoes do not say who moves
+  std::uint32_t explained = 0;        // union of the `explains` of peers it is believed of
   bool deaf = false;                  // something near moves and no fresh beacon explains it
   int deaf_sensor = -1;
   // Those that are near, that cross the own way, or with whom an encounter is under way.
   std::span<const PeerView> peers;
-  bool someone_lost = false;  // of all peers
+  bool someone_lost = false;     // of all peers
+  bool someone_doubted = false;  // of `peers`
   bool holds = false;         // for any of them
   LastHeard last_heard;       // of lecture_printed alone, which has no peers
 };

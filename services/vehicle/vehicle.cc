@@ -132,7 +132,7 @@ void Vehicle::TakePeers(const Inputs& inputs) {
                   state.odometry.WorldFromBody().position_world};
   state.peers.Advance(inputs.now, state.tick);
   for (const ReceivedBeacon& received : inputs.beacons) {
-    state.peers.Take(received, self, options_, &state.beacons);
+    state.peers.Take(received, self, options_, &state.beacons, &state.trust);
   }
   for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
 }
@@ -164,6 +164,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.turn_rad_s = twist.turn_rad_s;
   s.wheels = state.wheels;
   s.sigma_position_m = state.odometry.SigmaPosition();
+  s.sigma_heading_rad = state.odometry.SigmaHeading();
   s.slows_m = StoppingDistance(options_.cruise_m_s, ReactionSeconds(options_),
                                options_.profile.deceleration_m_s2);
   s.order = ActingOrder(state.order, state.peers, options_.id);
@@ -200,31 +201,41 @@ void Vehicle::LookAtPeers(Situation* s) {
     if (!CanMatter(peer, fresh, *s)) continue;
     // Made where it stays: copying a view costs as much as making it.
     const auto* view = new (&(*views_)[count++]) PeerView(LookAt(&peer, fresh, *s));
-    s->explained |= view->explains;
+    s->someone_doubted = s->someone_doubted || (fresh && !view->believed);
+    // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
+    // lecture's behaviours a known body is kept from no less than an unknown one.
+    const bool explains = view->believed || options_.behaviour != Behaviour::kCooperative;
+    s->explained |= explains ? view->explains : 0;
   }
   const std::span<PeerView> views(views_->data(), count);
+  JudgeEchoes(views, *s, &state_->trust);
   FindBoxes(views, *s);
   s->holds = UpdateEncounters(views, *s);
   s->peers = views;
+}
+
+// A cone that swings along a wall makes its echo come nearer faster than any of the formulas say.
+void Vehicle::NoteTurning(Situation* s) {
+  VehicleState& state = *state_;
+  if (s->turn_rad_s > kSharpTurn_rad_s || s->turn_rad_s < -kSharpTurn_rad_s) {
+    state.turned_tick = s->tick;
+  }
+  s->turns =
+      state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
 }
 
 // Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
 void Vehicle::ListenForMovers(Situation* s) {
   VehicleState& state = *state_;
   bool moving = false;
-  // A cone that swings along a wall makes its echo come nearer faster than any of the formulas say.
-  if (s->turn_rad_s > kSharpTurn_rad_s || s->turn_rad_s < -kSharpTurn_rad_s) {
-    state.turned_tick = s->tick;
-  }
-  const bool turns =
-      state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
   const double near_m = state.deaf ? options_.gate_exit_m : options_.gate_enter_m;
-  for (const std::size_t i : BitsOf(turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
+  for (const std::size_t i : BitsOf(s->turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
     if (s->ranges[i].range_m >= near_m || !MovesByItself(i, *s)) continue;
     moving = true;
     state.deaf_sensor = static_cast<int>(i);
   }
   if (moving) {
+    state.trust.echo_without_beacon += state.deaf ? 0 : 1;
     state.deaf = true;
     state.deaf_since = s->now;
   }

@@ -59,6 +59,7 @@ struct VehicleState {
   std::uint32_t signals_refused = 0;
   BeaconCounters beacons;
   QosCounters qos;
+  TrustCounters trust;
 };
 
 class Vehicle {
@@ -92,6 +93,7 @@ class Vehicle {
   void LookAtSignals(Situation* situation);
   void LookAround(Situation* situation);
   void LookAtPeers(Situation* situation);
+  void NoteTurning(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
   void Remember(const Situation& situation, const Action& action);

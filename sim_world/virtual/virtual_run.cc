@@ -56,7 +56,10 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
   StateHash hash;
   hash.Add(figures.state_hash);
   hash.Add(fleet.CommandsHash());
-  for (std::size_t i = 0; i < fleet.Size(); ++i) hash.Add(fleet.Brain(i).Hash());
+  for (std::size_t i = 0; i < fleet.Size(); ++i) {
+    hash.Add(fleet.Brain(i).Hash());
+    outcome->trust += fleet.Brain(i).State().trust;
+  }
   outcome->hash = hash.Value();
 }
 

@@ -251,6 +251,7 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   sent.beacon_deadline_offered_ms = 33;
   sent.beacon_deadline_requested_ms = 34;
   sent.beacon_lease_ms = 35;
+  sent.trust = {36, 37, 38, 39, 40};
   sent.final = true;
   const VehicleStatus back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
@@ -264,8 +265,10 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   static_assert(sizeof(BeaconCounters) == 14 * 4 && sizeof(QosCounters) == 5 * 4);
   using Counts = std::array<std::uint32_t, 14>;
   EXPECT_EQ(std::bit_cast<Counts>(back.beacons), std::bit_cast<Counts>(sent.beacons));
+  static_assert(sizeof(TrustCounters) == 5 * 4);
   using Five = std::array<std::uint32_t, 5>;
   EXPECT_EQ(std::bit_cast<Five>(back.qos), std::bit_cast<Five>(sent.qos));
+  EXPECT_EQ(std::bit_cast<Five>(back.trust), std::bit_cast<Five>(sent.trust));
   EXPECT_EQ(back.beacons_superseded, sent.beacons_superseded);
   EXPECT_EQ(back.last_deadline_missed, sent.last_deadline_missed);
   EXPECT_EQ(back.last_liveliness_lost, sent.last_liveliness_lost);

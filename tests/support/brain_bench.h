@@ -21,6 +21,13 @@ inline VehicleOptions DefaultOptions(std::uint32_t id = 1) {
   return options;
 }
 
+// For peers that are near and never heard: switched off, the ultrasonics do not gainsay them.
+inline VehicleOptions OptionsWithoutUltrasonics() {
+  VehicleOptions options = DefaultOptions();
+  for (SensorMount& mount : options.profile.sonar) mount.enabled = false;
+  return options;
+}
+
 // All enabled sensors clear, rear ones without data.
 inline RangeScan ClearScan(std::uint32_t tick) {
   RangeScan scan{.vehicle = VehicleId{1},

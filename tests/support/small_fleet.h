@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "services/types/fleet_facts.h"
@@ -43,7 +45,9 @@ class SmallFleet {
     std::vector<ReceivedBeacon> on_air;
     for (const Outputs& said : said_) {
       if (said.beacon.seq == 0) continue;
-      on_air.push_back({.beacon = said.beacon,
+      Beacon beacon = said.beacon;
+      if (lie_) lie_(&beacon);
+      on_air.push_back({.beacon = beacon,
                         .received = Now(),
                         .crc_valid = true,
                         .name_valid = true,
@@ -53,6 +57,9 @@ class SmallFleet {
     for (std::size_t i = 0; i < brains_.size(); ++i) Think(i, on_air);
     return run_.State() != RunState::kEnded;
   }
+
+  // Changes what is heard of a vehicle against what it said; its own brain knows nothing of it.
+  void Lie(std::function<void(Beacon*)> lie) { lie_ = std::move(lie); }
 
   sim::SignalHeads& Heads() { return heads_; }
   const sim::Run& World() const { return run_; }
@@ -145,6 +152,7 @@ class SmallFleet {
   std::vector<Outputs> said_;
   std::vector<MotorCommand> commands_;
   std::vector<WorldEvent> history_;
+  std::function<void(Beacon*)> lie_;
 };
 
 }  // namespace giveway::test

@@ -29,6 +29,7 @@ Report Passed() {
   report.reaction_max_ms = 52;
   report.seed = 4294967295U;
   report.domain = 17;
+  report.trust = {1, 2, 3, 4, 5};
   report.state_hash = "00ff00ff00ff00ff";
   return report;
 }
@@ -42,6 +43,8 @@ TEST(Report, JsonIsOneObjectOnOneLine) {
             R"("reaction_ms":{"p50":50.5,"p99":51,"max":52},"tick_overruns":0,)"
             R"("seed":4294967295,"domain":17,"state_hash":"00ff00ff00ff00ff",)"
             R"("first_violations":[],"ticks_judged":0,"ticks_unseen":0,)"
+            R"("trust":{"beacon_without_echo":1,"echo_without_beacon":2,"halted_but_closing":3,)"
+            R"("jumps":4,"impossible_speeds":5},)"
             R"("min_separation_m":0.625,"time_to_clear_s":18.25})");
 }
 
@@ -50,7 +53,9 @@ TEST(Report, JsonPrintsDefaultsAndLeavesOutWhatDoesNotExist) {
             R"({"scenario":"","verdict":"not_run","reason":"","contacts":0,"halted":[],)"
             R"("arrived":[],"beacons_sent":0,"beacons_received":0,"deadline_missed":0,)"
             R"("liveliness_lost":0,"tick_overruns":0,"seed":0,"domain":0,"state_hash":"",)"
-            R"("first_violations":[],"ticks_judged":0,"ticks_unseen":0})");
+            R"("first_violations":[],"ticks_judged":0,"ticks_unseen":0,)"
+            R"("trust":{"beacon_without_echo":0,"echo_without_beacon":0,"halted_but_closing":0,)"
+            R"("jumps":0,"impossible_speeds":0}})");
 }
 
 TEST(Report, JsonLeavesOutWhatIsNotFinite) {

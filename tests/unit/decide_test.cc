@@ -83,7 +83,7 @@ TEST(Decide, CooperativeToSensorOnlyWhenAPeerFallsSilent) {
 }
 
 TEST(Decide, SensorOnlyToCooperativeWhenThePeerIsBack) {
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   bench.Step(ClearScan(1));
   bench.Step(ClearScan(2), {BeaconOf(2, 1, {.position_world = {0, 3}})});
   for (int i = 0; i < 6; ++i) bench.Step(ClearScan(0));
@@ -172,7 +172,7 @@ Outputs DriveUpTo(BrainBench* bench, double peer_cruise_m_s, VehicleId peer_give
 }
 
 TEST(Decide, TheSlowerStopsBeforeTheConflict) {
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUpTo(&bench, 0.4, kNobody);
   EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
   EXPECT_EQ(out.command.decision.peer, VehicleId{2});
@@ -181,33 +181,33 @@ TEST(Decide, TheSlowerStopsBeforeTheConflict) {
 
 TEST(Decide, TheFirstInOrderStopsToo) {
   SCOPED_TRACE("where the peer has not said that it gives way");
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUpTo(&bench, 0.2, kNobody, kCreeping);
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
   EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.4 - 0.075);
 }
 
 TEST(Decide, TheFirstInOrderDrivesOnOnceThePeerHasSaidSo) {
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUpTo(&bench, 0.2, VehicleId{1});
   EXPECT_NE(out.command.decision.rule, Rule::kNotGranted);
   EXPECT_GT(out.beacon.world_from_body.position_world.x, 4.7);
 }
 
 TEST(Decide, AGrantToSomebodyElseIsNone) {
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   EXPECT_EQ(DriveUpTo(&bench, 0.2, VehicleId{3}, kCreeping).command.decision.rule,
             Rule::kNotGranted);
 }
 
 TEST(Decide, WhoeverStandsAndComesLaterIsABodyAndNotAPath) {
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUpTo(&bench, 0.2, kNobody);
   EXPECT_GT(out.beacon.world_from_body.position_world.x, 4.7);
 }
 
 TEST(Decide, AStopOnceBegunIsNotTakenBackAsTheVehicleSlows) {
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   DriveUpTo(&bench, 0.4, kNobody);
   for (double speed = 0.27; speed >= 0; speed -= 0.03) {
     Beacon beacon = Crossing(bench.NextTick() - 1, 0.4, 1.2);

@@ -42,6 +42,7 @@ VehicleStatus Status(VehicleId vehicle, std::uint32_t sent, bool final) {
   status.beacons.accepted = sent / 2;
   status.qos.deadline_missed = 1;
   status.qos.liveliness_lost = 2;
+  status.trust = {1, 2, 3, 4, 5};
   status.final = final;
   return status;
 }
@@ -117,6 +118,12 @@ TEST_F(FleetWatchTest, NewestStatusOfEachVehicleIsSummed) {
   EXPECT_EQ(report.beacons_received, 30U);
   EXPECT_EQ(report.deadline_missed, 2U);
   EXPECT_EQ(report.liveliness_lost, 4U);
+  EXPECT_EQ(report.trust.beacon_without_echo, 2U);
+  EXPECT_EQ(report.trust.echo_without_beacon, 4U);
+  EXPECT_EQ(report.trust.halted_but_closing, 6U);
+  EXPECT_EQ(report.trust.jumps, 8U);
+  EXPECT_EQ(report.trust.impossible_speeds, 10U);
+  EXPECT_EQ(report.trust.Total(), 30U);
 }
 
 TEST_F(FleetWatchTest, LastSeenStatusOfAKilledVehicleCountsAndIsNotWaitedFor) {

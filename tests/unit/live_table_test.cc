@@ -68,6 +68,13 @@ TEST(LiveTable, RefusedBeaconsAndIncompatibleQosShowOnlyWhenThereAreAny) {
   EXPECT_THAT(TableLines(view, {120, 24})[3], HasSubstr("1 incompatible, 3 refused"));
 }
 
+TEST(LiveTable, WhatDoesNotFitShowsOnlyWhereThereIsAny) {
+  TableView view = ViewOf(2);
+  EXPECT_THAT(TableLines(view, {120, 24})[3], Not(HasSubstr("do not fit")));
+  view.statuses[VehicleId{2}].trust = {1, 1, 0, 2, 0};
+  EXPECT_THAT(TableLines(view, {120, 24})[3], HasSubstr(", 4 do not fit"));
+}
+
 TEST(LiveTable, NoLineIsWiderThanTheTerminal) {
   for (int columns = 0; columns <= 100; ++columns) {
     const std::vector<std::string> lines = TableLines(ViewOf(3), {columns, 24});

@@ -16,7 +16,9 @@ using test::Received;
 
 class PeerTableTest : public testing::Test {
  protected:
-  void Take(const ReceivedBeacon& received) { table_->Take(received, self_, options_, &counters_); }
+  void Take(const ReceivedBeacon& received) {
+    table_->Take(received, self_, options_, &counters_, &trust_);
+  }
   void Hear(std::uint32_t id, std::uint32_t seq, milliseconds at) {
     Take(Received(BeaconOf(id, seq, {}), at));
   }
@@ -29,6 +31,7 @@ class PeerTableTest : public testing::Test {
   Self self_{VehicleId{1}, test::kEpoch, Tick{100}, {}};
   std::unique_ptr<PeerTable> table_ = std::make_unique<PeerTable>();
   BeaconCounters counters_;
+  TrustCounters trust_;
   QosCounters qos_;
 };
 

@@ -208,7 +208,7 @@ Beacon Southern(std::uint32_t tick, Rule rule, double south_m = 1.0) {
 
 TEST(SignalsOfOthers, WhoStandsAtRedComesAfterWhoDoesNot) {
   for (const Rule rule : {Rule::kSignal, Rule::kCruise}) {
-    BrainBench bench(test::DefaultOptions());
+    BrainBench bench(test::OptionsWithoutUltrasonics());
     Outputs out = bench.Step(Driving(0.3));
     for (std::uint32_t tick = 2; tick < 50; ++tick) {
       out = bench.Step(Driving(0.3), {Southern(tick - 1, rule)});
@@ -223,7 +223,7 @@ TEST(SignalsOfOthers, WhoStandsAtRedComesAfterWhoDoesNot) {
 
 // The light's word is no licence to drive into whoever cannot keep it.
 TEST(SignalsOfOthers, APeerThatCouldNotStopAnyMoreIsNotCountedOn) {
-  BrainBench bench(test::DefaultOptions());
+  BrainBench bench(test::OptionsWithoutUltrasonics());
   Outputs out;
   for (std::uint32_t tick = 1; tick < 54; ++tick) {
     Beacon beacon = Southern(tick - 1, Rule::kSignal, 0.75);

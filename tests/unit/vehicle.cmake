@@ -1,10 +1,12 @@
 giveway_test(unit vehicle
-  SOURCES claim_test.cc conflict_test.cc decide_test.cc detour_test.cc imperfect_sonar_test.cc
+  SOURCES claim_test.cc conflict_test.cc decide_test.cc detour_test.cc doubt_test.cc
+          imperfect_sonar_test.cc
           lecture_test.cc objects_test.cc odometry_test.cc peer_table_test.cc range_view_test.cc
-          signals_obeyed_test.cc steering_test.cc vehicle_rejoin_test.cc vehicle_test.cc
+          signals_obeyed_test.cc steering_test.cc trust_test.cc vehicle_rejoin_test.cc
+          vehicle_test.cc
   LINK giveway::vehicle)
 
 # Brains in a world, with what the virtual fleet does not carry yet.
 giveway_test(unit vehicle_in_world
-  SOURCES sensing_fleet_test.cc signal_crossing_test.cc
+  SOURCES lying_peer_test.cc sensing_fleet_test.cc signal_crossing_test.cc
   LINK giveway::sim_world giveway::vehicle giveway::virtual)
