@@ -10,6 +10,14 @@ namespace {
 
 constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may need to pass
 
+// This one is steering round the halted vehicle, which would stop it there by setting off.
+bool IsBeingPassed(const PeerView& view, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative || !view.peer->encounter.holds) return false;
+  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  return view.fresh && !view.standing && view.goes_first &&
+         view.peer->beacon.rule == Rule::kSteerRound && Dot(offset, s.path.direction_world) > 0;
+}
+
 // The nearest echo that is this peer's body; huge if no sensor hears it.
 double NearestEchoOf(const PeerView& view, const Situation& s) {
   double nearest = 1e9;
@@ -35,7 +43,7 @@ bool Begins(const PeerView& view, const Situation& s) {
 }
 
 bool IsOver(const PeerView& view, const Situation& s) {
-  if (view.conflict) return false;
+  if (view.conflict || IsBeingPassed(view, s)) return false;
   return view.gate_gap_m >= s.options.gate_exit_m || ClosingSpeed(view, s) <= 0;
 }
 
@@ -80,7 +88,7 @@ bool IsAhead(const PeerView& view, const Situation& s) {
 // Whoever is in the middle of the conflict clears it instead of standing in the way: if the other
 // is not in it yet, or behind, or it can be out before the other comes.
 bool MustClear(const PeerView& view, const Situation& s) {
-  if (!view.conflict || view.conflict->own.begin_m > 0) return false;
+  if (!view.conflict || view.conflict->own.begin_m > 0 || IsBeingPassed(view, s)) return false;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s))) return true;
   return IsThroughFirst(view, s);

@@ -87,7 +87,7 @@ TEST_F(ReplayTest, AnotherPlaceIsTakenFromTheStepOnAtWhichItWasGiven) {
   const app::ReplayedFile outcome = ReplayOf(records_);
   ASSERT_TRUE(outcome.difference.has_value());
   EXPECT_EQ(outcome.difference->step, 11U);
-  EXPECT_EQ(outcome.difference->field.field, "command.target.left_rad_s");
+  EXPECT_EQ(outcome.difference->field.field, "beacon.cruise_m_s");
 }
 
 TEST_F(ReplayTest, ACutRecordingIsTheSameAsFarAsItGoes) {
