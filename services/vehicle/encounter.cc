@@ -140,7 +140,7 @@ bool HasLeftBox(const PeerView& view, const Situation& s) {
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
 bool Holds(const PeerView& view, const Situation& s) {
-  const bool held = view.peer->encounter.holds && !Has(Defect::kLatchDropped);
+  const bool held = view.peer->encounter.holds;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
     if (view.peer->encounter.released || Has(Defect::kSilenceIsConsent)) return false;

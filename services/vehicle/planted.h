@@ -22,7 +22,6 @@ enum class Defect : std::uint8_t {
   kReleasedWithoutLooking,
   kLostPeerHeldForEver,
   // Encounters.
-  kLatchDropped,
   kSecondDrivesOn,
   kThroughFirstGuessed,
   kGrantNotNeeded,

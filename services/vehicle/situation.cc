@@ -30,14 +30,20 @@ double Reach(const Beacon& beacon, const Situation& s) {
 // of way. Side by side, or coming from another lane, it is not following.
 bool Follows(const PeerView& view, const Situation& s) {
   if (Has(Defect::kLeaderIsConflict)) return false;
-  constexpr double kSameWay = 0.94;  // the cosine of 20 degrees
+  constexpr double kSameWay = 0.94;        // the cosine of 20 degrees
+  constexpr double kThereAlready_m = 0.5;  // which way it is on says little
   const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
   const double across = Cross(s.path.direction_world, offset);
   const double bodies = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m;
   if (across >= bodies || across <= -bodies) return false;
   const double along = Dot(s.path.direction_world, offset);
   if (along <= bodies && along >= -bodies) return false;
-  return Dot(s.path.direction_world, Forward(view.world_from_body)) >= kSameWay;
+  if (Dot(s.path.direction_world, Forward(view.world_from_body)) >= kSameWay) return true;
+  // One that stands may be turned to whatever it looks for a way past; it means to go on.
+  const Vec2 way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  const double way_m = Norm(way);
+  return s.options.behaviour == Behaviour::kCooperative && view.standing &&
+         way_m > kThereAlready_m && Dot(s.path.direction_world, way) >= kSameWay * way_m;
 }
 
 // Only the ids tell the two keys apart.

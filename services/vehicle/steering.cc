@@ -17,8 +17,8 @@ constexpr double kBesideIt_rad = kPi / 2 - 0.03;
 constexpr double kLookAhead_m = 3;
 // A heading on the side of the last turn is kept although another is this much nearer.
 constexpr double kKeepSide_rad = 0.6;
-// Away from what stops it, but not back against whoever follows.
-constexpr double kNoWayBack_rad = 1.7;
+// Past something, but not back: whoever turns round in a lane meets those that follow.
+constexpr double kNoWayBack_rad = 1.8;
 // A gap no wider than this is none.
 constexpr double kNarrow_rad = 0.05;
 
@@ -150,6 +150,7 @@ double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side)
       if (BlockedAt(headings, edge) != nullptr) continue;
       if (BlockedAt(headings, edge + end * kNarrow_rad) != nullptr) continue;
       const double turn = WrapAngle(edge - wanted_rad);
+      if (Magnitude(turn) > kNoWayBack_rad) continue;
       // Passing on the right, with the obstacle to the left, where both sides are alike.
       const bool other_side = side == 0 ? turn > 0 : turn * side < 0;
       const double cost = Magnitude(turn) + (other_side ? (side == 0 ? 0.05 : kKeepSide_rad) : 0);
@@ -207,8 +208,7 @@ Steering SteerToGoal(const Situation& s) {
     steering.round = blocked->peer;
     const double turn = WrapAngle(heading - wanted);
     steering.side = turn > 0 ? 1 : -1;
-    const bool back = turn > kNoWayBack_rad || turn < -kNoWayBack_rad;
-    if (headings.stops && heading != wanted && !back && !HasCompany(s)) steering.away_rad = heading;
+    if (headings.stops && heading != wanted && !HasCompany(s)) steering.away_rad = heading;
   }
   steering.heading_error_rad = WrapAngle(heading - s.world_from_body.heading_rad);
   return steering;

@@ -10,7 +10,7 @@ namespace giveway {
 // the conflict before the peer can reach it.
 bool IsThroughFirst(const PeerView& view, const Situation& s);
 
-// True if the peer is in the conflict and, driving on as it does, out of it before this vehicle can
+// True if the peer moves and, driving on as it does, is out of the conflict before this vehicle can
 // reach it.
 bool IsGoneInTime(const PeerView& view, const Situation& s);
 

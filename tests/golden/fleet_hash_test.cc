@@ -37,9 +37,9 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
-                         testing::Values(Golden{Behaviour::kCooperative, 0x4b125f887381a77eULL},
+                         testing::Values(Golden{Behaviour::kCooperative, 0xbbe619785b150fe7ULL},
                                          Golden{Behaviour::kLectureAvoid, 0x52c3bbeddef10a45ULL},
-                                         Golden{Behaviour::kStockAvoid, 0x3e85e4c6de6ff2b2ULL},
+                                         Golden{Behaviour::kStockAvoid, 0xe05b022f3c0e04dfULL},
                                          Golden{Behaviour::kLectureYield, 0xecfa5f6db85deea7ULL},
                                          Golden{Behaviour::kLecturePrinted, 0x3dc35c2d9b0f98daULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
@@ -61,12 +61,12 @@ TEST_P(ScenarioHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioHash,
-                         testing::Values(GoldenScenario{"head_on", 0x629182a803baf8bfULL},
-                                         GoldenScenario{"three_way", 0x570fd8c48f3cfdabULL},
-                                         GoldenScenario{"four_way", 0xb94197a57beeb464ULL},
-                                         GoldenScenario{"deaf", 0x64f20d7ea282c23bULL},
+                         testing::Values(GoldenScenario{"head_on", 0x3b104081616aa399ULL},
+                                         GoldenScenario{"three_way", 0x7c53c69f0b32ecafULL},
+                                         GoldenScenario{"four_way", 0x9521ea23246a48ddULL},
+                                         GoldenScenario{"deaf", 0xc7cb37157b774b02ULL},
                                          GoldenScenario{"parked_nose_to_nose",
-                                                        0xef620a7ff04cdb73ULL},
+                                                        0xac1dca11551e274fULL},
                                          GoldenScenario{"convoy", 0x2a8ef5a4f517f5b1ULL}),
                          [](const auto& test) { return test.param.name; });
 

@@ -30,7 +30,6 @@ constexpr NamedDefect kDefects[] = {
     {"silence_is_consent", Defect::kSilenceIsConsent},
     {"released_without_looking", Defect::kReleasedWithoutLooking},
     {"lost_peer_held_for_ever", Defect::kLostPeerHeldForEver},
-    {"latch_dropped", Defect::kLatchDropped},
     {"second_drives_on", Defect::kSecondDrivesOn},
     {"through_first_guessed", Defect::kThroughFirstGuessed},
     {"grant_not_needed", Defect::kGrantNotNeeded},
