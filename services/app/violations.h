@@ -8,7 +8,7 @@
 namespace giveway::schema {
 class Trust;
 class Violations;
-}
+}  // namespace giveway::schema
 
 namespace giveway::app {
 

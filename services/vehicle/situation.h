@@ -97,8 +97,8 @@ struct Situation {
   std::span<const PeerView> peers;
   bool someone_lost = false;     // of all peers
   bool someone_doubted = false;  // of `peers`
-  bool holds = false;         // for any of them
-  LastHeard last_heard;       // of lecture_printed alone, which has no peers
+  bool holds = false;            // for any of them
+  LastHeard last_heard;          // of lecture_printed alone, which has no peers
 };
 
 // Below this a vehicle stands still, as the verdict defines it.
