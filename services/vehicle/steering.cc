@@ -117,25 +117,24 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   }
 }
 
-const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad) {
+// The nearest of what blocks a heading, or of the vehicles among it.
+const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad,
+                         bool vehicles_alone = false) {
   const Blocked* nearest = nullptr;
   for (std::size_t i = 0; i < headings.count; ++i) {
     const Blocked& blocked = headings.of[i];
     if (!IsBlockedBy(blocked, heading_rad)) continue;
+    if (vehicles_alone && blocked.peer == kNobody) continue;
     if (nearest == nullptr || blocked.distance_m < nearest->distance_m) nearest = &blocked;
   }
   return nearest;
 }
 
-// The nearest vehicle among what blocks a heading.
-VehicleId PeerAt(const BlockedHeadings& headings, double heading_rad) {
-  const Blocked* nearest = nullptr;
-  for (std::size_t i = 0; i < headings.count; ++i) {
-    const Blocked& blocked = headings.of[i];
-    if (blocked.peer == kNobody || !IsBlockedBy(blocked, heading_rad)) continue;
-    if (nearest == nullptr || blocked.distance_m < nearest->distance_m) nearest = &blocked;
-  }
-  return nearest == nullptr ? kNobody : nearest->peer;
+// The nearest vehicle on the straight way to the goal.
+VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
+  const double straight_rad = Atan2(s.path.direction_world.y, s.path.direction_world.x);
+  const Blocked* vehicle = BlockedAt(headings, straight_rad, true);
+  return vehicle == nullptr ? kNobody : vehicle->peer;
 }
 
 // The free heading nearest to the wanted one, along an edge of something; the side of the last
@@ -196,8 +195,10 @@ Steering SteerToGoal(const Situation& s) {
   double heading = wanted;
   const double way_m = s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
   BlockedHeadings headings = WhatBlocks(s, way_m);
-  if (s.aimless) AddEchoes(s, &headings);
-  steering.blocked_by = PeerAt(headings, Atan2(s.path.direction_world.y, s.path.direction_world.x));
+  if (s.aimless) {
+    AddEchoes(s, &headings);
+    steering.blocked_by = OnStraightWay(headings, s);
+  }
   if (LeadsAway(headings, s)) {
     steering.side = s.steer_side;
     steering.heading_error_rad = WrapAngle(*s.away_rad - s.world_from_body.heading_rad);

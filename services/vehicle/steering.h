@@ -9,7 +9,7 @@ namespace giveway {
 struct Steering {
   double heading_error_rad = 0;    // wanted minus present heading, in (-pi, pi]
   VehicleId round = kNobody;       // the halted peer that is being passed
-  VehicleId blocked_by = kNobody;  // the nearest body on the straight way
+  VehicleId blocked_by = kNobody;  // of an aimless one: the nearest on the straight way
   int side = 0;                    // turned away from the wanted heading: 1 left, -1 right
   std::optional<double> away_rad;  // the heading it takes from what stops it, if chosen just now
 };

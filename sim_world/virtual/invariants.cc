@@ -15,14 +15,6 @@ double Magnitude(double x) { return x < 0 ? -x : x; }
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
 
-// Keys may be lent: of two vehicles that act by one key its owner goes last, for the other is in
-// its way; else the lower id goes first.
-bool ComesFirst(VehicleId id, const OrderKey& key, VehicleId other_id, const OrderKey& other) {
-  if (key != other) return GoesFirst(key, other);
-  if (key.vehicle == id || key.vehicle == other_id) return key.vehicle == other_id;
-  return id < other_id;
-}
-
 // Halts to give way, by its own word and by the truth.
 bool Waits(const Observed& vehicle) {
   return vehicle.present && vehicle.lives && !vehicle.arrived && Stands(vehicle) &&
@@ -178,8 +170,8 @@ void Invariants::JudgeOrder(Tick tick, const Observed& now, Track* track) {
   for (std::uint32_t of_peer = Number(tick); of_peer >= oldest; --of_peer) {
     const OrderKey& peers = tracks_[peer].keys[of_peer % kRememberedKeys];
     for (std::uint32_t own = Number(tick); own + 1 >= Number(tick) && own >= 1; --own) {
-      if (ComesFirst(tracks_[peer].vehicle, peers, now.vehicle,
-                     track->keys[own % kRememberedKeys])) {
+      if (ComesFirst(peers, tracks_[peer].vehicle, track->keys[own % kRememberedKeys],
+                     now.vehicle)) {
         track->order_told = false;
         return;
       }
