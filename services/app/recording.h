@@ -15,7 +15,7 @@
 namespace giveway::app {
 
 // The first line of a file; the number counts formats.
-inline constexpr std::string_view kRecordingMark = "giveway-recording-1\n";
+inline constexpr std::string_view kRecordingMark = "giveway-recording-2\n";
 
 struct RecordedLife {
   std::uint32_t boot_epoch = 0;

@@ -23,6 +23,11 @@ void Visit(auto& fields, Is<Pose> auto& pose) {
   fields(position, heading);
 }
 
+void Visit(auto& fields, Is<PoseCovariance> auto& covariance) {
+  auto& [xx, xy, yy, xh, yh, hh] = covariance;
+  fields(xx, xy, yy, xh, yh, hh);
+}
+
 void Visit(auto& fields, Is<WheelSpeeds> auto& wheels) {
   auto& [left, right] = wheels;
   fields(left, right);
@@ -75,12 +80,11 @@ void Visit(auto& fields, Is<OrderKey> auto& key) {
 }
 
 void Visit(auto& fields, Is<Beacon> auto& beacon) {
-  auto& [vehicle, boot_epoch, seq, epoch, tick, wheels, cruise, pose, sigma_position, sigma_heading,
-         body_radius, drive, acceleration, deceleration, toward, mode, rule, gives_way_to,
-         blocked_by, order] = beacon;
-  fields(vehicle, boot_epoch, seq, epoch, tick, wheels, cruise, pose, sigma_position, sigma_heading,
-         body_radius, drive, acceleration, deceleration, toward, mode, rule, gives_way_to,
-         blocked_by, order);
+  auto& [vehicle, boot_epoch, seq, epoch, tick, wheels, cruise, pose, covariance, body_radius,
+         drive, acceleration, deceleration, toward, mode, rule, gives_way_to, blocked_by, order] =
+      beacon;
+  fields(vehicle, boot_epoch, seq, epoch, tick, wheels, cruise, pose, covariance, body_radius,
+         drive, acceleration, deceleration, toward, mode, rule, gives_way_to, blocked_by, order);
 }
 
 void Visit(auto& fields, Is<ReceivedBeacon> auto& received) {

@@ -41,7 +41,7 @@ class Packer {
     words_[used_++] = word;
   }
 
-  std::array<std::uint64_t, 22> words_;  // 168 bytes and room for the next field
+  std::array<std::uint64_t, 26> words_;  // 200 bytes and room for the next field
   std::size_t used_ = 0;
   std::uint64_t pending_ = 0;  // low half: the last 32 bits added, while half_
   bool half_ = false;
@@ -63,8 +63,12 @@ std::uint32_t Crc(const Beacon& beacon, wire::DriveMode mode, wire::DriveRule ru
   packer.Add(pose.position_world.x);
   packer.Add(pose.position_world.y);
   packer.Add(pose.heading_rad);
-  packer.Add(beacon.sigma_position_m);
-  packer.Add(beacon.sigma_heading_rad);
+  packer.Add(beacon.covariance.xx_m2);
+  packer.Add(beacon.covariance.xy_m2);
+  packer.Add(beacon.covariance.yy_m2);
+  packer.Add(beacon.covariance.xh_m_rad);
+  packer.Add(beacon.covariance.yh_m_rad);
+  packer.Add(beacon.covariance.hh_rad2);
   packer.Add(beacon.body_radius_m);
   packer.Add(beacon.drive.wheel_radius_m);
   packer.Add(beacon.drive.axle_m);
@@ -95,8 +99,7 @@ wire::Beacon ToWire(const Beacon& beacon) {
   sent.right_rad_s(beacon.wheels.right_rad_s);
   sent.cruise_m_s(beacon.cruise_m_s);
   sent.world_from_body(ToWirePart(beacon.world_from_body));
-  sent.sigma_position_m(beacon.sigma_position_m);
-  sent.sigma_heading_rad(beacon.sigma_heading_rad);
+  sent.covariance(ToWirePart(beacon.covariance));
   sent.body_radius_m(beacon.body_radius_m);
   sent.wheel_radius_m(beacon.drive.wheel_radius_m);
   sent.axle_m(beacon.drive.axle_m);
@@ -127,8 +130,7 @@ Arrival FromWire(const wire::Beacon& sample, Beacon& beacon) {
   beacon.wheels = {sample.left_rad_s(), sample.right_rad_s()};
   beacon.cruise_m_s = sample.cruise_m_s();
   beacon.world_from_body = {{pose.x_m(), pose.y_m()}, pose.heading_rad()};
-  beacon.sigma_position_m = sample.sigma_position_m();
-  beacon.sigma_heading_rad = sample.sigma_heading_rad();
+  FromWirePart(sample.covariance(), beacon.covariance);
   beacon.body_radius_m = sample.body_radius_m();
   beacon.drive = {sample.wheel_radius_m(), sample.axle_m()};
   beacon.acceleration_m_s2 = sample.acceleration_m_s2();

@@ -42,6 +42,21 @@ constexpr bool FromWireEnum(Wire sent, Ours last, Ours& ours) {
   return true;
 }
 
+inline wire::PlanarCovariance ToWirePart(const PoseCovariance& covariance) {
+  wire::PlanarCovariance sent;
+  sent.xx_m2(covariance.xx_m2);
+  sent.xy_m2(covariance.xy_m2);
+  sent.yy_m2(covariance.yy_m2);
+  sent.xh_m_rad(covariance.xh_m_rad);
+  sent.yh_m_rad(covariance.yh_m_rad);
+  sent.hh_rad2(covariance.hh_rad2);
+  return sent;
+}
+inline void FromWirePart(const wire::PlanarCovariance& sent, PoseCovariance& covariance) {
+  covariance = {sent.xx_m2(),    sent.xy_m2(),    sent.yy_m2(),
+                sent.xh_m_rad(), sent.yh_m_rad(), sent.hh_rad2()};
+}
+
 inline bool FromWirePart(wire::DriveMode sent, Mode& mode) {
   return FromWireEnum(sent, Mode::kLeaving, mode);
 }

@@ -45,8 +45,7 @@ struct Beacon {
   WheelSpeeds wheels;              // measured
   double cruise_m_s = 0;           // the intent: does not drop because the vehicle gives way
   Pose world_from_body;            // dead-reckoned estimate at `tick`
-  double sigma_position_m = 0;     // standard deviation of the position, along any axis
-  double sigma_heading_rad = 0;    // standard deviation of the heading
+  PoseCovariance covariance;       // of world_from_body
   double body_radius_m = 0.25;     // disc round the axle centre
   DriveGeometry drive;             // what turns the wheel speeds into motion
   double acceleration_m_s2 = 0.3;  // of a wheel's rim: what the vehicle may do next

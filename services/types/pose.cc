@@ -1,5 +1,7 @@
 #include "services/types/pose.h"
 
+#include <algorithm>
+
 #include "services/types/math.h"
 
 namespace giveway {
@@ -27,5 +29,30 @@ Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s) {
   return {world_from_body.position_world + chord * Vec2{middle.cosine, middle.sine},
           WrapAngle(world_from_body.heading_rad + turned)};
 }
+
+Facing AdvanceFacing(const Facing& from, Twist twist, double dt_s) {
+  const double half = twist.turn_rad_s * dt_s / 2;
+  double chord = twist.forward_m_s * dt_s;
+  if (half == 0) return {from.position_world + chord * from.forward_world, from.forward_world};
+  const SineCosine turn = SinCos(half);
+  if (half > 1e-4 || half < -1e-4) chord *= turn.sine / half;
+  const auto turned = [turn](Vec2 a) { return turn.cosine * a + turn.sine * Left(a); };
+  const Vec2 middle = turned(from.forward_world);
+  return {from.position_world + chord * middle, turned(middle)};
+}
+
+double SigmaPosition(const PoseCovariance& c) {
+  if (c.xx_m2 + c.yy_m2 <= 0) return 0;  // whoever is sure of its place is spared two roots
+  const double mean = (c.xx_m2 + c.yy_m2) / 2;
+  const double half = (c.xx_m2 - c.yy_m2) / 2;
+  const double spread = Sqrt(half * half + c.xy_m2 * c.xy_m2);
+  return Sqrt(std::max(0.0, mean + spread));  // the larger eigenvalue
+}
+
+double SigmaAlong(const PoseCovariance& c, Vec2 d) {
+  return Sqrt(std::max(0.0, d.x * d.x * c.xx_m2 + 2 * d.x * d.y * c.xy_m2 + d.y * d.y * c.yy_m2));
+}
+
+double SigmaHeading(const PoseCovariance& c) { return Sqrt(std::max(0.0, c.hh_rad2)); }
 
 }  // namespace giveway

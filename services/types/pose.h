@@ -46,6 +46,43 @@ inline WheelSpeeds WheelsFromTwist(const DriveGeometry& drive, Twist twist) {
           (twist.forward_m_s + rim) / drive.wheel_radius_m};
 }
 
+// How sure a pose is: the covariance of its x, y and heading, world frame, by the upper triangle.
+struct PoseCovariance {
+  double xx_m2 = 0;
+  double xy_m2 = 0;
+  double yy_m2 = 0;
+  double xh_m_rad = 0;
+  double yh_m_rad = 0;
+  double hh_rad2 = 0;
+
+  friend constexpr bool operator==(const PoseCovariance&, const PoseCovariance&) = default;
+};
+
+// Of the difference of two poses whose errors have nothing to do with each other, and of the sum.
+constexpr PoseCovariance operator+(const PoseCovariance& a, const PoseCovariance& b) {
+  return {a.xx_m2 + b.xx_m2,       a.xy_m2 + b.xy_m2,       a.yy_m2 + b.yy_m2,
+          a.xh_m_rad + b.xh_m_rad, a.yh_m_rad + b.yh_m_rad, a.hh_rad2 + b.hh_rad2};
+}
+
+// Of a pose that has since been carried on by way_world, along a heading as unsure as it says.
+// F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
+constexpr PoseCovariance Carried(const PoseCovariance& c, Vec2 way) {
+  const double xh = c.xh_m_rad - way.y * c.hh_rad2;
+  const double yh = c.yh_m_rad + way.x * c.hh_rad2;
+  return {.xx_m2 = c.xx_m2 - way.y * (c.xh_m_rad + xh),
+          .xy_m2 = c.xy_m2 + way.x * c.xh_m_rad - way.y * yh,
+          .yy_m2 = c.yy_m2 + way.x * (c.yh_m_rad + yh),
+          .xh_m_rad = xh,
+          .yh_m_rad = yh,
+          .hh_rad2 = c.hh_rad2};
+}
+
+// Standard deviations: of the position along its worst axis, and along a unit vector of the world;
+// of the heading. 0 where rounding or a wrong sender left no square of anything.
+double SigmaPosition(const PoseCovariance& covariance);
+double SigmaAlong(const PoseCovariance& covariance, Vec2 direction_world);
+double SigmaHeading(const PoseCovariance& covariance);
+
 // The unit vector of the pose's heading in the world.
 inline Vec2 Forward(const Pose& world_from_body) {
   const SineCosine heading = SinCos(world_from_body.heading_rad);
@@ -59,5 +96,13 @@ Vec2 ToBody(const Pose& world_from_body, Vec2 point_world);
 
 // Exact motion along the arc of a constant twist for dt_s seconds (straight-line limit guarded).
 Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s);
+
+// A pose by the unit vector of its heading: nobody asks a peer for the angle itself.
+struct Facing {
+  Vec2 position_world;
+  Vec2 forward_world;
+};
+// The same motion, which takes no sine at all straight on.
+Facing AdvanceFacing(const Facing& from, Twist twist, double dt_s);
 
 }  // namespace giveway

@@ -72,11 +72,14 @@ double LeastRange(double distance_m, double radius_m, double off_rad) {
 
 // Something before the body, or beside it: too near for what is unsure to be its echo.
 bool IsBefore(double range_m, double radius_m, double unsure_m, Vec2 to_centre, double cone_rad,
-              double bearing_rad) {
+              const Cone& cone, double bearing_rad) {
   constexpr double kUnsure_rad = 0.1;
   const double distance_m = Norm(to_centre);
-  const double off_rad = Magnitude(WrapAngle(Atan2(to_centre.y, to_centre.x) - bearing_rad));
   const double slack_rad = kUnsure_rad + unsure_m / std::max(distance_m, radius_m);
+  // The body's nearest point, if the cone held it, settles most without an angle.
+  if (range_m < LeastRange(distance_m, radius_m, 0) - unsure_m) return true;
+  if (IsWithin(cone_rad + slack_rad, to_centre, cone, bearing_rad)) return false;
+  const double off_rad = Magnitude(WrapAngle(Atan2(to_centre.y, to_centre.x) - bearing_rad));
   return range_m < LeastRange(distance_m, radius_m, off_rad - cone_rad - slack_rad) - unsure_m;
 }
 
@@ -86,13 +89,13 @@ Vec2 WhereItStops(const PeerView& peer, const Situation& s) {
       StoppingDistance(std::max(0.0, peer.speed_m_s), ReactionSeconds(s.options),
                        s.options.profile.deceleration_m_s2);
   const double on_m = ClosingSpeed(peer, s) > 0 ? braking_m : 0;
-  return peer.world_from_body.position_world + on_m * Forward(peer.world_from_body);
+  return peer.position_world + on_m * peer.forward_world;
 }
 
 // Where the peer's body was to the own one when a sensor fired, both moving as now: their turning
 // is slow against that.
 Vec2 CentreBefore(double age_s, const PeerView& peer, const Situation& s) {
-  const Vec2 centre_world = peer.world_from_body.position_world - age_s * VelocityOf(peer);
+  const Vec2 centre_world = peer.position_world - age_s * VelocityOf(peer);
   return InBody(s, centre_world) + Vec2{age_s * s.speed_m_s, 0};
 }
 
@@ -136,9 +139,9 @@ void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& option
 std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
   const HeardEchoes& echoes = s.echoes;
   const double radius_m = peer.peer->beacon.body_radius_m;
-  const Vec2 centre_now = InBody(s, peer.world_from_body.position_world);
+  const Vec2 centre_now = InBody(s, peer.position_world);
   const std::uint32_t all = (1U << echoes.count) - 1;
-  const double unsure_m = kNearer_m + 2 * (s.sigma_position_m + peer.peer->beacon.sigma_position_m);
+  const double unsure_m = kNearer_m + 2 * peer.sigma_m;
   std::uint32_t explains = 0;
   for (const std::size_t k :
        BitsOf(all & (echoes.any_old ? all : PerhapsOf(centre_now, radius_m, echoes)))) {
@@ -156,7 +159,7 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
                  s.options.profile.sonar[sensor].bearing_rad) &&
         !IsBefore(echoes.range_m[k], radius_m,
                   unsure_m + kNoiseSigmas * s.options.sonar_noise * echoes.range_m[k], to_centre,
-                  s.options.profile.sonar_half_angle_rad + turned,
+                  s.options.profile.sonar_half_angle_rad + turned, s.cones.of[sensor],
                   s.options.profile.sonar[sensor].bearing_rad)) {
       explains |= 1U << sensor;
     }

@@ -13,7 +13,7 @@ constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may n
 // This one is steering round the halted vehicle, which would stop it there by setting off.
 bool IsBeingPassed(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || !view.peer->encounter.holds) return false;
-  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const Vec2 offset = view.position_world - s.world_from_body.position_world;
   return view.fresh && !view.standing && view.goes_first &&
          view.peer->beacon.rule == Rule::kSteerRound && Dot(offset, s.path.direction_world) > 0;
 }
@@ -80,8 +80,8 @@ bool MustBrakeNow(const PeerView& view, const Situation& s) {
 
 // Of two in the conflict both: this one is ahead on the way of both.
 bool IsAhead(const PeerView& view, const Situation& s) {
-  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
-  const Vec2 peer_way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  const Vec2 offset = view.position_world - s.world_from_body.position_world;
+  const Vec2 peer_way = view.peer->beacon.toward_world - view.position_world;
   return Dot(offset, s.path.direction_world) < 0 && Dot(offset, peer_way) < 0;
 }
 

@@ -66,7 +66,7 @@ bool LooksLikeVehicle(const HeldScan<CameraScan>& camera, Vec2 point_world, cons
 bool IsKnownPeer(const SeenObjects& seen, Vec2 point_world, const Situation& s) {
   const bool on_shell = std::any_of(s.peers.begin(), s.peers.end(), [&](const PeerView& view) {
     const double from_shell_m =
-        Norm(point_world - view.world_from_body.position_world) - view.peer->beacon.body_radius_m;
+        Norm(point_world - view.position_world) - view.peer->beacon.body_radius_m;
     return view.believed && from_shell_m < kOnShell_m && from_shell_m > -kOnShell_m;
   });
   return on_shell && LooksLikeVehicle(seen.camera, point_world, s);

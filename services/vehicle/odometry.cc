@@ -3,7 +3,6 @@
 #define EIGEN_DONT_VECTORIZE
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "services/types/math.h"
@@ -13,7 +12,7 @@ namespace {
 
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Vector3 = Eigen::Matrix<double, 3, 1>;
-using Covariance = Eigen::Map<Matrix3>;
+using MapOf3 = Eigen::Map<Matrix3>;
 
 bool IsUsable(const PoseFix& fix) {
   const Pose& pose = fix.world_from_body;
@@ -34,7 +33,7 @@ void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s,
   const Vec2 way = pose_.position_world - before;
 
   // How the end of the way depends on its start: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
-  Covariance covariance(covariance_.data());
+  MapOf3 covariance(covariance_.data());
   covariance.row(0) += -way.y * covariance.row(2);
   covariance.row(1) += way.x * covariance.row(2);
   covariance.col(0) += -way.y * covariance.col(2);
@@ -52,7 +51,7 @@ void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s,
 
 bool Odometry::Fix(const PoseFix& fix) {
   if (!IsUsable(fix)) return false;
-  Covariance covariance(covariance_.data());
+  MapOf3 covariance(covariance_.data());
   Matrix3 noise = Matrix3::Zero();
   noise(0, 0) = noise(1, 1) = fix.sigma_position_m * fix.sigma_position_m;
   noise(2, 2) = fix.sigma_heading_rad * fix.sigma_heading_rad;
@@ -73,14 +72,10 @@ bool Odometry::Fix(const PoseFix& fix) {
   return true;
 }
 
-double Odometry::SigmaPosition() const {
-  const double mean = (covariance_[0] + covariance_[4]) / 2;
-  const double half = (covariance_[0] - covariance_[4]) / 2;
-  const double spread = Sqrt(half * half + covariance_[1] * covariance_[1]);
-  return Sqrt(std::max(0.0, mean + spread));  // the larger eigenvalue
+PoseCovariance Odometry::Covariance() const {
+  const auto& c = covariance_;
+  return {c[0], c[1], c[4], c[2], c[5], c[8]};
 }
-
-double Odometry::SigmaHeading() const { return Sqrt(std::max(0.0, covariance_[8])); }
 
 void Odometry::AddTo(StateHash* hash) const {
   hash->Add(pose_.position_world.x);

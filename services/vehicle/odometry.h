@@ -27,9 +27,7 @@ class Odometry {
 
   const Pose& WorldFromBody() const { return pose_; }
   Vec2 ForwardWorld() const { return forward_world_; }  // the unit vector of its heading
-  // Standard deviations: of the position along its worst axis, and of the heading.
-  double SigmaPosition() const;
-  double SigmaHeading() const;
+  PoseCovariance Covariance() const;
 
   void AddTo(StateHash* hash) const;
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kFarAway_m = 1e6;
 constexpr double kLongestWay_m = 1000;
+// What is not known of a distance is allowed for by so many standard deviations.
+constexpr double kSigmas = 2;
 
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {
@@ -19,11 +21,22 @@ bool StaysPut(const Beacon& beacon) {
   return beacon.rule == Rule::kArrived || beacon.rule == Rule::kNotRunning;
 }
 
+// Of where a peer is to this vehicle that was carried forward by a way since its beacon.
+PoseCovariance Apart(const Beacon& beacon, Vec2 way_world, const Situation& s) {
+  return s.covariance + Carried(beacon.covariance, way_world);
+}
+
+// At least as much as the above can be along any axis, for a fraction of the price.
+double SigmaAtMost(const Beacon& beacon, double moved_m, const Situation& s) {
+  const PoseCovariance both = s.covariance + beacon.covariance;
+  const double trace_m2 = both.xx_m2 + both.yy_m2;
+  return (trace_m2 > 0 ? Sqrt(trace_m2) : 0) + moved_m * SigmaHeading(beacon.covariance);
+}
+
 // How near the two centres may come: both bodies, a margin, and what is not known for sure.
-double Reach(const Beacon& beacon, const Situation& s) {
+double Reach(const Beacon& beacon, double sigma_m, const Situation& s) {
   constexpr double kMargin_m = 0.1;
-  return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m +
-         2 * (s.sigma_position_m + beacon.sigma_position_m);
+  return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m + kSigmas * sigma_m;
 }
 
 // True if one drives behind the other in the same lane: that is a matter of distance, not of right
@@ -32,15 +45,15 @@ bool Follows(const PeerView& view, const Situation& s) {
   if (Has(Defect::kLeaderIsConflict)) return false;
   constexpr double kSameWay = 0.94;        // the cosine of 20 degrees
   constexpr double kThereAlready_m = 0.5;  // which way it is on says little
-  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const Vec2 offset = view.position_world - s.world_from_body.position_world;
   const double across = Cross(s.path.direction_world, offset);
   const double bodies = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m;
   if (across >= bodies || across <= -bodies) return false;
   const double along = Dot(s.path.direction_world, offset);
   if (along <= bodies && along >= -bodies) return false;
-  if (Dot(s.path.direction_world, Forward(view.world_from_body)) >= kSameWay) return true;
+  if (Dot(s.path.direction_world, view.forward_world) >= kSameWay) return true;
   // One that stands may be turned to whatever it looks for a way past; it means to go on.
-  const Vec2 way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  const Vec2 way = view.peer->beacon.toward_world - view.position_world;
   const double way_m = Norm(way);
   return s.options.behaviour == Behaviour::kCooperative && view.standing &&
          way_m > kThereAlready_m && Dot(s.path.direction_world, way) >= kSameWay * way_m;
@@ -93,9 +106,9 @@ constexpr double kWellAway_m = 2 * kThere_m + 0.001;
 std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
   if (StaysPut(view.peer->beacon)) return std::nullopt;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  const Vec2 from_world = view.world_from_body.position_world;
+  const Vec2 from_world = view.position_world;
   const Vec2 to_world = view.peer->beacon.toward_world;
-  const double reach_m = Reach(view.peer->beacon, s);
+  const double reach_m = Reach(view.peer->beacon, view.sigma_m, s);
   if (cooperative && StaysAway(from_world, to_world, reach_m + kWellAway_m, s.path)) {
     return std::nullopt;
   }
@@ -103,7 +116,7 @@ std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
   const Vec2 way = to_world - from_world;
   const double way_m = cooperative ? Norm(way) : kFarAway_m;
   const bool drives_on = !cooperative || way_m <= kThere_m;
-  const Path peer_path{from_world, drives_on ? Forward(view.world_from_body) : (1 / way_m) * way};
+  const Path peer_path{from_world, drives_on ? view.forward_world : (1 / way_m) * way};
   const auto conflict = FindConflict(s.path, peer_path, reach_m);
   if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
   if (conflict->peer.begin_m > way_m) return std::nullopt;
@@ -121,36 +134,35 @@ double UnknownSeconds(const Beacon& beacon, const Situation& s) {
 }
 
 // How far apart the centre of this vehicle keeps from a claim.
-double ApartFrom(const Beacon& beacon, const Situation& s) {
-  return s.options.profile.body_radius_m + kClearance_m +
-         2 * (s.sigma_position_m + beacon.sigma_position_m);
+double ApartFrom(double sigma_m, const Situation& s) {
+  return s.options.profile.body_radius_m + kClearance_m + kSigmas * sigma_m;
 }
 
 // How far the centre of this vehicle surely keeps from a claim without length, and a bit more.
-double KeptFrom(const Beacon& beacon, const Situation& s) {
-  return ApartFrom(beacon, s) + beacon.body_radius_m + kWellAway_m;
+double KeptFrom(const Beacon& beacon, double sigma_m, const Situation& s) {
+  return ApartFrom(sigma_m, s) + beacon.body_radius_m + kWellAway_m;
 }
 
 // True if the claim lies beyond where it could slow this vehicle down: a claim reaches no farther
 // than its length and is no wider than that and the body.
-bool IsClaimFar(const Beacon& beacon, double unknown_s, const Situation& s) {
+bool IsClaimFar(const Beacon& beacon, double sigma_m, double unknown_s, const Situation& s) {
   const double length_m = ClaimLength(beacon, unknown_s, ReactionSeconds(s.options));
-  const double far_m = s.slows_m + KeptFrom(beacon, s) + 2 * length_m;
+  const double far_m = s.slows_m + KeptFrom(beacon, sigma_m, s) + 2 * length_m;
   const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
   return SquaredNorm(offset) > far_m * far_m;
 }
 
 // The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
 // have done since is unknown up to the end of the tick that this decision moves.
-double FreeOf(const PeerView& view, const Situation& s) {
+double FreeOf(const PeerView& view, Vec2 told_forward_world, const Situation& s) {
   const Beacon& beacon = view.peer->beacon;
   if (view.peer->out_of_reach || view.peer->left) return kFarAway_m;
   const double unknown_s = UnknownSeconds(beacon, s);
-  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, unknown_s, s)) return kFarAway_m;
-  const Claim claim =
-      ClaimOf(beacon, Forward(beacon.world_from_body), unknown_s, ReactionSeconds(s.options));
+  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.sigma_m, unknown_s, s))
+    return kFarAway_m;
+  const Claim claim = ClaimOf(beacon, told_forward_world, unknown_s, ReactionSeconds(s.options));
   return FreeBefore(claim, {s.world_from_body.position_world, s.forward_world},
-                    ApartFrom(beacon, s));
+                    ApartFrom(view.sigma_m, s));
 }
 
 // Beyond this, shell to shell, nothing is looked for but claims and ways: detours and echoes of the
@@ -181,14 +193,21 @@ double OwnStoppingDistance(const Situation& s) {
          kInHand_m;
 }
 
+// Of the distance between the two centres: only what lies along it counts.
+double SigmaBetween(const PeerView& view, const Situation& s) {
+  const Vec2 offset = view.position_world - s.world_from_body.position_world;
+  const double distance_m = Norm(offset);
+  if (distance_m <= 0) return view.sigma_m;
+  return SigmaAlong(view.apart, (1 / distance_m) * offset);
+}
+
 double CriticalDistance(const Situation& s, const PeerView& view) {
   const double reaction = ReactionSeconds(s.options);
   const double braking = s.options.profile.deceleration_m_s2;
   constexpr double kMargin_m = 0.1;
   const double both = StoppingDistance(std::max(0.0, s.speed_m_s), reaction, braking) +
                       StoppingDistance(std::max(0.0, view.speed_m_s), reaction, braking);
-  const double uncertainty = 2 * (s.sigma_position_m + view.peer->beacon.sigma_position_m);
-  return std::max(s.options.gate_enter_m, both + kMargin_m + uncertainty);
+  return std::max(s.options.gate_enter_m, both + kMargin_m + kSigmas * SigmaBetween(view, s));
 }
 
 double RoomBeside(const PeerView& view, const Situation& s) {
@@ -205,7 +224,7 @@ Vec2 Toward(const Situation& s) {
 bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s) {
   const double room_m =
       s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kPassingMargin_m;
-  return SquaredNorm(view.world_from_body.position_world - point_world) < room_m * room_m;
+  return SquaredNorm(view.position_world - point_world) < room_m * room_m;
 }
 
 bool IsOnGoalOf(const PeerView& view, const Situation& s) {
@@ -214,10 +233,10 @@ bool IsOnGoalOf(const PeerView& view, const Situation& s) {
   return SquaredNorm(beacon.toward_world - s.world_from_body.position_world) < room_m * room_m;
 }
 
-Vec2 VelocityOf(const PeerView& view) { return view.speed_m_s * Forward(view.world_from_body); }
+Vec2 VelocityOf(const PeerView& view) { return view.speed_m_s * view.forward_world; }
 
 double ClosingSpeed(const PeerView& view, const Situation& s) {
-  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const Vec2 offset = view.position_world - s.world_from_body.position_world;
   const double distance = Norm(offset);
   const Vec2 velocity = VelocityOf(view) - s.speed_m_s * s.forward_world;
   return distance > 0 ? -Dot(offset, velocity) / distance : 0;
@@ -232,11 +251,12 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
   const Vec2 from_world = beacon.world_from_body.position_world;
   const double near_m = NearReach(s) + beacon.body_radius_m + moved_m;
   if (SquaredNorm(from_world - s.world_from_body.position_world) <= near_m * near_m) return true;
-  const double reach_m = Reach(beacon, s) + moved_m + kWellAway_m;
+  const double sigma_m = SigmaAtMost(beacon, moved_m, s);
+  const double reach_m = Reach(beacon, sigma_m, s) + moved_m + kWellAway_m;
   if (!StaysAway(from_world, beacon.toward_world, reach_m, s.path)) return true;
-  const double short_m = (near_m - s.slows_m - KeptFrom(beacon, s)) / 2;
+  const double short_m = (near_m - s.slows_m - KeptFrom(beacon, sigma_m, s)) / 2;
   return !IsClaimShort(beacon, ReactionSeconds(s.options), short_m) &&
-         !IsClaimFar(beacon, UnknownSeconds(beacon, s), s);
+         !IsClaimFar(beacon, sigma_m, UnknownSeconds(beacon, s), s);
 }
 
 PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
@@ -247,15 +267,19 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   view.fresh = fresh;
   view.believed = fresh && !IsDoubted(peer->trust, s.now);
   view.lost = IsLost(*peer, fresh);
-  view.world_from_body =
-      AdvanceArc(beacon.world_from_body, twist, CarriedSeconds(beacon, fresh, s));
+  const Facing told = {beacon.world_from_body.position_world, Forward(beacon.world_from_body)};
+  const Facing now = AdvanceFacing(told, twist, CarriedSeconds(beacon, fresh, s));
+  view.position_world = now.position_world;
+  view.forward_world = now.forward_world;
+  view.apart = Apart(beacon, now.position_world - told.position_world, s);
+  view.sigma_m = SigmaPosition(view.apart);
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   view.at_signal = cooperative && view.believed && beacon.rule == Rule::kSignal;
   view.goes_first = ComesFirst(view, s);
 
-  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const Vec2 offset = view.position_world - s.world_from_body.position_world;
   const double radius_m = s.options.profile.body_radius_m;
   view.gap_m = Norm(offset) - radius_m - beacon.body_radius_m;
   view.gate_gap_m =
@@ -267,7 +291,7 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   const bool steered_round = cooperative && stands && !view.goes_first;
   if (!steered_round) view.conflict = view.crossing;
   view.box_begin_m = 0;
-  view.free_m = FreeOf(view, s);
+  view.free_m = FreeOf(view, told.forward_world, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
                                   halted || WaitsAtSignal(view, s));

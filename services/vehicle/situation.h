@@ -22,8 +22,11 @@ namespace giveway {
 // fills in everything.
 struct PeerView {
   Peer* peer;
-  Pose world_from_body;
-  double speed_m_s;  // forward, as measured by the peer
+  Vec2 position_world;
+  Vec2 forward_world;    // unit vector of its heading
+  PoseCovariance apart;  // of where the peer is to this vehicle
+  double sigma_m;        // the same along its worst axis
+  double speed_m_s;      // forward, as measured by the peer
   bool fresh;
   bool lost;
   bool standing;      // below kStandingSpeed
@@ -63,14 +66,13 @@ struct Situation {
   bool leaving = false;
   bool arrived = false;
   Pose world_from_body;
-  Vec2 forward_world;     // unit vector of the own heading
-  double speed_m_s = 0;   // forward, measured
-  double turn_rad_s = 0;  // measured
-  WheelSpeeds wheels;     // measured
-  double sigma_position_m = 0;
-  double sigma_heading_rad = 0;
-  double slows_m = 0;  // a free way no longer than this is too short for the cruise speed
-  Path path;           // towards the goal, or straight on
+  Vec2 forward_world;         // unit vector of the own heading
+  double speed_m_s = 0;       // forward, measured
+  double turn_rad_s = 0;      // measured
+  WheelSpeeds wheels;         // measured
+  PoseCovariance covariance;  // of world_from_body
+  double slows_m = 0;         // a free way no longer than this is too short for the cruise speed
+  Path path;                  // towards the goal, or straight on
   double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
   bool stops_there = false;          // at the goal; a waypoint is driven through
   OrderKey order;                    // as last published

@@ -50,7 +50,7 @@ bool Queues(const PeerView& view, const Situation& s) {
   const Rule rule = view.peer->beacon.rule;
   if (rule == Rule::kArrived || rule == Rule::kNotRunning) return false;
   constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
-  const Vec2 way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  const Vec2 way = view.peer->beacon.toward_world - view.position_world;
   const double way_m = Norm(way);
   return way_m > 0.5 && view.fresh && Dot(way, s.path.direction_world) > kSameWay * way_m;
 }
@@ -81,7 +81,7 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   for (const PeerView& view : s.peers) {
     const bool waited_for = !s.aimless && Occupies(view, target, s) && !IsOnGoalOf(view, s);
     if (!StandsInTheWay(view, s) || waited_for || headings.count == headings.of.size()) continue;
-    const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+    const Vec2 offset = view.position_world - s.world_from_body.position_world;
     const double distance_m = Norm(offset);
     const double clearance_m = RoomBeside(view, s);
     if (distance_m - clearance_m > way_m) continue;
@@ -166,7 +166,7 @@ double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side)
 bool HasCompany(const Situation& s) {
   constexpr double kNear_m = 1;
   return std::ranges::any_of(s.peers, [&s](const PeerView& view) {
-    const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+    const Vec2 offset = view.position_world - s.world_from_body.position_world;
     return view.gap_m < kNear_m && !view.peer->left && Dot(offset, s.path.direction_world) > 0;
   });
 }

@@ -32,9 +32,9 @@ Conflict InTurn(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
 }
 
 Vec2 PeerWay(const PeerView& view) {
-  const Vec2 way = view.peer->beacon.toward_world - view.world_from_body.position_world;
+  const Vec2 way = view.peer->beacon.toward_world - view.position_world;
   const double way_m = Norm(way);
-  return way_m > 0.05 ? (1 / way_m) * way : Forward(view.world_from_body);
+  return way_m > 0.05 ? (1 / way_m) * way : view.forward_world;
 }
 
 }  // namespace

@@ -42,7 +42,8 @@ double Pace(const Beacon& beacon) {
 bool Jumps(const Beacon& before, const Beacon& now, double dt_s) {
   const double fastest = kSpeedSlack * std::max({Pace(before), Pace(now), now.cruise_m_s});
   const double most_m =
-      fastest * dt_s + kPoseSlack_m + kSigmas * (before.sigma_position_m + now.sigma_position_m);
+      fastest * dt_s + kPoseSlack_m +
+      kSigmas * (SigmaPosition(before.covariance) + SigmaPosition(now.covariance));
   const Vec2 way = now.world_from_body.position_world - before.world_from_body.position_world;
   return SquaredNorm(way) > most_m * most_m;
 }
@@ -63,10 +64,9 @@ struct Place {
 };
 
 Place PlaceOf(const PeerView& view, const Situation& s) {
-  const Vec2 centre = InBody(s, view.world_from_body.position_world);
+  const Vec2 centre = InBody(s, view.position_world);
   return {centre,
-          kPoseSlack_m + kSigmas * (s.sigma_position_m + view.peer->beacon.sigma_position_m +
-                                    s.sigma_heading_rad * Norm(centre))};
+          kPoseSlack_m + kSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre))};
 }
 
 // True if the centre surely lies in the cone, and not so near that it is all around it.
@@ -96,7 +96,7 @@ bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
 bool IsMissed(const PeerView& view, const Situation& s) {
   if (view.explains != 0) return false;
   const double far_m = s.options.profile.sonar_max_range_m + s.options.profile.body_radius_m;
-  const Vec2 offset = view.world_from_body.position_world - s.world_from_body.position_world;
+  const Vec2 offset = view.position_world - s.world_from_body.position_world;
   if (SquaredNorm(offset) > far_m * far_m) return false;
   const Place place = PlaceOf(view, s);
   for (std::size_t i = 0; i < kSensorCount; ++i) {

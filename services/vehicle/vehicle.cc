@@ -163,8 +163,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
   s.wheels = state.wheels;
-  s.sigma_position_m = state.odometry.SigmaPosition();
-  s.sigma_heading_rad = state.odometry.SigmaHeading();
+  s.covariance = state.odometry.Covariance();
   s.slows_m = StoppingDistance(options_.cruise_m_s, ReactionSeconds(options_),
                                options_.profile.deceleration_m_s2);
   s.order = ActingOrder(state.order, state.peers, options_.id);
@@ -297,8 +296,7 @@ Beacon Vehicle::Say(const Situation& s) {
           .wheels = state.wheels,
           .cruise_m_s = options_.cruise_m_s,
           .world_from_body = s.world_from_body,
-          .sigma_position_m = s.sigma_position_m,
-          .sigma_heading_rad = state.odometry.SigmaHeading(),
+          .covariance = state.odometry.Covariance(),
           .body_radius_m = options_.profile.body_radius_m,
           .drive = options_.profile.drive,
           .acceleration_m_s2 = options_.profile.acceleration_m_s2,

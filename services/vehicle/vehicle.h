@@ -20,7 +20,7 @@ namespace giveway {
 
 // Everything a brain remembers. Trivially copyable: a snapshot is a copy.
 struct VehicleState {
-  static constexpr std::uint32_t kVersion = 1;
+  static constexpr std::uint32_t kVersion = 2;
 
   std::uint32_t boot_epoch = 0;
   std::uint32_t seq = 0;

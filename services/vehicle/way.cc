@@ -83,7 +83,7 @@ void Vehicle::Detour(Situation* s) {
     for (const PeerView& view : s->peers) {
       const double room_m = RoomBeside(view, *s);
       if (count == discs.size() || !view.standing) continue;
-      discs[count++] = {view.world_from_body.position_world, room_m};
+      discs[count++] = {view.position_world, room_m};
     }
     const auto turn =
         FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});

@@ -37,11 +37,11 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
-                         testing::Values(Golden{Behaviour::kCooperative, 0xbbe619785b150fe7ULL},
-                                         Golden{Behaviour::kLectureAvoid, 0x52c3bbeddef10a45ULL},
-                                         Golden{Behaviour::kStockAvoid, 0xe05b022f3c0e04dfULL},
-                                         Golden{Behaviour::kLectureYield, 0xecfa5f6db85deea7ULL},
-                                         Golden{Behaviour::kLecturePrinted, 0x3dc35c2d9b0f98daULL}),
+                         testing::Values(Golden{Behaviour::kCooperative, 0xb8e5fa06b76e3209ULL},
+                                         Golden{Behaviour::kLectureAvoid, 0x50c29e6aa4cfa63fULL},
+                                         Golden{Behaviour::kStockAvoid, 0xcd3fd6afeda41c48ULL},
+                                         Golden{Behaviour::kLectureYield, 0x4cc60e58d1d60ff9ULL},
+                                         Golden{Behaviour::kLecturePrinted, 0x145257f8f63f2f83ULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
 
 struct GoldenScenario {
@@ -61,13 +61,13 @@ TEST_P(ScenarioHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioHash,
-                         testing::Values(GoldenScenario{"head_on", 0x3b104081616aa399ULL},
-                                         GoldenScenario{"three_way", 0x7c53c69f0b32ecafULL},
-                                         GoldenScenario{"four_way", 0x9521ea23246a48ddULL},
-                                         GoldenScenario{"deaf", 0xc7cb37157b774b02ULL},
+                         testing::Values(GoldenScenario{"head_on", 0x2e148929d34a400bULL},
+                                         GoldenScenario{"three_way", 0x8acb1e10a2d162e2ULL},
+                                         GoldenScenario{"four_way", 0x26980017c233f67eULL},
+                                         GoldenScenario{"deaf", 0x92da9b702846222cULL},
                                          GoldenScenario{"parked_nose_to_nose",
-                                                        0xac1dca11551e274fULL},
-                                         GoldenScenario{"convoy", 0x2a8ef5a4f517f5b1ULL}),
+                                                        0xc5dda272be3361ffULL},
+                                         GoldenScenario{"convoy", 0x3327d21a1a0ad65bULL}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

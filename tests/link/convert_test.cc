@@ -33,8 +33,7 @@ TEST(Convert, BeaconComesBackBitForBit) {
   sent.wheels = {kNan, -kInfinity};
   sent.cruise_m_s = kTiny;
   sent.world_from_body = {{kHuge, -0.0}, -kHuge};
-  sent.sigma_position_m = kInfinity;
-  sent.sigma_heading_rad = 0.1;
+  sent.covariance = {kInfinity, -0.1, kTiny, -kHuge, 0.2, 0.3};
   sent.body_radius_m = 0.4;
   sent.drive = {0.1, 0.5};
   sent.acceleration_m_s2 = 0.7;
@@ -57,8 +56,7 @@ TEST(Convert, BeaconComesBackBitForBit) {
   EXPECT_EQ(back.world_from_body.position_world.x, kHuge);
   EXPECT_EQ(Bits(back.world_from_body.position_world.y), Bits(-0.0));
   EXPECT_EQ(back.world_from_body.heading_rad, -kHuge);
-  EXPECT_EQ(back.sigma_position_m, kInfinity);
-  EXPECT_EQ(back.sigma_heading_rad, 0.1);
+  EXPECT_EQ(back.covariance, sent.covariance);
   EXPECT_EQ(back.body_radius_m, 0.4);
   EXPECT_EQ(back.drive.wheel_radius_m, 0.1);
   EXPECT_EQ(back.drive.axle_m, 0.5);

@@ -36,8 +36,7 @@ Beacon TestVector() {
   beacon.wheels = {1.5, -2.25};
   beacon.cruise_m_s = 0.4;
   beacon.world_from_body = {{1.0, -2.0}, 0.5};
-  beacon.sigma_position_m = 0.125;
-  beacon.sigma_heading_rad = 0.0625;
+  beacon.covariance = {0.5, -0.125, 0.25, 0.03125, -0.0625, 0.015625};
   beacon.mode = Mode::kSensorOnly;
   beacon.rule = Rule::kGiveWay;
   beacon.toward_world = {3.0, -4.0};
@@ -47,7 +46,7 @@ Beacon TestVector() {
   return beacon;
 }
 
-TEST(BeaconCrc, IsTheTestVectorOfTheIdl) { EXPECT_EQ(ToWire(TestVector()).crc(), 0x40c1c35cU); }
+TEST(BeaconCrc, IsTheTestVectorOfTheIdl) { EXPECT_EQ(ToWire(TestVector()).crc(), 0x4babb897U); }
 
 TEST(BeaconCrc, CoversEveryField) {
   using Change = void (*)(wire::Beacon&);
@@ -62,8 +61,12 @@ TEST(BeaconCrc, CoversEveryField) {
                             [](wire::Beacon& b) { b.world_from_body().x_m() += 1; },
                             [](wire::Beacon& b) { b.world_from_body().y_m() += 1; },
                             [](wire::Beacon& b) { b.world_from_body().heading_rad() += 1; },
-                            [](wire::Beacon& b) { b.sigma_position_m() += 1; },
-                            [](wire::Beacon& b) { b.sigma_heading_rad() += 1; },
+                            [](wire::Beacon& b) { b.covariance().xx_m2() += 1; },
+                            [](wire::Beacon& b) { b.covariance().xy_m2() += 1; },
+                            [](wire::Beacon& b) { b.covariance().yy_m2() += 1; },
+                            [](wire::Beacon& b) { b.covariance().xh_m_rad() += 1; },
+                            [](wire::Beacon& b) { b.covariance().yh_m_rad() += 1; },
+                            [](wire::Beacon& b) { b.covariance().hh_rad2() += 1; },
                             [](wire::Beacon& b) { b.body_radius_m() += 1; },
                             [](wire::Beacon& b) { b.wheel_radius_m() += 1; },
                             [](wire::Beacon& b) { b.axle_m() += 1; },

@@ -82,7 +82,7 @@ TEST(RecordingFile, EverySingleFlippedBitIsFoundAndNotTakenForACut) {
 TEST(RecordingFile, WhatIsNoRecordingIsSaidInWords) {
   EXPECT_EQ(Read("").complaint, "is empty");
   EXPECT_THAT(Read("giveway-rec").complaint, HasSubstr("cut off in its first line"));
-  EXPECT_THAT(Read("giveway-recording-2\n").complaint, HasSubstr("format 2"));
+  EXPECT_THAT(Read("giveway-recording-3\n").complaint, HasSubstr("format 3"));
   EXPECT_THAT(Read("giveway-recording-123456789\n").complaint, HasSubstr("no recording"));
   EXPECT_THAT(Read("giveway-recording-x\n").complaint, HasSubstr("no recording"));
   EXPECT_THAT(Read(std::string(100000, '\0')).complaint, HasSubstr("no recording"));

@@ -212,8 +212,8 @@ TEST(RecordingDifference, NamesTheFirstFieldWhoseBitsDiffer) {
   expect("beacon.blocked_by", "0", "3");
   other.beacon.gives_way_to = VehicleId{4};
   expect("beacon.gives_way_to", "0", "4");
-  other.beacon.sigma_heading_rad = 0.5;
-  expect("beacon.sigma_heading_rad", "0", "0.5");
+  other.beacon.covariance.hh_rad2 = 0.5;
+  expect("beacon.covariance.hh_rad2", "0", "0.5");
   other.command.decision.sensor = 4;
   expect("command.decision.sensor", "-1", "4");
   other.command.target.right_rad_s = -0.0;

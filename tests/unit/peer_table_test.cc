@@ -95,6 +95,14 @@ TEST_F(PeerTableTest, EveryRefusalHasItsCounterAndNamesWhoItWas) {
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.cruise_m_s = -0.1; },
           &BeaconCounters::rejected_out_of_range);
+  refused([nan](ReceivedBeacon* r) { r->beacon.covariance.yh_m_rad = nan; },
+          &BeaconCounters::rejected_not_finite);
+  refused([](ReceivedBeacon* r) { r->beacon.covariance.yy_m2 = -1e-6; },
+          &BeaconCounters::rejected_out_of_range);
+  refused([](ReceivedBeacon* r) { r->beacon.covariance = {.xx_m2 = 1, .xy_m2 = 1, .yy_m2 = 0.9}; },
+          &BeaconCounters::rejected_out_of_range);
+  refused([](ReceivedBeacon* r) { r->beacon.covariance.hh_rad2 = 40; },
+          &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.order.speed_bucket = 99; },
           &BeaconCounters::rejected_out_of_range);
   refused([](ReceivedBeacon* r) { r->beacon.order.vehicle = kNobody; },

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "services/types/math.h"
+#include "services/types/random.h"
 
 namespace giveway {
 namespace {
@@ -49,6 +50,51 @@ TEST(Pose, BodyAndWorldFramesAreInverse) {
   const Vec2 back = ToBody(pose, ToWorld(pose, {0.3, -0.2}));
   EXPECT_NEAR(back.x, 0.3, 1e-12);
   EXPECT_NEAR(back.y, -0.2, 1e-12);
+}
+
+TEST(Facing, AdvancesAsThePoseDoes) {
+  Random random(7);
+  for (int i = 0; i < 1000; ++i) {
+    const Pose start{.position_world = {random.Uniform(-5, 5), random.Uniform(-5, 5)},
+                     .heading_rad = random.Uniform(-3, 3)};
+    const Twist twist{.forward_m_s = random.Uniform(-1, 1),
+                      .turn_rad_s = i % 10 == 0 ? 0 : random.Uniform(-2, 2)};
+    const double dt_s = i % 7 == 0 ? 1e-5 : random.Uniform(0, 2);
+    const Pose pose = AdvanceArc(start, twist, dt_s);
+    const Facing facing = AdvanceFacing({start.position_world, Forward(start)}, twist, dt_s);
+    EXPECT_NEAR(facing.position_world.x, pose.position_world.x, 1e-11) << i;
+    EXPECT_NEAR(facing.position_world.y, pose.position_world.y, 1e-11) << i;
+    EXPECT_NEAR(facing.forward_world.x, Forward(pose).x, 1e-11) << i;
+    EXPECT_NEAR(facing.forward_world.y, Forward(pose).y, 1e-11) << i;
+  }
+}
+
+TEST(PoseCovariance, IsCarriedOnWithTheErrorOfTheHeading) {
+  const PoseCovariance start{0.04, 0.01, 0.02, 0.002, -0.003, 0.01};
+  const Vec2 way{3, -2};
+  const PoseCovariance end = Carried(start, way);
+  // An error (x, y, h) of the start becomes (x - way.y h, y + way.x h, h): by the variances of
+  // those sums, term by term.
+  EXPECT_NEAR(end.xx_m2, 0.04 + 2 * 2 * 0.002 + 4 * 0.01, 1e-15);
+  EXPECT_NEAR(end.yy_m2, 0.02 + 2 * 3 * -0.003 + 9 * 0.01, 1e-15);
+  EXPECT_NEAR(end.xy_m2, 0.01 + 3 * 0.002 + 2 * -0.003 + 6 * 0.01, 1e-15);
+  EXPECT_NEAR(end.xh_m_rad, 0.002 + 2 * 0.01, 1e-15);
+  EXPECT_NEAR(end.yh_m_rad, -0.003 + 3 * 0.01, 1e-15);
+  EXPECT_EQ(end.hh_rad2, 0.01);
+}
+
+TEST(PoseCovariance, IsWorstAlongItsLongAxis) {
+  // 0.3 m along the diagonal, 0.1 m across it.
+  const PoseCovariance c{.xx_m2 = 0.05, .xy_m2 = 0.04, .yy_m2 = 0.05};
+  const double half = Sqrt(0.5);
+  EXPECT_NEAR(SigmaPosition(c), 0.3, 1e-12);
+  EXPECT_NEAR(SigmaAlong(c, {half, half}), 0.3, 1e-12);
+  EXPECT_NEAR(SigmaAlong(c, {half, -half}), 0.1, 1e-12);
+  EXPECT_NEAR(SigmaAlong(c, {1, 0}), Sqrt(0.05), 1e-12);
+}
+
+TEST(PoseCovariance, ThatCannotBeIsNoNegativeRoot) {
+  EXPECT_EQ(SigmaAlong({.xx_m2 = 0.01, .xy_m2 = -1, .yy_m2 = 0.01}, {Sqrt(0.5), Sqrt(0.5)}), 0);
 }
 
 }  // namespace

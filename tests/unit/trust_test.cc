@@ -86,7 +86,7 @@ TEST_F(BeaconWithoutEcho, IsNoneOutOfEveryCone) {
 
 TEST_F(BeaconWithoutEcho, IsNoneOfOneThatIsNotSureWhereItIs) {
   Beacon unsure = Ahead(0);
-  unsure.sigma_position_m = 0.3;
+  unsure.covariance = {.xx_m2 = 0.09, .yy_m2 = 0.09};
   HearFor(20, ClearScan(0), unsure);
   EXPECT_EQ(Counted().Total(), 0U);
 }
@@ -219,7 +219,7 @@ TEST_F(FromBeaconToBeacon, AJumpIsCountedAndDoubtedForAWhile) {
 
 TEST_F(FromBeaconToBeacon, WhoWasUnsureMayFindItselfElsewhere) {
   Beacon unsure = Ahead(0, 3);
-  unsure.sigma_position_m = 0.4;
+  unsure.covariance = {.xx_m2 = 0.16, .yy_m2 = 0.16};
   HearFor(5, ClearScan(0), unsure);
   Hear(ClearScan(0), Ahead(0, 4));
   EXPECT_EQ(Counted().Total(), 0U);

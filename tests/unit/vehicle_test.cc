@@ -63,7 +63,7 @@ TEST(Vehicle, ALostTickIsBridgedAndCostsCertainty) {
   }
   EXPECT_NEAR(bridged.beacon.world_from_body.position_world.x,
               out.beacon.world_from_body.position_world.x, 1e-12);
-  EXPECT_GT(bridged.beacon.sigma_position_m, out.beacon.sigma_position_m);
+  EXPECT_GT(SigmaPosition(bridged.beacon.covariance), SigmaPosition(out.beacon.covariance));
 }
 
 // Ticks begin again with a world; a wait counted in the old one's would be longer than the new one
