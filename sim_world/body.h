@@ -21,6 +21,7 @@ struct Body {
   WheelSpeeds wheels;    // at the end of the tick; standstill after a contact
   WheelSpeeds encoders;  // counted over the whole tick; without encoder noise and slip, the
                          // constant speeds that explain its motion exactly
+  WheelAngles counted;   // by the encoders, since it was put on its start pose
   WheelSpeeds ground;    // the constant speeds that do explain it: what slip made of the wheels
   MotorCommand command;  // the last one taken; tick kNoTick before the first
   VehicleProfile profile;

@@ -18,6 +18,7 @@ struct BodyState {
   VehicleId vehicle = kNobody;
   Pose world_from_body;
   WheelSpeeds wheels;
+  WheelAngles counted;
   MotorCommand command;  // the one held
 };
 

@@ -229,6 +229,7 @@ void Run::Publish() {
                       .tick = world_.Now(),
                       .run_state = state_,
                       .wheels = body.encoders,
+                      .counted = body.counted,
                       .readings = body.sonar.readings});
   }
 }

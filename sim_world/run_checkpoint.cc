@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
 
-constexpr std::string_view kMagic = "giveway-world-2\n";  // the number counts formats
+constexpr std::string_view kMagic = "giveway-world-3\n";  // the number counts formats
 
 template <typename T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -116,6 +116,11 @@ void Visit(Archive& archive, WheelSpeeds& wheels) {
 }
 
 template <typename Archive>
+void Visit(Archive& archive, WheelAngles& angles) {
+  archive(angles.left_rad, angles.right_rad);
+}
+
+template <typename Archive>
 void Visit(Archive& archive, Decision& decision) {
   archive(decision.mode, decision.rule, decision.peer, decision.sensor, decision.cause_tick);
 }
@@ -128,7 +133,7 @@ void Visit(Archive& archive, MotorCommand& command) {
 
 template <typename Archive>
 void Visit(Archive& archive, BodyState& body) {
-  archive(body.vehicle, body.world_from_body, body.wheels, body.command);
+  archive(body.vehicle, body.world_from_body, body.wheels, body.counted, body.command);
 }
 
 template <typename Archive>

@@ -77,6 +77,7 @@ void World::Appear(Body* body) {
   body->world_from_body = body->start_world;
   body->wheels = {};
   body->encoders = {};
+  body->counted = {};
   body->ground = {};
   body->obeyed = false;
   body->command = {};
@@ -151,7 +152,8 @@ Checkpoint World::Save() const {
   Checkpoint checkpoint{.now = now_, .driven_ticks = driven_ticks_, .contacts = contact_count_};
   for (const Body& body : bodies_) {
     if (body.present) {
-      checkpoint.bodies.push_back({body.vehicle, body.world_from_body, body.wheels, body.command});
+      checkpoint.bodies.push_back(
+          {body.vehicle, body.world_from_body, body.wheels, body.counted, body.command});
     }
   }
   for (const MovingObstacle& obstacle : obstacles_) {
@@ -181,6 +183,7 @@ bool World::Restore(const Checkpoint& checkpoint) {
     Appear(body);
     body->world_from_body = state.world_from_body;
     body->wheels = state.wheels;
+    body->counted = state.counted;
     body->command = state.command;
   }
   for (std::size_t i = 0; i < obstacles_.size(); ++i) {

@@ -180,6 +180,7 @@ void World::SettleBody(std::size_t i) {
     body.ground = Scaled(share, body.ground);
     body.wheels = {};
   }
+  body.counted = CountOn(body.counted, body.encoders, dt_s_);
   // From the speeds over the whole tick, so that whoever integrates them lands on the same bits.
   body.world_from_body =
       AdvanceArc(body.world_from_body, TwistFromWheels(body.profile.drive, body.ground), dt_s_);

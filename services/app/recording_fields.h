@@ -33,6 +33,11 @@ void Visit(auto& fields, Is<WheelSpeeds> auto& wheels) {
   fields(left, right);
 }
 
+void Visit(auto& fields, Is<WheelAngles> auto& angles) {
+  auto& [left, right] = angles;
+  fields(left, right);
+}
+
 void Visit(auto& fields, Is<DriveGeometry> auto& drive) {
   auto& [wheel_radius, axle] = drive;
   fields(wheel_radius, axle);
@@ -103,8 +108,8 @@ void Visit(auto& fields, Is<RangeReading> auto& reading) {
 }
 
 void Visit(auto& fields, Is<RangeScan> auto& scan) {
-  auto& [vehicle, epoch, tick, run_state, wheels, readings] = scan;
-  fields(vehicle, epoch, tick, run_state, wheels, readings);
+  auto& [vehicle, epoch, tick, run_state, wheels, counted, readings] = scan;
+  fields(vehicle, epoch, tick, run_state, wheels, counted, readings);
 }
 
 void Visit(auto& fields, Is<RadarDetection> auto& detection) {

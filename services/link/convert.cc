@@ -153,6 +153,8 @@ wire::RangeScan ToWire(const RangeScan& scan) {
   sent.run_state(ToWireEnum<wire::RunPhase>(scan.run_state));
   sent.left_rad_s(scan.wheels.left_rad_s);
   sent.right_rad_s(scan.wheels.right_rad_s);
+  sent.counted_left_rad(scan.counted.left_rad);
+  sent.counted_right_rad(scan.counted.right_rad);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     sent.echo()[i] = ToWireEnum<wire::EchoKind>(scan.readings[i].kind);
     sent.range_m()[i] = scan.readings[i].range_m;
@@ -167,6 +169,7 @@ bool FromWire(const wire::RangeScan& sample, RangeScan& scan) {
   scan.epoch = WorldEpoch{sample.world_epoch()};
   scan.tick = Tick{sample.tick()};
   scan.wheels = {sample.left_rad_s(), sample.right_rad_s()};
+  scan.counted = {sample.counted_left_rad(), sample.counted_right_rad()};
   bool known = FromWirePart(sample.run_state(), scan.run_state);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     known &= FromWirePart(sample.echo()[i], scan.readings[i].kind);

@@ -28,6 +28,18 @@ struct WheelSpeeds {
   friend constexpr bool operator==(const WheelSpeeds&, const WheelSpeeds&) = default;
 };
 
+// How far wheels have rolled in all, rad, positive forward.
+struct WheelAngles {
+  double left_rad = 0;
+  double right_rad = 0;
+
+  friend constexpr bool operator==(const WheelAngles&, const WheelAngles&) = default;
+};
+
+inline WheelAngles CountOn(const WheelAngles& from, WheelSpeeds wheels, double dt_s) {
+  return {from.left_rad + dt_s * wheels.left_rad_s, from.right_rad + dt_s * wheels.right_rad_s};
+}
+
 // Wheel geometry of a differential drive, metres.
 struct DriveGeometry {
   double wheel_radius_m = 0.0975;

@@ -11,7 +11,8 @@ namespace {
 
 // Encoders faster than the drive by this factor are broken; within it they may slip and overshoot.
 constexpr double kOvershoot = 2;
-constexpr double kBeyondRange_m = 1;  // of noise on an echo from the edge of the range
+constexpr double kMostCounted_rad = 1e9;  // thirty years at full speed
+constexpr double kBeyondRange_m = 1;      // of noise on an echo from the edge of the range
 
 // False of NaN.
 bool Within(double x, double limit) { return x >= -limit && x <= limit; }
@@ -47,6 +48,8 @@ bool IsBelievable(const RangeScan& scan, const VehicleOptions& options) {
                                 profile.sonar_max_range_m + kBeyondRange_m};
   return Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
          Within(twist.turn_rad_s, kOvershoot * profile.max_turn_rad_s) &&
+         Within(scan.counted.left_rad, kMostCounted_rad) &&
+         Within(scan.counted.right_rad, kMostCounted_rad) &&
          std::all_of(scan.readings.begin(), scan.readings.end(),
                      [&](const RangeReading& reading) { return IsBelievable(reading, limits); });
 }

@@ -13,6 +13,7 @@
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
+#include "services/vehicle/lost_ticks.h"
 #include "services/vehicle/planted.h"
 #include "services/vehicle/scan_check.h"
 
@@ -96,8 +97,7 @@ void Vehicle::TakeRoster(const RosterEntry& entry) {
   state.placed_in = entry.epoch;
 }
 
-// Dead reckoning: the encoders give the constant wheel speeds since the last tick. Ticks that were
-// lost are taken to have been like this one, and cost certainty.
+// Dead reckoning: the encoders give the constant wheel speeds since the last tick.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   VehicleState& state = *state_;
   if (!IsBelievable(scan, options_)) {  // as if none had come: the ranges grow old, and it halts
@@ -111,9 +111,11 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
   const VehicleProfile& profile = options_.profile;
-  const double guessed_m = ticks > 1 ? profile.acceleration_m_s2 * dt_s * dt_s : 0;
-  state.odometry.Roll(profile.drive, scan.wheels, dt_s, WheelError(profile), guessed_m);
+  const WayGone gone = ticks > 1 ? WayOfLostTicks(state.counted, scan, options_, dt_s)
+                                 : WayGone{.wheels = scan.wheels};
+  state.odometry.Roll(profile.drive, gone.wheels, dt_s, WheelError(profile), gone.guessed_m);
   state.tick = scan.tick;
+  state.counted = scan.counted;
   state.run_state = scan.run_state;
   state.wheels = scan.wheels;
   if (HasImperfectSonar(options_)) {

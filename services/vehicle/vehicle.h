@@ -30,6 +30,7 @@ struct VehicleState {
   RunState run_state = RunState::kWaiting;
   Odometry odometry;
   WheelSpeeds wheels;          // as last measured
+  WheelAngles counted;         // by the encoders, as last heard
   std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
   OrderKey order;

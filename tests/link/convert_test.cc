@@ -84,6 +84,7 @@ TEST(Convert, ScanComesBackWithEverySensor) {
   sent.tick = Tick{3};
   sent.run_state = RunState::kEnded;
   sent.wheels = {-1, kNan};
+  sent.counted = {-kTiny, kHuge};
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     sent.readings[i] = {static_cast<Echo>(i % 3), 0.25 * static_cast<double>(i),
                         Tick{static_cast<std::uint32_t>(100 + i)}, 0.001 * static_cast<double>(i)};
@@ -95,6 +96,7 @@ TEST(Convert, ScanComesBackWithEverySensor) {
   EXPECT_EQ(back.run_state, sent.run_state);
   EXPECT_EQ(back.wheels.left_rad_s, -1);
   EXPECT_EQ(Bits(back.wheels.right_rad_s), Bits(kNan));
+  EXPECT_EQ(back.counted, sent.counted);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     EXPECT_EQ(back.readings[i].kind, sent.readings[i].kind) << i;
     EXPECT_EQ(back.readings[i].range_m, sent.readings[i].range_m) << i;

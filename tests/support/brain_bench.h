@@ -109,6 +109,8 @@ class BrainBench {
   const std::array<RangeReading, kSensorCount>& LastReadings() const { return readings_; }
   // What comes with the next step beside scan and beacons.
   MoreInputs& WithNext() { return more_; }
+  // From now on the wheels turn so, until a scan says otherwise.
+  void RollOn(WheelSpeeds wheels) { wheels_ = wheels; }
   // One tick's time passes and no scan comes.
   Outputs StepBlind() {
     ++tick_;
@@ -120,6 +122,10 @@ class BrainBench {
                    const std::vector<QosEvent>& events) {
     std::vector<ReceivedBeacon> received;
     for (const Beacon& beacon : beacons) received.push_back(Received(beacon, Now()));
+    // The wheels turn whether or not a scan comes to say so.
+    if (scan) wheels_ = scan->wheels;
+    counted_ = CountOn(counted_, wheels_, Seconds(options_.tick_period));
+    if (scan) scan->counted = counted_;
     Inputs inputs;
     inputs.now = Now();
     inputs.scan = scan;
@@ -146,6 +152,8 @@ class BrainBench {
   Vehicle vehicle_;
   MoreInputs more_;
   std::array<RangeReading, kSensorCount> readings_{};
+  WheelSpeeds wheels_;
+  WheelAngles counted_;
   std::uint32_t tick_ = 0;
 };
 

@@ -66,6 +66,48 @@ TEST(Vehicle, ALostTickIsBridgedAndCostsCertainty) {
   EXPECT_GT(SigmaPosition(bridged.beacon.covariance), SigmaPosition(out.beacon.covariance));
 }
 
+// A process that stood still while its vehicle braked and stood: what the encoders counted says how
+// far it came, not the speed before or after.
+TEST(Vehicle, AfterAPauseItKnowsByItsEncodersHowFarItRolled) {
+  BrainBench bench(test::DefaultOptions());
+  RangeScan scan = ClearScan(0);
+  scan.wheels = {4, 4};
+  for (int i = 0; i < 10; ++i) bench.Step(scan);
+  for (int i = 0; i < 4; ++i) bench.StepBlind();  // rolls on
+  bench.RollOn({0, 0});
+  for (int i = 0; i < 60; ++i) bench.StepBlind();  // stands
+  scan.wheels = {};
+  const Outputs out = bench.Step(scan);
+  EXPECT_NEAR(out.beacon.world_from_body.position_world.x, 14 * 0.05 * 4 * 0.0975, 1e-9);
+  EXPECT_LT(SigmaPosition(out.beacon.covariance), 0.01);
+}
+
+TEST(Vehicle, AfterAPauseItDoesNotKnowWhetherItTurnedFirstOrLast) {
+  BrainBench bench(test::DefaultOptions());
+  bench.Step(Arc());
+  bench.RollOn({2, 4});
+  for (int i = 0; i < 20; ++i) bench.StepBlind();
+  const double way_m = 21 * 0.05 * 3 * 0.0975;
+  const double turned_rad = 21 * 0.05 * 2 * 0.0975 / 0.33;
+  RangeScan scan = ClearScan(0);
+  scan.wheels = {2, 4};
+  const double sigma_m = SigmaPosition(bench.Step(scan).beacon.covariance);
+  EXPECT_GT(sigma_m, 0.4 * way_m * turned_rad);
+  EXPECT_LT(sigma_m, 0.7 * way_m * turned_rad);
+}
+
+TEST(Vehicle, CountsThatNoDriveMadeAreNotBelieved) {
+  BrainBench bench(test::DefaultOptions());
+  RangeScan scan = ClearScan(0);
+  scan.wheels = {2, 2};
+  bench.Step(scan);
+  bench.RollOn({1e6, 1e6});
+  bench.StepBlind();
+  const Outputs out = bench.Step(scan);
+  EXPECT_NEAR(out.beacon.world_from_body.position_world.x, 3 * 0.05 * 2 * 0.0975, 1e-9);
+  EXPECT_GT(SigmaPosition(out.beacon.covariance), 0);
+}
+
 // Ticks begin again with a world; a wait counted in the old one's would be longer than the new one
 // is old, and no peer would believe it.
 TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
