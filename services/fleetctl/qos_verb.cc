@@ -1,0 +1,87 @@
+#include <memory>
+
+#include "services/fleetctl/qos_check.h"
+#include "services/fleetctl/qos_show.h"
+#include "services/fleetctl/verbs.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr std::int64_t kMostVehicles = 4096;
+
+constexpr const char* kCheckFooter = R"(
+A FILE is a path, or the name of a shipped set: default, lossy_radio, same_host. Of several files
+each is the set of some processes: the writers of one are held against the readers of all.
+Each finding says where, which values, what comes of it and what to do. Nothing is started and no
+network is touched. Findings on the environment and the working folder are about this shell.
+
+Examples
+  fleetctl qos check                                   # the shipped default
+  fleetctl qos check mine.xml --scenario four_way
+  fleetctl qos check lossy_radio same_host             # would vehicles of both hear each other?
+  fleetctl qos check mine.xml --vehicles 64 --json | jq -r '.findings[].rule'
+
+Exit code: 0 nothing found, 1 warnings, 2 errors, or it could not run.
+)";
+
+constexpr const char* kShowFooter = R"(
+The library itself resolves the profiles, as it would for a service; no socket is opened. Each value
+comes with its origin: FILE:LINE, library default, code (follows from fleet size, area or id),
+environment or flag.
+
+Examples
+  fleetctl qos show fleet/beacon
+  fleetctl qos show --qos lossy_radio --vehicles 64 giveway_participant
+  fleetctl qos show --diff default lossy_radio
+  fleetctl qos show --json | jq '.endpoints[] | select(.topic == "fleet/beacon")'
+
+Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run.
+)";
+
+void AddCheck(CLI::App* qos, int* exit_code) {
+  const auto options = std::make_shared<QosCheckOptions>();
+  CLI::App* verb = qos->add_subcommand("check", "Find what is wrong with profile files, offline");
+  verb->footer(kCheckFooter);
+  verb->add_option("FILE", options->files, "Profile files; without one the shipped default");
+  verb->add_option("--scenario", options->scenario,
+                   "Fleet size and tick rate are this scenario's; 2 vehicles at 20 Hz without it");
+  verb->add_option("--vehicles", options->vehicles, "Fleet size, instead of the scenario's")
+      ->check(CLI::Range(std::int64_t{1}, kMostVehicles));
+  verb->add_flag("--partial", options->partial, "The files need not be complete sets");
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->callback([options, exit_code] { *exit_code = RunQosCheck(*options); });
+}
+
+void AddShow(CLI::App* qos, int* exit_code) {
+  const auto options = std::make_shared<QosShowOptions>();
+  CLI::App* verb =
+      qos->add_subcommand("show", "The QoS every endpoint runs with, and where each value is from");
+  verb->footer(kShowFooter);
+  verb->add_option("NAME", options->wanted, "Profiles or topics; without one all");
+  auto* file = verb->add_option("--qos", options->qos_file,
+                                "Profile file, or name of a shipped set; without it the default");
+  file->envname("GIVEWAY_QOS");
+  verb->add_option("--diff", options->diff, "Two of these: show what differs")
+      ->expected(2)
+      ->type_name("A B");
+  verb->add_option("--interface", options->interface, "Network interface, or 'any'")
+      ->capture_default_str()
+      ->envname("GIVEWAY_INTERFACE");
+  verb->add_option("--vehicles", options->vehicles, "Fleet size: some values follow from it")
+      ->capture_default_str()
+      ->check(CLI::Range(std::uint32_t{1}, static_cast<std::uint32_t>(kMostVehicles)));
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->callback([options, exit_code] { *exit_code = RunQosShow(*options); });
+}
+
+}  // namespace
+
+void AddQosVerb(CLI::App* fleetctl, int* exit_code) {
+  CLI::App* qos = fleetctl->add_subcommand("qos", "Explain and check QoS profiles");
+  qos->require_subcommand(1);
+  qos->footer("\nMore: fleetctl qos check --help, fleetctl qos show --help\n");
+  AddCheck(qos, exit_code);
+  AddShow(qos, exit_code);
+}
+
+}  // namespace giveway::fleetctl
