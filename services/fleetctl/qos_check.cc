@@ -48,6 +48,10 @@ std::string ToJson(const qos::Finding& finding) {
       app::JsonString(finding.consequence), app::JsonString(finding.remedy));
 }
 
+std::string Counted(std::size_t count, const char* thing) {
+  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
+}
+
 std::size_t Count(const qos::Findings& findings, qos::Severity severity) {
   return static_cast<std::size_t>(std::ranges::count(findings, severity, &qos::Finding::severity));
 }
@@ -63,8 +67,8 @@ void Print(const qos::Findings& findings, std::size_t files, bool json) {
   if (json) {
     text = fmt::format(R"({{"errors":{},"warnings":{},"findings":[{}]}})", errors, warnings, text);
   } else {
-    text += fmt::format("{} file{}: {} errors, {} warnings", files, files == 1 ? "" : "s", errors,
-                        warnings);
+    text += fmt::format("{}, {}, {}", Counted(files, "file"), Counted(errors, "error"),
+                        Counted(warnings, "warning"));
   }
   std::puts(text.c_str());
 }

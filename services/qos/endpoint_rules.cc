@@ -74,10 +74,9 @@ void EndpointRules::CheckDurability() {
         "The library refuses the endpoint, and nothing starts.",
         "TRANSIENT_LOCAL keeps samples as long as their writer lives");
   } else if (kind == kTransient) {
-    Add(Severity::kWarning, "durability_unsupported", Policy::kDurability,
-        Named(Policy::kDurability),
-        "Without a persistence plug-in nothing outlives its writer all the same.",
-        "TRANSIENT_LOCAL says what happens");
+    Add(Severity::kError, "durability_unsupported", Policy::kDurability, Named(Policy::kDurability),
+        "The library refuses the endpoint, which has no persistence service, and nothing starts.",
+        "TRANSIENT_LOCAL keeps samples as long as their writer lives");
   } else if (kind == kTransientLocal && Number(Policy::kReliability) == kBestEffort) {
     Add(Severity::kWarning, "late_joiner_best_effort", Policy::kDurability,
         Named(Policy::kDurability) + " with " + Named(Policy::kReliability),

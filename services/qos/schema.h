@@ -31,6 +31,7 @@ struct ElementRule {
 std::span<const ElementRule> EndpointElements(bool writer);
 std::span<const ElementRule> TopicElements();
 std::span<const ElementRule> ParticipantElements();
-std::span<const ElementRule> TransportElements();
+// By the type it names; that of UDP for none that is known.
+std::span<const ElementRule> TransportElements(std::string_view type);
 
 }  // namespace giveway::qos

@@ -28,6 +28,7 @@ class Checker {
  private:
   void CheckProfiles(const XmlElement& profiles);
   void CheckProfile(const XmlElement& profile);
+  void CheckTransports(const XmlElement& descriptors);
   void CheckChildren(const XmlElement& parent, std::span<const ElementRule> rules);
   void CheckElement(const XmlElement& element, const ElementRule& rule);
   void CheckText(const XmlElement& element, const ElementRule& rule);
@@ -171,16 +172,25 @@ void Checker::CheckProfile(const XmlElement& profile) {
   }
 }
 
+void Checker::CheckTransports(const XmlElement& descriptors) {
+  for (const XmlElement& child : descriptors.children) {
+    if (child.name != "transport_descriptor") {
+      AddUnknown(child, descriptors, "transport_descriptor");
+      continue;
+    }
+    const XmlElement* type = child.Child("type");
+    CheckChildren(child, TransportElements(type == nullptr ? "" : type->text));
+  }
+}
+
 void Checker::CheckProfiles(const XmlElement& profiles) {
   constexpr std::string_view kProfiles =
       "participant data_writer publisher data_reader subscriber topic";
-  static const ElementRule kDescriptor[] = {
-      {"transport_descriptor", Content::kElements, TransportElements(), {}, true}};
   for (const XmlElement& child : profiles.children) {
     if (WordIndex(kProfiles, child.name) >= 0) {
       CheckProfile(child);
     } else if (child.name == "transport_descriptors") {
-      CheckChildren(child, kDescriptor);
+      CheckTransports(child);
     } else if (WordIndex("types requester replier", child.name) < 0) {
       AddUnknown(child, profiles, "transport_descriptors, participant, data_writer, data_reader");
     }

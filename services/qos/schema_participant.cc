@@ -9,6 +9,9 @@ using enum Content;
 constexpr ElementRule Group(std::string_view name, std::span<const ElementRule> children) {
   return {name, kElements, children};
 }
+constexpr ElementRule List(std::string_view name, std::span<const ElementRule> children) {
+  return {name, kElements, children, {}, false, true};
+}
 constexpr ElementRule Word(std::string_view name, std::string_view words) {
   return {name, kWord, {}, words};
 }
@@ -17,20 +20,22 @@ constexpr ElementRule Many(std::string_view name, std::span<const ElementRule> c
 }
 
 constexpr ElementRule kUdpLocator[] = {{"port", kUnsigned}, {"address", kText}};
-constexpr ElementRule kTcpLocator[] = {{"physical_port", kUnsigned},
-                                       {"port", kUnsigned},
-                                       {"address", kText},
-                                       {"unique_lan_id", kText},
-                                       {"wan_address", kText}};
+constexpr ElementRule kTcp4Locator[] = {{"physical_port", kUnsigned},
+                                        {"port", kUnsigned},
+                                        {"address", kText},
+                                        {"unique_lan_id", kText},
+                                        {"wan_address", kText}};
+constexpr ElementRule kTcp6Locator[] = {
+    {"physical_port", kUnsigned}, {"port", kUnsigned}, {"address", kText}};
 constexpr ElementRule kLocator[] = {Group("udpv4", kUdpLocator), Group("udpv6", kUdpLocator),
-                                    Group("tcpv4", kTcpLocator), Group("tcpv6", kTcpLocator)};
+                                    Group("tcpv4", kTcp4Locator), Group("tcpv6", kTcp6Locator)};
 constexpr ElementRule kLocators[] = {Many("locator", kLocator)};
 
 constexpr ElementRule kSimpleEdp[] = {{"PUBWRITER_SUBREADER", kFlag},
                                       {"PUBREADER_SUBWRITER", kFlag}};
 constexpr ElementRule kInitial[] = {{"count", kUnsigned}, {"period", kDuration}};
-constexpr ElementRule kServer[] = {Group("metatrafficUnicastLocatorList", kLocators),
-                                   Group("metatrafficMulticastLocatorList", kLocators)};
+constexpr ElementRule kServer[] = {List("metatrafficUnicastLocatorList", kLocators),
+                                   List("metatrafficMulticastLocatorList", kLocators)};
 constexpr ElementRule kServers[] = {Many("RemoteServer", kServer)};
 constexpr ElementRule kDiscovery[] = {
     Word("discoveryProtocol", "NONE SIMPLE CLIENT SERVER BACKUP SUPER_CLIENT"),
@@ -41,7 +46,7 @@ constexpr ElementRule kDiscovery[] = {
     {"leaseAnnouncement", kDuration},
     Group("initialAnnouncements", kInitial),
     {"clientAnnouncementPeriod", kDuration},
-    Group("discoveryServersList", kServers),
+    List("discoveryServersList", kServers),
     {"staticEndpointXMLFilename", kText},
     {"static_edp_xml_config", kText, {}, {}, true},
 };
@@ -54,9 +59,9 @@ constexpr ElementRule kBuiltin[] = {
     {"avoid_builtin_multicast", kFlag},
     {"use_WriterLivelinessProtocol", kFlag},
     {"metatraffic_external_unicast_locators", kOpaque},
-    Group("metatrafficUnicastLocatorList", kLocators),
-    Group("metatrafficMulticastLocatorList", kLocators),
-    Group("initialPeersList", kLocators),
+    List("metatrafficUnicastLocatorList", kLocators),
+    List("metatrafficMulticastLocatorList", kLocators),
+    List("initialPeersList", kLocators),
     Word("readerHistoryMemoryPolicy", kMemory),
     Word("writerHistoryMemoryPolicy", kMemory),
     {"readerPayloadSize", kUnsigned},
@@ -74,9 +79,9 @@ constexpr ElementRule kRtps[] = {
     {"name", kText},
     {"allocation", kOpaque},
     {"prefix", kText},
-    Group("defaultUnicastLocatorList", kLocators),
+    List("defaultUnicastLocatorList", kLocators),
     {"default_external_unicast_locators", kOpaque},
-    Group("defaultMulticastLocatorList", kLocators),
+    List("defaultMulticastLocatorList", kLocators),
     {"ignore_non_matching_locators", kFlag},
     {"sendSocketBufferSize", kUnsigned},
     {"listenSocketBufferSize", kUnsigned},
@@ -93,9 +98,9 @@ constexpr ElementRule kParticipant[] = {{"domainId", kUnsigned}, Group("rtps", k
 
 constexpr ElementRule kWhitelist[] = {{"address", kText, {}, {}, true}};
 constexpr ElementRule kListening[] = {{"port", kUnsigned, {}, {}, true}};
-constexpr ElementRule kTransport[] = {
+constexpr ElementRule kUdp[] = {
     {"transport_id", kText},
-    Word("type", "UDPv4 UDPv6 TCPv4 TCPv6 SHM"),
+    Word("type", "UDPv4 UDPv6"),
     {"sendBufferSize", kUnsigned},
     {"receiveBufferSize", kUnsigned},
     {"TTL", kUnsigned},
@@ -104,6 +109,26 @@ constexpr ElementRule kTransport[] = {
     {"maxInitialPeersRange", kUnsigned},
     Group("interfaceWhiteList", kWhitelist),
     {"output_port", kUnsigned},
+};
+constexpr ElementRule kSharedMemory[] = {
+    {"transport_id", kText},
+    Word("type", "SHM"),
+    {"maxMessageSize", kUnsigned},
+    {"maxInitialPeersRange", kUnsigned},
+    {"segment_size", kUnsigned},
+    {"port_queue_capacity", kUnsigned},
+    {"healthy_check_timeout_ms", kUnsigned},
+    {"rtps_dump_file", kText},
+};
+constexpr ElementRule kTcp[] = {
+    {"transport_id", kText},
+    Word("type", "TCPv4 TCPv6"),
+    {"sendBufferSize", kUnsigned},
+    {"receiveBufferSize", kUnsigned},
+    {"TTL", kUnsigned},
+    {"maxMessageSize", kUnsigned},
+    {"maxInitialPeersRange", kUnsigned},
+    Group("interfaceWhiteList", kWhitelist),
     {"wan_addr", kText},
     {"keep_alive_frequency_ms", kUnsigned},
     {"keep_alive_timeout_ms", kUnsigned},
@@ -116,17 +141,15 @@ constexpr ElementRule kTransport[] = {
     {"tls", kOpaque},
     {"calculate_crc", kFlag},
     {"check_crc", kFlag},
-    {"segment_size", kUnsigned},
-    {"port_queue_capacity", kUnsigned},
-    Word("port_overflow_policy", "DISCARD FAIL"),
-    Word("segment_overflow_policy", "DISCARD FAIL"),
-    {"healthy_check_timeout_ms", kUnsigned},
-    {"rtps_dump_file", kText},
 };
 
 }  // namespace
 
 std::span<const ElementRule> ParticipantElements() { return kParticipant; }
-std::span<const ElementRule> TransportElements() { return kTransport; }
+std::span<const ElementRule> TransportElements(std::string_view type) {
+  if (type.starts_with("SHM")) return kSharedMemory;
+  if (type.starts_with("TCP")) return kTcp;
+  return kUdp;
+}
 
 }  // namespace giveway::qos

@@ -101,7 +101,7 @@ void AddMismatch(const Profile& writer, const Profile& reader, const MatchRule& 
            Said(reader, rule.policy),
        rule.enforced ? "The two never match, and the reader hears nothing."
                      : "Fast DDS 2.9 matches them all the same; other DDS implementations do not.",
-       std::string(rule.rule)});
+       "change one of the two: " + std::string(rule.rule)});
 }
 
 }  // namespace
