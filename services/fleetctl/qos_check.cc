@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 
 #include "services/app/json_line.h"
 #include "services/app/scenario_file.h"

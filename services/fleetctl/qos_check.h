@@ -2,6 +2,7 @@
 // was found printed. Values in; the exit code out.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,5 +1,6 @@
 #include "services/fleetctl/qos_files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>

@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "services/qos/finding.h"

@@ -2,6 +2,11 @@
 // elements given twice or empty, and what the library accepts without effect.
 #pragma once
 
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
 #include "services/qos/finding.h"
 #include "services/qos/xml_tree.h"
 

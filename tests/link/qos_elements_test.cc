@@ -2,6 +2,8 @@
 // each is put into a profile of its own and loaded.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "services/link/fastdds_version.h"
 #include "services/link/library_log.h"
 #include "services/qos/check.h"

@@ -3,6 +3,7 @@
 // how many.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "services/link/participant.h"

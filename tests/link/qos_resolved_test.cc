@@ -1,6 +1,7 @@
 // The table of policies and topics in services/qos against the library: every default, every value
 // of the shipped sets, every topic.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,6 @@
 #include "tests/link/random_qos.h"
 
 #include <array>
-#include <vector>
 
 namespace giveway::test {
 namespace {
