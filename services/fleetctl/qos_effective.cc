@@ -1,8 +1,13 @@
 #include "services/fleetctl/qos_effective.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <variant>
 
+#include "services/fleetctl/qos_apart.h"
+#include "services/fleetctl/qos_files.h"
 #include "services/qos/deployment.h"
+#include "services/qos/xml_tree.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -28,6 +33,24 @@ QosRow RowOf(const link::ResolvedValue& value, const qos::PolicyInfo& info,
 QosRow PartitionRow(const qos::Topic& topic, qos::Owner owner) {
   return {"partition", std::string(owner == qos::Owner::kWriter ? topic.written_in : topic.read_in),
           QosOrigin::kCode};
+}
+
+// Empty where the file cannot be read: the library will refuse it in its own words.
+qos::ProfileSet SetOf(const std::string& path) {
+  const auto read = ReadQosFile(path);
+  if (const auto* file = std::get_if<qos::ProfileFile>(&read)) {
+    const qos::XmlRead xml = qos::ReadXml(file->bytes, path);
+    if (xml.root) return qos::ReadProfiles(*xml.root, path);
+  }
+  return {};
+}
+
+QosRow InterfaceRow(const std::string& interface) {
+  QosOrigin origin = QosOrigin::kFlag;
+  const char* twin = std::getenv("GIVEWAY_INTERFACE");
+  if (interface == link::LinkOptions{}.interface) origin = QosOrigin::kCode;
+  if (twin != nullptr && interface == twin) origin = QosOrigin::kEnvironment;
+  return {"interface", interface, origin};
 }
 
 }  // namespace
@@ -68,6 +91,24 @@ std::vector<EffectiveEndpoint> EffectiveQos(const std::vector<link::ResolvedEnti
     endpoints.push_back(std::move(endpoint));
   }
   return endpoints;
+}
+
+EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& interface,
+                                std::uint32_t vehicles) {
+  link::LinkOptions options;
+  options.domain = 1;  // nothing is opened in it
+  options.interface = interface;
+  options.fleet_size = vehicles;
+  options.qos_file = ResolveQosFile(argument);
+  EffectiveSet set{options.qos_file,
+                   EffectiveQos(ResolveQosApart(options), SetOf(options.qos_file))};
+  set.endpoints.front().rows.push_back(InterfaceRow(interface));
+  return set;
+}
+
+std::string OriginText(const QosRow& row, const std::string& file) {
+  if (row.origin == QosOrigin::kProfile) return file + ":" + std::to_string(row.line);
+  return row.origin == QosOrigin::kDefault ? "library default" : Name(row.origin);
 }
 
 }  // namespace giveway::fleetctl

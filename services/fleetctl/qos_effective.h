@@ -37,4 +37,16 @@ struct EffectiveEndpoint {
 std::vector<EffectiveEndpoint> EffectiveQos(const std::vector<link::ResolvedEntity>& resolved,
                                             const qos::ProfileSet& set);
 
+struct EffectiveSet {
+  std::string file;
+  std::vector<EffectiveEndpoint> endpoints;  // the participant first
+};
+
+// Of a profile file, or of the shipped set of that name, in a fleet of that size. Throws LinkError.
+EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& interface,
+                                std::uint32_t vehicles);
+
+// "config/qos/default.xml:84", "library default", "code".
+std::string OriginText(const QosRow& row, const std::string& file);
+
 }  // namespace giveway::fleetctl

@@ -4,53 +4,18 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "services/app/json_line.h"
 #include "services/app/scenario_file.h"
-#include "services/fleetctl/qos_apart.h"
 #include "services/fleetctl/qos_effective.h"
-#include "services/fleetctl/qos_files.h"
-#include "services/qos/xml_tree.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr int kCouldNotRun = 2;
-constexpr std::uint32_t kAnyDomain = 1;  // nothing is opened in it
 
-struct Shown {
-  std::string file;
-  std::vector<EffectiveEndpoint> endpoints;
-};
-
-qos::ProfileSet SetOf(const std::string& path) {
-  const auto read = ReadQosFile(path);
-  if (const auto* file = std::get_if<qos::ProfileFile>(&read)) {
-    const qos::XmlRead xml = qos::ReadXml(file->bytes, path);
-    if (xml.root) return qos::ReadProfiles(*xml.root, path);
-  }
-  return {};  // the library will refuse it in its own words
-}
-
-QosRow InterfaceRow(const std::string& interface) {
-  const char* twin = std::getenv("GIVEWAY_INTERFACE");
-  if (twin != nullptr && interface == twin) {
-    return {"interface", interface, QosOrigin::kEnvironment};
-  }
-  return {"interface", interface,
-          interface == QosShowOptions{}.interface ? QosOrigin::kCode : QosOrigin::kFlag};
-}
-
-Shown Resolve(const std::string& argument, const QosShowOptions& options) {
-  link::LinkOptions link_options;
-  link_options.domain = kAnyDomain;
-  link_options.interface = options.interface;
-  link_options.fleet_size = options.vehicles;
-  link_options.qos_file = ResolveQosFile(argument);
-  Shown shown{link_options.qos_file,
-              EffectiveQos(ResolveQosApart(link_options), SetOf(link_options.qos_file))};
-  shown.endpoints.front().rows.push_back(InterfaceRow(options.interface));
+EffectiveSet Resolve(const std::string& argument, const QosShowOptions& options) {
+  EffectiveSet shown = EffectiveQosOfFile(argument, options.interface, options.vehicles);
   const auto unwanted = [&](const EffectiveEndpoint& endpoint) {
     return !options.wanted.empty() &&
            std::ranges::none_of(options.wanted, [&](const std::string& word) {
@@ -65,12 +30,7 @@ Shown Resolve(const std::string& argument, const QosShowOptions& options) {
   return shown;
 }
 
-std::string OriginText(const QosRow& row, const std::string& file) {
-  if (row.origin == QosOrigin::kProfile) return fmt::format("{}:{}", file, row.line);
-  return row.origin == QosOrigin::kDefault ? "library default" : Name(row.origin);
-}
-
-std::string ToText(const Shown& shown) {
+std::string ToText(const EffectiveSet& shown) {
   std::string text;
   for (const EffectiveEndpoint& endpoint : shown.endpoints) {
     text += fmt::format("{}{}{}\n", endpoint.profile, endpoint.topic.empty() ? "" : "  on ",
@@ -90,7 +50,7 @@ std::string JsonOf(const QosRow& row) {
   return json;
 }
 
-std::string ToJson(const Shown& shown) {
+std::string ToJson(const EffectiveSet& shown) {
   std::string json = fmt::format(R"({{"file":{},"endpoints":[)", app::JsonString(shown.file));
   for (const EffectiveEndpoint& endpoint : shown.endpoints) {
     json += fmt::format(R"({}{{"profile":"{}","topic":"{}","values":[)",
@@ -110,7 +70,7 @@ struct Difference {
   QosRow b;
 };
 
-std::vector<Difference> Differences(const Shown& a, const Shown& b) {
+std::vector<Difference> Differences(const EffectiveSet& a, const EffectiveSet& b) {
   std::vector<Difference> found;
   // Both were resolved by one list of endpoints and one table of policies.
   for (std::size_t i = 0; i < a.endpoints.size() && i < b.endpoints.size(); ++i) {
@@ -124,7 +84,8 @@ std::vector<Difference> Differences(const Shown& a, const Shown& b) {
   return found;
 }
 
-std::string ToText(const std::vector<Difference>& differences, const Shown& a, const Shown& b) {
+std::string ToText(const std::vector<Difference>& differences, const EffectiveSet& a,
+                   const EffectiveSet& b) {
   std::string text;
   for (const Difference& one : differences) {
     text += fmt::format("{} {}\n  {:<24} {}\n  {:<24} {}\n", one.profile, one.a.policy, one.a.value,
@@ -133,7 +94,8 @@ std::string ToText(const std::vector<Difference>& differences, const Shown& a, c
   return text + fmt::format("{} values differ\n", differences.size());
 }
 
-std::string ToJson(const std::vector<Difference>& differences, const Shown& a, const Shown& b) {
+std::string ToJson(const std::vector<Difference>& differences, const EffectiveSet& a,
+                   const EffectiveSet& b) {
   std::string json = fmt::format(R"({{"a":{},"b":{},"differences":[)", app::JsonString(a.file),
                                  app::JsonString(b.file));
   for (const Difference& one : differences) {
@@ -146,12 +108,12 @@ std::string ToJson(const std::vector<Difference>& differences, const Shown& a, c
 
 int Show(const QosShowOptions& options) {
   if (options.diff.empty()) {
-    const Shown shown = Resolve(options.qos_file, options);
+    const EffectiveSet shown = Resolve(options.qos_file, options);
     std::fputs((options.json ? ToJson(shown) : ToText(shown)).c_str(), stdout);
     return std::fflush(stdout) == 0 ? 0 : kCouldNotRun;
   }
-  const Shown a = Resolve(options.diff.at(0), options);
-  const Shown b = Resolve(options.diff.at(1), options);
+  const EffectiveSet a = Resolve(options.diff.at(0), options);
+  const EffectiveSet b = Resolve(options.diff.at(1), options);
   const std::vector<Difference> found = Differences(a, b);
   std::fputs((options.json ? ToJson(found, a, b) : ToText(found, a, b)).c_str(), stdout);
   return std::fflush(stdout) != 0 ? kCouldNotRun : found.empty() ? 0 : 1;

@@ -1,6 +1,8 @@
+#include <limits>
 #include <memory>
 
 #include "services/fleetctl/qos_check.h"
+#include "services/fleetctl/qos_live.h"
 #include "services/fleetctl/qos_show.h"
 #include "services/fleetctl/verbs.h"
 
@@ -27,15 +29,17 @@ Exit code: 0 nothing found, 1 warnings, 2 errors, or it could not run.
 constexpr const char* kShowFooter = R"(
 The library itself resolves the profiles, as it would for a service; no socket is opened. Each value
 comes with its origin: FILE:LINE, library default, code (follows from fleet size, area or id),
-environment or flag.
+environment or flag. --live asks a running vehicle for the deadlines and the lease of its beacons,
+which it tells in its status, and says where they differ from the file.
 
 Examples
   fleetctl qos show fleet/beacon
   fleetctl qos show --qos lossy_radio --vehicles 64 giveway_participant
   fleetctl qos show --diff default lossy_radio
+  fleetctl qos show --live 2 --domain 7                # does vehicle 2 run with the default?
   fleetctl qos show --json | jq '.endpoints[] | select(.topic == "fleet/beacon")'
 
-Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run.
+Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run, or nobody answered.
 )";
 
 void AddCheck(CLI::App* qos, int* exit_code) {
@@ -54,6 +58,7 @@ void AddCheck(CLI::App* qos, int* exit_code) {
 
 void AddShow(CLI::App* qos, int* exit_code) {
   const auto options = std::make_shared<QosShowOptions>();
+  const auto live = std::make_shared<QosLiveOptions>();
   CLI::App* verb =
       qos->add_subcommand("show", "The QoS every endpoint runs with, and where each value is from");
   verb->footer(kShowFooter);
@@ -70,8 +75,22 @@ void AddShow(CLI::App* qos, int* exit_code) {
   verb->add_option("--vehicles", options->vehicles, "Fleet size: some values follow from it")
       ->capture_default_str()
       ->check(CLI::Range(std::uint32_t{1}, static_cast<std::uint32_t>(kMostVehicles)));
+  auto* vehicle = verb->add_option("--live", live->vehicle,
+                                   "What this vehicle runs with, held against the file")
+                      ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
+  verb->add_option("--domain", live->domain, "DDS domain of the fleet that --live looks into")
+      ->check(CLI::Range(1U, 99U))
+      ->envname("GIVEWAY_DOMAIN");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
-  verb->callback([options, exit_code] { *exit_code = RunQosShow(*options); });
+  verb->callback([options, live, vehicle, exit_code] {
+    if (vehicle->count() == 0) {
+      *exit_code = RunQosShow(*options);
+      return;
+    }
+    if (live->domain == 0) throw CLI::ValidationError("--live", "needs --domain");
+    live->set = *options;
+    *exit_code = RunQosLive(*live);
+  });
 }
 
 }  // namespace
