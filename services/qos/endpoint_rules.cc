@@ -1,6 +1,5 @@
 // One writer or reader, whatever its topic: limits that contradict each other, and what Fast DDS
 // 2.9.1 does with some values.
-
 #include "services/qos/rules.h"
 
 namespace giveway::qos {

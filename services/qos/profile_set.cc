@@ -8,6 +8,8 @@
 namespace giveway::qos {
 namespace {
 
+constexpr std::int64_t kLargestCount = 0x7fff'ffff;
+
 std::optional<Owner> OwnerOf(std::string_view element) {
   if (element == "participant") return Owner::kParticipant;
   if (element == "data_writer" || element == "publisher") return Owner::kWriter;
@@ -28,7 +30,10 @@ std::optional<std::int64_t> Parse(const XmlElement& element, const PolicyInfo& i
     case Shape::kCount:
       break;
   }
-  return ParseNumber(element.text);
+  // What is larger the library cannot hold, and a product of two must fit our arithmetic.
+  const auto number = ParseNumber(element.text);
+  if (!number || *number < -kLargestCount || *number > kLargestCount) return std::nullopt;
+  return number;
 }
 
 class Reader {

@@ -49,7 +49,7 @@ void TransportRules::CheckUse(const Participation& participation) {
         "memory unasked.",
         "false, and name the transports in <userTransports>");
   }
-  bool udp = false;
+  std::size_t udp = 0;
   for (const auto& [id, place] : participation.transports) {
     const Transport* transport = set_.FindTransport(id);
     if (transport == nullptr) {
@@ -58,16 +58,19 @@ void TransportRules::CheckUse(const Participation& participation) {
           "The library refuses the whole file, and no process starts.",
           "correct the id, or add the descriptor");
     } else if (transport->type == "UDPv4") {
-      udp = true;
+      ++udp;
     } else if (transport->type != "SHM") {
       Add(Severity::kError, "transport_unsupported", transport->place, id,
           "type " + transport->type, "The services take UDPv4 and SHM, and do not start.", "UDPv4");
     }
   }
-  if (!udp && profile.Number(Policy::kBuiltinTransports) == 0) {
-    Add(Severity::kError, "no_udp_transport", profile.place, profile.name,
-        std::to_string(participation.transports.size()) + " user transports, none of them UDPv4",
-        "The services do not start: processes of other hosts or containers could not be found.",
+  if (udp != 1 && profile.Number(Policy::kBuiltinTransports) == 0) {
+    Add(Severity::kError, "not_one_udp_transport", profile.place, profile.name,
+        std::to_string(participation.transports.size()) + " user transports, of them " +
+            std::to_string(udp) + " UDPv4",
+        "The services do not start: one UDPv4 transport finds the others, and shared memory may "
+        "stand "
+        "beside it.",
         "name one transport of type UDPv4");
   }
 }

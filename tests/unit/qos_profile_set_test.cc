@@ -38,9 +38,11 @@ TEST(ProfileSet, RemembersTheLineOfEachValue) {
 TEST(ProfileSet, LeavesOutWhatMeansNothing) {
   const ProfileSet set = Read(
       "<data_writer profile_name='w'><qos><reliability><kind>SOMEHOW</kind></reliability></qos>"
-      "<topic><historyQos><depth>many</depth></historyQos></topic></data_writer>");
+      "<topic><historyQos><depth>many</depth></historyQos><resourceLimitsQos><max_instances>"
+      "9223372036854775807</max_instances></resourceLimitsQos></topic></data_writer>");
   EXPECT_EQ(set.profiles.front().Number(Policy::kReliability), kReliable);
   EXPECT_EQ(set.profiles.front().Number(Policy::kDepth), 1);
+  EXPECT_EQ(set.profiles.front().Number(Policy::kMaxInstances), 10);
 }
 
 XmlElement Duration(const std::string& inside) {
