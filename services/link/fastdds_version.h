@@ -50,6 +50,9 @@ inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) 
 inline Duration HeartbeatPeriod(const dds::DataWriterQos& qos) {
   return qos.reliable_writer_qos().times.heartbeatPeriod;
 }
+inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
+  return qos.reliable_reader_qos().disable_positive_ACKs.enabled;
+}
 using Discovery = rtps::DiscoveryProtocol_t;
 
 }  // namespace giveway::link
@@ -79,6 +82,9 @@ inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) 
 }
 inline Duration HeartbeatPeriod(const dds::DataWriterQos& qos) {
   return qos.reliable_writer_qos().times.heartbeat_period;
+}
+inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
+  return qos.reliable_reader_qos().disable_positive_acks.enabled;
 }
 using Discovery = rtps::DiscoveryProtocol;
 

@@ -70,8 +70,7 @@ std::vector<ResolvedValue> ValuesOf(const dds::DataWriterQos& qos,
 std::vector<ResolvedValue> ValuesOf(const dds::DataReaderQos& qos,
                                     const dds::SubscriberQos& around) {
   std::vector<ResolvedValue> values = EndpointValues(qos, around);
-  values.push_back(
-      {"disable_positive_acks", qos.reliable_reader_qos().disable_positive_ACKs.enabled ? 1 : 0});
+  values.push_back({"disable_positive_acks", WithoutPositiveAcks(qos) ? 1 : 0});
   return values;
 }
 
