@@ -118,6 +118,16 @@ int RunQosCheck(const QosCheckOptions& options) {
     return Check(options);
   } catch (const std::exception& error) {  // InputError, out of memory
     std::fprintf(stderr, "%s\n", error.what());
+    if (options.json) {
+      Print({{qos::Severity::kError,
+              "could_not_run",
+              {},
+              "",
+              error.what(),
+              "Nothing was checked.",
+              "correct what is named"}},
+            0, true);
+    }
     return kCouldNotRun;
   }
 }

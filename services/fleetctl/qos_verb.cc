@@ -12,8 +12,9 @@ namespace {
 constexpr std::int64_t kMostVehicles = 4096;
 
 constexpr const char* kCheckFooter = R"(
-A FILE is a path, or the name of a shipped set: default, lossy_radio, same_host. Of several files
-each is the set of some processes: the writers of one are held against the readers of all.
+A FILE is a path, or the name of a shipped set: default, lossy_radio, same_host,
+wan_discovery_server. Of several files each is the set of some processes: the writers of one are
+held against the readers of all.
 Each finding says where, which values, what comes of it and what to do. Nothing is started and no
 network is touched. Findings on the environment and the working folder are about this shell.
 

@@ -86,7 +86,7 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
       ->envname("GIVEWAY_INTERFACE");
   verb->add_option(
           "--qos", options->qos_file,
-          "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host); without "
+          "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host, ...); without "
           "it the default")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");

@@ -71,6 +71,9 @@ rm DEFAULT_FASTRTPS_PROFILES.xml
 SKIP_DEFAULT_XML=1 qos 1 "a misnamed variable" check
 GIVEWAY_QSO=x qos 1 "a misspelt variable" check
 
+qos 2 "an unknown scenario" check --scenario no_such --json
+says "an unknown scenario" '.findings[0].rule == "could_not_run"'
+
 qos 0 "show" show --json
 says "show" '(.endpoints | length) == 27
   and any(.endpoints[]; .profile == "fleet_beacon_writer" and any(.values[];
