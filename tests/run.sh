@@ -21,7 +21,7 @@ Stages, by default all of them:
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
   asan     unit and link under the address and undefined-behaviour sanitizers
-  fuzz     spoilt scenarios, beacons, scans and recordings in the asan build, a third of a minute each
+  fuzz     spoilt scenarios, profiles, beacons, scans and recordings in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
 
   --full   more repetitions of the system tests, the largest models, five minutes a fuzz target,

@@ -13,7 +13,8 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
   if (argc < 2 || argv[1][0] == '-' || !fleetctl.get_subcommands().empty()) {
     return error;
   }
-  return "there is no verb '" + std::string(argv[1]) + "'; verbs: replay, run, shrink, virtual";
+  return "there is no verb '" + std::string(argv[1]) +
+         "'; verbs: qos, replay, run, shrink, virtual";
 }
 
 }  // namespace
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   fleetctl.set_version_flag("--version", "fleetctl " GIVEWAY_VERSION);
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = kWrongArguments;
+  giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddShrinkVerb(&fleetctl, &exit_code);

@@ -10,13 +10,13 @@
 #include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/live_screen.h"
 #include "services/fleetctl/output_file.h"
+#include "services/fleetctl/qos_files.h"
 #include "services/fleetctl/run_session.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr int kCouldNotRun = 2;
-constexpr std::string_view kShippedQos = "qos/default.xml";
 
 std::filesystem::path ProgramFolder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
@@ -58,10 +58,7 @@ int StartAndWatch(const RunOptions& options) {
 
   const DomainLock lock(options.domain);
   FleetCommand command{ProgramFolder(), app::ResolveScenario(options.scenario), lock.Domain(),
-                       options.qos_file, lock.Fd()};
-  if (command.qos_file.empty()) {
-    command.qos_file = (std::filesystem::path(app::ConfigDir()) / kShippedQos).string();
-  }
+                       ResolveQosFile(options.qos_file), lock.Fd()};
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
   RunSession session(options, scenario, command);
   const app::Report report = session.Run();

@@ -84,7 +84,10 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
       ->check(CheckNotEmpty)
       ->capture_default_str()
       ->envname("GIVEWAY_INTERFACE");
-  verb->add_option("--qos", options->qos_file, "Fast DDS XML profiles; without it the shipped ones")
+  verb->add_option(
+          "--qos", options->qos_file,
+          "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host, ...); without "
+          "it the default")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
 }

@@ -6,6 +6,7 @@
 
 namespace giveway::fleetctl {
 
+void AddQosVerb(CLI::App* fleetctl, int* exit_code);
 void AddReplayVerb(CLI::App* fleetctl, int* exit_code);
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);
 void AddShrinkVerb(CLI::App* fleetctl, int* exit_code);

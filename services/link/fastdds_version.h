@@ -28,6 +28,7 @@
 #include <fastdds/rtps/common/Guid.h>
 #include <fastdds/rtps/common/InstanceHandle.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
 #include <idl/fleetPubSubTypes.h>
 
@@ -46,6 +47,13 @@ inline bool Ok(bool written) { return written; }
 inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) {
   qos.reliable_writer_qos().times.heartbeatPeriod = period;
 }
+inline Duration HeartbeatPeriod(const dds::DataWriterQos& qos) {
+  return qos.reliable_writer_qos().times.heartbeatPeriod;
+}
+inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
+  return qos.reliable_reader_qos().disable_positive_ACKs.enabled;
+}
+using Discovery = rtps::DiscoveryProtocol_t;
 
 }  // namespace giveway::link
 
@@ -56,6 +64,7 @@ inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) 
 #include <fastdds/rtps/common/Guid.hpp>
 #include <fastdds/rtps/common/InstanceHandle.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
 #include <idl/fleetPubSubTypes.hpp>
 
 namespace giveway::link {
@@ -71,6 +80,13 @@ inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
 inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) {
   qos.reliable_writer_qos().times.heartbeat_period = period;
 }
+inline Duration HeartbeatPeriod(const dds::DataWriterQos& qos) {
+  return qos.reliable_writer_qos().times.heartbeat_period;
+}
+inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
+  return qos.reliable_reader_qos().disable_positive_acks.enabled;
+}
+using Discovery = rtps::DiscoveryProtocol;
 
 }  // namespace giveway::link
 

@@ -25,20 +25,27 @@ void CheckOptions(const LinkOptions& options) {
   }
 }
 
-// UDP only: the profile says how, the options say on which interfaces.
+// UDP, and beside it shared memory if the profile names it: the profile says how, the options say
+// on which interfaces.
 void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options) {
-  auto& list = qos.transport().user_transports;
-  const auto* udp = list.size() == 1
-                        ? dynamic_cast<transport::UDPv4TransportDescriptor*>(list.front().get())
-                        : nullptr;
-  if (udp == nullptr || qos.transport().use_builtin_transports) {
-    throw LinkError("QoS file " + options.qos_file + ": profile \"" + kParticipantProfile +
-                    "\" must switch useBuiltinTransports off and name one UDPv4 transport");
+  std::size_t udp_transports = 0;
+  std::size_t others = 0;
+  for (auto& named : qos.transport().user_transports) {
+    if (const auto* udp = dynamic_cast<transport::UDPv4TransportDescriptor*>(named.get())) {
+      // A copy, because the profile's descriptor is shared by the whole process.
+      auto own = std::make_shared<transport::UDPv4TransportDescriptor>(*udp);
+      own->interfaceWhiteList = ResolveInterface(options.interface);
+      named = own;
+      ++udp_transports;
+    } else if (dynamic_cast<transport::SharedMemTransportDescriptor*>(named.get()) == nullptr) {
+      ++others;
+    }
   }
-  // A copy, because the profile's descriptor is shared by the whole process.
-  auto own = std::make_shared<transport::UDPv4TransportDescriptor>(*udp);
-  own->interfaceWhiteList = ResolveInterface(options.interface);
-  list.front() = own;
+  if (udp_transports != 1 || others != 0 || qos.transport().use_builtin_transports) {
+    throw LinkError("QoS file " + options.qos_file + ": profile \"" + kParticipantProfile +
+                    "\" must switch useBuiltinTransports off and name one UDPv4 transport, and "
+                    "beside it at most shared memory (SHM)");
+  }
 }
 
 dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name) {
@@ -72,6 +79,27 @@ void SetDepth(Qos& qos, std::int32_t depth) {
 const Duration kHeartbeatPeriod(0, 100'000'000);
 
 }  // namespace
+
+dds::DomainParticipantQos ParticipantQos(const LinkOptions& options, const std::string& name) {
+  return MakeQos(options, name);
+}
+
+dds::DataWriterQos WriterQos(dds::Publisher& publisher, const std::string& profile,
+                             std::int32_t depth) {
+  dds::DataWriterQos qos;
+  if (!Ok(publisher.get_datawriter_qos_from_profile(profile, qos))) ThrowMissingProfile(profile);
+  SetDepth(qos, depth);
+  SetHeartbeatPeriod(qos, kHeartbeatPeriod);
+  return qos;
+}
+
+dds::DataReaderQos ReaderQos(dds::Subscriber& subscriber, const std::string& profile,
+                             std::int32_t depth) {
+  dds::DataReaderQos qos;
+  if (!Ok(subscriber.get_datareader_qos_from_profile(profile, qos))) ThrowMissingProfile(profile);
+  SetDepth(qos, depth);
+  return qos;
+}
 
 std::string VehiclePartition(VehicleId vehicle) { return "v" + std::to_string(Number(vehicle)); }
 
@@ -111,11 +139,8 @@ dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& p
   publisher_qos.partition().push_back(partition.c_str());
   auto* publisher = participant_->create_publisher(publisher_qos, nullptr, dds::StatusMask::none());
   if (publisher == nullptr) ThrowNotMade("publisher for partition " + partition);
-  dds::DataWriterQos qos;
-  if (!Ok(publisher->get_datawriter_qos_from_profile(profile, qos))) ThrowMissingProfile(profile);
-  SetDepth(qos, depth);
-  SetHeartbeatPeriod(qos, kHeartbeatPeriod);
-  auto* writer = publisher->create_datawriter(&topic, qos, nullptr, dds::StatusMask::none());
+  auto* writer = publisher->create_datawriter(&topic, WriterQos(*publisher, profile, depth),
+                                              nullptr, dds::StatusMask::none());
   if (writer == nullptr) ThrowNotMade("writer of profile \"" + profile + "\"");
   return *writer;
 }
@@ -136,10 +161,8 @@ dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& p
   auto* subscriber =
       participant_->create_subscriber(subscriber_qos, nullptr, dds::StatusMask::none());
   if (subscriber == nullptr) ThrowNotMade("subscriber for partition " + partition);
-  dds::DataReaderQos qos;
-  if (!Ok(subscriber->get_datareader_qos_from_profile(profile, qos))) ThrowMissingProfile(profile);
-  SetDepth(qos, depth);
-  auto* reader = subscriber->create_datareader(&topic, qos, listener, mask);
+  auto* reader =
+      subscriber->create_datareader(&topic, ReaderQos(*subscriber, profile, depth), listener, mask);
   if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
   return *reader;
 }

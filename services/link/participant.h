@@ -60,6 +60,14 @@ class Participant {
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
 };
 
+// What an entity is made with: its profile as the library read it, and what code adds. Throw
+// LinkError where the loaded set has no such profile.
+dds::DomainParticipantQos ParticipantQos(const LinkOptions& options, const std::string& name);
+dds::DataWriterQos WriterQos(dds::Publisher& publisher, const std::string& profile,
+                             std::int32_t depth);
+dds::DataReaderQos ReaderQos(dds::Subscriber& subscriber, const std::string& profile,
+                             std::int32_t depth);
+
 // The partition that names a vehicle's own endpoints: "v7".
 std::string VehiclePartition(VehicleId vehicle);
 

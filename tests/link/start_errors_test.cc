@@ -100,7 +100,7 @@ TEST_F(StartErrors, NameAProfileThatIsMissing) {
               "start error: .*has no profile \"giveway_participant\"");
 }
 
-TEST_F(StartErrors, RefuseSharedMemoryTransport) {
+TEST_F(StartErrors, RefuseTheBuiltinTransports) {
   options_.qos_file =
       Write(DefaultWith("<useBuiltinTransports>false", "<useBuiltinTransports>true"));
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*useBuiltinTransports");

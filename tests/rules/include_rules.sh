@@ -7,7 +7,7 @@ root=${1:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)}
 cd "$root"
 
 LONGEST_FILE=350
-PURE_ROOMS='types vehicle sim_world virtual'
+PURE_ROOMS='types vehicle sim_world virtual qos'
 # Standard headers the pure rooms do without: threads, clocks of the wall, files, and the streams
 # nobody there has anything to say to.
 IMPURE='^(thread|mutex|shared_mutex|atomic|condition_variable|future|semaphore|latch|barrier)$'
@@ -27,6 +27,7 @@ room_of() {
     services/types/*) echo types ;;
     services/vehicle/*) echo vehicle ;;
     services/link/*) echo link ;;
+    services/qos/*) echo qos ;;
     services/app/*) echo app ;;
     services/fleetctl/*) echo fleetctl ;;
     services/*/*) echo nowhere ;;
@@ -47,8 +48,9 @@ may_include() {
     sim_world) [[ $2 == services/types/* || ($2 == sim_world/* && $2 != sim_world/virtual/*) ]] ;;
     virtual) [[ $2 == services/@(types|vehicle)/* || $2 == sim_world/* ]] ;;
     link) [[ $2 == services/@(link|types)/* || $2 == fleet*.h || $2 == idl/* ]] ;;
+    qos) [[ $2 == services/@(qos|types)/* ]] ;;
     app) [[ $2 == services/@(app|types)/* || $2 == *.pb.h ]] ;;
-    fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|types)/* || $2 == sim_world/virtual/* ]] ;;
+    fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|qos|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
       [[ $2 == services/@(vehicle|link|app|types)/* ||
         $2 == services/@(vehicle_report|service_main).h ]]
@@ -80,6 +82,8 @@ check_system_include() {
       return
       ;;
   esac
+  # How XML is read is one file's concern.
+  [[ $file == services/qos/xml_tree.cc && $header == tinyxml2.h ]] && return
   # Vector registers are the language's concern, not another room's; one file may name them.
   [[ $file == sim_world/sonar_kernel.cc && $header == immintrin.h ]] && return
   [[ " $PURE_ROOMS " == *" $room "* ]] || return 0

@@ -1,0 +1,54 @@
+#include "services/fleetctl/qos_files.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "services/app/scenario_file.h"
+#include "services/qos/xml_tree.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+namespace fs = std::filesystem;
+
+qos::Finding Unreadable(const std::string& path, std::string why) {
+  return {qos::Severity::kError,
+          "unreadable_file",
+          {path, 0},
+          "",
+          std::move(why),
+          "A service that is given this file does not start.",
+          "check the path and its permissions"};
+}
+
+}  // namespace
+
+std::string ResolveQosFile(const std::string& argument) {
+  std::error_code error;
+  if (!argument.empty() && fs::exists(argument, error)) return argument;
+  if (argument.find('/') != std::string::npos || argument.ends_with(".xml")) return argument;
+  const fs::path shipped =
+      fs::path(app::ConfigDir()) / "qos" / ((argument.empty() ? "default" : argument) + ".xml");
+  return fs::exists(shipped, error) ? shipped.string() : argument;
+}
+
+std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) return Unreadable(path, "does not exist");
+  if (!fs::is_regular_file(status)) return Unreadable(path, "is no regular file");
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) return Unreadable(path, std::strerror(errno));
+  // One byte more than is allowed shows that it is too large.
+  const std::uintmax_t most = qos::kMaxFileBytes + 1;
+  qos::ProfileFile file{path, std::string(std::min(fs::file_size(path, error), most), '\0')};
+  stream.read(file.bytes.data(), static_cast<std::streamsize>(file.bytes.size()));
+  file.bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  if (stream.bad()) return Unreadable(path, "cannot be read to its end");
+  return file;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,16 @@
+// QoS objects of the library as named numbers; see resolved_qos.h.
+#pragma once
+
+#include <vector>
+
+#include "services/link/fastdds_version.h"
+#include "services/link/resolved_qos.h"
+
+namespace giveway::link {
+
+std::vector<ResolvedValue> ValuesOf(const dds::DomainParticipantQos& qos);
+std::vector<ResolvedValue> ValuesOf(const dds::DataWriterQos& qos, const dds::PublisherQos& around);
+std::vector<ResolvedValue> ValuesOf(const dds::DataReaderQos& qos,
+                                    const dds::SubscriberQos& around);
+
+}  // namespace giveway::link

@@ -1,0 +1,77 @@
+#include "services/qos/check.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "services/qos/rules.h"
+#include "services/qos/schema_check.h"
+#include "services/qos/xml_tree.h"
+
+namespace giveway::qos {
+namespace {
+
+void CheckSet(const ProfileSet& set, const Deployment& deployment, Findings* findings) {
+  CheckNames(set, deployment, findings);
+  for (const Profile& profile : set.profiles) {
+    if (profile.owner == Owner::kParticipant) continue;
+    CheckEndpoint(profile, findings);
+    if (const Topic* topic = TopicOfProfile(profile.name)) {
+      CheckFleet(profile, *topic, deployment, findings);
+    }
+  }
+  CheckParticipants(set, deployment, findings);
+  CheckTransports(set, deployment, findings);
+}
+
+void SortAndCut(std::size_t from, Findings* findings) {
+  std::stable_sort(findings->begin() + static_cast<std::ptrdiff_t>(from), findings->end(),
+                   [](const Finding& a, const Finding& b) { return a.place.line < b.place.line; });
+  if (findings->size() <= kMostFindings) return;
+  const std::size_t more = findings->size() - kMostFindings;
+  // An error among what is cut keeps its weight.
+  const bool error = ExitCode(*findings) == 2;
+  findings->resize(kMostFindings);
+  findings->push_back({error ? Severity::kError : Severity::kWarning,
+                       "more_findings",
+                       {findings->front().place.file, 0},
+                       "",
+                       std::to_string(more) + " more",
+                       "They are not shown.",
+                       "correct these first"});
+}
+
+}  // namespace
+
+Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployment) {
+  Findings findings;
+  CheckSurroundings(deployment, &findings);
+  std::vector<ProfileSet> sets;
+  for (const ProfileFile& file : files) {
+    const std::size_t before = findings.size();
+    XmlRead read = ReadXml(file.bytes, file.name);
+    std::ranges::move(read.findings, std::back_inserter(findings));
+    if (read.root) {
+      CheckSchema(*read.root, file.name, &findings);
+      sets.push_back(ReadProfiles(*read.root, file.name));
+      CheckSet(sets.back(), deployment, &findings);
+      CheckPairs(sets.back(), sets.back(), &findings);
+    }
+    SortAndCut(before, &findings);
+  }
+  for (const ProfileSet& writers : sets) {
+    for (const ProfileSet& readers : sets) {
+      if (&writers != &readers) CheckPairs(writers, readers, &findings);
+    }
+  }
+  SortAndCut(findings.size(), &findings);
+  return findings;
+}
+
+int ExitCode(const Findings& findings) {
+  if (findings.empty()) return 0;
+  const bool error = std::ranges::any_of(
+      findings, [](const Finding& finding) { return finding.severity == Severity::kError; });
+  return error ? 2 : 1;
+}
+
+}  // namespace giveway::qos

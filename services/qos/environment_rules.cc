@@ -1,0 +1,111 @@
+// Variables and files that Fast DDS 2.9.1 reads by itself, and such that only look as if it did.
+#include <algorithm>
+#include <array>
+
+#include "services/qos/rules.h"
+
+namespace giveway::qos {
+namespace {
+
+struct Variable {
+  std::string_view name;
+  std::string_view rule;
+  std::string_view consequence;
+  std::string_view remedy;
+};
+
+constexpr std::array kVariables = {
+    Variable{"SKIP_DEFAULT_XML", "misnamed_variable",
+             "Fast DDS 2.9.1 does not read it, though its manual names it.",
+             "SKIP_DEFAULT_XML_FILE; the services set it themselves"},
+    Variable{"FASTDDS_DEFAULT_PROFILES_FILE", "misnamed_variable",
+             "Only Fast DDS 3 reads it, and the services shut it out.",
+             "--qos FILE or GIVEWAY_QOS"},
+    Variable{"FASTDDS_BUILTIN_TRANSPORTS", "misnamed_variable",
+             "Fast DDS 2.9.1 does not read it, and the services shut it out.",
+             "transports of the profile set"},
+    Variable{"ROS_SUPER_CLIENT", "misnamed_variable", "Fast DDS 2.9.1 does not read it.",
+             "discoveryProtocol of the profile set"},
+    Variable{"ROS2_EASY_MODE", "misnamed_variable", "Fast DDS 2.9.1 does not read it.",
+             "discoveryProtocol of the profile set"},
+    Variable{"FASTRTPS_DEFAULT_PROFILES_FILE", "ignored_variable",
+             "The services shut it out; other Fast DDS programs of this shell take other QoS.",
+             "--qos FILE or GIVEWAY_QOS"},
+    Variable{"ROS_DISCOVERY_SERVER", "ignored_variable",
+             "The services shut it out; other Fast DDS programs of this shell find others.",
+             "discoveryServersList of the profile set"},
+    Variable{"FASTDDS_ENVIRONMENT_FILE", "ignored_variable", "The services shut it out.",
+             "the profile set"},
+    Variable{"FASTDDS_STATISTICS", "statistics_on",
+             "Every participant gets further writers and a thread, and discovery costs more.",
+             "unset it outside of experiments"},
+};
+
+constexpr std::array<std::string_view, 16> kOurs = {
+    "GIVEWAY_DOMAIN",   "GIVEWAY_INTERFACE", "GIVEWAY_QOS",        "GIVEWAY_SCENARIO",
+    "GIVEWAY_ID",       "GIVEWAY_SEED",      "GIVEWAY_BEHAVIOUR",  "GIVEWAY_DURATION",
+    "GIVEWAY_THREADS",  "GIVEWAY_VEHICLES",  "GIVEWAY_CHECKPOINT", "GIVEWAY_RECORD",
+    "GIVEWAY_LOCKSTEP", "GIVEWAY_LOG_LEVEL", "GIVEWAY_LOG_FORMAT", "GIVEWAY_CONFIG_DIR"};
+
+// Letters to change, add or leave out to make one of the other.
+std::size_t Distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, changed});
+    }
+  }
+  return row[b.size()];
+}
+
+void Add(std::string_view rule, std::string_view what, std::string values,
+         std::string_view consequence, std::string_view remedy, Findings* findings) {
+  findings->push_back({Severity::kWarning,
+                       std::string(rule),
+                       {},
+                       std::string(what),
+                       std::move(values),
+                       std::string(consequence),
+                       std::string(remedy)});
+}
+
+void CheckVariable(std::string_view name, Findings* findings) {
+  for (const Variable& known : kVariables) {
+    if (known.name == name) {
+      Add(known.rule, name, "is set in the environment", known.consequence, known.remedy, findings);
+    }
+  }
+  if (!name.starts_with("GIVEWAY_") || std::ranges::find(kOurs, name) != kOurs.end()) return;
+  const auto near =
+      std::ranges::find_if(kOurs, [&](std::string_view ours) { return Distance(name, ours) <= 2; });
+  if (near == kOurs.end()) return;
+  Add("misnamed_variable", name, "is set in the environment; " + std::string(*near) + " is meant?",
+      "No service reads it.", "correct the name", findings);
+}
+
+}  // namespace
+
+void CheckSurroundings(const Deployment& deployment, Findings* findings) {
+  for (const std::string& variable : deployment.environment) {
+    CheckVariable(std::string_view(variable).substr(0, variable.find('=')), findings);
+  }
+  for (const std::string& file : deployment.folder_files) {
+    if (file != "DEFAULT_FASTRTPS_PROFILES.xml" && file != "DEFAULT_FASTDDS_PROFILES.xml") continue;
+    findings->push_back(
+        {Severity::kWarning,
+         "default_profiles_file",
+         {file, 0},
+         "",
+         "lies in the working folder",
+         "Every Fast DDS program started here loads it without a word; the services shut it out, "
+         "other tools then differ from them.",
+         "rename it, and name it with --qos"});
+  }
+}
+
+}  // namespace giveway::qos

@@ -1,0 +1,77 @@
+// A profile file as values: what every profile means, with the default of the library filled in
+// where the file is silent, and where each value comes from.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "services/qos/finding.h"
+#include "services/qos/policy.h"
+#include "services/qos/xml_tree.h"
+
+namespace giveway::qos {
+
+struct Value {
+  std::int64_t number = 0;
+  Place place;         // line 0: the file does not say
+  bool given = false;  // by the file; else the library's default
+};
+
+struct Profile {
+  Owner owner = Owner::kParticipant;
+  std::string name;
+  Place place;
+  std::array<Value, kPolicyCount> values;  // by Index(policy)
+  std::vector<std::string> partitions;     // as the profile says; code sets the real ones
+  Place partition_place;
+
+  const Value& operator[](Policy policy) const { return values[Index(policy)]; }
+  std::int64_t Number(Policy policy) const { return values[Index(policy)].number; }
+};
+
+// A profile in which the file is silent about everything.
+Profile DefaultProfile(Owner owner, const std::string& name);
+
+struct Transport {
+  std::string id;
+  std::string type;  // "UDPv4", "SHM", ...
+  Place place;
+  std::map<std::string, Value> numbers;  // by element name, where the file says
+};
+
+// What of a participant is no single number.
+struct Participation {
+  std::string profile;
+  std::vector<std::pair<std::string, Place>> transports;  // ids it names
+  std::string ignore_flags;
+  Place ignore_place;
+  std::size_t servers = 0;
+  std::string prefix;
+  bool static_discovery = false;
+  Place static_place;
+  std::size_t peers_without_port = 0;
+  Place peers_place;
+  std::map<std::string, Place> limits;  // elements that slow it down, or that code overrides
+};
+
+struct ProfileSet {
+  std::string file;
+  std::vector<Profile> profiles;  // in the order of the file
+  std::vector<Transport> transports;
+  std::vector<Participation> participations;  // one a participant profile
+  std::string intraprocess = "FULL";          // the library's default
+  Place intraprocess_place;
+
+  // Null if there is none.
+  const Profile* Find(Owner owner, std::string_view name) const;
+  const Transport* FindTransport(std::string_view id) const;
+};
+
+// Takes what can be understood; what cannot is left out, and is a finding of CheckSchema.
+ProfileSet ReadProfiles(const XmlElement& root, const std::string& file);
+
+}  // namespace giveway::qos

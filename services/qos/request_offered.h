@@ -1,0 +1,30 @@
+// Whether a writer and a reader match: the request-offered rules, one function each. What the
+// writer offers must be at least what the reader requests.
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "services/qos/profile_set.h"
+
+namespace giveway::qos {
+
+struct MatchRule {
+  std::string_view name;  // of the finding where it is broken
+  Policy policy;          // the values of this one are compared
+  std::string_view rule;  // in words
+  bool (*holds)(const Profile& writer, const Profile& reader);
+  // Fast DDS 2.9 looks at it when endpoints meet. Others do of those it does not.
+  bool enforced = true;
+};
+
+std::span<const MatchRule> MatchRules();
+
+// The rules between the two that do not hold, whether the library looks at them or not.
+std::vector<const MatchRule*> Broken(const Profile& writer, const Profile& reader);
+
+// What Fast DDS 2.9 will do. Partitions apart: a profile of an endpoint does not set them.
+bool WillMatch(const Profile& writer, const Profile& reader);
+
+}  // namespace giveway::qos

@@ -1,0 +1,37 @@
+// Which elements a Fast DDS 2.9 profile file may hold, as tables: name, content, what is inside.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace giveway::qos {
+
+enum class Content : std::uint8_t {
+  kElements,
+  kWord,      // one of ElementRule::words
+  kDuration,  // <sec> and <nanosec>, or a name for infinite
+  kUnsigned,
+  kInteger,
+  kFlag,  // true or false
+  kText,
+  kNoEffect,  // the library accepts whatever is inside, and does nothing
+  kOpaque,    // beyond QoS; not looked into
+};
+
+struct ElementRule {
+  std::string_view name;
+  Content content;
+  std::span<const ElementRule> children{};
+  std::string_view words{};
+  bool repeats = false;    // may stand more than once
+  bool must_hold = false;  // empty, it makes the library refuse the file
+};
+
+std::span<const ElementRule> EndpointElements(bool writer);
+std::span<const ElementRule> TopicElements();
+std::span<const ElementRule> ParticipantElements();
+// By the type it names; that of UDP for none that is known.
+std::span<const ElementRule> TransportElements(std::string_view type);
+
+}  // namespace giveway::qos

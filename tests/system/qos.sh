@@ -1,0 +1,124 @@
+#!/usr/bin/env bash
+# fleetctl qos as an operator meets it: exit codes, JSON, files that are none, and that the shipped
+# sets which need nothing beside them run a crossing.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+
+sets=$REPOSITORY/config/qos
+bad=$REPOSITORY/tests/unit/bad_qos
+# Variables of this shell would be findings of their own.
+unset GIVEWAY_QOS GIVEWAY_INTERFACE FASTRTPS_DEFAULT_PROFILES_FILE ROS_DISCOVERY_SERVER
+cd "$SCRATCH"
+
+# qos CODE NAME ARGUMENTS...: fleetctl qos ARGUMENTS ends with CODE, in time; output in $SCRATCH/out.
+qos() {
+  local wanted=$1 name=$2 code=0
+  shift 2
+  timeout 20 "$FLEETCTL" qos "$@" >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
+  [[ $code -eq $wanted ]] ||
+    fail "$name: exit code $code: $(head -c 400 "$SCRATCH/out" "$SCRATCH/err")"
+}
+
+# says NAME CONDITION: true of the JSON of the last command.
+says() {
+  jq -e "$2" "$SCRATCH/out" >/dev/null || fail "$1: not true of $(head -c 600 "$SCRATCH/out"): $2"
+}
+
+qos 0 "the shipped default" check
+for set in "$sets"/*.xml; do
+  qos 0 "$(basename "$set")" check "$set" --vehicles 50 --json
+  says "$(basename "$set")" '.errors == 0 and .warnings == 0 and .findings == []'
+done
+qos 0 "by name, of a scenario" check lossy_radio --scenario four_way
+qos 0 "two sets at once" check default same_host
+
+qos 1 "a warning" check --partial "$bad/lifespan.xml" --json
+says "a warning" '.errors == 0 and .warnings == 1 and .findings[0].rule == "finite_lifespan"
+  and .findings[0].line > 0 and (.findings[0].file | endswith("lifespan.xml"))'
+qos 2 "an error" check --partial "$bad/deadline_offered_longer.xml" --json
+says "an error" '.errors == 1 and (.findings[0] | .severity == "error"
+  and (.values | contains("200 ms") and contains("150 ms")) and .consequence != "" and .remedy != "")'
+
+# refused NAME RULE FILE: an error of that rule, and nothing else happens.
+refused() {
+  qos 2 "$1" check "$3" --json
+  says "$1" "any(.findings[]; .rule == \"$2\")"
+}
+refused "absent" unreadable_file no_such.xml
+refused "a folder" unreadable_file "$SCRATCH"
+mkfifo pipe.xml
+refused "a pipe" unreadable_file pipe.xml
+: >empty.xml
+refused "empty" empty_file empty.xml
+head -c 4096 /dev/zero >zeros.xml
+refused "binary" not_text zeros.xml
+{
+  cat "$sets/default.xml"
+  yes '<!-- more -->' 2>/dev/null | head -c 10000000 || true
+} >large.xml
+refused "10 MB" file_too_large large.xml
+head -c 3000 "$sets/default.xml" >cut.xml
+refused "cut off" malformed_xml cut.xml
+yes '<dds>' 2>/dev/null | head -n 100000 >deep.xml || true
+refused "deep" malformed_xml deep.xml
+printf '<dds>\n<a\033[31m b="c"/></dds>' >escape.xml
+qos 2 "escape codes" check escape.xml
+grep -q $'\033' "$SCRATCH/out" && fail "escape codes reach the terminal"
+
+cp "$bad/lifespan.xml" DEFAULT_FASTRTPS_PROFILES.xml
+qos 1 "a default file lies about" check
+grep -q default_profiles_file "$SCRATCH/out" || fail "the default file is not named"
+rm DEFAULT_FASTRTPS_PROFILES.xml
+SKIP_DEFAULT_XML=1 qos 1 "a misnamed variable" check
+GIVEWAY_QSO=x qos 1 "a misspelt variable" check
+
+qos 2 "an unknown scenario" check --scenario no_such --json
+says "an unknown scenario" '.findings[0].rule == "could_not_run"'
+
+qos 0 "show" show --json
+says "show" '(.endpoints | length) == 27
+  and any(.endpoints[]; .profile == "fleet_beacon_writer" and any(.values[];
+    .policy == "deadline" and .value == "100 ms" and .origin == "profile" and .line > 0))
+  and any(.endpoints[].values[]; .policy == "heartbeat_period" and .origin == "code")
+  and any(.endpoints[].values[]; .policy == "lifespan" and .origin == "default")'
+qos 0 "show of a large fleet" show giveway_participant --vehicles 64 --json
+says "show of a large fleet" 'any(.endpoints[0].values[];
+  .policy == "participant_lease" and .value == "20 s" and .origin == "code")'
+GIVEWAY_INTERFACE=any qos 0 "show with a variable" show giveway_participant --json
+says "show with a variable" 'any(.endpoints[0].values[];
+  .policy == "interface" and .value == "any" and .origin == "environment")'
+qos 0 "no difference" show --diff default "$sets/default.xml"
+qos 1 "a difference" show --diff default lossy_radio --json
+says "a difference" 'any(.differences[]; .profile == "fleet_beacon_reader" and
+  .policy == "deadline" and .a.value == "150 ms" and .b.value == "200 ms")'
+qos 2 "show of nothing" show no_such_profile
+qos 2 "show of a broken file" show --qos cut.xml
+qos 2 "no verb" lint
+
+crossing() { # SET: a crossing with it, begun; its domain in $domain
+  "$FLEETCTL" run intersection_yield --qos "$1" --json >run.json 2>run.err &
+  fleet=$!
+  domain=
+  for _ in $(seq 100); do
+    domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
+    [[ -z $domain ]] || return 0
+    sleep 0.1
+  done
+  fail "$1: no domain in $(cat run.err)"
+}
+
+arrives() { # SET: the crossing under way passes
+  wait "$fleet" || fail "a crossing with $1: $(cat run.json; tail -n 5 run.err)"
+  jq -e '.verdict == "passed"' run.json >/dev/null || fail "a crossing with $1: $(cat run.json)"
+}
+
+crossing lossy_radio
+qos 0 "live" show --live 2 --domain "$domain" --qos lossy_radio --json
+says "live" '.vehicle == 2 and (.values | length == 3 and all(.[]; .value == .expected))'
+qos 1 "live, of another file" show --live 2 --domain "$domain"
+grep -q '200 ms .*not 150 ms as by' "$SCRATCH/out" || fail "live: $(cat "$SCRATCH/out")"
+arrives lossy_radio
+crossing same_host
+arrives same_host
+qos 2 "live without a domain" show --live 2
+
+[[ $failures -eq 0 ]]
