@@ -5,6 +5,7 @@
 #include <list>
 
 #include "services/app/flag_values.h"
+#include "services/app/impair_text.h"
 
 namespace giveway::app {
 namespace {
@@ -34,6 +35,9 @@ class CommandLine {
       Add("--record", "FILE",
           "write all the brain is told and says, for fleetctl replay; a FILE that\n"
           "is there is kept as FILE.old");
+      Add("--impair", "RULES",
+          "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
+          "none; the README lists the keys");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
@@ -88,6 +92,16 @@ std::string DefaultQos(FlagValues* values) {
   }
 }
 
+std::optional<Impairment> ReadImpairment(FlagValues* values) {
+  const auto text = values->Text("--impair");
+  if (!text) return std::nullopt;
+  ParsedImpairment parsed = ParseImpairment(*text);
+  for (ImpairTextProblem& problem : parsed.problems) {
+    values->Complain("--impair", std::move(problem.message), std::move(problem.remedy));
+  }
+  return std::move(parsed.impairment);
+}
+
 ServiceFlags Read(Service service, FlagValues* values) {
   constexpr double kMaxWhole = 4294967295.0;
   ServiceFlags flags;
@@ -101,6 +115,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
   if (service == Service::kVehicle) {
     flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
     if (values->Text("--record")) flags.record = values->TextOr("", "--record");
+    flags.impair = ReadImpairment(values);
   }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);

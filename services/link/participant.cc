@@ -2,6 +2,7 @@
 
 #include <regex>
 
+#include "services/link/impaired_transport.h"
 #include "services/link/interfaces.h"
 #include "services/link/library_log.h"
 #include "services/link/profiles.h"
@@ -25,8 +26,9 @@ void CheckOptions(const LinkOptions& options) {
   }
 }
 
-// UDP only: the profile says how, the options say on which interfaces.
-void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options) {
+// UDP only: the profile says how, the options say on which interfaces. Impaired if `impairer` is.
+void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options,
+                  const std::shared_ptr<Impairer>& impairer) {
   auto& list = qos.transport().user_transports;
   const auto* udp = list.size() == 1
                         ? dynamic_cast<transport::UDPv4TransportDescriptor*>(list.front().get())
@@ -39,16 +41,18 @@ void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options) {
   auto own = std::make_shared<transport::UDPv4TransportDescriptor>(*udp);
   own->interfaceWhiteList = ResolveInterface(options.interface);
   list.front() = own;
+  if (impairer != nullptr) list.front() = MakeImpairedTransport(own, impairer);
 }
 
-dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name) {
+dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name,
+                                  const std::shared_ptr<Impairer>& impairer) {
   dds::DomainParticipantQos qos;
   auto* factory = dds::DomainParticipantFactory::get_instance();
   if (!Ok(factory->get_participant_qos_from_profile(kParticipantProfile, qos))) {
     ThrowMissingProfile(kParticipantProfile);
   }
   qos.name(name);
-  SetTransport(qos, options);
+  SetTransport(qos, options, impairer);
   if (options.fleet_size > kLargeFleet) {
     auto& discovery = qos.wire_protocol().builtin.discovery_config;
     discovery.leaseDuration = kLargeFleetLease;
@@ -84,15 +88,22 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
                          DiscoveryListener& discovery) {
   CheckOptions(options);
   LoadProfiles(options.qos_file);
+  DiscoveryListener* listener = &discovery;
+  if (!options.impairment.rules.empty()) {
+    impairer_ = std::make_shared<Impairer>(options.impairment);
+    naming_ = std::make_unique<NamingListener>(impairer_, discovery);
+    listener = naming_.get();
+  }
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.
   participant_.reset(dds::DomainParticipantFactory::get_instance()->create_participant(
-      options.domain, MakeQos(options, name), &discovery, dds::StatusMask::none()));
+      options.domain, MakeQos(options, name, impairer_), listener, dds::StatusMask::none()));
   if (participant_ == nullptr) {
     ThrowNotMade("participant in domain " + std::to_string(options.domain) + " on interface " +
                  options.interface +
                  "; are there more than mutation_tries participants on this host?");
   }
+  if (impairer_ != nullptr) impairer_->NameOwn(BytesOf(Prefix()));
 }
 
 dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& name) {

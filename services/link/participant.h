@@ -14,6 +14,8 @@
 
 namespace giveway::link {
 
+class Impairer;
+
 class Participant {
  public:
   // Takes the depth of a history from the profile.
@@ -40,6 +42,8 @@ class Participant {
   void Delete(dds::DataWriter& writer);
 
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
+  // Null where no impairment was asked for.
+  Impairer* ImpairerOrNull() const { return impairer_.get(); }
 
  private:
   struct DeleteAll {
@@ -57,6 +61,8 @@ class Participant {
                               const std::string& partition, std::int32_t depth,
                               dds::DataReaderListener* listener, const dds::StatusMask& mask);
 
+  std::shared_ptr<Impairer> impairer_;
+  std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
 };
 

@@ -1,7 +1,10 @@
 #include "services/link/vehicle_link.h"
 
+#include <chrono>
+
 #include "services/link/beacon_inbox.h"
 #include "services/link/convert.h"
+#include "services/link/impairer.h"
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
 #include "services/link/reader_events.h"
@@ -125,6 +128,8 @@ struct VehicleLink::Impl {
     CountWrite(join_writer.Write(ToWire(request)));
   }
   void OpenSignals();
+  // What the world says of the run's state; the impairment's blackouts are counted from its start.
+  std::optional<RosterEntry> NewestEntry(RosterInbox::Mark& told);
   OwnEndpoints& Own() {
     GIVEWAY_CHECK(own.has_value(), "VehicleLink used before Open");
     return *own;
@@ -161,12 +166,21 @@ void VehicleLink::Impl::OpenSignals() {
   signals.emplace(reader, *signal_events);
 }
 
+std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& told) {
+  auto entry = roster.NewestAfter(told, names);
+  if (entry && entry->run_state == RunState::kRunning && participant.ImpairerOrNull() != nullptr) {
+    participant.ImpairerOrNull()->Start(
+        SteadyTime(std::chrono::steady_clock::now().time_since_epoch()));
+  }
+  return entry;
+}
+
 void VehicleLink::SendJoin(const JoinRequest& request) { impl_->SendJoin(request); }
 
 std::optional<RosterEntry> VehicleLink::TakeRoster(const SessionId& session) {
   GIVEWAY_CHECK(impl_->joined && impl_->joined->session == session, "not the session that joined");
   impl_->names.Update();
-  return impl_->roster.NewestAfter(impl_->told_to_join, impl_->names);
+  return impl_->NewestEntry(impl_->told_to_join);
 }
 
 void VehicleLink::SendLeave(const SessionId& session) {
@@ -182,6 +196,7 @@ void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals
   GIVEWAY_CHECK(id != kNobody);
   link.own.emplace(link.options, id, profile, link.participant, link.names, link.events);
   if (signals) link.OpenSignals();
+  if (Impairer* const impairer = link.participant.ImpairerOrNull()) impairer->NameHearer(id);
   link.told_to_step = link.told_to_join;
   // A world that starts anew must not give another id to a vehicle that already drives as this one.
   if (link.joined && link.joined->wanted != id) link.SendJoin({link.joined->session, id});
@@ -207,7 +222,7 @@ Taken VehicleLink::Take(SteadyTime now) {
   taken.scans_skipped = own.ranges.Counters().skipped - skipped;
   own.sensors.Take(link.names, taken.inputs);
   if (link.signals) taken.inputs.signals = link.signals->Take();
-  taken.inputs.roster = link.roster.NewestAfter(link.told_to_step, link.names);
+  taken.inputs.roster = link.NewestEntry(link.told_to_step);
   own.beacons.Drain(now, link.taken_beacons);
   for (const ReceivedBeacon& received : link.taken_beacons) {
     if (received.crc_valid && received.name_valid) link.peers.Heard(received.beacon.vehicle);
@@ -253,6 +268,12 @@ EffectiveBeaconQos VehicleLink::BeaconQos() const {
   return {.deadline_offered_ms = ToMilliseconds(offered.deadline().period),
           .deadline_requested_ms = ToMilliseconds(requested.deadline().period),
           .lease_ms = ToMilliseconds(requested.liveliness().lease_duration)};
+}
+
+std::optional<ImpairmentCounters> VehicleLink::Impaired() const {
+  const Impairer* const impairer = impl_->participant.ImpairerOrNull();
+  if (impairer == nullptr) return std::nullopt;
+  return impairer->Counters();
 }
 
 }  // namespace giveway::link
