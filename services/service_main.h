@@ -20,6 +20,7 @@ inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Sce
       .qos_file = flags.qos,
       .area = scenario.area,
       .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+      .partition_free = flags.partition_free,
       .impairment = {}};
 }
 

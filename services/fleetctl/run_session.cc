@@ -40,6 +40,7 @@ link::LinkOptions ObserverOptions(const RunOptions& options, const Scenario& sce
           command.qos_file,
           scenario.area,
           static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+          false,
           {}};
 }
 

@@ -119,7 +119,7 @@ dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& nam
 dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& profile,
                                          const std::string& partition, std::int32_t depth) {
   dds::PublisherQos publisher_qos;
-  publisher_qos.partition().push_back(partition.c_str());
+  if (!partition.empty()) publisher_qos.partition().push_back(partition.c_str());
   auto* publisher = participant_->create_publisher(publisher_qos, nullptr, dds::StatusMask::none());
   if (publisher == nullptr) ThrowNotMade("publisher for partition " + partition);
   dds::DataWriterQos qos;

@@ -25,7 +25,8 @@ class Participant {
   Participant(const LinkOptions& options, const std::string& name, DiscoveryListener& discovery);
 
   // Each endpoint has a Publisher or Subscriber of its own, because that is what carries the
-  // partition. Throws LinkError.
+  // partition. Of a writer it may be empty: the default one, which no wildcard matches. Throws
+  // LinkError.
   template <typename Wire>
   Writer<Wire> MakeWriter(const std::string& partition, std::int32_t depth = kProfileDepth) {
     return Writer<Wire>(MakeWriter(MakeTopic<Wire>(), TopicOf<Wire>::kWriter, partition, depth));

@@ -76,7 +76,9 @@ struct OwnEndpoints {
         beacons(beacon_reader, names, participant.Prefix()),
         ranges(participant.MakeReader<wire::RangeScan>(VehiclePartition(id)), id),
         sensors(id, profile, participant),
-        scan_wait(ranges.Entity()) {}
+        scan_wait(ranges.Entity()) {
+    if (options.partition_free) open_beacon_writer = participant.MakeWriter<wire::Beacon>("");
+  }
 
   void AddTo(VehicleLinkCounters& counters) {
     counters.beacons_superseded = beacons.Superseded();
@@ -96,6 +98,7 @@ struct OwnEndpoints {
   }
 
   Writer<wire::Beacon> beacon_writer;
+  std::optional<Writer<wire::Beacon>> open_beacon_writer;  // for tools that set no partition
   Reader<wire::Beacon> beacon_reader;
   Writer<wire::MotorCommand> command_writer;
   Writer<wire::Status> status_writer;
@@ -236,7 +239,9 @@ void VehicleLink::Send(const Outputs& outputs) {
   OwnEndpoints& own = impl_->Own();
   // The command first: its reader waits for it.
   impl_->CountWrite(own.command_writer.Write(ToWire(outputs.command)));
-  impl_->CountWrite(own.beacon_writer.Write(ToWire(outputs.beacon)));
+  const wire::Beacon beacon = ToWire(outputs.beacon);
+  impl_->CountWrite(own.beacon_writer.Write(beacon));
+  if (own.open_beacon_writer) impl_->CountWrite(own.open_beacon_writer->Write(beacon));
 }
 
 void VehicleLink::SendStatus(const VehicleStatus& status) {

@@ -135,6 +135,19 @@ TEST(Flags, OnlyAVehicleIsImpairedAndOnlyIfAsked) {
   EXPECT_FALSE(std::get<ServiceFlags>(World(least)).impair);
 }
 
+TEST(Flags, OnlyAVehicleBeaconsWithoutAPartitionAndOnlyIfAsked) {
+  const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
+  EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).partition_free);
+  std::vector<const char*> words = least;
+  words.push_back("--partition-free");
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).partition_free);
+  CaptureStderr();
+  EXPECT_EQ(std::get<int>(World(words)), 2);
+  EXPECT_THAT(GetCapturedStderr(), HasSubstr("--partition-free"));
+  const Variable twin("GIVEWAY_PARTITION_FREE", "1");
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(least)).partition_free);
+}
+
 TEST(Flags, OnlyTheWorldSharesItsWorkAmongThreads) {
   const auto threads = [](std::vector<const char*> words) {
     words.insert(words.begin(), {"--scenario", "s", "--domain", "1"});
