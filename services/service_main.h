@@ -19,7 +19,9 @@ inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Sce
       .interface = flags.interface,
       .qos_file = flags.qos,
       .area = scenario.area,
-      .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size())};
+      .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+      .partition_free = flags.partition_free,
+      .impairment = {}};
 }
 
 // Runs the service unless the flags asked for help or were wrong.

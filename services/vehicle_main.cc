@@ -231,6 +231,13 @@ class Loop {
   std::vector<ReceivedBeacon> in_lockstep_;
 };
 
+// Only vehicles hear through it: the world's ears are the wires to the wheels.
+Impairment ImpairmentOf(const app::ServiceFlags& flags, const Scenario& scenario) {
+  Impairment impairment = flags.impair.value_or(scenario.impairment);
+  if (!impairment.seed) impairment.seed = scenario.seed;
+  return impairment;
+}
+
 int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const std::string name = flags.id == 0 ? "vehicle" : "vehicle " + std::to_string(flags.id);
   app::InitLog(name, flags.log_format, flags.log_level);
@@ -239,7 +246,9 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
   std::optional<app::Recorder> recorder;
   if (!flags.record.empty()) recorder.emplace(flags.record);
-  link::VehicleLink link(LinkOptionsOf(flags, scenario));
+  link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
+  link_options.impairment = ImpairmentOf(flags, scenario);
+  link::VehicleLink link(link_options);
   const auto entry = Join(&link, stop, VehicleId{flags.id});
   if (!entry) return 0;
   if (!entry->accepted) {
@@ -250,7 +259,9 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const VehicleOptions options = OptionsOf(scenario, *entry);
   link.Open(options.id, options.profile, !scenario.signals.empty());
   Loop loop(&link, scenario, *entry, flags.lockstep, recorder ? &*recorder : nullptr);
-  return loop.Drive(stop) ? 0 : 2;
+  const bool welcome = loop.Drive(stop);
+  if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));
+  return welcome ? 0 : 2;
 }
 
 }  // namespace

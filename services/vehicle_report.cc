@@ -16,6 +16,28 @@ std::string Describe(const Decision& decision) {
   return text + " (" + std::string(Name(decision.mode)) + ")";
 }
 
+std::string Describe(const ImpairmentCounters& counters) {
+  std::string text = "impairment:";
+  const auto add = [&text](const char* name, std::uint64_t number) {
+    text += std::string(" ") + name + '=' + std::to_string(number);
+  };
+  add("packets", counters.packets);
+  add("bytes", counters.bytes);
+  add("passed", counters.passed);
+  add("passed_bytes", counters.passed_bytes);
+  add("dropped_blackout", counters.dropped_blackout);
+  add("dropped_rate", counters.dropped_rate);
+  add("dropped_loss", counters.dropped_loss);
+  add("dropped_burst", counters.dropped_burst);
+  add("delayed", counters.delayed);
+  add("held_back", counters.held_back);
+  add("reordered", counters.reordered);
+  add("duplicated", counters.duplicated);
+  add("corrupted", counters.corrupted);
+  add("abandoned", counters.abandoned);
+  return text;
+}
+
 void VehicleReport::NoteStep(Nanoseconds step, Nanoseconds turn) {
   const double us = Milliseconds(step) * 1000;
   if (steps_us_.size() < kKeptSteps) {

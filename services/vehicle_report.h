@@ -12,6 +12,9 @@ namespace giveway {
 // "give_way to 1 (cooperative)", for log lines.
 std::string Describe(const Decision& decision);
 
+// What was injected into what a vehicle heard, one line of name=number.
+std::string Describe(const ImpairmentCounters& counters);
+
 class VehicleReport {
  public:
   // `step` is what Vehicle::Step took, `turn` the time from waking on a scan to the command sent.

@@ -5,6 +5,7 @@
 #include <list>
 
 #include "services/app/flag_values.h"
+#include "services/app/impair_text.h"
 
 namespace giveway::app {
 namespace {
@@ -34,6 +35,10 @@ class CommandLine {
       Add("--record", "FILE",
           "write all the brain is told and says, for fleetctl replay; a FILE that\n"
           "is there is kept as FILE.old");
+      Add("--impair", "RULES",
+          "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
+          "none; the README lists the keys");
+      AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
@@ -43,8 +48,7 @@ class CommandLine {
         "cooperative, lecture_avoid, stock_avoid, lecture_yield, or\n"
         "lecture_printed, which shows the flaws of the printed scripts: it collides");
     Add("--duration", "SECONDS", "end after this time instead of the scenario's");
-    lockstep_ = app_.add_flag("--lockstep");
-    lockstep_->description("the world waits for every command of a tick");
+    AddSwitch("--lockstep", "the world waits for every command of a tick");
     Add("--log-format", "text|json", "of the lines on stderr (default text)");
     Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
   }
@@ -56,7 +60,9 @@ class CommandLine {
     for (const auto& [option, value] : options_) {
       if (option->count() > 0) given.emplace(option->get_name(), value);
     }
-    if (lockstep_->count() > 0) given.emplace("--lockstep", "1");
+    for (const CLI::Option* given_switch : switches_) {
+      if (given_switch->count() > 0) given.emplace(given_switch->get_name(), "1");
+    }
     return given;
   }
 
@@ -74,9 +80,14 @@ class CommandLine {
     option = app_.add_option(flag, value, help)->type_name(value_name);
   }
 
+  void AddSwitch(const std::string& flag, const std::string& help) {
+    switches_.push_back(app_.add_flag(flag));
+    switches_.back()->description(help);
+  }
+
   CLI::App app_;
   std::list<std::pair<CLI::Option*, std::string>> options_;  // a list: CLI11 keeps references
-  CLI::Option* lockstep_ = nullptr;
+  std::vector<CLI::Option*> switches_;
 };
 
 std::string DefaultQos(FlagValues* values) {
@@ -86,6 +97,16 @@ std::string DefaultQos(FlagValues* values) {
     values->Add(error.Problems());
     return "";
   }
+}
+
+std::optional<Impairment> ReadImpairment(FlagValues* values) {
+  const auto text = values->Text("--impair");
+  if (!text) return std::nullopt;
+  ParsedImpairment parsed = ParseImpairment(*text);
+  for (ImpairTextProblem& problem : parsed.problems) {
+    values->Complain("--impair", std::move(problem.message), std::move(problem.remedy));
+  }
+  return std::move(parsed.impairment);
 }
 
 ServiceFlags Read(Service service, FlagValues* values) {
@@ -101,6 +122,8 @@ ServiceFlags Read(Service service, FlagValues* values) {
   if (service == Service::kVehicle) {
     flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
     if (values->Text("--record")) flags.record = values->TextOr("", "--record");
+    flags.impair = ReadImpairment(values);
+    flags.partition_free = values->Switch("--partition-free");
   }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);

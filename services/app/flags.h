@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "services/types/decision.h"
+#include "services/types/impairment.h"
 
 namespace giveway::app {
 
@@ -21,6 +22,8 @@ struct ServiceFlags {
   std::uint32_t threads = 1;            // world only; the result does not depend on it
   std::string checkpoint;               // world only; the file it is kept in; empty: none is
   std::string record;                   // vehicle only; the file it is written to; empty: none is
+  bool partition_free = false;          // vehicle only; beacons also without a partition
+  std::optional<Impairment> impair;     // vehicle only; instead of the scenario's
   // Overrides of the scenario's; 0 moves nothing. Without the flag: the scenario's own seed.
   std::optional<std::uint32_t> seed;
   std::optional<Behaviour> behaviour;

@@ -7,6 +7,8 @@
 #include <map>
 #include <numeric>
 
+#include "services/app/impair_fields.h"
+#include "services/app/impair_read.h"
 #include "services/app/place_read.h"
 #include "services/app/plan_read.h"
 #include "services/app/vehicle_read.h"
@@ -224,8 +226,21 @@ void ReadPlace(const Section& root, ReadScenario* read) {
   ReadSignals(root, &scenario);
 }
 
+void ReadImpairment(const Section& root, const KnownIds& known, Impairment* impairment) {
+  for (const Section& rule : Elements(root, "impair", kMaxImpairRules)) {
+    impairment->rules.push_back(ReadImpairmentRule(rule, known));
+  }
+  if (!root.Has("impair_seed")) return;
+  impairment->seed = root.Whole("impair_seed", kWholeNumber);
+  if (!root.Has("impair")) {
+    root.Complain("impair_seed", "is given, and nothing is impaired",
+                  "write impair { ... }, or remove it");
+  }
+}
+
 void ReadPlans(const Section& root, Scenario* scenario) {
   const KnownIds known = IdsOf(*scenario);
+  ReadImpairment(root, known, &scenario->impairment);
   for (const Section& fault : Elements(root, "fault", kMaxFaults)) {
     scenario->faults.push_back(ReadFault(fault, root, known));
   }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "scenario.pb.h"
+#include "services/app/impair_fields.h"
 #include "services/app/scenario_file.h"
 #include "services/types/check.h"
 #include "services/types/math.h"
@@ -88,6 +89,33 @@ void SetPlace(const Scenario& scenario, schema::Scenario* message) {
   }
 }
 
+// Numbers that are as without the rule are left out.
+void SetNumbers(const ImpairmentRule& rule, google::protobuf::Message* message) {
+  const ImpairmentRule plain;
+  for (const ImpairField& field : ImpairFields()) {
+    const double value = rule.*field.member;
+    if (value == plain.*field.member) continue;
+    const auto* written = message->GetDescriptor()->FindFieldByName(std::string(field.field));
+    GIVEWAY_CHECK(written != nullptr, field.field);
+    message->GetReflection()->SetDouble(message, written, value * field.per_si);
+  }
+}
+
+void Set(const ImpairmentRule& rule, schema::Impair* message) {
+  if (rule.from == ImpairedSender::kOneVehicle) {
+    message->set_from_vehicle(Number(rule.from_vehicle));
+  } else if (rule.from != ImpairedSender::kAnyone) {
+    message->set_from(static_cast<schema::ImpairedSender>(rule.from));
+  }
+  if (rule.to_vehicle != kNobody) message->set_to_vehicle(Number(rule.to_vehicle));
+  SetNumbers(rule, message);
+  for (const Blackout& blackout : rule.blackouts) {
+    schema::Blackout* written = message->add_blackout();
+    written->set_from_s(blackout.from_s);
+    written->set_to_s(blackout.to_s);
+  }
+}
+
 void SetExpectation(const Expectation& expect, schema::Expect* message) {
   message->set_contacts(expect.contacts);
   message->set_any_halted(expect.any_halted);
@@ -119,6 +147,8 @@ schema::Scenario ToSchema(const Scenario& scenario) {
   SetPlace(scenario, &message);
   for (const VehicleOptions& options : scenario.vehicles) Set(options, message.add_vehicle());
   for (const PlannedFault& fault : scenario.faults) Set(fault, message.add_fault());
+  for (const ImpairmentRule& rule : scenario.impairment.rules) Set(rule, message.add_impair());
+  if (scenario.impairment.seed) message.set_impair_seed(*scenario.impairment.seed);
   SetExpectation(scenario.expect, message.mutable_expect());
   return message;
 }

@@ -54,9 +54,11 @@ std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCom
   const auto add_vehicle = [&](const std::string& kind, const std::string& number) {
     const std::string file = kind + "-" + number;
     commands.push_back(make(kind + " " + number, "giveway-vehicle", file));
+    std::vector<std::string>& words = commands.back().words;
+    if (!options.impair.empty()) words.insert(words.end(), {"--impair", options.impair});
     if (options.record_folder.empty()) return;
     const auto record = std::filesystem::path(options.record_folder) / (file + ".recording");
-    commands.back().words.insert(commands.back().words.end(), {"--record", record.string()});
+    words.insert(words.end(), {"--record", record.string()});
   };
   for (const VehicleOptions& vehicle : scenario.vehicles) {
     const std::string id = std::to_string(Number(vehicle.id));

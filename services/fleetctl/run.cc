@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "services/app/impair_text.h"
 #include "services/app/report.h"
 #include "services/app/scenario_file.h"
 #include "services/fleetctl/domain_lock.h"
@@ -44,6 +45,17 @@ int RefuseToRun(const RunOptions& options, const char* reason, const std::except
   return kCouldNotRun;
 }
 
+// In lockstep the world waits for every command, and a vehicle answers scans alone.
+void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario) {
+  const Impairment impairment = options.impair.empty()
+                                    ? scenario.impairment
+                                    : app::ParseImpairment(options.impair).impairment;
+  if (!options.lockstep || impairment.rules.empty()) return;
+  throw app::InputError({{options.scenario, 0, "--lockstep", "",
+                          "the world would wait for ever for the answer to a scan that is lost",
+                          "leave --lockstep out, or give --impair none"}});
+}
+
 int StartAndWatch(const RunOptions& options) {
   const app::ScenarioOverrides overrides{options.seed, options.behaviour, options.duration_s};
   const Scenario scenario = app::LoadScenario(options.scenario, overrides);
@@ -52,6 +64,7 @@ int StartAndWatch(const RunOptions& options) {
                             "--vehicles was given, but the scenario names all of its vehicles",
                             "leave --vehicles out, or write spawn { ... } in the scenario"}});
   }
+  RefuseImpairedLockstep(options, scenario);
   if (!options.picture_file.empty()) CheckWritable(options.picture_file);
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
   if (!options.record_folder.empty()) CheckFolder(options.record_folder);

@@ -35,8 +35,13 @@ Nanoseconds TimeLimit(const Scenario& scenario, bool lockstep) {
 
 link::LinkOptions ObserverOptions(const RunOptions& options, const Scenario& scenario,
                                   const FleetCommand& command) {
-  return {command.domain, options.interface, command.qos_file, scenario.area,
-          static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size())};
+  return {command.domain,
+          options.interface,
+          command.qos_file,
+          scenario.area,
+          static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+          false,
+          {}};
 }
 
 TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWatch& watch) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "services/app/flags.h"
+#include "services/app/impair_text.h"
 #include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/run.h"
 #include "services/fleetctl/verbs.h"
@@ -22,6 +23,7 @@ Examples
   fleetctl run intersection_yield --seed 7 --json | jq .min_separation_m
   fleetctl run open_fleet --vehicles 4
   fleetctl run intersection_yield --record tapes && fleetctl replay tapes/*
+  fleetctl run intersection_yield --impair loss=0.1,delay=20ms,jitter=5ms
   fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
 
 Exit code: 0 passed, 1 failed or interrupted, 2 could not run.
@@ -41,6 +43,14 @@ std::string CheckDuration(const std::string& text) {
 
 std::string CheckNotEmpty(const std::string& text) {
   return text.empty() ? "must not be empty" : "";
+}
+
+std::string CheckImpairment(const std::string& text) {
+  std::string wrong;
+  for (const app::ImpairTextProblem& problem : app::ParseImpairment(text).problems) {
+    wrong += (wrong.empty() ? "" : "\n") + problem.message + "; " + problem.remedy;
+  }
+  return wrong;
 }
 
 Behaviour ParseBehaviour(const std::string& name) {
@@ -90,6 +100,11 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
           "it the default")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
+  verb->add_option("--impair", options->impair,
+                   "Impair what every vehicle hears, instead of the scenario: "
+                   "loss=0.1,delay=20ms, or none; the README lists the keys")
+      ->check(CheckImpairment)
+      ->envname("GIVEWAY_IMPAIR");
 }
 
 void AddOutputFlags(CLI::App* verb, RunOptions* options) {

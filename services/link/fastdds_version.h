@@ -5,6 +5,7 @@
 
 #include <fastcdr/exceptions/Exception.h>
 
+#include <chrono>
 #include <cstdint>
 #include <fastdds/dds/core/LoanableSequence.hpp>
 #include <fastdds/dds/core/condition/StatusCondition.hpp>
@@ -27,6 +28,8 @@
 #if __has_include(<fastrtps/config.h>)
 #include <fastdds/rtps/common/Guid.h>
 #include <fastdds/rtps/common/InstanceHandle.h>
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
@@ -59,10 +62,13 @@ using Discovery = rtps::DiscoveryProtocol_t;
 
 #define GIVEWAY_IS_PLAIN_PARAMETERS
 #define GIVEWAY_PAYLOAD rtps::SerializedPayload_t*
+#define GIVEWAY_SENT const rtps::octet*
 #else
 #include <fastdds/rtps/builtin/data/PublicationBuiltinTopicData.hpp>
 #include <fastdds/rtps/common/Guid.hpp>
 #include <fastdds/rtps/common/InstanceHandle.hpp>
+#include <fastdds/rtps/transport/ChainingTransport.hpp>
+#include <fastdds/rtps/transport/SenderResource.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
 #include <idl/fleetPubSubTypes.hpp>
@@ -92,6 +98,7 @@ using Discovery = rtps::DiscoveryProtocol;
 
 #define GIVEWAY_IS_PLAIN_PARAMETERS dds::DataRepresentationId_t
 #define GIVEWAY_PAYLOAD rtps::SerializedPayload_t&
+#define GIVEWAY_SENT const std::vector<transport::NetworkBuffer>&
 #endif
 
 namespace giveway::link {
@@ -118,6 +125,17 @@ class DiscoveryListener : public dds::DomainParticipantListener {
     OnWriter(gone ? Change::kGone : Change::kFound, found.guid, found.partition.names());
   }
 #endif
+};
+
+// A chaining transport that sends as the one below it does.
+class ForwardingTransport : public transport::ChainingTransport {
+ public:
+  using ChainingTransport::ChainingTransport;
+  bool send(rtps::SenderResource* below, GIVEWAY_SENT bytes, std::uint32_t size,
+            rtps::LocatorsIterator* from, rtps::LocatorsIterator* to,
+            const std::chrono::steady_clock::time_point& timeout) final {
+    return below->send(bytes, size, from, to, timeout);
+  }
 };
 
 // A generated type that is always deserialized. Left to itself the library lends its network buffer

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "services/types/impairment.h"
+
 namespace giveway::link {
 
 struct LinkOptions {
@@ -13,6 +15,8 @@ struct LinkOptions {
   std::string qos_file;                 // a complete Fast DDS XML profile set
   std::string area = "main";            // [a-z0-9_-]+
   std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
+  bool partition_free = false;          // vehicle: a second beacon, for readers without a partition
+  Impairment impairment = {};           // of what this process hears; its seed is set
 };
 
 // An entity could not be made: says which, why, and what to do. Start-up only; main exits with 2.

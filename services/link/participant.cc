@@ -2,6 +2,7 @@
 
 #include <regex>
 
+#include "services/link/impaired_transport.h"
 #include "services/link/interfaces.h"
 #include "services/link/library_log.h"
 #include "services/link/profiles.h"
@@ -26,36 +27,46 @@ void CheckOptions(const LinkOptions& options) {
 }
 
 // UDP, and beside it shared memory if the profile names it: the profile says how, the options say
-// on which interfaces.
-void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options) {
+// on which interfaces. Impaired if `impairer` is.
+void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options,
+                  const std::shared_ptr<Impairer>& impairer) {
   std::size_t udp_transports = 0;
-  std::size_t others = 0;
-  for (auto& named : qos.transport().user_transports) {
+  std::size_t shared_memories = 0;
+  auto& list = qos.transport().user_transports;
+  for (auto& named : list) {
     if (const auto* udp = dynamic_cast<transport::UDPv4TransportDescriptor*>(named.get())) {
       // A copy, because the profile's descriptor is shared by the whole process.
       auto own = std::make_shared<transport::UDPv4TransportDescriptor>(*udp);
       own->interfaceWhiteList = ResolveInterface(options.interface);
       named = own;
+      if (impairer != nullptr) named = MakeImpairedTransport(own, impairer);
       ++udp_transports;
-    } else if (dynamic_cast<transport::SharedMemTransportDescriptor*>(named.get()) == nullptr) {
-      ++others;
+    } else if (dynamic_cast<transport::SharedMemTransportDescriptor*>(named.get()) != nullptr) {
+      ++shared_memories;
     }
   }
-  if (udp_transports != 1 || others != 0 || qos.transport().use_builtin_transports) {
+  const bool others = udp_transports + shared_memories != list.size();
+  if (udp_transports != 1 || others || qos.transport().use_builtin_transports) {
     throw LinkError("QoS file " + options.qos_file + ": profile \"" + kParticipantProfile +
                     "\" must switch useBuiltinTransports off and name one UDPv4 transport, and "
                     "beside it at most shared memory (SHM)");
   }
+  if (impairer != nullptr && shared_memories != 0) {
+    throw LinkError("QoS file " + options.qos_file + ": profile \"" + kParticipantProfile +
+                    "\" names shared memory, which an impairment would not touch; take a set "
+                    "that names UDPv4 alone");
+  }
 }
 
-dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name) {
+dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name,
+                                  const std::shared_ptr<Impairer>& impairer) {
   dds::DomainParticipantQos qos;
   auto* factory = dds::DomainParticipantFactory::get_instance();
   if (!Ok(factory->get_participant_qos_from_profile(kParticipantProfile, qos))) {
     ThrowMissingProfile(kParticipantProfile);
   }
   qos.name(name);
-  SetTransport(qos, options);
+  SetTransport(qos, options, impairer);
   if (options.fleet_size > kLargeFleet) {
     auto& discovery = qos.wire_protocol().builtin.discovery_config;
     discovery.leaseDuration = kLargeFleetLease;
@@ -81,7 +92,7 @@ const Duration kHeartbeatPeriod(0, 100'000'000);
 }  // namespace
 
 dds::DomainParticipantQos ParticipantQos(const LinkOptions& options, const std::string& name) {
-  return MakeQos(options, name);
+  return MakeQos(options, name, nullptr);
 }
 
 dds::DataWriterQos WriterQos(dds::Publisher& publisher, const std::string& profile,
@@ -112,15 +123,22 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
                          DiscoveryListener& discovery) {
   CheckOptions(options);
   LoadProfiles(options.qos_file);
+  DiscoveryListener* listener = &discovery;
+  if (!options.impairment.rules.empty()) {
+    impairer_ = std::make_shared<Impairer>(options.impairment);
+    naming_ = std::make_unique<NamingListener>(impairer_, discovery);
+    listener = naming_.get();
+  }
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.
   participant_.reset(dds::DomainParticipantFactory::get_instance()->create_participant(
-      options.domain, MakeQos(options, name), &discovery, dds::StatusMask::none()));
+      options.domain, MakeQos(options, name, impairer_), listener, dds::StatusMask::none()));
   if (participant_ == nullptr) {
     ThrowNotMade("participant in domain " + std::to_string(options.domain) + " on interface " +
                  options.interface +
                  "; are there more than mutation_tries participants on this host?");
   }
+  if (impairer_ != nullptr) impairer_->NameOwn(BytesOf(Prefix()));
 }
 
 dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& name) {
@@ -136,7 +154,7 @@ dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& nam
 dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& profile,
                                          const std::string& partition, std::int32_t depth) {
   dds::PublisherQos publisher_qos;
-  publisher_qos.partition().push_back(partition.c_str());
+  if (!partition.empty()) publisher_qos.partition().push_back(partition.c_str());
   auto* publisher = participant_->create_publisher(publisher_qos, nullptr, dds::StatusMask::none());
   if (publisher == nullptr) ThrowNotMade("publisher for partition " + partition);
   auto* writer = publisher->create_datawriter(&topic, WriterQos(*publisher, profile, depth),

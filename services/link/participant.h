@@ -14,6 +14,8 @@
 
 namespace giveway::link {
 
+class Impairer;
+
 class Participant {
  public:
   // Takes the depth of a history from the profile.
@@ -23,7 +25,8 @@ class Participant {
   Participant(const LinkOptions& options, const std::string& name, DiscoveryListener& discovery);
 
   // Each endpoint has a Publisher or Subscriber of its own, because that is what carries the
-  // partition. Throws LinkError.
+  // partition. Of a writer it may be empty: the default one, which no wildcard matches. Throws
+  // LinkError.
   template <typename Wire>
   Writer<Wire> MakeWriter(const std::string& partition, std::int32_t depth = kProfileDepth) {
     return Writer<Wire>(MakeWriter(MakeTopic<Wire>(), TopicOf<Wire>::kWriter, partition, depth));
@@ -40,6 +43,8 @@ class Participant {
   void Delete(dds::DataWriter& writer);
 
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
+  // Null where no impairment was asked for.
+  Impairer* ImpairerOrNull() const { return impairer_.get(); }
 
  private:
   struct DeleteAll {
@@ -57,6 +62,8 @@ class Participant {
                               const std::string& partition, std::int32_t depth,
                               dds::DataReaderListener* listener, const dds::StatusMask& mask);
 
+  std::shared_ptr<Impairer> impairer_;
+  std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
 };
 

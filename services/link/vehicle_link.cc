@@ -1,7 +1,10 @@
 #include "services/link/vehicle_link.h"
 
+#include <chrono>
+
 #include "services/link/beacon_inbox.h"
 #include "services/link/convert.h"
+#include "services/link/impairer.h"
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
 #include "services/link/reader_events.h"
@@ -73,7 +76,9 @@ struct OwnEndpoints {
         beacons(beacon_reader, names, participant.Prefix()),
         ranges(participant.MakeReader<wire::RangeScan>(VehiclePartition(id)), id),
         sensors(id, profile, participant),
-        scan_wait(ranges.Entity()) {}
+        scan_wait(ranges.Entity()) {
+    if (options.partition_free) open_beacon_writer = participant.MakeWriter<wire::Beacon>("");
+  }
 
   void AddTo(VehicleLinkCounters& counters) {
     counters.beacons_superseded = beacons.Superseded();
@@ -93,6 +98,7 @@ struct OwnEndpoints {
   }
 
   Writer<wire::Beacon> beacon_writer;
+  std::optional<Writer<wire::Beacon>> open_beacon_writer;  // for tools that set no partition
   Reader<wire::Beacon> beacon_reader;
   Writer<wire::MotorCommand> command_writer;
   Writer<wire::Status> status_writer;
@@ -125,6 +131,8 @@ struct VehicleLink::Impl {
     CountWrite(join_writer.Write(ToWire(request)));
   }
   void OpenSignals();
+  // What the world says of the run's state; the impairment's blackouts are counted from its start.
+  std::optional<RosterEntry> NewestEntry(RosterInbox::Mark& told);
   OwnEndpoints& Own() {
     GIVEWAY_CHECK(own.has_value(), "VehicleLink used before Open");
     return *own;
@@ -161,12 +169,21 @@ void VehicleLink::Impl::OpenSignals() {
   signals.emplace(reader, *signal_events);
 }
 
+std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& told) {
+  auto entry = roster.NewestAfter(told, names);
+  if (entry && entry->run_state == RunState::kRunning && participant.ImpairerOrNull() != nullptr) {
+    participant.ImpairerOrNull()->Start(
+        SteadyTime(std::chrono::steady_clock::now().time_since_epoch()));
+  }
+  return entry;
+}
+
 void VehicleLink::SendJoin(const JoinRequest& request) { impl_->SendJoin(request); }
 
 std::optional<RosterEntry> VehicleLink::TakeRoster(const SessionId& session) {
   GIVEWAY_CHECK(impl_->joined && impl_->joined->session == session, "not the session that joined");
   impl_->names.Update();
-  return impl_->roster.NewestAfter(impl_->told_to_join, impl_->names);
+  return impl_->NewestEntry(impl_->told_to_join);
 }
 
 void VehicleLink::SendLeave(const SessionId& session) {
@@ -182,6 +199,7 @@ void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals
   GIVEWAY_CHECK(id != kNobody);
   link.own.emplace(link.options, id, profile, link.participant, link.names, link.events);
   if (signals) link.OpenSignals();
+  if (Impairer* const impairer = link.participant.ImpairerOrNull()) impairer->NameHearer(id);
   link.told_to_step = link.told_to_join;
   // A world that starts anew must not give another id to a vehicle that already drives as this one.
   if (link.joined && link.joined->wanted != id) link.SendJoin({link.joined->session, id});
@@ -207,7 +225,7 @@ Taken VehicleLink::Take(SteadyTime now) {
   taken.scans_skipped = own.ranges.Counters().skipped - skipped;
   own.sensors.Take(link.names, taken.inputs);
   if (link.signals) taken.inputs.signals = link.signals->Take();
-  taken.inputs.roster = link.roster.NewestAfter(link.told_to_step, link.names);
+  taken.inputs.roster = link.NewestEntry(link.told_to_step);
   own.beacons.Drain(now, link.taken_beacons);
   for (const ReceivedBeacon& received : link.taken_beacons) {
     if (received.crc_valid && received.name_valid) link.peers.Heard(received.beacon.vehicle);
@@ -221,7 +239,9 @@ void VehicleLink::Send(const Outputs& outputs) {
   OwnEndpoints& own = impl_->Own();
   // The command first: its reader waits for it.
   impl_->CountWrite(own.command_writer.Write(ToWire(outputs.command)));
-  impl_->CountWrite(own.beacon_writer.Write(ToWire(outputs.beacon)));
+  const wire::Beacon beacon = ToWire(outputs.beacon);
+  impl_->CountWrite(own.beacon_writer.Write(beacon));
+  if (own.open_beacon_writer) impl_->CountWrite(own.open_beacon_writer->Write(beacon));
 }
 
 void VehicleLink::SendStatus(const VehicleStatus& status) {
@@ -253,6 +273,12 @@ EffectiveBeaconQos VehicleLink::BeaconQos() const {
   return {.deadline_offered_ms = ToMilliseconds(offered.deadline().period),
           .deadline_requested_ms = ToMilliseconds(requested.deadline().period),
           .lease_ms = ToMilliseconds(requested.liveliness().lease_duration)};
+}
+
+std::optional<ImpairmentCounters> VehicleLink::Impaired() const {
+  const Impairer* const impairer = impl_->participant.ImpairerOrNull();
+  if (impairer == nullptr) return std::nullopt;
+  return impairer->Counters();
 }
 
 }  // namespace giveway::link

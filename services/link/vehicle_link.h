@@ -9,6 +9,7 @@
 
 #include "services/link/link_options.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/impairment.h"
 #include "services/types/vehicle_io.h"
 
 namespace giveway::link {
@@ -78,6 +79,8 @@ class VehicleLink {
 
   VehicleLinkCounters Counters() const;
   EffectiveBeaconQos BeaconQos() const;
+  // What was injected into what this vehicle hears; nothing where no impairment was asked for.
+  std::optional<ImpairmentCounters> Impaired() const;
 
  private:
   struct Impl;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/types/impairment.h"
 #include "services/types/signal.h"
 #include "services/types/time.h"
 #include "services/types/vehicle_options.h"
@@ -124,6 +125,7 @@ struct Scenario {
   std::vector<Door> doors;
   std::vector<SignalPlan> signals;  // sorted by id
   std::vector<PlannedFault> faults;
+  Impairment impairment;  // of what the vehicles hear; the virtual fleet has a radio of its own
   Expectation expect;
 };
 

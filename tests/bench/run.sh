@@ -70,6 +70,9 @@ if wanted link; then
     figure "link_${part}_ratio" \
       "$(microbench 'LinkOverhead/iterations:4000/manual_time' "${part}_ratio")" 1.1
   done
+  # An impairment that asks for nothing, microseconds a packet.
+  figure link_impaired_idle_us \
+    "$(microbench 'ImpairedIdle/iterations:500/manual_time' extra_us)" 2
 fi
 
 # World::Advance with all 16 ultrasonics, one vehicle per 4 m^2, vehicle-steps a second on one core.

@@ -177,6 +177,26 @@ void CheckPlans(const Scenario& scenario) {
   GIVEWAY_CHECK(Positive(expect.time_to_clear_s.value_or(1), 86400));
 }
 
+void CheckRule(const ImpairmentRule& rule, const Scenario& scenario) {
+  for (const double share :
+       {rule.loss, rule.burst_loss, rule.reorder, rule.duplicate, rule.corrupt}) {
+    GIVEWAY_CHECK(Within(share, 0, 1), share);
+  }
+  GIVEWAY_CHECK(Within(rule.burst, 0, 0.9) && Within(rule.burst_length, 1, 10'000), rule.burst);
+  GIVEWAY_CHECK(rule.burst <= (1 - rule.burst) * rule.burst_length, rule.burst);
+  GIVEWAY_CHECK(Within(rule.delay_s, 0, 10) && Within(rule.jitter_s, 0, rule.delay_s));
+  GIVEWAY_CHECK(Positive(rule.reorder_by_s, 10) && Within(rule.rate_bytes_s, 0, 1e9));
+  GIVEWAY_CHECK(Within(rule.rate_burst_bytes, 1, 1e9), rule.rate_burst_bytes);
+  for (const Blackout& blackout : rule.blackouts) {
+    GIVEWAY_CHECK(Within(blackout.from_s, 0, 86400) && Within(blackout.to_s, 0, 86400));
+    GIVEWAY_CHECK(blackout.from_s < blackout.to_s, blackout.from_s);
+  }
+  const bool one = rule.from == ImpairedSender::kOneVehicle;
+  GIVEWAY_CHECK(one == (rule.from_vehicle != kNobody));
+  if (one) CheckIds({rule.from_vehicle}, scenario);
+  if (rule.to_vehicle != kNobody) CheckIds({rule.to_vehicle}, scenario);
+}
+
 }  // namespace
 
 bool IsUtf8(const std::string& text) {
@@ -207,6 +227,7 @@ void CheckScenario(const Scenario& scenario) {
   CheckFleet(scenario.vehicles);
   CheckPlace(scenario);
   CheckPlans(scenario);
+  for (const ImpairmentRule& rule : scenario.impairment.rules) CheckRule(rule, scenario);
 }
 
 }  // namespace giveway::fuzz

@@ -106,6 +106,14 @@ TEST_F(StartErrors, RefuseTheBuiltinTransports) {
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*useBuiltinTransports");
 }
 
+// What passes through shared memory no impairment would touch: a run would be called impaired and
+// hear everything.
+TEST_F(StartErrors, RefuseAnImpairmentBesideSharedMemory) {
+  options_.qos_file = GIVEWAY_QOS_SETS "/same_host.xml";
+  options_.impairment = {.rules = {{.loss = 0.5}}, .seed = 1};
+  EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*names shared memory");
+}
+
 TEST_F(StartErrors, NameTheInterfacesThereAre) {
   options_.interface = "eth99";
   EXPECT_EXIT(Start(options_), ExitedWithCode(2),

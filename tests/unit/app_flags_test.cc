@@ -114,6 +114,40 @@ TEST(Flags, OnlyAVehicleRecordsAndOnlyIfAsked) {
   EXPECT_EQ(std::get<ServiceFlags>(World(least)).record, "");
 }
 
+TEST(Flags, OnlyAVehicleIsImpairedAndOnlyIfAsked) {
+  const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
+  EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).impair);
+  std::vector<const char*> words = least;
+  words.insert(words.end(), {"--impair", "loss=0.25,seed=3"});
+  const auto impaired = std::get<ServiceFlags>(Vehicle(words)).impair;
+  ASSERT_TRUE(impaired && impaired->rules.size() == 1);
+  EXPECT_EQ(impaired->rules[0].loss, 0.25);
+  EXPECT_EQ(impaired->seed, 3U);
+  CaptureStderr();
+  EXPECT_EQ(std::get<int>(World(words)), 2);
+  EXPECT_THAT(GetCapturedStderr(), HasSubstr("--impair"));
+  words.back() = "loss=2,delay=5";
+  const std::string text = Refusal(words);
+  EXPECT_THAT(text, HasSubstr("--impair = loss=2,delay=5: loss = 2: must be a number between"));
+  EXPECT_THAT(text, HasSubstr("delay = 5: must be a time with its unit"));
+  const Variable twin("GIVEWAY_IMPAIR", "none");
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(least)).impair, Impairment{});
+  EXPECT_FALSE(std::get<ServiceFlags>(World(least)).impair);
+}
+
+TEST(Flags, OnlyAVehicleBeaconsWithoutAPartitionAndOnlyIfAsked) {
+  const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
+  EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).partition_free);
+  std::vector<const char*> words = least;
+  words.push_back("--partition-free");
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).partition_free);
+  CaptureStderr();
+  EXPECT_EQ(std::get<int>(World(words)), 2);
+  EXPECT_THAT(GetCapturedStderr(), HasSubstr("--partition-free"));
+  const Variable twin("GIVEWAY_PARTITION_FREE", "1");
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(least)).partition_free);
+}
+
 TEST(Flags, OnlyTheWorldSharesItsWorkAmongThreads) {
   const auto threads = [](std::vector<const char*> words) {
     words.insert(words.begin(), {"--scenario", "s", "--domain", "1"});

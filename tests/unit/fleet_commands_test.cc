@@ -73,6 +73,18 @@ TEST(MakeCommands, EveryVehicleRecordsIntoAFileOfItsOwnIfAsked) {
   }
 }
 
+TEST(MakeCommands, EveryVehicleIsImpairedIfAskedAndTheWorldIsNot) {
+  RunOptions options;
+  options.impair = "loss=0.1";
+  const auto commands = MakeCommands(options, OnDomainFive(), TwoVehicles());
+  EXPECT_THAT(commands[0].words, Not(Contains("--impair")));
+  EXPECT_TRUE(Says(commands[1], "--impair", "loss=0.1"));
+  EXPECT_TRUE(Says(commands[2], "--impair", "loss=0.1"));
+  for (const ChildCommand& command : MakeCommands({}, OnDomainFive(), TwoVehicles())) {
+    EXPECT_THAT(command.words, Not(Contains("--impair")));
+  }
+}
+
 TEST(MakeCommands, WhatTheOperatorLeftOutIsLeftToTheScenario) {
   for (const ChildCommand& command : MakeCommands({}, OnDomainFive(), TwoVehicles())) {
     for (const char* flag : {"--seed", "--behaviour", "--duration", "--lockstep"}) {

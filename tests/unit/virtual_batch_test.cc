@@ -36,6 +36,16 @@ TEST(VirtualBatch, ComesToTheSameWithAnyNumberOfThreads) {
   EXPECT_NE(RunBatch(maker, {2, 13}, 2, kGoOn).hash, one.hash);
 }
 
+// Four of these had vehicles that stood for good before one whose process had been paused.
+TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
+  CaseOptions options;
+  options.scenario = "crossing";
+  options.vehicles = WholeRange{8, 8};
+  options.pauses = 4;
+  const BatchTotals totals = RunBatch(CaseMaker(options), {1, 40}, 2, kGoOn);
+  EXPECT_TRUE(totals.failing_seeds.empty()) << totals.failing_seeds.size() << " failed";
+}
+
 TEST(VirtualBatch, StopsWhenItIsToldTo) {
   const CaseMaker maker(Lossy("convoy"));
   const BatchTotals stopped =

@@ -1,0 +1,234 @@
+// What our vehicles hear of Cyclone DDS.
+#include <gmock/gmock.h>
+
+#include <optional>
+#include <set>
+
+#include "tests/link/fleet.h"
+#include "tests/link/foreign.h"
+
+namespace giveway::test {
+namespace {
+
+using std::chrono::milliseconds;
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr VehicleId kListener{1000};
+constexpr VehicleId kFive{5};
+
+// What our readers request.
+ForeignQos AsRequested(const char* partition = "main/v5") {
+  return {.partition = partition, .deadline_ms = 100, .lease_ms = 250};
+}
+
+class ForeignWriter : public ::testing::Test {
+ protected:
+  ForeignWriter() : listener_(OptionsIn(domain_)) { listener_.Open(kListener); }
+
+  static ForeignBeacon BeaconOf(VehicleId id, std::uint32_t seq) {
+    return ForeignFrom(BeaconFrom(id, seq).beacon);
+  }
+  // Writes as vehicle 5 until `is_so`.
+  bool WriteUntil(dds_entity_t writer, const std::function<bool()>& is_so, VehicleId id = kFive) {
+    return Eventually([&] {
+      Write(writer, BeaconOf(id, ++seq_));
+      ears_.Listen();
+      return is_so();
+    });
+  }
+  bool IsHeard(dds_entity_t writer) {
+    return WriteUntil(writer, [&] { return ears_.Heard().contains(kFive); });
+  }
+  // That it is not heard, while another one is: then discovery is through.
+  void ExpectUnheard(dds_entity_t writer) {
+    const dds_entity_t sound = stranger_->MakeWriter(AsRequested("main/v6"));
+    std::uint32_t seq = 0;
+    ASSERT_TRUE(WriteUntil(writer, [&] {
+      Write(sound, BeaconOf(VehicleId{6}, ++seq));
+      return ears_.Beacons().size() >= 20;
+    }));
+    EXPECT_THAT(ears_.Heard(), ::testing::ElementsAre(VehicleId{6}));
+    for (const ReceivedBeacon& received : ears_.Beacons()) {
+      EXPECT_EQ(received.beacon.vehicle, VehicleId{6});
+    }
+  }
+  void ExpectRefused(const ForeignQos& qos, dds_qos_policy_id_t policy) {
+    const dds_entity_t writer = stranger_->MakeWriter(qos);
+    ExpectUnheard(writer);
+    dds_offered_incompatible_qos_status_t status{};
+    dds_get_offered_incompatible_qos_status(writer, &status);
+    EXPECT_GT(status.total_count, 0U);
+    EXPECT_EQ(status.last_policy_id, static_cast<std::uint32_t>(policy));
+    EXPECT_THAT(ears_.Told(QosEventKind::kIncompatibleQos), Not(IsEmpty()));
+  }
+
+  DomainLock domain_;
+  std::optional<ForeignParticipant> stranger_{std::in_place, domain_.Domain()};
+  link::VehicleLink listener_;
+  Ears ears_{listener_};
+  std::uint32_t seq_ = 0;
+};
+
+TEST_F(ForeignWriter, IsHeardInEveryField) {
+  Beacon said = BeaconFrom(kFive, 9).beacon;
+  said.wheels = {1.5, -2.5};
+  said.cruise_m_s = 0.3;
+  said.world_from_body = {{3.25, -4.5}, 0.75};
+  said.toward_world = {8, 9};
+  said.mode = Mode::kSensorOnly;
+  said.rule = Rule::kGiveWay;
+  said.gives_way_to = VehicleId{2};
+  said.order = {6, 8, kFive};
+  const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
+  ASSERT_TRUE(Eventually([&] {
+    Write(writer, ForeignFrom(said));
+    ears_.Listen();
+    return !ears_.Beacons().empty();
+  }));
+  const ReceivedBeacon& heard = ears_.Beacons()[0];
+  EXPECT_TRUE(heard.crc_valid);
+  EXPECT_TRUE(heard.name_valid);
+  EXPECT_NE(heard.writer, 0U);
+  EXPECT_EQ(heard.beacon.seq, 9U);
+  EXPECT_EQ(heard.beacon.wheels.left_rad_s, 1.5);
+  EXPECT_EQ(heard.beacon.world_from_body, said.world_from_body);
+  EXPECT_EQ(heard.beacon.toward_world, said.toward_world);
+  EXPECT_EQ(heard.beacon.mode, said.mode);
+  EXPECT_EQ(heard.beacon.rule, said.rule);
+  EXPECT_EQ(heard.beacon.gives_way_to, said.gives_way_to);
+  EXPECT_EQ(heard.beacon.order, said.order);
+}
+
+TEST_F(ForeignWriter, IsAPeerWithItsName) {
+  ASSERT_TRUE(IsHeard(stranger_->MakeWriter(AsRequested())));
+  EXPECT_THAT(ears_.Told(QosEventKind::kMatched), Contains(kFive));
+  EXPECT_EQ(listener_.Counters().matched_peers, 1U);
+  EXPECT_EQ(listener_.Counters().unreadable_samples, 0U);
+}
+
+TEST_F(ForeignWriter, AndAnotherAreTwoVehicles) {
+  const dds_entity_t five = stranger_->MakeWriter(AsRequested());
+  const dds_entity_t six = stranger_->MakeWriter(AsRequested("main/v6"));
+  std::set<std::uint64_t> writers;
+  EXPECT_TRUE(WriteUntil(five, [&] {
+    Write(six, BeaconOf(VehicleId{6}, seq_));
+    for (const ReceivedBeacon& received : ears_.Beacons()) writers.insert(received.writer);
+    return ears_.Heard().size() == 2 && writers.size() == 2;
+  }));
+}
+
+TEST_F(ForeignWriter, ThatOffersReliabilityIsHeardToo) {
+  ForeignQos qos = AsRequested();
+  qos.reliable = true;
+  EXPECT_TRUE(IsHeard(stranger_->MakeWriter(qos)));
+}
+
+TEST_F(ForeignWriter, InAnotherVehiclesNameIsHeardAsMisnamed) {
+  const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
+  ASSERT_TRUE(WriteUntil(
+      writer, [&] { return !ears_.Beacons().empty(); }, VehicleId{3}));
+  EXPECT_THAT(ears_.Beacons(), Each(::testing::Field(&ReceivedBeacon::name_valid, false)));
+  EXPECT_THAT(ears_.Beacons(), Each(::testing::Field(&ReceivedBeacon::crc_valid, true)));
+}
+
+TEST_F(ForeignWriter, WithABrokenSumIsHeardAsBroken) {
+  const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
+  ForeignBeacon broken = BeaconOf(kFive, 1);
+  broken.tick ^= 4U;
+  ASSERT_TRUE(Eventually([&] {
+    Write(writer, broken);
+    ears_.Listen();
+    return !ears_.Beacons().empty();
+  }));
+  EXPECT_FALSE(ears_.Beacons()[0].crc_valid);
+}
+
+TEST_F(ForeignWriter, ThatFallsSilentMissesItsDeadlineByName) {
+  ASSERT_TRUE(IsHeard(stranger_->MakeWriter(AsRequested())));
+  EXPECT_TRUE(Eventually([&] {
+    ears_.Listen();
+    return !ears_.Told(QosEventKind::kDeadlineMissed).empty();
+  }));
+  EXPECT_THAT(ears_.Told(QosEventKind::kDeadlineMissed), Each(kFive));
+}
+
+TEST_F(ForeignWriter, ThatFallsSilentIsNotAliveUntilItSpeaksAgain) {
+  const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
+  ASSERT_TRUE(IsHeard(writer));
+  ASSERT_TRUE(Eventually([&] {
+    ears_.Listen();
+    return !ears_.Told(QosEventKind::kLivelinessLost).empty();
+  }));
+  EXPECT_THAT(ears_.Told(QosEventKind::kLivelinessLost), Each(kFive));
+  EXPECT_TRUE(
+      WriteUntil(writer, [&] { return !ears_.Told(QosEventKind::kLivelinessBack).empty(); }));
+}
+
+TEST_F(ForeignWriter, ThatStillSpeaksDoesNotKeepASilentOneAlive) {
+  const dds_entity_t five = stranger_->MakeWriter(AsRequested());
+  const dds_entity_t six = stranger_->MakeWriter(AsRequested("main/v6"));
+  ASSERT_TRUE(WriteUntil(five, [&] {
+    Write(six, BeaconOf(VehicleId{6}, seq_));
+    return ears_.Heard().size() == 2;
+  }));
+  EXPECT_TRUE(WriteUntil(five, [&] { return !ears_.Told(QosEventKind::kLivelinessLost).empty(); }));
+  EXPECT_THAT(ears_.Told(QosEventKind::kLivelinessLost), Each(VehicleId{6}));
+}
+
+// Fast DDS 2.9.1 does not take Cyclone's word that an endpoint is gone: liveliness tells.
+TEST_F(ForeignWriter, ThatLeavesIsNotAliveByName) {
+  const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
+  ASSERT_TRUE(IsHeard(writer));
+  dds_delete(writer);
+  EXPECT_TRUE(Eventually([&] {
+    ears_.Listen();
+    return !ears_.Told(QosEventKind::kLivelinessLost).empty();
+  }));
+  EXPECT_THAT(ears_.Told(QosEventKind::kLivelinessLost), Each(kFive));
+}
+
+// Nor that a participant is: it stays a peer until the ten seconds of its lease are over.
+TEST_F(ForeignWriter, WhoseProcessEndsIsUnmatchedByName) {
+  ASSERT_TRUE(IsHeard(stranger_->MakeWriter(AsRequested())));
+  stranger_.reset();
+  EXPECT_TRUE(Eventually([&] {
+    ears_.Listen();
+    return !ears_.Told(QosEventKind::kUnmatched).empty();
+  }));
+  EXPECT_THAT(ears_.Told(QosEventKind::kUnmatched), Each(kFive));
+  EXPECT_EQ(listener_.Counters().matched_peers, 0U);
+}
+
+TEST_F(ForeignWriter, WithADeadlineLongerThanRequestedIsRefusedAndTold) {
+  ForeignQos qos = AsRequested();
+  qos.deadline_ms = 200;
+  ExpectRefused(qos, DDS_DEADLINE_QOS_POLICY_ID);
+}
+
+TEST_F(ForeignWriter, WithALeaseLongerThanRequestedIsRefusedAndTold) {
+  ForeignQos qos = AsRequested();
+  qos.lease_ms = 500;
+  ExpectRefused(qos, DDS_LIVELINESS_QOS_POLICY_ID);
+}
+
+TEST_F(ForeignWriter, WithAutomaticLivelinessIsRefusedAndTold) {
+  ForeignQos qos = AsRequested();
+  qos.liveliness = DDS_LIVELINESS_AUTOMATIC;
+  ExpectRefused(qos, DDS_LIVELINESS_QOS_POLICY_ID);
+}
+
+TEST_F(ForeignWriter, OfAnotherAreaIsNotHeard) {
+  ExpectUnheard(stranger_->MakeWriter(AsRequested("north/v5")));
+}
+
+TEST_F(ForeignWriter, WithoutAPartitionIsNotHeard) {
+  ForeignQos qos = AsRequested();
+  qos.partition = std::nullopt;
+  ExpectUnheard(stranger_->MakeWriter(qos));
+}
+
+}  // namespace
+}  // namespace giveway::test

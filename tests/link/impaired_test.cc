@@ -1,0 +1,258 @@
+// What an impaired vehicle hears of others over real sockets. The model itself is tested in
+// tests/unit/channel_model_test.cc; here is whether the transport obeys it.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <thread>
+
+#include "services/link/impairer.h"
+#include "services/link/world_link.h"
+#include "tests/link/fleet.h"
+#include "tests/link/raw_vehicle.h"
+
+namespace giveway::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr VehicleId kListener{1000};
+constexpr VehicleId kThree{3};
+constexpr VehicleId kFour{4};
+
+link::LinkOptions ImpairedIn(const DomainLock& domain, std::vector<ImpairmentRule> rules) {
+  link::LinkOptions options = OptionsIn(domain);
+  options.impairment = {.seed = 7, .rules = std::move(rules)};
+  return options;
+}
+
+// A vehicle that hears through `rules`, and its ears.
+struct Listener {
+  Listener(const DomainLock& domain, std::vector<ImpairmentRule> rules)
+      : link(rules.empty() ? OptionsIn(domain) : ImpairedIn(domain, std::move(rules))), ears(link) {
+    link.Open(kListener);
+  }
+  ImpairmentCounters Impaired() const { return link.Impaired().value(); }
+
+  link::VehicleLink link;
+  Ears ears;
+};
+
+TEST(Impaired, NobodyIsUnlessAsked) {
+  const DomainLock domain;
+  const Listener listener(domain, {});
+  EXPECT_FALSE(listener.link.Impaired());
+}
+
+TEST(Impaired, ByTotalLossAVehicleHearsNothingWhileOthersHear) {
+  const DomainLock domain;
+  Listener deaf(domain, {{.loss = 1}});
+  Beaconing sender(OptionsIn(domain), kThree);
+  Beaconing other(OptionsIn(domain), kFour);
+  Ears others_ears(other.Link());
+  ASSERT_TRUE(Eventually([&] {
+    sender.Send();
+    others_ears.Listen();
+    deaf.ears.Listen();
+    return others_ears.Beacons().size() >= 50 && deaf.Impaired().dropped_loss >= 5;
+  }));
+  EXPECT_TRUE(deaf.ears.Beacons().empty());
+  EXPECT_EQ(deaf.Impaired().passed, 0U);
+  EXPECT_EQ(deaf.link.Counters().matched_peers, 0U);
+}
+
+TEST(Impaired, ByAFifthLostHearsFourFifths) {
+  constexpr std::uint32_t kSent = 2000;
+  const DomainLock domain;
+  Listener listener(domain, {{.from = ImpairedSender::kVehicles, .loss = 0.2}});
+  Beaconing sender(OptionsIn(domain), kThree);
+  ASSERT_TRUE(Eventually([&] {
+    sender.Send();
+    listener.ears.Listen();
+    return !listener.ears.Heard().empty();
+  }));
+  Repeat(milliseconds(100), [&] { listener.ears.Listen(); });
+  listener.ears.Forget();
+  for (std::uint32_t i = 0; i < kSent; ++i) {
+    sender.Send();
+    std::this_thread::sleep_for(milliseconds(2));
+    listener.ears.Listen();
+  }
+  Repeat(milliseconds(200), [&] { listener.ears.Listen(); });
+  const double heard = static_cast<double>(listener.ears.Beacons().size()) / kSent;
+  // Five standard deviations, and 1 % for what the machine itself may lose.
+  EXPECT_NEAR(heard, 0.8, 5 * std::sqrt(0.2 * 0.8 / kSent) + 0.01);
+  const ImpairmentCounters counters = listener.Impaired();
+  EXPECT_EQ(counters.packets, counters.passed + counters.dropped_loss);
+}
+
+TEST(Impaired, ByADelayHearsNothingEarlier) {
+  constexpr milliseconds kDelay(80);
+  const DomainLock domain;
+  Listener listener(domain, {{.from = ImpairedSender::kVehicles, .delay_s = 0.08}});
+  Beaconing sender(OptionsIn(domain), kThree);
+  std::vector<steady_clock::time_point> sent{steady_clock::now()};  // by sequence number
+  std::vector<steady_clock::duration> took;
+  ASSERT_TRUE(Eventually([&] {
+    sent.push_back(steady_clock::now());
+    sender.Send();
+    listener.ears.Forget();
+    listener.ears.Listen();
+    const auto now = steady_clock::now();
+    for (const ReceivedBeacon& received : listener.ears.Beacons()) {
+      took.push_back(now - sent[received.beacon.seq]);
+    }
+    return took.size() >= 100;
+  }));
+  EXPECT_GE(*std::ranges::min_element(took), kDelay);
+  EXPECT_GE(listener.Impaired().delayed, 100U);
+}
+
+TEST(Impaired, SecondCopiesAndOvertakenOnesAreNotHeardByABestEffortReader) {
+  const DomainLock domain;
+  Listener listener(domain, {{.from = ImpairedSender::kVehicles,
+                              .reorder = 0.2,
+                              .reorder_by_s = 0.04,
+                              .duplicate = 0.5}});
+  Beaconing sender(OptionsIn(domain), kThree);
+  ASSERT_TRUE(Eventually([&] {
+    sender.Send();
+    listener.ears.Listen();
+    return listener.ears.Beacons().size() >= 200;
+  }));
+  std::uint32_t before = 0;
+  for (const ReceivedBeacon& received : listener.ears.Beacons()) {
+    EXPECT_GT(received.beacon.seq, before);
+    before = received.beacon.seq;
+  }
+  EXPECT_GT(before, listener.ears.Beacons().size() + 10);  // the gaps
+  EXPECT_GE(listener.Impaired().duplicated, 80U);
+  EXPECT_GE(listener.Impaired().held_back, 20U);
+  EXPECT_GE(listener.Impaired().reordered, 20U);
+}
+
+// One spoilt sequence number, believed by the library, makes a best-effort reader deaf to the
+// writer for good: hence one sender after the other.
+TEST(Impaired, SpoiltBeaconsAreHeardAsSpoiltAndEverySoundOneIsTrue) {
+  const DomainLock domain;
+  Listener listener(domain, {{.from = ImpairedSender::kVehicles, .corrupt = 0.3}});
+  std::size_t spoilt = 0;
+  std::size_t sound = 0;
+  for (int life = 0; life < 60 && (spoilt < 10 || sound < 50); ++life) {
+    Beaconing sender(OptionsIn(domain), kThree);
+    Repeat(milliseconds(400), [&] {
+      sender.Send();
+      listener.ears.Forget();
+      listener.ears.Listen();
+      for (const ReceivedBeacon& received : listener.ears.Beacons()) {
+        if (!received.crc_valid || !received.name_valid) {
+          ++spoilt;
+          continue;
+        }
+        ++sound;
+        EXPECT_EQ(received.beacon.vehicle, kThree);
+        EXPECT_EQ(Number(received.beacon.tick), received.beacon.seq);
+      }
+    });
+  }
+  EXPECT_GE(spoilt, 10U);
+  EXPECT_GE(sound, 50U);
+  EXPECT_GE(listener.Impaired().corrupted, spoilt);
+}
+
+// Also what tells who is there. Some are never found, as above; ghosts may appear; nothing crashes.
+TEST(Impaired, SpoiltDiscoveryIsSurvived) {
+  const DomainLock domain;
+  Listener listener(domain, {{.duplicate = 0.2, .corrupt = 0.3}});
+  int heard = 0;
+  for (int life = 0; life < 20 && (heard < 3 || listener.Impaired().corrupted < 20); ++life) {
+    Beaconing sender(OptionsIn(domain), kThree);
+    listener.ears.Forget();
+    Repeat(milliseconds(500), [&] {
+      sender.Send();
+      listener.ears.Listen();
+    });
+    heard += listener.ears.Heard().contains(kThree) ? 1 : 0;
+  }
+  EXPECT_GE(heard, 3);
+  EXPECT_GE(listener.Impaired().corrupted, 20U);
+}
+
+TEST(Impaired, FromOneVehicleOnlyHearsTheOthers) {
+  const DomainLock domain;
+  Listener listener(domain, {{.from = ImpairedSender::kOneVehicle,
+                              .from_vehicle = kThree,
+                              .to_vehicle = kListener,
+                              .loss = 1}});
+  Listener spared(domain, {{.from = ImpairedSender::kOneVehicle,
+                            .from_vehicle = kThree,
+                            .to_vehicle = VehicleId{77},
+                            .loss = 1}});
+  Beaconing three(OptionsIn(domain), kThree);
+  Beaconing four(OptionsIn(domain), kFour);
+  ASSERT_TRUE(Eventually([&] {
+    three.Send();
+    four.Send();
+    listener.ears.Listen();
+    spared.ears.Listen();
+    return listener.ears.Beacons().size() >= 50 && spared.ears.Heard().contains(kThree);
+  }));
+  EXPECT_THAT(listener.ears.Heard(), ::testing::ElementsAre(kFour));
+  EXPECT_GT(listener.Impaired().dropped_loss, 20U);
+  EXPECT_EQ(spared.Impaired().Dropped(), 0U);
+}
+
+// The world says that the run is under way; from then on time counts.
+TEST(Impaired, InABlackoutAfterTheStartHearsNothingAndThenAgain) {
+  const DomainLock domain;
+  ImpairmentRule rule{.from = ImpairedSender::kVehicles};
+  rule.blackouts = {{0, 0.7}};
+  Listener listener(domain, {rule});
+  Beaconing sender(OptionsIn(domain), kThree);
+  link::WorldLink world(OptionsIn(domain));
+  const auto turn = [&] {
+    sender.Send();
+    listener.ears.Listen();
+  };
+  ASSERT_TRUE(Eventually([&] {
+    turn();
+    return listener.ears.Beacons().size() >= 10;
+  }));
+  EXPECT_EQ(listener.Impaired().dropped_blackout, 0U);
+
+  const SessionId session{1, 2, 3, 4};
+  listener.link.SendJoin({session, kListener});
+  RosterEntry entry{.session = session, .vehicle = kListener, .accepted = true};
+  entry.run_state = RunState::kRunning;
+  world.SendRoster(entry);
+  ASSERT_TRUE(Eventually([&] {
+    turn();
+    return listener.Impaired().dropped_blackout > 0;
+  }));
+  listener.ears.Forget();
+  Repeat(milliseconds(300), turn);
+  EXPECT_TRUE(listener.ears.Heard().empty());
+  EXPECT_TRUE(Eventually([&] {
+    turn();
+    return listener.ears.Heard().contains(kThree);
+  }));
+}
+
+TEST(Impaired, ClosingDoesNotWaitForWhatIsUnderWay) {
+  const DomainLock domain;
+  std::optional<Listener> listener;
+  listener.emplace(domain, std::vector<ImpairmentRule>{{.delay_s = 10}});
+  Beaconing sender(OptionsIn(domain), kThree);
+  ASSERT_TRUE(Eventually([&] {
+    sender.Send();
+    return listener->Impaired().delayed > 3;
+  }));
+  const auto before = steady_clock::now();
+  listener.reset();
+  EXPECT_LT(steady_clock::now() - before, std::chrono::seconds(5));
+}
+
+}  // namespace
+}  // namespace giveway::test

@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# A crossing heard through an impaired channel: the vehicles pass, nobody touches, and what was
+# injected is what was asked for.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+
+# count VEHICLE NAME: a number of the line with which the vehicle's log tells what was injected.
+count() { sed -n "s/.* impairment: .*\b$2=\([0-9]*\).*/\1/p" "$SCRATCH/logs/vehicle-$1.log"; }
+
+# crosses NAME ARGUMENTS...: the run passes, and nobody touches.
+crosses() {
+  local name=$1 code=0
+  shift
+  rm -rf "$SCRATCH/logs"
+  "$FLEETCTL" run --json --logs "$SCRATCH/logs" "$@" >"$SCRATCH/run.json" 2>"$SCRATCH/err" ||
+    code=$?
+  cat "$SCRATCH/run.json"
+  [[ $code -eq 0 ]] || fail "$name: exit code $code: $(tail -n 5 "$SCRATCH/err")"
+  jq -e '.verdict == "passed" and .contacts == 0 and .arrived == [1, 2]
+    and (.violations | all(. == 0))' "$SCRATCH/run.json" >/dev/null || fail "$name: $(<"$SCRATCH/run.json")"
+}
+
+# Some 1300 packets a vehicle: a tenth is 0.1 with a deviation of 0.008.
+crosses "10 % loss and 20 ms" intersection_yield --impair loss=0.1,delay=20ms,jitter=5ms,seed=7
+for vehicle in 1 2; do
+  packets=$(count $vehicle packets)
+  lost=$(count $vehicle dropped_loss)
+  [[ ${packets:-0} -gt 500 ]] || fail "vehicle $vehicle: '$packets' packets"
+  awk -v lost="${lost:-0}" -v of="${packets:-1}" \
+    'BEGIN { exit !(lost / of > 0.05 && lost / of < 0.15) }' ||
+    fail "vehicle $vehicle: $lost of $packets lost, a tenth was asked for"
+  [[ $(count $vehicle delayed) == $(count $vehicle passed) ]] || fail "vehicle $vehicle: not all late"
+done
+
+# By the scenario: vehicle 1 hears nothing of vehicle 2 for two seconds, and vehicle 2 all of it.
+sed '$a impair { from: vehicles to_vehicle: 1 blackout { from_s: 3 to_s: 5 } }' \
+  "$REPOSITORY/config/scenarios/intersection_yield.textproto" >"$SCRATCH/one_way.textproto"
+crosses "a blackout one way" "$SCRATCH/one_way.textproto"
+[[ $(count 1 dropped_blackout) -ge 30 ]] || fail "vehicle 1: no blackout"
+[[ $(count 2 dropped_blackout) == 0 ]] || fail "vehicle 2: a blackout that was another's"
+
+# The twin in the environment, and what is refused.
+GIVEWAY_IMPAIR=none crosses "none instead of the scenario's" "$SCRATCH/one_way.textproto"
+[[ -z $(count 1 packets) ]] || fail "impaired, though none was asked for"
+code=0
+"$FLEETCTL" run intersection_yield --impair loss=2,delay=5 >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
+[[ $code -eq 2 ]] || fail "a loss of 2: exit code $code"
+grep -q 'loss = 2: must be a number between 0 and 1' "$SCRATCH/err" || fail "$(<"$SCRATCH/err")"
+grep -q 'delay = 5: must be a time with its unit' "$SCRATCH/err" || fail "$(<"$SCRATCH/err")"
+code=0
+"$FLEETCTL" run intersection_yield --lockstep --impair loss=0.1 >"$SCRATCH/out" 2>"$SCRATCH/err" ||
+  code=$?
+[[ $code -eq 2 ]] || fail "in lockstep: exit code $code"
+
+[[ $failures -eq 0 ]]
