@@ -110,7 +110,8 @@ TEST_F(StartErrors, RefuseTheBuiltinTransports) {
 // hear everything.
 TEST_F(StartErrors, RefuseAnImpairmentBesideSharedMemory) {
   options_.qos_file = GIVEWAY_QOS_SETS "/same_host.xml";
-  options_.impairment = {.rules = {{.loss = 0.5}}, .seed = 1};
+  options_.impairment.rules = {{.loss = 0.5}};
+  options_.impairment.seed = 1;
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*names shared memory");
 }
 
