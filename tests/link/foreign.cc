@@ -38,8 +38,12 @@ constexpr std::array kOps = {
     kReal, AT(x_m),
     kReal, AT(y_m),
     kReal, AT(heading_rad),
-    kReal, AT(sigma_position_m),
-    kReal, AT(sigma_heading_rad),
+    kReal, AT(xx_m2),
+    kReal, AT(xy_m2),
+    kReal, AT(yy_m2),
+    kReal, AT(xh_m_rad),
+    kReal, AT(yh_m_rad),
+    kReal, AT(hh_rad2),
     kReal, AT(body_radius_m),
     kReal, AT(wheel_radius_m),
     kReal, AT(axle_m),
@@ -61,7 +65,7 @@ constexpr std::array kOps = {
 #undef AT
 // clang-format on
 constexpr std::uint32_t kKeyAt = kOps.size() - 2;
-constexpr std::uint32_t kInstructions = 31;  // those with an address, the end, the key
+constexpr std::uint32_t kInstructions = 35;  // those with an address, the end, the key
 
 constexpr std::array kKeys = {dds_key_descriptor_t{"vehicle", kKeyAt, 0}};
 
@@ -125,8 +129,12 @@ ForeignBeacon ForeignFrom(const Beacon& beacon) {
           sent.world_from_body().x_m(),
           sent.world_from_body().y_m(),
           sent.world_from_body().heading_rad(),
-          sent.sigma_position_m(),
-          sent.sigma_heading_rad(),
+          sent.covariance().xx_m2(),
+          sent.covariance().xy_m2(),
+          sent.covariance().yy_m2(),
+          sent.covariance().xh_m_rad(),
+          sent.covariance().yh_m_rad(),
+          sent.covariance().hh_rad2(),
           sent.body_radius_m(),
           sent.wheel_radius_m(),
           sent.axle_m(),

@@ -14,12 +14,12 @@
 
 namespace giveway::test {
 
-// giveway::wire::Beacon as Cyclone lays it out; the pose without a struct of its own, which on the
-// wire is the same.
+// giveway::wire::Beacon as Cyclone lays it out; pose and covariance without structs of their own,
+// which on the wire is the same.
 struct ForeignBeacon {
   std::uint32_t vehicle, boot_epoch, seq, world_epoch, tick;
-  double left_rad_s, right_rad_s, cruise_m_s, x_m, y_m, heading_rad, sigma_position_m,
-      sigma_heading_rad, body_radius_m, wheel_radius_m, axle_m, acceleration_m_s2,
+  double left_rad_s, right_rad_s, cruise_m_s, x_m, y_m, heading_rad, xx_m2, xy_m2, yy_m2, xh_m_rad,
+      yh_m_rad, hh_rad2, body_radius_m, wheel_radius_m, axle_m, acceleration_m_s2,
       deceleration_m_s2, toward_x_m, toward_y_m;
   std::uint32_t mode, rule;
   std::uint32_t gives_way_to, blocked_by, order_waited_ticks, order_speed_bucket, order_vehicle,
