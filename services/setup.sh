@@ -24,7 +24,7 @@ build_packages() {
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && fastdds=libfastdds-dev
   printf '%s\n' git g++ cmake ninja-build ccache "$fastdds" fastddsgen \
     libprotobuf-dev protobuf-compiler libspdlog-dev libfmt-dev libcli11-dev libboost-dev libeigen3-dev \
-    libtinyxml2-dev \
+    libtinyxml2-dev libyaml-cpp-dev \
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 }
 

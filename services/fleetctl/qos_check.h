@@ -11,6 +11,7 @@ namespace giveway::fleetctl {
 
 struct QosCheckOptions {
   std::vector<std::string> files;  // paths, or names of shipped sets; none: the shipped default
+  std::string compose;             // a compose file: its services' sets, and how many they are
   std::string scenario;            // file or name; empty: two vehicles at 20 Hz
   std::optional<std::int64_t> vehicles;  // instead of the scenario's
   bool partial = false;                  // files need not be complete sets

@@ -16,12 +16,14 @@ A FILE is a path, or the name of a shipped set: default, lossy_radio, same_host,
 wan_discovery_server. Of several files each is the set of some processes: the writers of one are
 held against the readers of all.
 Each finding says where, which values, what comes of it and what to do. Nothing is started and no
-network is touched. Findings on the environment and the working folder are about this shell.
+network is touched. Of a compose file's services those count that name giveway; their fleet is as large
+as the containers of the services that are called vehicle, or have it in image or command. Findings on the environment and the working folder are about this shell.
 
 Examples
   fleetctl qos check                                   # the shipped default
   fleetctl qos check mine.xml --scenario four_way
   fleetctl qos check lossy_radio same_host             # would vehicles of both hear each other?
+  fleetctl qos check --compose compose.yaml            # what every container is given
   fleetctl qos check mine.xml --vehicles 64 --json | jq -r '.findings[].rule'
 
 Exit code: 0 nothing found, 1 warnings, 2 errors, or it could not run.
@@ -52,6 +54,9 @@ void AddCheck(CLI::App* qos, int* exit_code) {
                    "Fleet size and tick rate are this scenario's; 2 vehicles at 20 Hz without it");
   verb->add_option("--vehicles", options->vehicles, "Fleet size, instead of the scenario's")
       ->check(CLI::Range(std::int64_t{1}, kMostVehicles));
+  verb->add_option(
+      "--compose", options->compose,
+      "A compose file: the sets its services are given, and how many vehicles they are");
   verb->add_flag("--partial", options->partial, "The files need not be complete sets");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->callback([options, exit_code] { *exit_code = RunQosCheck(*options); });

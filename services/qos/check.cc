@@ -43,10 +43,16 @@ void SortAndCut(std::size_t from, Findings* findings) {
 }  // namespace
 
 Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployment) {
+  return Check(files, deployment, {});
+}
+
+Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployment,
+               const std::vector<ComposeSet>& set_of) {
   Findings findings;
   CheckSurroundings(deployment, &findings);
   std::vector<ProfileSet> sets;
-  for (const ProfileFile& file : files) {
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const ProfileFile& file = files[i];
     const std::size_t before = findings.size();
     XmlRead read = ReadXml(file.bytes, file.name);
     std::ranges::move(read.findings, std::back_inserter(findings));
@@ -55,6 +61,9 @@ Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployme
       sets.push_back(ReadProfiles(*read.root, file.name));
       CheckSet(sets.back(), deployment, &findings);
       CheckPairs(sets.back(), sets.back(), &findings);
+      for (const ComposeSet& given : set_of) {
+        if (given.file == i) CheckComposeSet(given.service, sets.back(), &findings);
+      }
     }
     SortAndCut(before, &findings);
   }

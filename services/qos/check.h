@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "services/qos/compose.h"
 #include "services/qos/deployment.h"
 #include "services/qos/finding.h"
 
@@ -19,6 +20,15 @@ struct ProfileFile {
 // Findings come file by file in the order of lines; at most kMostFindings, and one that says so.
 inline constexpr std::size_t kMostFindings = 200;
 Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployment);
+
+// The same of the fleet that a compose file starts. `set_of` says for each service which of `files`
+// it is given; a service that is given none of them is not in it.
+struct ComposeSet {
+  std::size_t file = 0;  // of `files`
+  ComposeService service;
+};
+Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployment,
+               const std::vector<ComposeSet>& set_of);
 
 // 2 with an error, 1 with a warning, 0 clean.
 int ExitCode(const Findings& findings);

@@ -41,11 +41,12 @@ constexpr std::array kVariables = {
              "unset it outside of experiments"},
 };
 
-constexpr std::array<std::string_view, 16> kOurs = {
-    "GIVEWAY_DOMAIN",   "GIVEWAY_INTERFACE", "GIVEWAY_QOS",        "GIVEWAY_SCENARIO",
-    "GIVEWAY_ID",       "GIVEWAY_SEED",      "GIVEWAY_BEHAVIOUR",  "GIVEWAY_DURATION",
-    "GIVEWAY_THREADS",  "GIVEWAY_VEHICLES",  "GIVEWAY_CHECKPOINT", "GIVEWAY_RECORD",
-    "GIVEWAY_LOCKSTEP", "GIVEWAY_LOG_LEVEL", "GIVEWAY_LOG_FORMAT", "GIVEWAY_CONFIG_DIR"};
+constexpr std::array<std::string_view, 18> kOurs = {
+    "GIVEWAY_DOMAIN",   "GIVEWAY_INTERFACE",     "GIVEWAY_QOS",        "GIVEWAY_SCENARIO",
+    "GIVEWAY_ID",       "GIVEWAY_SEED",          "GIVEWAY_BEHAVIOUR",  "GIVEWAY_DURATION",
+    "GIVEWAY_THREADS",  "GIVEWAY_VEHICLES",      "GIVEWAY_CHECKPOINT", "GIVEWAY_RECORD",
+    "GIVEWAY_LOCKSTEP", "GIVEWAY_LOG_LEVEL",     "GIVEWAY_LOG_FORMAT", "GIVEWAY_CONFIG_DIR",
+    "GIVEWAY_IMPAIR",   "GIVEWAY_PARTITION_FREE"};
 
 // Letters to change, add or leave out to make one of the other.
 std::size_t Distance(std::string_view a, std::string_view b) {
@@ -63,36 +64,33 @@ std::size_t Distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-void Add(std::string_view rule, std::string_view what, std::string values,
+void Add(std::string_view rule, const Place& place, std::string_view what, std::string values,
          std::string_view consequence, std::string_view remedy, Findings* findings) {
-  findings->push_back({Severity::kWarning,
-                       std::string(rule),
-                       {},
-                       std::string(what),
-                       std::move(values),
-                       std::string(consequence),
-                       std::string(remedy)});
+  findings->push_back({Severity::kWarning, std::string(rule), place, std::string(what),
+                       std::move(values), std::string(consequence), std::string(remedy)});
 }
 
-void CheckVariable(std::string_view name, Findings* findings) {
+}  // namespace
+
+void CheckVariable(std::string_view name, const Place& place, const std::string& is_set,
+                   Findings* findings) {
   for (const Variable& known : kVariables) {
     if (known.name == name) {
-      Add(known.rule, name, "is set in the environment", known.consequence, known.remedy, findings);
+      Add(known.rule, place, name, is_set, known.consequence, known.remedy, findings);
     }
   }
   if (!name.starts_with("GIVEWAY_") || std::ranges::find(kOurs, name) != kOurs.end()) return;
   const auto near =
       std::ranges::find_if(kOurs, [&](std::string_view ours) { return Distance(name, ours) <= 2; });
   if (near == kOurs.end()) return;
-  Add("misnamed_variable", name, "is set in the environment; " + std::string(*near) + " is meant?",
+  Add("misnamed_variable", place, name, is_set + "; " + std::string(*near) + " is meant?",
       "No service reads it.", "correct the name", findings);
 }
 
-}  // namespace
-
 void CheckSurroundings(const Deployment& deployment, Findings* findings) {
   for (const std::string& variable : deployment.environment) {
-    CheckVariable(std::string_view(variable).substr(0, variable.find('=')), findings);
+    CheckVariable(std::string_view(variable).substr(0, variable.find('=')), {},
+                  "is set in the environment", findings);
   }
   for (const std::string& file : deployment.folder_files) {
     if (file != "DEFAULT_FASTRTPS_PROFILES.xml" && file != "DEFAULT_FASTDDS_PROFILES.xml") continue;

@@ -22,6 +22,10 @@ void CheckTransports(const ProfileSet& set, const Deployment& deployment, Findin
 // Of what surrounds the processes: variables and files that the library reads by itself.
 void CheckSurroundings(const Deployment& deployment, Findings* findings);
 
+// Of one variable by its name; `is_set` says where: "is set in the environment".
+void CheckVariable(std::string_view name, const Place& place, const std::string& is_set,
+                   Findings* findings);
+
 // Where a value is said, else the profile that leaves it to the library.
 inline const Place& PlaceOf(const Profile& profile, Policy policy) {
   return profile[policy].given ? profile[policy].place : profile.place;

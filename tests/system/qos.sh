@@ -64,6 +64,26 @@ printf '<dds>\n<a\033[31m b="c"/></dds>' >escape.xml
 qos 2 "escape codes" check escape.xml
 grep -q $'\033' "$SCRATCH/out" && fail "escape codes reach the terminal"
 
+cat >compose.yaml <<'TEXT'
+services:
+  world: { image: giveway, command: giveway-world, environment: { GIVEWAY_DOMAIN: 7 } }
+  vehicle:
+    image: giveway
+    command: giveway-vehicle --qos /etc/giveway/mine.xml
+    environment: [GIVEWAY_DOMAIN=7]
+    volumes: [./mine.xml:/etc/giveway/mine.xml:ro]
+    scale: 8
+TEXT
+cp "$sets/default.xml" mine.xml
+qos 0 "a sound compose file" check --compose compose.yaml
+sed 's/_DOMAIN=7/_DOMAIN=8/; /--qos/s/giveway.mine/elsewhere\/mine/' compose.yaml >split.yaml
+qos 2 "a fleet that is split" check --compose split.yaml --json
+says "a fleet that is split" '[.findings[].rule] == ["domain_split", "qos_not_mounted"]
+  and all(.findings[]; .line > 0 and .subject == "vehicle")'
+echo "services: [" >none.yaml
+qos 2 "a compose file that is none" check --compose none.yaml --json
+says "a compose file that is none" '.findings[0].rule == "malformed_yaml"'
+
 cp "$bad/lifespan.xml" DEFAULT_FASTRTPS_PROFILES.xml
 qos 1 "a default file lies about" check
 grep -q default_profiles_file "$SCRATCH/out" || fail "the default file is not named"

@@ -1,0 +1,74 @@
+// Containers of a fleet: what their network, memory and variables do to profile sets that are sound
+// by themselves.
+#include <algorithm>
+
+#include "services/qos/compose.h"
+#include "services/qos/rules.h"
+
+namespace giveway::qos {
+namespace {
+
+// What the service's variable says last; empty if it is not set.
+ComposeVariable Last(const ComposeService& service, std::string_view name) {
+  const auto found = std::find_if(service.environment.rbegin(), service.environment.rend(),
+                                  [&](const auto& variable) { return variable.name == name; });
+  return found == service.environment.rend() ? ComposeVariable{} : *found;
+}
+
+void CheckDomains(const std::vector<ComposeService>& services, Findings* findings) {
+  const ComposeService* first = nullptr;
+  for (const ComposeService& service : services) {
+    const ComposeVariable domain = Last(service, "GIVEWAY_DOMAIN");
+    if (domain.value.empty()) continue;
+    if (first == nullptr) {
+      first = &service;
+      continue;
+    }
+    const ComposeVariable other = Last(*first, "GIVEWAY_DOMAIN");
+    if (domain.value == other.value) continue;
+    findings->push_back({Severity::kError, "domain_split", domain.place, service.name,
+                         "GIVEWAY_DOMAIN " + domain.value + ", and " + other.value + " in " +
+                             first->name + " (line " + std::to_string(other.place.line) + ")",
+                         "The two never hear of each other.", "one domain for the whole fleet"});
+  }
+}
+
+bool UsesSharedMemory(const ProfileSet& set) {
+  return std::ranges::any_of(set.participations, [&](const Participation& participation) {
+    return std::ranges::any_of(participation.transports, [&](const auto& named) {
+      const Transport* transport = set.FindTransport(named.first);
+      return transport != nullptr && transport->type == "SHM";
+    });
+  });
+}
+
+}  // namespace
+
+void CheckCompose(const std::vector<ComposeService>& services, Findings* findings) {
+  for (const ComposeService& service : services) {
+    for (const ComposeVariable& variable : service.environment) {
+      CheckVariable(variable.name, variable.place, "is set for " + service.name, findings);
+    }
+  }
+  CheckDomains(services, findings);
+}
+
+void CheckComposeSet(const ComposeService& service, const ProfileSet& set, Findings* findings) {
+  if (!UsesSharedMemory(set) || (service.host_network && service.host_ipc)) return;
+  if (service.host_network) {
+    findings->push_back(
+        {Severity::kError, "host_network_without_ipc", service.place, service.name,
+         "network_mode host without ipc host, and shared memory in " + set.file,
+         "All take each other for processes of one host and write into memory that nobody else "
+         "sees: they match, and hear nothing.",
+         "ipc: host beside network_mode: host, or a set without shared memory"});
+    return;
+  }
+  findings->push_back({Severity::kWarning, "shared_memory_apart", service.place, service.name,
+                       "shared memory in " + set.file + ", and a network of its own",
+                       "Containers with networks of their own take each other for other hosts: "
+                       "all goes over UDP, and the segments cost memory for nothing.",
+                       "a set without shared memory"});
+}
+
+}  // namespace giveway::qos
