@@ -16,11 +16,8 @@ double CriticalWith(const PoseCovariance& apart, double gate_enter_m = 0) {
   const HeardEchoes echoes{};
   const SeenObjects objects;
   const Cones cones = ConesOf(options.profile);
-  const Situation s{.options = options,
-                    .ranges = ranges,
-                    .echoes = echoes,
-                    .cones = cones,
-                    .objects = objects};
+  const Situation s{
+      .options = options, .ranges = ranges, .echoes = echoes, .cones = cones, .objects = objects};
   PeerView view{};
   view.position_world = {3, 3};
   view.apart = apart;
