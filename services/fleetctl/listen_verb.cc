@@ -15,6 +15,7 @@ constexpr const char* kFooter = R"(
 One line a sample, headed by the seconds since it began to listen and by the vehicle; with --json one
 object, with every field. Topics that are kept for latecomers (world/roster, world/event,
 world/figures) begin with what was. Ends by --count, --duration, Ctrl-C, or when nobody reads stdout.
+Begin it after the fleet: fleetctl run takes no domain in which somebody already listens.
 
 Examples
   fleetctl listen fleet/beacon --domain 7

@@ -136,6 +136,12 @@ void AddFields(const VehicleStatus& status, JsonObject* object) {
   object->Add("qos", QosCountsOf(status.qos));
   AddId("last_deadline_missed", status.last_deadline_missed, object);
   AddId("last_liveliness_lost", status.last_liveliness_lost, object);
+  if (status.last_event) {
+    JsonObject event;
+    event.Add("kind", giveway::Name(*status.last_event));
+    AddId("vehicle", status.last_event_about, &event);
+    object->Add("last_qos_event", event);
+  }
   AddId("last_rejected_id", VehicleId{status.last_rejected_id}, object);
   object->Add("step_p99_us", status.step_p99_us);
   object->Add("loop_max_ms", status.loop_max_ms);

@@ -77,10 +77,17 @@ std::string EventsText(const VehicleStatus& status) {
   std::string list;
   AddCount("missed", status.qos.deadline_missed, Number(status.last_deadline_missed), &list);
   AddCount("lost", status.qos.liveliness_lost, Number(status.last_liveliness_lost), &list);
+  AddCount("samples missing", status.beacons.lost, 0, &list);
   AddCount("incompatible", status.qos.incompatible_qos, 0, &list);
   AddCount("refused", status.beacons.Rejected(), status.last_rejected_id, &list);
   AddCount("do not fit", status.trust.Total(), 0, &list);
-  return list.empty() ? "-" : list;
+  if (!status.last_event) return list.empty() ? "-" : list;
+  if (!list.empty()) list += "; ";
+  list += fmt::format("last {}", giveway::Name(*status.last_event));
+  if (status.last_event_about != kNobody) {
+    list += fmt::format(" {}", Number(status.last_event_about));
+  }
+  return list;
 }
 
 std::string ToLine(const ReceivedBeacon& received) {

@@ -16,6 +16,7 @@ namespace {
 constexpr int kNobodyThere = 1;
 constexpr int kCouldNotRun = 2;
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(10);
+constexpr Nanoseconds kFirstWords = std::chrono::seconds(1);  // for discovery to bring somebody
 // Where no terminal is: nothing is cut.
 constexpr TerminalSize kEndless{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
 
@@ -47,6 +48,7 @@ class Top {
     while (Interrupts::Count() == 0) {
       Turn();
       const SteadyTime now = app::SteadyNow();
+      if (!fleet_.Anybody() && now - post_.since < kFirstWords) continue;
       if (!screen_.IsDue(now)) continue;
       if (in_place_) {
         screen_.Draw(TopLines(fleet_, post_, now, SizeOfTerminal()));

@@ -12,6 +12,7 @@ Only listens: starts nothing, stops nothing. Statuses are heard of all areas, be
 'beacon' is the age of the newest one; 'events' are what the vehicle has counted about its peers: its
 deadlines missed, its peers lost, beacons refused, and whom each was about last.
 Without a terminal it prints a block a second, with --json an object a second.
+Begin it after the fleet: fleetctl run takes no domain in which somebody already listens.
 
 Examples
   fleetctl top --domain 7

@@ -39,6 +39,8 @@ VehicleStatus GivingWay(std::uint32_t vehicle) {
   status.qos.deadline_missed = 4;
   status.last_deadline_missed = VehicleId{9};
   status.trust.jumps = 3;
+  status.last_event = QosEventKind::kUnmatched;
+  status.last_event_about = VehicleId{8};
   return status;
 }
 
@@ -61,7 +63,7 @@ TEST(TopTable, RowNamesModeReasonSpeedEchoBeaconAgeAndEventsWithWhomTheyWereAbou
   const auto lines = TopLines(FleetOf(2), Post(), milliseconds(10'040), kWide);
   ASSERT_THAT(lines, SizeIs(5));
   for (const char* part : {"2", "cooperative", "give_way 1", "0.12", "0.93", "40 ms",
-                           "4 missed (last 9), 3 do not fit"}) {
+                           "4 missed (last 9), 3 do not fit; last unmatched 8"}) {
     EXPECT_THAT(lines[4], HasSubstr(part));
   }
 }
@@ -129,7 +131,8 @@ TEST(TopJson, SaysWhoIsHeardAndWhatItsStatusCarries) {
        {R"({"domain":7,"interface":"127.0.0.1","area":"main","listening_s":10.5,)",
         R"("state":"running","silent":false,"heard_s_ago":0.5)",
         R"("vehicles":[{"id":1,"hearing":"heard","heard_s_ago":0.5,"beacon_age_s":0.5,)",
-        R"("rule":"give_way","peer":1,"sensor":3)", R"("last_deadline_missed":9)",
+        R"("rule":"give_way","peer":1,"sensor":3)",
+        R"("last_deadline_missed":9,"last_qos_event":{"kind":"unmatched","vehicle":8})",
         R"("jumps":3)"}) {
     EXPECT_THAT(json, HasSubstr(part));
   }
