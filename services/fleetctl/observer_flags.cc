@@ -1,4 +1,5 @@
 #include "services/fleetctl/observer_flags.h"
+
 #include "services/fleetctl/domain_lock.h"
 
 namespace giveway::fleetctl {

@@ -75,9 +75,6 @@ inline bool FromWirePart(wire::SeenClass sent, SeenClass& seen_class) {
 inline bool FromWirePart(wire::SignalPhase sent, SignalPhase& phase) {
   return FromWireEnum(sent, SignalPhase::kGreen, phase);
 }
-inline bool FromWirePart(wire::QosEventKind sent, giveway::QosEventKind& kind) {
-  return FromWireEnum(sent, giveway::QosEventKind::kIncompatibleQos, kind);
-}
 inline bool FromWirePart(wire::RunPhase sent, RunState& state) {
   return FromWireEnum(sent, RunState::kEnded, state);
 }

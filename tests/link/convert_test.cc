@@ -309,6 +309,11 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
   command.decision().rule(static_cast<wire::DriveRule>(99));
   MotorCommand command_back;
   EXPECT_FALSE(FromWire(command, command_back));
+
+  wire::Status status = ToWire(VehicleStatus{});
+  status.last_qos_event().kind(static_cast<wire::QosEventKind>(6));
+  VehicleStatus status_back;
+  EXPECT_FALSE(FromWire(status, status_back));
 }
 
 // Nobody between the socket and main catches what the type support throws: one spoilt packet from
