@@ -67,7 +67,7 @@ class Listening {
       std::fprintf(stderr, "%s\n", NobodyHeard(post_, app::SteadyNow()).c_str());
       return;
     }
-    std::fprintf(stderr, "somebody is there, but nothing was heard on %s for %.0f s%s\n",
+    std::fprintf(stderr, "somebody is there, but nothing was heard on %s for %.1f s%s\n",
                  std::string(Name(options_.filter.topic)).c_str(), Seconds(Since()),
                  options_.filter.vehicles.empty() ? "" : " of the vehicles asked for");
   }

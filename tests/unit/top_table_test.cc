@@ -105,7 +105,7 @@ TEST(TopTable, ABodyThatSaysNothingHasARow) {
 
 TEST(TopTable, NobodyHeardSaysWhatWasTriedAndWhatToCheck) {
   const std::string text = NobodyHeard(Post(), seconds(5));
-  for (const char* part : {"5 s", "domain 7", "127.0.0.1", "main", "--interface", "--qos"}) {
+  for (const char* part : {"5.0 s", "domain 7", "127.0.0.1", "main", "--interface", "--qos"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(TopLines({}, Post(), seconds(5), {400, 24}).back(), HasSubstr(text));
