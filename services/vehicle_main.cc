@@ -6,6 +6,7 @@
 // wires; deciding is services/vehicle, talking is services/link.
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -176,7 +177,8 @@ class Loop {
     if (asking_) asking_->AskAgainIfDue();
     inputs.leaving = leaving;
     if (inputs.scan) last_scan_ = woke;
-    if (lockstep_ && !leaving && !KeepWorldTime(&inputs)) return;
+    const std::span<const QosEvent> events = inputs.events;
+    if (lockstep_ && !leaving && !KeepWorldTime(&inputs)) return Tell(events);
 
     inputs.roster = std::exchange(news_, std::nullopt);
     const SteadyTime before = app::SteadyNow();
@@ -189,9 +191,21 @@ class Loop {
     // After the wheels have their command: nobody waits for what follows.
     if (recorder_ != nullptr) recorder_->Step(inputs, outputs, vehicle_.Hash());
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
+    Tell(events);
     if (outputs.decision_changed || woke >= next_status_) {
       report_.Send(vehicle_, link_);
       next_status_ = woke + kStatusPeriod;
+    }
+  }
+
+  // What the middleware says of the peers. Whoever comes or goes is news, the rest is trouble.
+  void Tell(std::span<const QosEvent> events) {
+    report_.NoteEvents(events);
+    for (const QosEvent& event : events) {
+      const bool is_trouble = event.kind == QosEventKind::kDeadlineMissed ||
+                              event.kind == QosEventKind::kLivelinessLost ||
+                              event.kind == QosEventKind::kIncompatibleQos;
+      (is_trouble ? app::LogWarning : app::LogInfo)(Describe(event));
     }
   }
 

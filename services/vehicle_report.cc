@@ -16,6 +16,12 @@ std::string Describe(const Decision& decision) {
   return text + " (" + std::string(Name(decision.mode)) + ")";
 }
 
+std::string Describe(const QosEvent& event) {
+  return std::string(Name(event.kind)) + ": " +
+         (event.vehicle == kNobody ? "a vehicle the library does not name"
+                                   : "vehicle " + std::to_string(Number(event.vehicle)));
+}
+
 std::string Describe(const ImpairmentCounters& counters) {
   std::string text = "impairment:";
   const auto add = [&text](const char* name, std::uint64_t number) {
@@ -49,6 +55,10 @@ void VehicleReport::NoteStep(Nanoseconds step, Nanoseconds turn) {
   longest_turn_ms_ = std::max(longest_turn_ms_, Milliseconds(turn));
 }
 
+void VehicleReport::NoteEvents(std::span<const QosEvent> events) {
+  if (!events.empty()) last_event_ = events.back();
+}
+
 double VehicleReport::StepP99Us() {
   if (steps_us_.empty()) return 0;
   sorted_ = steps_us_;
@@ -77,6 +87,10 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::VehicleL
   status.qos = state.qos;
   status.last_deadline_missed = state.peers.LastDeadlineMissed();
   status.last_liveliness_lost = state.peers.LastLivelinessLost();
+  if (last_event_) {
+    status.last_event = last_event_->kind;
+    status.last_event_about = last_event_->vehicle;
+  }
   status.last_rejected_id = Number(state.peers.LastRejected());
   status.step_p99_us = StepP99Us();
   status.loop_max_ms = longest_turn_ms_;

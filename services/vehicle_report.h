@@ -1,6 +1,8 @@
 // What a vehicle reports of itself: gathers brain, link and timing into a VehicleStatus.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,9 @@ namespace giveway {
 // "give_way to 1 (cooperative)", for log lines.
 std::string Describe(const Decision& decision);
 
+// "deadline_missed: vehicle 2", for log lines.
+std::string Describe(const QosEvent& event);
+
 // What was injected into what a vehicle heard, one line of name=number.
 std::string Describe(const ImpairmentCounters& counters);
 
@@ -19,6 +24,7 @@ class VehicleReport {
  public:
   // `step` is what Vehicle::Step took, `turn` the time from waking on a scan to the command sent.
   void NoteStep(Nanoseconds step, Nanoseconds turn);
+  void NoteEvents(std::span<const QosEvent> events);
   void Send(const Vehicle& vehicle, link::VehicleLink& link);
   void SendFinal(const Vehicle& vehicle, link::VehicleLink& link);
 
@@ -30,6 +36,7 @@ class VehicleReport {
   std::vector<double> sorted_;
   std::size_t next_ = 0;
   double longest_turn_ms_ = 0;
+  std::optional<QosEvent> last_event_;
 };
 
 }  // namespace giveway

@@ -36,9 +36,14 @@ LiveScreen::LiveScreen(bool in_place) : in_place_(in_place) {}
 
 LiveScreen::~LiveScreen() { Finish(); }
 
-void LiveScreen::Show(const TableView& view, SteadyTime now) {
-  if (now < next_) return;
+bool LiveScreen::IsDue(SteadyTime now) {
+  if (now < next_) return false;
   next_ = now + (in_place_ ? kTablePeriod : kLinePeriod);
+  return true;
+}
+
+void LiveScreen::Show(const TableView& view, SteadyTime now) {
+  if (!IsDue(now)) return;
   if (in_place_) {
     Draw(TableLines(view, SizeOfTerminal()));
   } else {

@@ -21,12 +21,14 @@ class LiveScreen {
 
   // Draws if it is time to.
   void Show(const TableView& view, SteadyTime now);
+  // True if it is time to draw; then not again before a period has passed.
+  bool IsDue(SteadyTime now);
+  // Draws these lines in place of those drawn before, on stdout.
+  void Draw(const std::vector<std::string>& lines);
   // Leaves what is drawn and goes on below it.
   void Finish();
 
  private:
-  void Draw(const std::vector<std::string>& lines);
-
   bool in_place_;
   bool cursor_hidden_ = false;
   std::size_t lines_drawn_ = 0;

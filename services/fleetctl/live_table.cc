@@ -4,17 +4,12 @@
 
 #include <algorithm>
 
+#include "services/fleetctl/sample_words.h"
+
 namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kRowFormat = "{:>7}  {:<11}  {:<14}  {:>9}  {:>6}  {:>5}  {}";
-constexpr std::size_t kHeaderLines = 2;
-
-std::string ReasonText(const Decision& decision) {
-  std::string reason(Name(decision.rule));
-  if (decision.peer != kNobody) reason += fmt::format(" {}", Number(decision.peer));
-  return reason;
-}
 
 std::string QosText(const VehicleStatus& status) {
   const QosCounters& qos = status.qos;
@@ -49,16 +44,14 @@ std::string Title(const TableView& view) {
 
 }  // namespace
 
-std::vector<std::string> TableLines(const TableView& view, TerminalSize size) {
+std::vector<std::string> FitTerminal(std::vector<std::string> lines,
+                                     const std::vector<std::string>& rows, TerminalSize size) {
   // The last row stays free: a line feed there would scroll the screen.
   const std::size_t room = static_cast<std::size_t>(std::max(size.rows - 1, 0));
-  std::vector<std::string> lines{
-      Title(view), fmt::format(kRowFormat, "vehicle", "mode", "reason", "speed m/s", "echo m",
-                               "peers", "QoS events")};
-  const std::size_t rows = room > kHeaderLines ? room - kHeaderLines : 0;
-  const std::size_t total = view.vehicles.size();
-  const std::size_t shown = total <= rows ? total : (rows > 0 ? rows - 1 : 0);
-  for (std::size_t i = 0; i < shown; ++i) lines.push_back(Row(view.vehicles[i], view));
+  const std::size_t left = room > lines.size() ? room - lines.size() : 0;
+  const std::size_t total = rows.size();
+  const std::size_t shown = total <= left ? total : (left > 0 ? left - 1 : 0);
+  lines.insert(lines.end(), rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(shown));
   if (shown < total) lines.push_back(fmt::format("{:>7}  and {} more", "...", total - shown));
   if (lines.size() > room) lines.resize(room);
   const auto columns = static_cast<std::size_t>(std::max(size.columns, 0));
@@ -66,6 +59,14 @@ std::vector<std::string> TableLines(const TableView& view, TerminalSize size) {
     if (line.size() > columns) line.resize(columns);
   }
   return lines;
+}
+
+std::vector<std::string> TableLines(const TableView& view, TerminalSize size) {
+  std::vector<std::string> rows;
+  for (const VehicleId vehicle : view.vehicles) rows.push_back(Row(vehicle, view));
+  return FitTerminal({Title(view), fmt::format(kRowFormat, "vehicle", "mode", "reason", "speed m/s",
+                                               "echo m", "peers", "QoS events")},
+                     rows, size);
 }
 
 std::string ProgressLine(const TableView& view) {

@@ -27,8 +27,11 @@ struct TerminalSize {
   int rows = 24;
 };
 
-// At most rows - 1 lines, each at most `columns` wide, ASCII. Vehicles that do not fit are counted
-// in the last line.
+// The head and as many of the rows as fit: at most size.rows - 1 lines, each at most size.columns
+// bytes. Rows that do not fit are counted in the last line.
+std::vector<std::string> FitTerminal(std::vector<std::string> head,
+                                     const std::vector<std::string>& rows, TerminalSize size);
+// The table, ASCII, so fitted.
 std::vector<std::string> TableLines(const TableView& view, TerminalSize size);
 // The same in one line, for a log: time, vehicles heard of, who gives way.
 std::string ProgressLine(const TableView& view);

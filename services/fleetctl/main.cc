@@ -14,7 +14,7 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
     return error;
   }
   return "there is no verb '" + std::string(argv[1]) +
-         "'; verbs: qos, replay, run, shrink, virtual";
+         "'; verbs: listen, qos, replay, run, shrink, top, virtual";
 }
 
 }  // namespace
@@ -25,10 +25,12 @@ int main(int argc, char** argv) {
   fleetctl.set_version_flag("--version", "fleetctl " GIVEWAY_VERSION);
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = kWrongArguments;
+  giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddShrinkVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddTopVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);
   try {
     fleetctl.parse(argc, argv);

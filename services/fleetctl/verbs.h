@@ -6,10 +6,12 @@
 
 namespace giveway::fleetctl {
 
+void AddListenVerb(CLI::App* fleetctl, int* exit_code);
 void AddQosVerb(CLI::App* fleetctl, int* exit_code);
 void AddReplayVerb(CLI::App* fleetctl, int* exit_code);
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);
 void AddShrinkVerb(CLI::App* fleetctl, int* exit_code);
+void AddTopVerb(CLI::App* fleetctl, int* exit_code);
 void AddVirtualVerb(CLI::App* fleetctl, int* exit_code);
 
 }  // namespace giveway::fleetctl

@@ -77,6 +77,23 @@ QosCounters FromWirePart(const wire::QosCounts& sent) {
           .unmatched = sent.unmatched()};
 }
 
+wire::LastQosEvent LastEventOf(const VehicleStatus& status) {
+  wire::LastQosEvent sent;
+  sent.known(status.last_event.has_value());
+  if (status.last_event) sent.kind(ToWireEnum<wire::QosEventKind>(*status.last_event));
+  sent.vehicle(Number(status.last_event_about));
+  return sent;
+}
+
+bool TakeLastEvent(const wire::LastQosEvent& sent, VehicleStatus& status) {
+  giveway::QosEventKind kind{};
+  if (!FromWireEnum(sent.kind(), giveway::QosEventKind::kIncompatibleQos, kind)) return false;
+  status.last_event.reset();
+  if (sent.known()) status.last_event = kind;
+  status.last_event_about = VehicleId{sent.vehicle()};
+  return true;
+}
+
 }  // namespace
 
 wire::Status ToWire(const VehicleStatus& status) {
@@ -95,6 +112,7 @@ wire::Status ToWire(const VehicleStatus& status) {
   sent.qos(ToWirePart(status.qos));
   sent.last_deadline_missed(Number(status.last_deadline_missed));
   sent.last_liveliness_lost(Number(status.last_liveliness_lost));
+  sent.last_qos_event(LastEventOf(status));
   sent.last_rejected_id(status.last_rejected_id);
   sent.step_p99_us(status.step_p99_us);
   sent.loop_max_ms(status.loop_max_ms);
@@ -126,7 +144,8 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.beacon_deadline_requested_ms = sample.beacon_deadline_requested_ms();
   status.beacon_lease_ms = sample.beacon_lease_ms();
   status.final = sample.last_report();
-  return FromWirePart(sample.decision(), status.decision);
+  return TakeLastEvent(sample.last_qos_event(), status) &&
+         FromWirePart(sample.decision(), status.decision);
 }
 
 wire::Join ToWire(const JoinRequest& request) {

@@ -10,6 +10,7 @@
 #include "services/types/decision.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/pose.h"
+#include "services/types/qos_event.h"
 #include "services/types/sensor_scan.h"
 #include "services/types/signal.h"
 
@@ -25,6 +26,8 @@ static_assert(SameOrder(wire::DriveRule::RULE_LEAVING, Rule::kLeaving));
 static_assert(SameOrder(wire::EchoKind::ECHO_HEARD, Echo::kEcho));
 static_assert(SameOrder(wire::SeenClass::SEEN_SIGNAL, SeenClass::kSignal));
 static_assert(SameOrder(wire::SignalPhase::PHASE_GREEN, SignalPhase::kGreen));
+static_assert(SameOrder(wire::QosEventKind::QOS_EVENT_INCOMPATIBLE_QOS,
+                        giveway::QosEventKind::kIncompatibleQos));
 static_assert(SameOrder(wire::RunPhase::RUN_ENDED, RunState::kEnded));
 static_assert(SameOrder(wire::EventKind::EVENT_VERDICT, giveway::EventKind::kVerdict));
 

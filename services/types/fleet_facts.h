@@ -11,6 +11,7 @@
 #include "services/types/decision.h"
 #include "services/types/ids.h"
 #include "services/types/pose.h"
+#include "services/types/qos_event.h"
 #include "services/types/range_scan.h"
 
 namespace giveway {
@@ -113,6 +114,9 @@ struct VehicleStatus {
   QosCounters qos;
   VehicleId last_deadline_missed = kNobody;
   VehicleId last_liveliness_lost = kNobody;
+  // The last event of all kinds, and whom it was about; nothing before the first.
+  std::optional<QosEventKind> last_event;
+  VehicleId last_event_about = kNobody;
   std::uint32_t last_rejected_id = 0;  // id claimed by the last refused beacon
   double step_p99_us = 0;              // of Vehicle::Step, over the last 1000 steps
   double loop_max_ms = 0;              // longest time from scan to command so far

@@ -1,7 +1,9 @@
 // What the middleware says about a peer. Events only ever make a vehicle more cautious.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "services/types/ids.h"
 #include "services/types/time.h"
@@ -16,6 +18,14 @@ enum class QosEventKind : std::uint8_t {
   kUnmatched,        // left, dropped, or no longer compatible
   kIncompatibleQos,  // discovered, and refused
 };
+
+constexpr std::string_view Name(QosEventKind kind) {
+  constexpr std::array<std::string_view, 6> kNames = {"deadline_missed", "liveliness_lost",
+                                                      "liveliness_back", "matched",
+                                                      "unmatched",       "incompatible_qos"};
+  const auto index = static_cast<std::size_t>(kind);
+  return index < kNames.size() ? kNames[index] : "unknown";
+}
 
 struct QosEvent {
   QosEventKind kind = QosEventKind::kMatched;

@@ -245,6 +245,8 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   sent.qos = {23, 24, 25, 26, 27};
   sent.last_deadline_missed = VehicleId{28};
   sent.last_liveliness_lost = VehicleId{29};
+  sent.last_event = QosEventKind::kUnmatched;
+  sent.last_event_about = VehicleId{30};
   sent.last_rejected_id = 30;
   sent.step_p99_us = 31;
   sent.loop_max_ms = 32;
@@ -272,6 +274,8 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   EXPECT_EQ(back.beacons_superseded, sent.beacons_superseded);
   EXPECT_EQ(back.last_deadline_missed, sent.last_deadline_missed);
   EXPECT_EQ(back.last_liveliness_lost, sent.last_liveliness_lost);
+  EXPECT_EQ(back.last_event, sent.last_event);
+  EXPECT_EQ(back.last_event_about, sent.last_event_about);
   EXPECT_EQ(back.last_rejected_id, sent.last_rejected_id);
   EXPECT_EQ(back.step_p99_us, sent.step_p99_us);
   EXPECT_EQ(back.loop_max_ms, sent.loop_max_ms);
@@ -305,6 +309,11 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
   command.decision().rule(static_cast<wire::DriveRule>(99));
   MotorCommand command_back;
   EXPECT_FALSE(FromWire(command, command_back));
+
+  wire::Status status = ToWire(VehicleStatus{});
+  status.last_qos_event().kind(static_cast<wire::QosEventKind>(6));
+  VehicleStatus status_back;
+  EXPECT_FALSE(FromWire(status, status_back));
 }
 
 // Nobody between the socket and main catches what the type support throws: one spoilt packet from
