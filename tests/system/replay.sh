@@ -47,6 +47,6 @@ spoilt() {
 spoilt empty truncate -s 0 empty
 spoilt no_mark dd if=/dev/zero of=no_mark bs=1 count=1 conv=notrunc status=none
 spoilt one_byte dd if=/dev/zero of=one_byte bs=1 seek=30000 count=5 conv=notrunc status=none
-spoilt other_format sed -i '1s/1$/9/' other_format
+spoilt other_format sed -i '1s/[0-9]*$/99/' other_format
 
 [[ $failures -eq 0 ]]
