@@ -226,6 +226,8 @@ void World::AddTo(StateHash* hash) const {
     hash->Add(body.world_from_body.heading_rad);
     hash->Add(body.wheels.left_rad_s);
     hash->Add(body.wheels.right_rad_s);
+    hash->Add(body.counted.left_rad);
+    hash->Add(body.counted.right_rad);
   }
   hash->Add(contact_count_);
   for (const MovingObstacle& obstacle : obstacles_) {

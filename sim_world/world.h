@@ -77,7 +77,7 @@ class World {
   const Scene& SceneNow() { return sensing_.SceneAtEnd(dt_s_, things_, bodies_); }
   OwnerFacts FactsOf(Owner owner) const;
 
-  // Adds poses, wheels, contacts, obstacles and doors.
+  // Adds poses, wheels and their counts, contacts, obstacles and doors.
   void AddTo(StateHash* hash) const;
 
  private:

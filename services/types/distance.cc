@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "services/types/math.h"
+
 namespace giveway {
 namespace {
 
 constexpr double kInverseSqrt2 = 0.70710678118654752;
-
-double Magnitude(double x) { return x < 0 ? -x : x; }
 
 }  // namespace
 

@@ -127,8 +127,8 @@ SineCosine SinCos(double x_rad) {
 }
 
 double Atan2(double y, double x) {
-  const double ax = x < 0 ? -x : x;
-  const double ay = y < 0 ? -y : y;
+  const double ax = Magnitude(x);
+  const double ay = Magnitude(y);
   if (ax == 0 && ay == 0) return 0;
   double angle = ay <= ax ? AtanUnit(ay / ax) : kPi / 2 - AtanUnit(ax / ay);
   if (x < 0) angle = kPi - angle;

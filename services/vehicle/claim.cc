@@ -17,8 +17,6 @@ constexpr double kSpeedSlack = 1.1;
 // The brain's own limit on turning while it drives (steering.cc) is half of what a body can do.
 constexpr double kTurnWhileDriving_rad_s = 0.87;
 
-double Magnitude(double x) { return x < 0 ? -x : x; }
-
 Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
   const double along = Dot(point - claim.axis.from_world, claim.axis.direction_world);
   return claim.axis.from_world +

@@ -8,13 +8,13 @@ namespace giveway {
 namespace {
 
 Cone ConeOf(double bearing_rad, double half_angle_rad) {
-  const double off_axis_rad = bearing_rad < 0 ? -bearing_rad : bearing_rad;
   const double nearest_rad = bearing_rad > half_angle_rad    ? bearing_rad - half_angle_rad
                              : bearing_rad < -half_angle_rad ? bearing_rad + half_angle_rad
                                                              : 0;
   return {.axis_body = {Cos(bearing_rad), Sin(bearing_rad)},
           .nearest_body = {Cos(nearest_rad), Sin(nearest_rad)},
-          .nearest_cosine = Cos(std::max(0.0, off_axis_rad - half_angle_rad))};
+          .nearest_cosine = Cos(std::max(0.0, Magnitude(bearing_rad) - half_angle_rad)),
+          .bearing_rad = bearing_rad};
 }
 
 }  // namespace

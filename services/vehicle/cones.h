@@ -12,6 +12,7 @@ struct Cone {
   Vec2 axis_body;         // unit vector
   Vec2 nearest_body;      // unit vector of the ray in it that is nearest to straight ahead
   double nearest_cosine;  // of the angle between that ray and straight ahead
+  double bearing_rad;     // of the axis
 };
 
 struct Cones {

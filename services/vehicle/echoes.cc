@@ -18,8 +18,6 @@ constexpr std::uint32_t kSlowMotionStreak = 2;
 // Standard deviations of a closing speed that the readings' noise may leave unexplained.
 constexpr double kNoiseSigmas = 4;
 
-double Magnitude(double x) { return x < 0 ? -x : x; }
-
 using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
 
 Lanes Load(const double* from) {
@@ -47,9 +45,14 @@ std::uint32_t PerhapsOf(Vec2 centre_body, double radius_m, const HeardEchoes& ec
   return perhaps;
 }
 
+// How far a direction is off a cone's axis.
+double OffAxis(Vec2 direction_body, const Cone& cone) {
+  return Magnitude(WrapAngle(Atan2(direction_body.y, direction_body.x) - cone.bearing_rad));
+}
+
 // Whether a direction is off a cone's axis by no more than limit_rad. The sine of an angle is less
 // than the angle and its tangent more: what lies between takes the angle itself.
-bool IsWithin(double limit_rad, Vec2 direction_body, const Cone& cone, double bearing_rad) {
+bool IsWithin(double limit_rad, Vec2 direction_body, const Cone& cone) {
   const double along = Dot(cone.axis_body, direction_body);
   const double across = Magnitude(Cross(cone.axis_body, direction_body));
   constexpr double kRounding = 1e-9;
@@ -57,7 +60,7 @@ bool IsWithin(double limit_rad, Vec2 direction_body, const Cone& cone, double be
     if (along < 0 || across > (limit_rad + kRounding) * Norm(direction_body)) return false;
     if (across < (limit_rad - kRounding) * along) return true;
   }
-  return Magnitude(WrapAngle(Atan2(direction_body.y, direction_body.x) - bearing_rad)) <= limit_rad;
+  return OffAxis(direction_body, cone) <= limit_rad;
 }
 
 // The least range at which a cone that looks `off_rad` past the centre of a disc echoes it, metres
@@ -72,15 +75,15 @@ double LeastRange(double distance_m, double radius_m, double off_rad) {
 
 // Something before the body, or beside it: too near for what is unsure to be its echo.
 bool IsBefore(double range_m, double radius_m, double unsure_m, Vec2 to_centre, double cone_rad,
-              const Cone& cone, double bearing_rad) {
+              const Cone& cone) {
   constexpr double kUnsure_rad = 0.1;
   const double distance_m = Norm(to_centre);
   const double slack_rad = kUnsure_rad + unsure_m / std::max(distance_m, radius_m);
   // The body's nearest point, if the cone held it, settles most without an angle.
   if (range_m < LeastRange(distance_m, radius_m, 0) - unsure_m) return true;
-  if (IsWithin(cone_rad + slack_rad, to_centre, cone, bearing_rad)) return false;
-  const double off_rad = Magnitude(WrapAngle(Atan2(to_centre.y, to_centre.x) - bearing_rad));
-  return range_m < LeastRange(distance_m, radius_m, off_rad - cone_rad - slack_rad) - unsure_m;
+  if (IsWithin(cone_rad + slack_rad, to_centre, cone)) return false;
+  const double off_rad = OffAxis(to_centre, cone) - cone_rad - slack_rad;
+  return range_m < LeastRange(distance_m, radius_m, off_rad) - unsure_m;
 }
 
 // Where a peer comes to stand if it brakes as soon as this vehicle does.
@@ -141,7 +144,7 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.position_world);
   const std::uint32_t all = (1U << echoes.count) - 1;
-  const double unsure_m = kNearer_m + 2 * peer.sigma_m;
+  const double unsure_m = kNearer_m + kSigmas * peer.sigma_m;
   std::uint32_t explains = 0;
   for (const std::size_t k :
        BitsOf(all & (echoes.any_old ? all : PerhapsOf(centre_now, radius_m, echoes)))) {
@@ -153,14 +156,12 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
     // The body shows from one tangent to the other; half the body more allows for uncertainty.
     const double half_width = distance > 1.5 * radius_m ? 1.5 * radius_m / distance : kPi;
     const double turned = age_s * Magnitude(s.turn_rad_s);
-    const double limit_rad = s.options.profile.sonar_half_angle_rad + half_width + turned;
     const std::size_t sensor = echoes.sensor[k];
-    if (IsWithin(limit_rad, to_centre, s.cones.of[sensor],
-                 s.options.profile.sonar[sensor].bearing_rad) &&
-        !IsBefore(echoes.range_m[k], radius_m,
-                  unsure_m + kNoiseSigmas * s.options.sonar_noise * echoes.range_m[k], to_centre,
-                  s.options.profile.sonar_half_angle_rad + turned, s.cones.of[sensor],
-                  s.options.profile.sonar[sensor].bearing_rad)) {
+    const Cone& cone = s.cones.of[sensor];
+    const double cone_rad = s.options.profile.sonar_half_angle_rad + turned;
+    const double by_noise_m = kNoiseSigmas * s.options.sonar_noise * echoes.range_m[k];
+    if (IsWithin(cone_rad + half_width, to_centre, cone) &&
+        !IsBefore(echoes.range_m[k], radius_m, unsure_m + by_noise_m, to_centre, cone_rad, cone)) {
       explains |= 1U << sensor;
     }
   }

@@ -13,6 +13,8 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.run_state);
   hash.Add(state.wheels.left_rad_s);
   hash.Add(state.wheels.right_rad_s);
+  hash.Add(state.counted.left_rad);
+  hash.Add(state.counted.right_rad);
   state.odometry.AddTo(&hash);
   hash.Add(state.arrived);
   hash.Add(state.order.waited_ticks);

@@ -1,18 +1,13 @@
 #include "services/vehicle/lost_ticks.h"
 
 #include "services/types/math.h"
+#include "services/vehicle/scan_check.h"
 
 namespace giveway {
 namespace {
 
-// Encoders slip and overshoot by less than this factor.
-constexpr double kOvershoot = 2;
 // Of the way: turns to and fro that leave no trace in what was counted.
 constexpr double kUnseenTurns = 0.02;
-
-bool Within(double x, double limit) { return x >= -limit && x <= limit; }  // false of NaN
-
-double Magnitude(double x) { return x < 0 ? -x : x; }
 
 }  // namespace
 
@@ -22,9 +17,9 @@ WayGone WayOfLostTicks(const WheelAngles& before, const RangeScan& scan,
   const WheelSpeeds mean = {(scan.counted.left_rad - before.left_rad) / dt_s,
                             (scan.counted.right_rad - before.right_rad) / dt_s};
   const Twist twist = TwistFromWheels(profile.drive, mean);
-  const bool believable = Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
-                          Within(twist.turn_rad_s, kOvershoot * profile.max_turn_rad_s);
-  if (!believable) return {scan.wheels, profile.acceleration_m_s2 * dt_s * dt_s};
+  if (!CanBeDriven(twist, profile)) {
+    return {scan.wheels, profile.acceleration_m_s2 * dt_s * dt_s};
+  }
   // Whether it turned first or last moves the end across the way by up to half of the angle's arc.
   const double way_m = Magnitude(twist.forward_m_s) * dt_s;
   return {mean, way_m * (Magnitude(twist.turn_rad_s) * dt_s / 2 + kUnseenTurns)};

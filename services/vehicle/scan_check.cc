@@ -40,14 +40,17 @@ bool IsBelievable(const RangeReading& reading, const ReadingLimits& limits) {
 
 }  // namespace
 
+bool CanBeDriven(const Twist& twist, const VehicleProfile& profile) {
+  return Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
+         Within(twist.turn_rad_s, kOvershoot * profile.max_turn_rad_s);
+}
+
 bool IsBelievable(const RangeScan& scan, const VehicleOptions& options) {
   if (scan.epoch == kNoEpoch || scan.tick == kNoTick) return false;
   const VehicleProfile& profile = options.profile;
-  const Twist twist = TwistFromWheels(profile.drive, scan.wheels);
   const ReadingLimits limits = {scan.tick, Seconds(options.tick_period),
                                 profile.sonar_max_range_m + kBeyondRange_m};
-  return Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
-         Within(twist.turn_rad_s, kOvershoot * profile.max_turn_rad_s) &&
+  return CanBeDriven(TwistFromWheels(profile.drive, scan.wheels), profile) &&
          Within(scan.counted.left_rad, kMostCounted_rad) &&
          Within(scan.counted.right_rad, kMostCounted_rad) &&
          std::all_of(scan.readings.begin(), scan.readings.end(),

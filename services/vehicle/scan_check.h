@@ -8,6 +8,10 @@
 
 namespace giveway {
 
+// True if the drive can have moved so: no faster than it is by more than encoders slip and
+// overshoot.
+bool CanBeDriven(const Twist& twist, const VehicleProfile& profile);
+
 // True if every number is finite and can come from this vehicle's wheels and ultrasonics, and no
 // reading is newer than the scan.
 bool IsBelievable(const RangeScan& scan, const VehicleOptions& options);

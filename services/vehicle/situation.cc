@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kFarAway_m = 1e6;
 constexpr double kLongestWay_m = 1000;
-// What is not known of a distance is allowed for by so many standard deviations.
-constexpr double kSigmas = 2;
 
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {

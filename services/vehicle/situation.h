@@ -107,6 +107,8 @@ struct Situation {
 inline constexpr double kStandingSpeed_m_s = 0.01;
 // The distance to a goal that there is none of.
 inline constexpr double kNoGoal_m = 1e6;
+// What is not known of a distance is allowed for by so many standard deviations.
+inline constexpr double kSigmas = 2;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
 

@@ -37,8 +37,6 @@ struct BlockedHeadings {
   bool stops = false;  // one of them keeps the vehicle where it stands
 };
 
-double Magnitude(double x) { return x < 0 ? -x : x; }
-
 bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
   return Magnitude(WrapAngle(heading_rad - blocked.middle_rad)) < blocked.half_rad - 1e-6;
 }

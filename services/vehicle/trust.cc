@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "services/types/fleet_limits.h"
+#include "services/types/math.h"
 #include "services/vehicle/echoes.h"
 
 namespace giveway {
 namespace {
 
 // Beyond which errors are no errors any more, in standard deviations of each pose.
-constexpr double kSigmas = 3;
+constexpr double kErrorSigmas = 3;
 // On top of that: slip within a tick, speeding up since the beacon.
 constexpr double kPoseSlack_m = 0.1;
 // What encoders and slip may add to a speed, as a share of it.
@@ -27,8 +28,6 @@ constexpr double kTurning_rad_s = 0.02;  // slower is straight on, or standing
 // Longer than a beacon is fresh: within that it may have driven off without being heard to.
 constexpr double kCloses_s = 0.4;
 
-double Magnitude(double x) { return x < 0 ? -x : x; }
-
 void Doubt(PeerTrust* trust, SteadyTime now) {
   trust->ever_doubted = true;
   trust->doubted_at = now;
@@ -43,7 +42,7 @@ bool Jumps(const Beacon& before, const Beacon& now, double dt_s) {
   const double fastest = kSpeedSlack * std::max({Pace(before), Pace(now), now.cruise_m_s});
   const double most_m =
       fastest * dt_s + kPoseSlack_m +
-      kSigmas * (SigmaPosition(before.covariance) + SigmaPosition(now.covariance));
+      kErrorSigmas * (SigmaPosition(before.covariance) + SigmaPosition(now.covariance));
   const Vec2 way = now.world_from_body.position_world - before.world_from_body.position_world;
   return SquaredNorm(way) > most_m * most_m;
 }
@@ -66,7 +65,7 @@ struct Place {
 Place PlaceOf(const PeerView& view, const Situation& s) {
   const Vec2 centre = InBody(s, view.position_world);
   return {centre,
-          kPoseSlack_m + kSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre))};
+          kPoseSlack_m + kErrorSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre))};
 }
 
 // True if the centre surely lies in the cone, and not so near that it is all around it.

@@ -298,7 +298,7 @@ Beacon Vehicle::Say(const Situation& s) {
           .wheels = state.wheels,
           .cruise_m_s = options_.cruise_m_s,
           .world_from_body = s.world_from_body,
-          .covariance = state.odometry.Covariance(),
+          .covariance = s.covariance,
           .body_radius_m = options_.profile.body_radius_m,
           .drive = options_.profile.drive,
           .acceleration_m_s2 = options_.profile.acceleration_m_s2,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/types/check.h"
+#include "services/types/math.h"
 #include "sim_world/ticks.h"
 
 namespace giveway::sim {
@@ -10,8 +11,6 @@ namespace {
 
 constexpr double kStandstill_m_s = 0.01;
 constexpr std::uint32_t kUnknown = 0xffffffff;
-
-double Magnitude(double x) { return x < 0 ? -x : x; }
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
 

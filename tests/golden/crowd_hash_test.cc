@@ -18,7 +18,7 @@ namespace {
 constexpr WorldEpoch kEpoch{1};
 constexpr int kTicks = 400;
 constexpr std::uint32_t kVehicles = 200;
-constexpr std::uint64_t kGolden = 0x90002f4786f15ce3ULL;
+constexpr std::uint64_t kGolden = 0x083dbc3f9d8586a7ULL;
 
 VehicleOptions VehicleOf(std::uint32_t id) {
   Random random(11, id);

@@ -37,11 +37,11 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
-                         testing::Values(Golden{Behaviour::kCooperative, 0xb8e5fa06b76e3209ULL},
-                                         Golden{Behaviour::kLectureAvoid, 0x50c29e6aa4cfa63fULL},
-                                         Golden{Behaviour::kStockAvoid, 0xcd3fd6afeda41c48ULL},
-                                         Golden{Behaviour::kLectureYield, 0x4cc60e58d1d60ff9ULL},
-                                         Golden{Behaviour::kLecturePrinted, 0x145257f8f63f2f83ULL}),
+                         testing::Values(Golden{Behaviour::kCooperative, 0xaa5b9b2cf3fd7561ULL},
+                                         Golden{Behaviour::kLectureAvoid, 0xfa667c8a15b53f38ULL},
+                                         Golden{Behaviour::kStockAvoid, 0xaa467e89e787cc05ULL},
+                                         Golden{Behaviour::kLectureYield, 0x2f2b266c12883581ULL},
+                                         Golden{Behaviour::kLecturePrinted, 0x85b8c1f36e30e1e3ULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
 
 struct GoldenScenario {
@@ -61,13 +61,13 @@ TEST_P(ScenarioHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioHash,
-                         testing::Values(GoldenScenario{"head_on", 0x2e148929d34a400bULL},
-                                         GoldenScenario{"three_way", 0x8acb1e10a2d162e2ULL},
-                                         GoldenScenario{"four_way", 0x26980017c233f67eULL},
-                                         GoldenScenario{"deaf", 0x92da9b702846222cULL},
+                         testing::Values(GoldenScenario{"head_on", 0x206437dd0ce843d5ULL},
+                                         GoldenScenario{"three_way", 0x891096a6c0f17736ULL},
+                                         GoldenScenario{"four_way", 0x2c77eed95b863a08ULL},
+                                         GoldenScenario{"deaf", 0x5706f9c618f2a242ULL},
                                          GoldenScenario{"parked_nose_to_nose",
-                                                        0xc5dda272be3361ffULL},
-                                         GoldenScenario{"convoy", 0x3327d21a1a0ad65bULL}),
+                                                        0x9412cf824114322bULL},
+                                         GoldenScenario{"convoy", 0xedfb2a4d9f56cb07ULL}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

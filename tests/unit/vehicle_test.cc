@@ -153,6 +153,8 @@ TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
   EXPECT_TRUE(refused([](RangeScan* scan) { scan->wheels.left_rad_s = kNan; }));
   EXPECT_TRUE(refused([](RangeScan* scan) { scan->wheels = {1e300, 1e300}; }));
   EXPECT_TRUE(refused([](RangeScan* scan) { scan->wheels = {-100, 100}; }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->counted.right_rad = kNan; }));
+  EXPECT_TRUE(refused([](RangeScan* scan) { scan->counted.left_rad = -1e10; }));
   EXPECT_TRUE(refused([](RangeScan* scan) { test::SetEcho(scan, 0, kNan); }));
   EXPECT_TRUE(refused([](RangeScan* scan) { test::SetEcho(scan, 0, -0.1); }));
   EXPECT_TRUE(refused([](RangeScan* scan) { test::SetEcho(scan, 0, 7); }));

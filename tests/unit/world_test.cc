@@ -52,6 +52,25 @@ TEST(World, EncodersAreEnoughForPerfectDeadReckoning) {
   EXPECT_GT(world.Contacts(), 0U);  // cut ticks were among them
 }
 
+// Whoever misses scans knows by the count how far it rolled, errors of the encoders included; a
+// body that is put into the world anew begins to count anew.
+TEST(World, EncodersCountWhatTheyTell) {
+  Scenario scenario = Facing(0.6);
+  scenario.vehicles[0].profile.encoder_noise = 0.1;
+  World world = WorldOf(scenario);
+  WheelAngles told;
+  for (int i = 0; i < 200; ++i) {
+    DriveAll(&world, 2, 3 * Cos(i * 0.05), 1);
+    told = CountOn(told, world.Bodies()[0].encoders, 0.05);
+    ASSERT_EQ(world.Bodies()[0].counted, told) << i;
+  }
+  EXPECT_GT(world.Contacts(), 0U);  // cut ticks were among them
+  EXPECT_NE(told, WheelAngles{});
+  world.Remove(VehicleId{1});
+  world.Join(VehicleId{1});
+  EXPECT_EQ(world.Bodies()[0].counted, WheelAngles{});
+}
+
 TEST(World, BodiesStandUntilTheyAreToldToDrive) {
   World world = WorldOf(Facing(3));
   world.Advance(false);
