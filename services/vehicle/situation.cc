@@ -244,8 +244,7 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || peer.encounter.active) return true;
   const Beacon& beacon = peer.beacon;
   const double speed_m_s = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
-  const double moved_m =
-      CarriedSeconds(beacon, fresh, s) * (speed_m_s < 0 ? -speed_m_s : speed_m_s);
+  const double moved_m = CarriedSeconds(beacon, fresh, s) * Magnitude(speed_m_s);
   const Vec2 from_world = beacon.world_from_body.position_world;
   const double near_m = NearReach(s) + beacon.body_radius_m + moved_m;
   if (SquaredNorm(from_world - s.world_from_body.position_world) <= near_m * near_m) return true;
