@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "services/app/process.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/top_table.h"
 #include "services/link/observer_link.h"
@@ -12,7 +13,6 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr int kNothingHeard = 1;
-constexpr int kCouldNotRun = 2;
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);
 constexpr Nanoseconds kHintAfter = std::chrono::seconds(5);
 
@@ -84,13 +84,8 @@ class Listening {
 
 int RunListen(const ListenOptions& options) {
   if (!HasStdout()) return 0;
-  try {
-    const Interrupts interrupts;
-    return Listening(options).Run();
-  } catch (const std::exception& error) {  // LinkError, out of memory
-    std::fprintf(stderr, "%s\n", error.what());
-    return kCouldNotRun;
-  }
+  const Interrupts interrupts;
+  return Listening(options).Run();
 }
 
 }  // namespace giveway::fleetctl

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/listen.h"
 #include "services/fleetctl/observer_flags.h"
 #include "services/fleetctl/verbs.h"

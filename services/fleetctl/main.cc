@@ -1,12 +1,12 @@
 // fleetctl: the operator's command line. Only parses; each verb is a file of its own.
 #include <cstdio>
+#include <exception>
 #include <string>
 
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/verbs.h"
 
 namespace {
-
-constexpr int kWrongArguments = 2;
 
 // What was wrong, in words: the parser does not name a verb it does not know.
 std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::string& error) {
@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
   fleetctl.require_subcommand(1);
   fleetctl.set_version_flag("--version", "fleetctl " GIVEWAY_VERSION);
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
-  int exit_code = kWrongArguments;
+  int exit_code = giveway::fleetctl::kCouldNotRun;
   giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
@@ -39,7 +39,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "fleetctl: %s\nTry: fleetctl run --help\n",
                  Explain(fleetctl, argc, argv, error.what()).c_str());
-    return kWrongArguments;
+    return giveway::fleetctl::kCouldNotRun;
+  } catch (const std::exception& error) {  // a verb's LinkError, InputError, OutputError ...
+    std::fprintf(stderr, "%s\n", error.what());
+    return giveway::fleetctl::kCouldNotRun;
   }
   return exit_code;
 }

@@ -8,7 +8,5 @@
 namespace giveway::fleetctl {
 
 void AddObserverFlags(CLI::App* verb, ObserverOptions* options);
-// A check for --duration and --wait: CLI11's own lets "nan" pass.
-std::string CheckSeconds(const std::string& text);
 
 }  // namespace giveway::fleetctl

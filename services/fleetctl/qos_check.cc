@@ -12,14 +12,13 @@
 #include "services/app/json_line.h"
 #include "services/app/scenario_file.h"
 #include "services/app/utf8.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/qos_files.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kCouldNotRun = 2;
 
 std::string Name(qos::Severity severity) {
   return severity == qos::Severity::kError ? "error" : "warning";

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "services/app/json_line.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/qos_effective.h"
 #include "services/link/observer_link.h"
 #include "services/types/check.h"
@@ -17,7 +18,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr int kCouldNotRun = 2;
 constexpr auto kPatience = std::chrono::seconds(10);
 constexpr auto kPoll = std::chrono::milliseconds(20);
 
@@ -88,7 +88,9 @@ void Print(const QosLiveOptions& options, const std::string& file, const std::ve
   std::fputs(text.c_str(), stdout);
 }
 
-int Look(const QosLiveOptions& options) {
+}  // namespace
+
+int RunQosLive(const QosLiveOptions& options) {
   const EffectiveSet set =
       EffectiveQosOfFile(options.set.qos_file, options.set.interface, options.set.vehicles);
   const auto status = StatusOf(options, set.file);
@@ -107,17 +109,6 @@ int Look(const QosLiveOptions& options) {
   if (std::fflush(stdout) != 0) return kCouldNotRun;
   const auto as_expected = [](const Told& told) { return told.value == told.expected.value; };
   return std::ranges::all_of(all, as_expected) ? 0 : 1;
-}
-
-}  // namespace
-
-int RunQosLive(const QosLiveOptions& options) {
-  try {
-    return Look(options);
-  } catch (const std::exception& error) {  // LinkError, InputError, out of memory
-    std::fprintf(stderr, "%s\n", error.what());
-    return kCouldNotRun;
-  }
 }
 
 }  // namespace giveway::fleetctl

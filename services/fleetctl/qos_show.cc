@@ -7,12 +7,11 @@
 
 #include "services/app/json_line.h"
 #include "services/app/scenario_file.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/qos_effective.h"
 
 namespace giveway::fleetctl {
 namespace {
-
-constexpr int kCouldNotRun = 2;
 
 EffectiveSet Resolve(const std::string& argument, const QosShowOptions& options) {
   EffectiveSet shown = EffectiveQosOfFile(argument, options.interface, options.vehicles);
@@ -106,7 +105,9 @@ std::string ToJson(const std::vector<Difference>& differences, const EffectiveSe
   return json + "]}\n";
 }
 
-int Show(const QosShowOptions& options) {
+}  // namespace
+
+int RunQosShow(const QosShowOptions& options) {
   if (options.diff.empty()) {
     const EffectiveSet shown = Resolve(options.qos_file, options);
     std::fputs((options.json ? ToJson(shown) : ToText(shown)).c_str(), stdout);
@@ -117,17 +118,6 @@ int Show(const QosShowOptions& options) {
   const std::vector<Difference> found = Differences(a, b);
   std::fputs((options.json ? ToJson(found, a, b) : ToText(found, a, b)).c_str(), stdout);
   return std::fflush(stdout) != 0 ? kCouldNotRun : found.empty() ? 0 : 1;
-}
-
-}  // namespace
-
-int RunQosShow(const QosShowOptions& options) {
-  try {
-    return Show(options);
-  } catch (const std::exception& error) {  // LinkError, InputError, out of memory
-    std::fprintf(stderr, "%s\n", error.what());
-    return kCouldNotRun;
-  }
 }
 
 }  // namespace giveway::fleetctl

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/qos_files.h"
 
 namespace giveway::fleetctl {
@@ -14,7 +15,6 @@ namespace {
 
 // Sets the depth of the event history alone: up to this many, announcements keep their rate.
 constexpr std::uint32_t kFleetSize = 32;
-constexpr int kCouldNotRun = 2;
 
 }  // namespace
 

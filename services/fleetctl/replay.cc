@@ -9,13 +9,12 @@
 #include <optional>
 
 #include "services/fleetctl/decision_trace.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/output_file.h"
 #include "services/fleetctl/replayer.h"
 
 namespace giveway::fleetctl {
 namespace {
-
-constexpr int kCouldNotRun = 2;
 
 app::ReplayedFile Unreadable(const std::string& why) {
   app::ReplayedFile outcome;
@@ -54,7 +53,9 @@ class Tracer {
   std::string text_{kTraceHead};
 };
 
-int ReplayAll(const ReplayOptions& options) {
+}  // namespace
+
+int RunReplay(const ReplayOptions& options) {
   if (!options.trace_file.empty()) CheckWritable(options.trace_file);
   Tracer tracer;
   const ReplayWatcher watch = options.trace_file.empty() ? ReplayWatcher() : tracer.Watcher();
@@ -70,17 +71,6 @@ int ReplayAll(const ReplayOptions& options) {
   if (std::fflush(stdout) == 0) return code;
   std::fprintf(stderr, "cannot write the verdict to stdout\n");
   return std::max(code, 1);
-}
-
-}  // namespace
-
-int RunReplay(const ReplayOptions& options) {
-  try {
-    return ReplayAll(options);
-  } catch (const std::exception& error) {  // OutputError, out of memory
-    std::fprintf(stderr, "%s\n", error.what());
-    return kCouldNotRun;
-  }
 }
 
 }  // namespace giveway::fleetctl

@@ -9,6 +9,7 @@
 #include "services/app/report.h"
 #include "services/app/scenario_file.h"
 #include "services/fleetctl/domain_lock.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/live_screen.h"
 #include "services/fleetctl/output_file.h"
 #include "services/fleetctl/qos_files.h"
@@ -16,8 +17,6 @@
 
 namespace giveway::fleetctl {
 namespace {
-
-constexpr int kCouldNotRun = 2;
 
 std::filesystem::path ProgramFolder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -7,6 +6,7 @@
 #include "services/app/flags.h"
 #include "services/app/impair_text.h"
 #include "services/fleetctl/domain_lock.h"
+#include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/run.h"
 #include "services/fleetctl/verbs.h"
 
@@ -31,20 +31,6 @@ Exit code: 0 passed, 1 failed or interrupted, 2 could not run.
 
 constexpr std::uint32_t kMostVehicles = 1024;
 
-// CLI11's own range check lets "nan" pass.
-std::string CheckDuration(const std::string& text) {
-  try {
-    const double value = std::stod(text);
-    if (std::isfinite(value) && value > 0) return {};
-  } catch (const std::exception&) {
-  }
-  return "must be a number of seconds above 0, not '" + text + "'";
-}
-
-std::string CheckNotEmpty(const std::string& text) {
-  return text.empty() ? "must not be empty" : "";
-}
-
 std::string CheckImpairment(const std::string& text) {
   std::string wrong;
   for (const app::ImpairTextProblem& problem : app::ParseImpairment(text).problems) {
@@ -66,7 +52,7 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
       ->required();
   verb->add_option("--duration", options->duration_s, "End after this many seconds")
-      ->check(CheckDuration)
+      ->check(CheckSeconds)
       ->envname("GIVEWAY_DURATION");
   verb->add_option_function<std::string>(
           "--behaviour",
@@ -89,11 +75,7 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
       ->check(CLI::Range(kFirstDomain, kLastDomain))
       ->envname("GIVEWAY_DOMAIN");
-  verb->add_option("--interface", options->interface,
-                   "Address or name of a network interface, or 'any'")
-      ->check(CheckNotEmpty)
-      ->capture_default_str()
-      ->envname("GIVEWAY_INTERFACE");
+  AddInterfaceFlag(verb, &options->interface);
   verb->add_option(
           "--qos", options->qos_file,
           "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host, ...); without "

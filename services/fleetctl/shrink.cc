@@ -6,14 +6,13 @@
 #include <cstdio>
 
 #include "services/app/scenario_file.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/output_file.h"
 #include "services/fleetctl/shrinker.h"
 
 namespace giveway::fleetctl {
 namespace {
-
-constexpr int kCouldNotRun = 2;
 
 std::string_view Word(sim::ProcessFaultKind kind) {
   if (kind == sim::ProcessFaultKind::kCrash) return "crash";
@@ -36,30 +35,6 @@ std::string Comment(const CaseMaker& maker, const ShrinkOptions& options, const 
       "  fleetctl virtual {} --seed 0{}\n",
       maker.Name(), options.seed, shrunk.tries, sim::Name(shrunk.violation.invariant),
       Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made.plan));
-}
-
-int ShrinkAndWrite(const ShrinkOptions& options) {
-  const CaseMaker maker(options.made_by);
-  const std::string file = options.out_file.empty()
-                               ? fmt::format("{}_{}.textproto", maker.Name(), options.seed)
-                               : options.out_file;
-  CheckWritable(file);
-  VirtualCase failing = maker.Make(options.seed);
-  app::WriteScenario(failing.scenario, "");  // throws now rather than after a minute's work
-  const Interrupts interrupts;
-  std::optional<Shrunk> shrunk = Shrink(failing, ShowProgress);
-  if (::isatty(STDERR_FILENO) == 1) std::fputs("\r\x1b[K", stderr);
-  if (!shrunk) {
-    fmt::print("{} with seed {} breaks no invariant\n", maker.Name(), options.seed);
-    return 0;
-  }
-  Scenario& scenario = shrunk->made.scenario;
-  scenario.name = fmt::format("{}_{}", maker.Name(), options.seed);
-  WriteFile(file, app::WriteScenario(scenario, Comment(maker, options, *shrunk, file)));
-  fmt::print("{}: {} of {} vehicles, {:.0f} s, breaks {}\nfleetctl virtual {} --seed 0{}\n", file,
-             scenario.vehicles.size(), failing.scenario.vehicles.size(), scenario.duration_s,
-             sim::Name(shrunk->violation.invariant), file, ReplayFlags(shrunk->made.plan));
-  return 1;
 }
 
 }  // namespace
@@ -91,12 +66,27 @@ std::string ReplayFlags(const sim::VirtualPlan& plan) {
 }
 
 int RunShrink(const ShrinkOptions& options) {
-  try {
-    return ShrinkAndWrite(options);
-  } catch (const std::exception& error) {  // InputError, OutputError, out of memory
-    std::fprintf(stderr, "%s\n", error.what());
-    return kCouldNotRun;
+  const CaseMaker maker(options.made_by);
+  const std::string file = options.out_file.empty()
+                               ? fmt::format("{}_{}.textproto", maker.Name(), options.seed)
+                               : options.out_file;
+  CheckWritable(file);
+  VirtualCase failing = maker.Make(options.seed);
+  app::WriteScenario(failing.scenario, "");  // throws now rather than after a minute's work
+  const Interrupts interrupts;
+  std::optional<Shrunk> shrunk = Shrink(failing, ShowProgress);
+  if (::isatty(STDERR_FILENO) == 1) std::fputs("\r\x1b[K", stderr);
+  if (!shrunk) {
+    fmt::print("{} with seed {} breaks no invariant\n", maker.Name(), options.seed);
+    return 0;
   }
+  Scenario& scenario = shrunk->made.scenario;
+  scenario.name = fmt::format("{}_{}", maker.Name(), options.seed);
+  WriteFile(file, app::WriteScenario(scenario, Comment(maker, options, *shrunk, file)));
+  fmt::print("{}: {} of {} vehicles, {:.0f} s, breaks {}\nfleetctl virtual {} --seed 0{}\n", file,
+             scenario.vehicles.size(), failing.scenario.vehicles.size(), scenario.duration_s,
+             sim::Name(shrunk->violation.invariant), file, ReplayFlags(shrunk->made.plan));
+  return 1;
 }
 
 }  // namespace giveway::fleetctl

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "services/app/process.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/live_screen.h"
 #include "services/fleetctl/top_table.h"
@@ -14,7 +15,6 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr int kNobodyThere = 1;
-constexpr int kCouldNotRun = 2;
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(10);
 constexpr Nanoseconds kFirstWords = std::chrono::seconds(1);  // for discovery to bring somebody
 // Where no terminal is: nothing is cut.
@@ -87,13 +87,8 @@ class Top {
 
 int RunTop(const TopOptions& options) {
   if (!HasStdout()) return 0;
-  try {
-    const Interrupts interrupts;
-    return Top(options).Run();
-  } catch (const std::exception& error) {  // LinkError, out of memory
-    std::fprintf(stderr, "%s\n", error.what());
-    return kCouldNotRun;
-  }
+  const Interrupts interrupts;
+  return Top(options).Run();
 }
 
 }  // namespace giveway::fleetctl

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/observer_flags.h"
 #include "services/fleetctl/top.h"
 #include "services/fleetctl/verbs.h"

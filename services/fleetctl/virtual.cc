@@ -10,6 +10,7 @@
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
 #include "services/app/virtual_report.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/output_file.h"
 #include "services/fleetctl/virtual_batch.h"
@@ -18,7 +19,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr int kCouldNotRun = 2;
 constexpr std::size_t kFailingSeedsShown = 100;
 
 // By nearest rank; the values are sorted and not empty.

@@ -1,0 +1,16 @@
+// What several verbs ask of the text of a flag: empty if it is right, else what is wrong, for
+// CLI11's check(). And the one flag that all who open a link have alike.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace giveway::fleetctl {
+
+std::string CheckNotEmpty(const std::string& text);
+// Above 0 and up to 1 000 000: CLI11's own range check lets "nan" pass.
+std::string CheckSeconds(const std::string& text);
+
+void AddInterfaceFlag(CLI::App* verb, std::string* interface);
+
+}  // namespace giveway::fleetctl
