@@ -90,8 +90,8 @@ class Loop {
   VehicleId Id() const { return options_.id; }
 
  private:
-  // To the world a second of silence is a death. Who asks for its place again is given longer, until
-  // it speaks; so what it said last must have been taken by then.
+  // To the world a second of silence is a death. Who asks for its place again is given longer,
+  // until it speaks; so what it said last must have been taken by then.
   void AskForTime() {
     app::SleepUntil(app::SteadyNow() + 3 * options_.tick_period);
     link_.SendJoin({place_.session, options_.id});
