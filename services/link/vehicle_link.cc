@@ -121,7 +121,7 @@ struct VehicleLink::Impl {
         participant(options, "giveway-vehicle", names),
         join_writer(participant.MakeWriter<wire::Join>("fleet")),
         roster(participant.MakeReader<wire::Roster>(kWorld)),
-        peers(names, participant.Prefix()) {
+        peers(names, participant.Prefix(), options.area) {
     taken_beacons.reserve(kExpectedBeacons);
     qos_events.reserve(kExpectedBeacons);
   }
