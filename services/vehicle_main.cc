@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "services/app/hang_signal.h"
 #include "services/app/process.h"
 #include "services/app/recorder.h"
 #include "services/app/scenario_file.h"
+#include "services/beacon_news.h"
 #include "services/link/vehicle_link.h"
 #include "services/service_main.h"
 #include "services/types/vehicle_options.h"
@@ -103,6 +105,13 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
   return options;
 }
 
+// A drill. As of a loop that really hangs: SIGTERM finds it deaf too.
+void Hang() {
+  app::LogWarning("drill: the control loop hangs");
+  while (app::HangSignal::IsUp()) app::SleepUntil(app::SteadyNow() + kJoinPoll);
+  app::LogWarning("drill: the control loop goes on");
+}
+
 // The loop and what it must remember between two turns.
 class Loop {
  public:
@@ -170,6 +179,7 @@ class Loop {
 
   void Turn(bool leaving) {
     const bool woken = link_.WaitForScan(leaving ? Nanoseconds{0} : Patience());
+    if (app::HangSignal::IsUp()) Hang();
     const SteadyTime woke = app::SteadyNow();
     link::Taken taken = link_.Take(woke);
     Inputs& inputs = taken.inputs;
@@ -192,6 +202,7 @@ class Loop {
     if (recorder_ != nullptr) recorder_->Step(inputs, outputs, vehicle_.Hash());
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
     Tell(events);
+    TellOfBeacons(inputs.now, woke);
     if (outputs.decision_changed || woke >= next_status_) {
       report_.Send(vehicle_, link_);
       next_status_ = woke + kStatusPeriod;
@@ -205,8 +216,22 @@ class Loop {
       const bool is_trouble = event.kind == QosEventKind::kDeadlineMissed ||
                               event.kind == QosEventKind::kLivelinessLost ||
                               event.kind == QosEventKind::kIncompatibleQos;
-      (is_trouble ? app::LogWarning : app::LogInfo)(Describe(event));
+      is_trouble ? app::LogWarning(Describe(event), event.at)
+                 : app::LogInfo(Describe(event), event.at);
     }
+  }
+
+  // Whose beacons can be decided by, and whose no more. `now` is what the brain takes for the time.
+  void TellOfBeacons(SteadyTime now, SteadyTime woke) {
+    beacon_news_.Look(vehicle_.State().peers.Peers(), now, vehicle_.State().tick, options_);
+    for (const BeaconNewsItem& item : beacon_news_.Items()) {
+      const bool is_trouble = item.kind == BeaconNewsKind::kStale;
+      is_trouble ? app::LogWarning(Describe(item), woke) : app::LogInfo(Describe(item), woke);
+    }
+    const auto blackouts_since = told_blackouts_ ? std::nullopt : link_.BlackoutsSince();
+    if (!blackouts_since) return;
+    told_blackouts_ = true;
+    app::LogInfo("impairment: blackouts are counted from here", *blackouts_since);
   }
 
   // In lockstep the only clock is the world's tick: the run repeats whatever the machine does, so
@@ -238,6 +263,8 @@ class Loop {
   std::optional<Asking> asking_;     // for another place
   bool refused_ = false;
   VehicleReport report_;
+  BeaconNews beacon_news_;
+  bool told_blackouts_ = false;
   SteadyTime last_scan_{0};
   SteadyTime last_beacon_{0};
   SteadyTime next_status_{0};
@@ -272,6 +299,8 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   if (flags.id == 0) app::LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   const VehicleOptions options = OptionsOf(scenario, *entry);
   link.Open(options.id, options.profile, !scenario.signals.empty());
+  std::optional<app::HangSignal> hang;
+  if (flags.hang_on_signal) hang.emplace();
   Loop loop(&link, scenario, *entry, flags.lockstep, recorder ? &*recorder : nullptr);
   const bool welcome = loop.Drive(stop);
   if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));

@@ -39,6 +39,8 @@ class CommandLine {
           "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
           "none; the README lists the keys");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
+      AddSwitch("--hang-on-signal",
+                "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
@@ -124,6 +126,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     if (values->Text("--record")) flags.record = values->TextOr("", "--record");
     flags.impair = ReadImpairment(values);
     flags.partition_free = values->Switch("--partition-free");
+    flags.hang_on_signal = values->Switch("--hang-on-signal");
   }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
