@@ -14,15 +14,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr Nanoseconds kFirstCut = seconds(6);  // after the start signal: discovery takes a second
+constexpr Nanoseconds kFirstCut = seconds(5);  // after the start signal: discovery takes a second
 constexpr Nanoseconds kAfterward = milliseconds(1500);  // what came late is still told
-constexpr Nanoseconds kRecovery = seconds(4);           // the peers find each other again
-constexpr std::uint32_t kSpareWaves = 2;
-constexpr double kCell_m = 5;  // between two squares
+constexpr double kCell_m = 5;                           // between two squares
 constexpr double kSquare_m = 1;
-
-// 1 before the number's end: so many of the fleet are struck in a wave.
-std::size_t VictimsOf(std::size_t fleet) { return std::max<std::size_t>(1, fleet / 2); }
 
 std::vector<Strike> PlanStrikes(std::vector<VehicleId> fleet, std::size_t victims, Random* dice) {
   std::vector<Strike> strikes;
@@ -67,21 +62,20 @@ std::vector<VehicleId> StopwatchVehicles(std::uint32_t count) {
   return fleet;
 }
 
+std::uint32_t VictimsOf(std::size_t fleet) {
+  return static_cast<std::uint32_t>(std::max<std::size_t>(1, fleet / 2));
+}
+
 std::vector<Wave> PlanWaves(Fault fault, std::uint32_t trials, std::span<const VehicleId> fleet,
                             const Limits& limits, std::uint64_t seed) {
   Random dice(seed, static_cast<std::uint64_t>(fault));
-  const std::size_t victims = VictimsOf(fleet.size());
   const Nanoseconds length = kWaveSpread + LongestPromise(limits) + kAfterward;
-  const auto needed = static_cast<std::uint32_t>((trials + victims - 1) / victims);
   std::vector<Wave> waves;
-  std::size_t left = trials;
-  Nanoseconds begin = kFirstCut;
-  for (std::uint32_t i = 0; i < needed + (IsCut(fault) ? kSpareWaves : 0); ++i) {
-    const std::size_t struck = left == 0 ? victims : std::min(victims, left);
-    left -= std::min(left, struck);
+  for (std::uint32_t left = trials; left > 0;) {
+    const std::uint32_t struck = std::min(left, VictimsOf(fleet.size()));
     waves.push_back(
-        {begin, begin + length, PlanStrikes({fleet.begin(), fleet.end()}, struck, &dice)});
-    begin += length + kRecovery;
+        {kFirstCut, kFirstCut + length, PlanStrikes({fleet.begin(), fleet.end()}, struck, &dice)});
+    left -= struck;
   }
   return waves;
 }

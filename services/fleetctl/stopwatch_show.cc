@@ -152,9 +152,9 @@ std::string StopwatchText(const StopwatchReport& report) {
     text += fmt::format("  {:<11} {}\n", Name(mechanism), sum.empty() ? "off" : sum);
   }
   for (const std::string& finding : Findings(report)) text += "\nBROKEN " + finding;
-  return text + fmt::format("\n{} after {:.0f} s; {} false alarms, {} waves passed over\n",
+  return text + fmt::format("\n{} after {:.0f} s; {} false alarms\n",
                             report.Kept() ? "every promise was kept" : "not every promise was kept",
-                            report.took_s, report.false_alarms, report.passed_over);
+                            report.took_s, report.false_alarms);
 }
 
 std::string StopwatchJson(const StopwatchReport& report) {
@@ -167,7 +167,6 @@ std::string StopwatchJson(const StopwatchReport& report) {
   json.Add("seed", report.seed);
   json.Add("took_s", report.took_s);
   json.Add("false_alarms", report.false_alarms);
-  json.Add("passed_over", report.passed_over);
   json.AddRaw("findings", List(Findings(report),
                                [](const std::string& text) { return app::JsonString(text); }));
   json.AddRaw("cells",

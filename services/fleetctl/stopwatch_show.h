@@ -18,7 +18,6 @@ struct StopwatchReport {
   Limits limits;
   std::vector<Cell> cells;
   std::uint32_t false_alarms = 0;
-  std::uint32_t passed_over = 0;
   std::vector<std::string> problems;  // trials that could not be made
 
   // Every cell kept its promise, and nothing stood in the way.

@@ -64,14 +64,8 @@ class Conductor {
   StopwatchResult Run(const std::function<void(std::size_t)>& note) {
     try {
       for (const Wave& wave : waves_) {
-        if (result_.trials.size() >= task_.trials) break;
-        const std::size_t before = result_.trials.size();
         RunWave(wave);
-        note(result_.trials.size() - before);
-      }
-      if (result_.trials.size() < task_.trials) {
-        throw Trouble(fmt::format("only {} of {} trials could be begun, for somebody was not well",
-                                  result_.trials.size(), task_.trials));
+        note(wave.strikes.size());
       }
     } catch (const Trouble& trouble) {
       result_.problem = trouble.what();
@@ -90,19 +84,14 @@ class Conductor {
 
   void RunWave(const Wave& wave) {
     victims_.clear();
-    if (IsCut(task_.fault) && !IsWellBefore(wave)) {
-      ++result_.passed_over;
-      WaitUntil(BeginOf(wave.end));
-      return;
-    }
-    WaitUntilWell();
+    IsCut(task_.fault) ? WaitForCut(wave) : WaitUntilWell();
     fleet_.ForgetSaid();
     for (const Strike& strike : wave.strikes) victims_.push_back(strike.victim);
     std::vector<Struck> struck = IsCut(task_.fault) ? Planned(wave) : StrikeAll(wave);
     while (!IsAllTold(struck)) Turn();
     for (const Struck& one : struck) result_.trials.push_back(TrialOf(one));
     CountFalseAlarms(struck);
-    IsCut(task_.fault) ? WaitUntil(BeginOf(wave.end)) : Heal();
+    if (!IsCut(task_.fault)) Heal();
   }
 
   void Turn() {
@@ -137,8 +126,7 @@ class Conductor {
     return latest + since_start;
   }
 
-  // Waits for a wave of cuts. False if it came too soon.
-  bool IsWellBefore(const Wave& wave) {
+  void WaitForCut(const Wave& wave) {
     const SteadyTime limit = app::SteadyNow() + kUntilWell;
     const auto counts = [this](VehicleId id) { return fleet_.BlackoutsSince(id).has_value(); };
     while (!std::ranges::all_of(task_.fleet, counts)) {
@@ -146,9 +134,9 @@ class Conductor {
       Turn();
     }
     const SteadyTime ready = BeginOf(wave.begin) - 2 * kNoticing;
-    if (app::SteadyNow() > ready) return false;
     WaitUntil(ready);
-    return !fleet_.WhoHears().FirstDeaf(task_.fleet);
+    result_.too_soon = fleet_.WhoHears().FirstDeaf(task_.fleet).has_value();
+    if (result_.too_soon) throw Trouble("a link was cut before everyone heard everyone");
   }
 
   bool Watches(VehicleId vehicle) const {
@@ -259,16 +247,16 @@ class Conductor {
     }
   }
 
+  // Whoever was dropped by its peers, or left, comes back as a new process: see PlanWaves.
   void Heal() {
     for (const VehicleId victim : victims_) {
-      if (task_.fault == Fault::kPause) fleet_.Signal(victim, SIGCONT);
-      if (task_.fault == Fault::kHung) fleet_.Signal(victim, SIGUSR2);
-      if (task_.fault == Fault::kKill || task_.fault == Fault::kExit) Revive(victim);
+      task_.fault == Fault::kHung ? fleet_.Signal(victim, SIGUSR2) : Revive(victim);
     }
     victims_.clear();
   }
 
   void Revive(VehicleId victim) {
+    if (task_.fault == Fault::kPause) fleet_.Signal(victim, SIGKILL);
     const SteadyTime limit = app::SteadyNow() + kEnding;
     while (fleet_.IsRunning(victim)) {
       if (app::SteadyNow() > limit) {

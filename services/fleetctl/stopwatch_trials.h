@@ -25,8 +25,8 @@ struct StopwatchResult {
   std::vector<Trial> trials;
   // Trouble that peers told of one another, or of a victim before it was struck: nobody's fault.
   std::uint32_t false_alarms = 0;
-  std::uint32_t passed_over = 0;  // waves of cuts whose window came while somebody was not well
-  std::string problem;            // why it ended early; empty: it did not
+  bool too_soon = false;  // the blackouts began while somebody was not well: nothing was tried
+  std::string problem;    // why it ended early; empty: it did not
 };
 
 // `note` is told of every wave how many trials it brought. Throws StartError, DomainError.
