@@ -82,12 +82,15 @@ Limits LimitsOf(const StopwatchOptions& options, const std::string& qos_file,
     return NumberOf(entities, "fleet_beacon_reader", policy);
   };
   const VehicleOptions& vehicle = scenario.vehicles.front();
-  return {vehicle.tick_period,
-          vehicle.beacon_age_limit,
-          FiniteOf(of_reader("deadline")),
-          FiniteOf(of_reader("liveliness_lease")),
-          static_cast<LivelinessKind>(of_reader("liveliness")),
-          FiniteOf(NumberOf(entities, "giveway_participant", "participant_lease"))};
+  Limits limits;
+  limits.beacon_period = vehicle.tick_period;
+  limits.beacon_age = vehicle.beacon_age_limit;
+  limits.deadline = FiniteOf(of_reader("deadline"));
+  limits.liveliness = FiniteOf(of_reader("liveliness_lease"));
+  limits.asserted = LivelinessKind(NumberOf(entities, "fleet_beacon_writer", "liveliness"));
+  limits.tracked = LivelinessKind(of_reader("liveliness"));
+  limits.lease = FiniteOf(NumberOf(entities, "giveway_participant", "participant_lease"));
+  return limits;
 }
 
 std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {

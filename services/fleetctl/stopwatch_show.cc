@@ -69,11 +69,12 @@ std::string MaskingHint(const StopwatchReport& report) {
   const bool masked = std::ranges::any_of(report.cells, [](const Cell& cell) {
     return cell.mechanism == Mechanism::kLiveliness && !cell.Kept();
   });
-  if (!masked || report.limits.liveliness_kind == LivelinessKind::kManualByTopic) return {};
+  if (!masked || report.limits.tracked == LivelinessKind::kManualByTopic) return {};
   return fmt::format(
-      "Liveliness is {}: Fast DDS 2.9.1 lets any living participant refresh a dead one, until the "
+      "Readers track liveliness as {}: Fast DDS 2.9.1 lets any living participant refresh a dead "
+      "one, until the "
       "dead one's lease is over. Take MANUAL_BY_TOPIC for writer and reader.",
-      Name(report.limits.liveliness_kind));
+      Name(report.limits.tracked));
 }
 
 std::string JsonOf(const Cell& cell, const Limits& limits) {
@@ -161,7 +162,8 @@ std::string StopwatchJson(const StopwatchReport& report) {
   JsonObject json;
   json.Add("verdict", report.Kept() ? "kept" : "broken");
   json.Add("qos", report.qos_file);
-  json.Add("liveliness", Name(report.limits.liveliness_kind));
+  json.Add("liveliness_asserted", Name(report.limits.asserted));
+  json.Add("liveliness_tracked", Name(report.limits.tracked));
   json.Add("vehicles", report.vehicles);
   json.Add("fleets", report.fleets);
   json.Add("seed", report.seed);

@@ -78,7 +78,7 @@ Duty DutyOf(Fault fault, Mechanism mechanism, const Limits& limits) {
   const Duty duty = kDuties[static_cast<std::size_t>(fault)][static_cast<std::size_t>(mechanism)];
   if (!LimitOf(mechanism, limits)) return Duty::kNone;
   if (duty != Duty::kIfManual) return duty;
-  return limits.liveliness_kind == LivelinessKind::kAutomatic ? Duty::kNone : Duty::kMust;
+  return limits.asserted == LivelinessKind::kAutomatic ? Duty::kNone : Duty::kMust;
 }
 
 std::vector<Term> Promise(Mechanism mechanism, const Limits& limits) {
@@ -105,12 +105,13 @@ std::string TableText(const Limits& limits) {
     text += fmt::format("\n  {:<9}", kFaultNames[fault]);
     for (const Duty duty : kDuties[fault]) text += fmt::format("{:<12}", DutyWord(duty));
   }
-  text +=
-      "\n\nif manual: must, where liveliness is MANUAL_BY_TOPIC or MANUAL_BY_PARTICIPANT; none "
-      "where it"
-      "\nis AUTOMATIC, for then the library asserts it, whatever the loop does.\n\nPromised, each "
-      "with "
-      "the longest pause of the machine until then on top:\n";
+  text += R"(
+
+if manual: must, where the writer's liveliness is MANUAL; none where it is AUTOMATIC, for then the
+library asserts it, whatever the loop does.
+
+Promised, each with the longest pause of the machine until then on top:
+)";
   for (std::size_t i = 0; i < kMechanisms; ++i) {
     const auto mechanism = static_cast<Mechanism>(i);
     const std::vector<Term> terms = Promise(mechanism, limits);

@@ -67,7 +67,8 @@ struct Limits {
   Nanoseconds beacon_age{0};
   std::optional<Nanoseconds> deadline;
   std::optional<Nanoseconds> liveliness;
-  LivelinessKind liveliness_kind = LivelinessKind::kManualByTopic;
+  LivelinessKind asserted = LivelinessKind::kManualByTopic;  // by the writer
+  LivelinessKind tracked = LivelinessKind::kManualByTopic;   // by the reader
   std::optional<Nanoseconds> lease;
 };
 
