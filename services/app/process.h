@@ -46,7 +46,8 @@ class Ticker {
 };
 
 // Log lines go to stderr. Format "text" or "json" (one object a line: time, steady_ns, level,
-// process, text; steady_ns is the steady clock, which all processes of a machine share), level "debug", "info", "warning" or "error". Before InitLog: text from info on.
+// process, text; steady_ns is the steady clock, which all processes of a machine share), level
+// "debug", "info", "warning" or "error". Before InitLog: text from info on.
 void InitLog(const std::string& process_name, const std::string& format, const std::string& level);
 void LogDebug(const std::string& text);
 void LogInfo(const std::string& text);

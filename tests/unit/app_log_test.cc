@@ -26,10 +26,11 @@ TEST(Log, ALineIsAJsonObject) {
   InitLog("vehicle 1", "json", "debug");
   LogDebug("gives way to {} \"2\"\n");
   const std::string line = GetCapturedStderr();
-  EXPECT_THAT(line, ::testing::MatchesRegex(
-                        R"(\{"time":"....-..-..T..:..:..\....Z","steady_ns":[0-9]+,"level":"debug",)"
-                        R"("process":"vehicle 1","text":"gives way to \{\} \\"2\\"\\n"\})"
-                        "\n"));
+  EXPECT_THAT(line,
+              ::testing::MatchesRegex(
+                  R"(\{"time":"....-..-..T..:..:..\....Z","steady_ns":[0-9]+,"level":"debug",)"
+                  R"("process":"vehicle 1","text":"gives way to \{\} \\"2\\"\\n"\})"
+                  "\n"));
 }
 
 TEST(Log, ALineCarriesWhenItWasNoticedAndNotWhenItWasWritten) {
