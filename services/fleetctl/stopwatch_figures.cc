@@ -13,8 +13,12 @@ void Add(const Trial& trial, Cell* cell, std::vector<Nanoseconds>* times) {
     times->push_back(sighting.after);
     if (cell->duty != Duty::kMust) continue;
     cell->longest_pause = std::max(cell->longest_pause, sighting.pause);
+    if (sighting.after <= cell->promised) continue;
     const Nanoseconds excess = sighting.after - cell->promised - sighting.pause;
-    if (excess <= Nanoseconds{0}) continue;
+    if (excess <= Nanoseconds{0}) {
+      ++cell->excused;
+      continue;
+    }
     ++cell->late;
     cell->worst_excess = std::max(cell->worst_excess, excess);
   }

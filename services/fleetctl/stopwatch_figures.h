@@ -42,12 +42,13 @@ struct Cell {
   Duty duty = Duty::kNone;
   Nanoseconds promised{0};  // without pauses
   std::uint32_t trials = 0;
-  std::uint32_t asked = 0;         // trials times their watchers
-  Distribution seen;               // time from fault to sighting
-  std::uint32_t unseen = 0;        // that had to be seen
-  std::uint32_t late = 0;          // later than promised and the pause of that sighting
-  Nanoseconds worst_excess{0};     // of the late ones, beyond both
-  Nanoseconds longest_pause{0};    // that was granted to a sighting
+  std::uint32_t asked = 0;       // trials times their watchers
+  Distribution seen;             // time from fault to sighting
+  std::uint32_t unseen = 0;      // that had to be seen
+  std::uint32_t excused = 0;     // later than promised, by no more than the pause of that sighting
+  std::uint32_t late = 0;        // later than promised and the pause of that sighting
+  Nanoseconds worst_excess{0};   // of the late ones, beyond both
+  Nanoseconds longest_pause{0};  // that was granted to a sighting
   std::uint32_t uncalled_for = 0;  // seen, though they must not be
 
   bool Kept() const { return unseen == 0 && late == 0 && uncalled_for == 0; }

@@ -32,8 +32,8 @@ inline constexpr Nanoseconds kWaveSpread{1'500'000'000};
 
 std::vector<VehicleId> StopwatchVehicles(std::uint32_t count);
 
-// `trials` strikes in all. Of cuts no more than VictimsOf, one wave: 2.9.1 does not always find a
-// peer again that was dropped on one side only, and the next wave would wait for ever.
+// `trials` strikes in all. Of cuts no more than VictimsOf, one wave: Fast DDS 2.9.1 does not always
+// find peers again that were dropped on one side only, and the next wave would wait for ever.
 std::vector<Wave> PlanWaves(Fault fault, std::uint32_t trials, std::span<const VehicleId> fleet,
                             const Limits& limits, std::uint64_t seed);
 

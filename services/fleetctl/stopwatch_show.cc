@@ -45,6 +45,7 @@ std::string Row(const Cell& cell) {
   const bool must = cell.duty == Duty::kMust;
   row += fmt::format(" {:>9} {:>7}", must ? MillisecondsText(cell.promised) : "-",
                      must ? MillisecondsText(cell.longest_pause) : "-");
+  row += fmt::format(" {:>7}", must ? std::to_string(cell.excused) : "-");
   return row + (cell.Kept() ? "  kept" : "  BROKEN");
 }
 
@@ -103,6 +104,7 @@ std::string JsonOf(const Cell& cell, const Limits& limits) {
     json.AddRaw("promise", "[" + terms + "]");
     json.Add("longest_pause_ms", Milliseconds(cell.longest_pause));
     json.Add("unseen", cell.unseen);
+    json.Add("excused", cell.excused);
     json.Add("late", cell.late);
     if (cell.late > 0) json.Add("worst_excess_ms", Milliseconds(cell.worst_excess));
   }
@@ -138,9 +140,9 @@ std::vector<std::string> Findings(const StopwatchReport& report) {
 std::string StopwatchText(const StopwatchReport& report) {
   std::string text = fmt::format(
       "{} vehicles a fleet, {} fleets at a time, {}, seed {}; milliseconds from the fault\n\n"
-      "  {:<8} {:<11} {:<5} {:>6} {:>10} {:>8} {:>8} {:>8} {:>8} {:>9} {:>7}\n",
+      "  {:<8} {:<11} {:<5} {:>6} {:>10} {:>8} {:>8} {:>8} {:>8} {:>9} {:>7} {:>7}\n",
       report.vehicles, report.fleets, report.qos_file, report.seed, "fault", "mechanism", "duty",
-      "trials", "seen", "min", "p50", "p99", "max", "promised", "+pause");
+      "trials", "seen", "min", "p50", "p99", "max", "promised", "+pause", "excused");
   for (const Cell& cell : report.cells) text += Row(cell) + "\n";
   text += "\npromised, each with the longest pause until then on top:\n";
   for (std::size_t i = 0; i < kMechanisms; ++i) {

@@ -117,7 +117,7 @@ class Conductor {
     }
   }
 
-  // By the clock of whoever heard the start signal first or last, whatever is asked for.
+  // By the clock of whoever heard the start signal last: a tick or two after the first.
   SteadyTime BeginOf(Nanoseconds since_start) const {
     SteadyTime latest{0};
     for (const VehicleId vehicle : task_.fleet) {

@@ -74,7 +74,11 @@ TEST(StopwatchFigures, APauseOfTheMachineExcusesAsMuchAsItLasted) {
   Sighting* const deadline = Find(&trial, Mechanism::kDeadline);
   deadline->pause = milliseconds(20);
   deadline->after = milliseconds(220);
-  EXPECT_TRUE(ReportOf({trial}, Shipped()).Kept());
+  const StopwatchReport excused = ReportOf({trial}, Shipped());
+  EXPECT_TRUE(excused.Kept());
+  for (const Cell& cell : excused.cells) {
+    EXPECT_EQ(cell.excused, cell.mechanism == Mechanism::kDeadline ? 1U : 0U);
+  }
   deadline->after = milliseconds(221);
   const StopwatchReport late = ReportOf({trial}, Shipped());
   EXPECT_FALSE(late.Kept());
