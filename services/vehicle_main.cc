@@ -10,11 +10,13 @@
 #include <utility>
 #include <vector>
 
+#include "services/app/hang_signal.h"
 #include "services/app/process.h"
 #include "services/app/recorder.h"
 #include "services/app/restart.h"
 #include "services/app/scenario_file.h"
 #include "services/app/text_file.h"
+#include "services/beacon_news.h"
 #include "services/link/vehicle_link.h"
 #include "services/service_main.h"
 #include "services/types/vehicle_options.h"
@@ -28,6 +30,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr Nanoseconds kHangPoll = milliseconds(20);
 constexpr Nanoseconds kStatusPeriod = milliseconds(200);
 constexpr Nanoseconds kFlushTimeout = milliseconds(300);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
@@ -50,6 +53,13 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
 }
 
 enum class DriveEnd { kOver, kRefused, kRestarts };
+
+// A drill. As of a loop that really hangs: SIGTERM finds it deaf too.
+void Hang() {
+  app::LogWarning("drill: the control loop hangs");
+  while (app::HangSignal::IsUp()) app::SleepUntil(app::SteadyNow() + kHangPoll);
+  app::LogWarning("drill: the control loop goes on");
+}
 
 // The loop and what it must remember between two turns.
 class Loop {
@@ -135,6 +145,7 @@ class Loop {
 
   void Turn(bool leaving) {
     const bool woken = link_.WaitForScan(leaving ? Nanoseconds{0} : Patience());
+    if (app::HangSignal::IsUp()) Hang();
     const SteadyTime woke = app::SteadyNow();
     link::Taken taken = link_.Take(woke);
     Inputs& inputs = taken.inputs;
@@ -158,6 +169,7 @@ class Loop {
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
     Tell(events);
     if (!leaving && admin_.Serve()) restarts_ = true;
+    TellOfBeacons(inputs.now, woke);
     if (outputs.decision_changed || woke >= next_status_) {
       report_.Send(vehicle_, link_);
       next_status_ = woke + kStatusPeriod;
@@ -171,8 +183,22 @@ class Loop {
       const bool is_trouble = event.kind == QosEventKind::kDeadlineMissed ||
                               event.kind == QosEventKind::kLivelinessLost ||
                               event.kind == QosEventKind::kIncompatibleQos;
-      (is_trouble ? app::LogWarning : app::LogInfo)(Describe(event));
+      is_trouble ? app::LogWarning(Describe(event), event.at)
+                 : app::LogInfo(Describe(event), event.at);
     }
+  }
+
+  // Whose beacons can be decided by, and whose no more. `now` is what the brain takes for the time.
+  void TellOfBeacons(SteadyTime now, SteadyTime woke) {
+    beacon_news_.Look(vehicle_.State().peers.Peers(), now, vehicle_.State().tick, options_);
+    for (const BeaconNewsItem& item : beacon_news_.Items()) {
+      const bool is_trouble = item.kind == BeaconNewsKind::kStale;
+      is_trouble ? app::LogWarning(Describe(item), woke) : app::LogInfo(Describe(item), woke);
+    }
+    const auto blackouts_since = told_blackouts_ ? std::nullopt : link_.BlackoutsSince();
+    if (!blackouts_since) return;
+    told_blackouts_ = true;
+    app::LogInfo("impairment: blackouts are counted from here", *blackouts_since);
   }
 
   // In lockstep the only clock is the world's tick: the run repeats whatever the machine does, so
@@ -206,6 +232,8 @@ class Loop {
   bool refused_ = false;
   bool restarts_ = false;
   VehicleReport report_;
+  BeaconNews beacon_news_;
+  bool told_blackouts_ = false;
   SteadyTime last_scan_{0};
   SteadyTime last_beacon_{0};
   SteadyTime next_status_{0};
@@ -251,6 +279,8 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   link.Open(options.id, options.profile, !scenario.signals.empty());
   VehicleAdmin admin(&link, link_options, options.id, profiles, flags.lockstep);
   if (flags.resume) admin.AnswerResumed(flags.resume->order);
+  std::optional<app::HangSignal> hang;
+  if (flags.hang_on_signal) hang.emplace();
   Loop loop(&link, &admin, scenario, *entry, flags.lockstep, recorder ? &*recorder : nullptr);
   const DriveEnd end = loop.Drive(stop);
   if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));

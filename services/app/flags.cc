@@ -40,6 +40,8 @@ class CommandLine {
           "none; the README lists the keys");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
       Add("--resume", "WORD", "given by a vehicle to itself when an operator's order restarts it");
+      AddSwitch("--hang-on-signal",
+                "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
@@ -137,6 +139,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     flags.impair = ReadImpairment(values);
     flags.resume = ReadResumed(values);
     flags.partition_free = values->Switch("--partition-free");
+    flags.hang_on_signal = values->Switch("--hang-on-signal");
   }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);

@@ -311,4 +311,10 @@ std::optional<ImpairmentCounters> VehicleLink::Impaired() const {
   return impairer->Counters();
 }
 
+std::optional<SteadyTime> VehicleLink::BlackoutsSince() const {
+  const Impairer* const impairer = impl_->participant.ImpairerOrNull();
+  if (impairer == nullptr) return std::nullopt;
+  return impairer->Started();
+}
+
 }  // namespace giveway::link

@@ -97,6 +97,9 @@ class VehicleLink {
   EffectiveBeaconQos BeaconQos() const;
   // What was injected into what this vehicle hears; nothing where no impairment was asked for.
   std::optional<ImpairmentCounters> Impaired() const;
+  // From when on this vehicle's blackouts are counted; nothing before the start signal, or where no
+  // impairment was asked for.
+  std::optional<SteadyTime> BlackoutsSince() const;
 
  private:
   struct Impl;

@@ -126,10 +126,9 @@ TEST(Peers, ThatAreUnsureMatterFromFartherAway) {
 }
 
 TEST(Echoes, OfAPeerMayBeNearerByTwiceWhatIsUnsure) {
-  Onlooker onlooker;
-  EXPECT_TRUE(onlooker.TakesForItsOwn(0, {}));
-  EXPECT_FALSE(onlooker.TakesForItsOwn(0.15, {}));
-  EXPECT_TRUE(onlooker.TakesForItsOwn(0.15, {.xx_m2 = 0.01, .yy_m2 = 0.01}));
+  EXPECT_TRUE(Onlooker().TakesForItsOwn(0, {}));
+  EXPECT_FALSE(Onlooker().TakesForItsOwn(0.15, {}));
+  EXPECT_TRUE(Onlooker().TakesForItsOwn(0.15, {.xx_m2 = 0.01, .yy_m2 = 0.01}));
 }
 
 // Who drives on a heading it is not sure of is less sure of its place the farther it comes.
