@@ -13,5 +13,6 @@ void AddRunVerb(CLI::App* fleetctl, int* exit_code);
 void AddShrinkVerb(CLI::App* fleetctl, int* exit_code);
 void AddTopVerb(CLI::App* fleetctl, int* exit_code);
 void AddVirtualVerb(CLI::App* fleetctl, int* exit_code);
+void AddWhyVerb(CLI::App* fleetctl, int* exit_code);
 
 }  // namespace giveway::fleetctl

@@ -213,7 +213,7 @@ std::vector<FleetMember> FindFleet(const fs::path& proc) {
     const auto started = ReadStarted(entry.path());
     if (!started) continue;
     std::vector<std::string> ignored;
-    const Told told = ReadTold(*started, &ignored);
+    const Instructions told = ReadTold(*started, &ignored);
     members.push_back({pid, told.is_world, told.id, told.domain});
   }
   std::ranges::sort(members, {}, &FleetMember::pid);

@@ -117,7 +117,7 @@ void CheckProcess(const ProcessSituation& process, bool hears, Causes* causes) {
   CheckEnvironment(process, causes);
 }
 
-std::vector<TopicOutlook> TopicsBetween(const Told& hearer, const Told& speaker) {
+std::vector<TopicOutlook> TopicsBetween(const Instructions& hearer, const Instructions& speaker) {
   std::vector<TopicOutlook> topics;
   const auto add = [&](const char* topic, std::string read_in) {
     topics.push_back({.topic = topic, .read_in = std::move(read_in), .causes = {}});

@@ -42,7 +42,7 @@ struct TopicOutlook {
 
 // What the hearer reads of the speaker: vehicles of one another beacons, and of the world what the
 // vehicle is fitted with. Nothing between two worlds.
-std::vector<TopicOutlook> TopicsBetween(const Told& hearer, const Told& speaker);
+std::vector<TopicOutlook> TopicsBetween(const Instructions& hearer, const Instructions& speaker);
 
 // `vehicles` is how many vehicles speak in the hearer's domain, as far as is known.
 std::vector<TopicOutlook> Predict(const ProcessSituation& hearer, const ProcessSituation& speaker,

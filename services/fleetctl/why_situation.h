@@ -30,7 +30,7 @@ struct FileIdentity {
 };
 
 // What the command line, the environment and the scenario it names say.
-struct Told {
+struct Instructions {
   bool is_world = false;
   VehicleId id = kNobody;  // of a vehicle that asked for one
   std::uint32_t domain = 0;
@@ -51,7 +51,7 @@ struct Told {
 struct ProcessSituation {
   int pid = 0;
   int pid_inside = 0;  // in its own namespace of process ids: what its GUID holds
-  Told told;
+  Instructions told;
   std::optional<qos::ProfileSet> profiles;  // the set as the file is now
   bool profiles_changed = false;            // the file was written to after the process began
 

@@ -25,7 +25,7 @@ std::uint32_t WholeOr(std::uint32_t otherwise, const std::optional<std::string>&
 
 // The vehicle's own options; a newcomer's are those of a place the world chooses, so any fitted
 // sensor counts.
-void AddSensors(const Scenario& scenario, Told* told) {
+void AddSensors(const Scenario& scenario, Instructions* told) {
   for (const auto* list : {&scenario.vehicles, &scenario.spawns}) {
     for (const VehicleOptions& options : *list) {
       const bool own = list == &scenario.vehicles ? options.id == told->id : told->id == kNobody;
@@ -64,8 +64,8 @@ bool Started::Switch(const std::string& flag) const {
 bool Started::IsVehicle() const { return ProgramOf(words) == "giveway-vehicle"; }
 bool Started::IsWorld() const { return ProgramOf(words) == "giveway-world"; }
 
-Told ReadTold(const Started& started, std::vector<std::string>* not_known) {
-  Told told;
+Instructions ReadTold(const Started& started, std::vector<std::string>* not_known) {
+  Instructions told;
   told.is_world = started.IsWorld();
   told.id = told.is_world ? kNobody : VehicleId{WholeOr(0, started.Value("--id"))};
   told.domain = WholeOr(0, started.Value("--domain"));
@@ -81,7 +81,7 @@ Told ReadTold(const Started& started, std::vector<std::string>* not_known) {
   return told;
 }
 
-void AddScenario(const std::filesystem::path& file, bool impairment_given, Told* told,
+void AddScenario(const std::filesystem::path& file, bool impairment_given, Instructions* told,
                  std::vector<std::string>* not_known) {
   try {
     const Scenario scenario = app::LoadScenario(file.string(), {});

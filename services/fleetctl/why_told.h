@@ -25,9 +25,9 @@ struct Started {
 };
 
 // All but what the scenario and the default of --qos say. `not_known` is told what makes no sense.
-Told ReadTold(const Started& started, std::vector<std::string>* not_known);
+Instructions ReadTold(const Started& started, std::vector<std::string>* not_known);
 // Adds what the scenario says, read from `file`.
-void AddScenario(const std::filesystem::path& file, bool impairment_given, Told* told,
+void AddScenario(const std::filesystem::path& file, bool impairment_given, Instructions* told,
                  std::vector<std::string>* not_known);
 
 }  // namespace giveway::fleetctl

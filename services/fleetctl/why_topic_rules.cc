@@ -60,7 +60,7 @@ void CheckWriterInstances(const ProcessSituation& speaker, const qos::Profile& w
 }
 
 // The rule that the hearer's packets from the speaker meet: of those that fit the last.
-const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const Told& speaker) {
+const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const Instructions& speaker) {
   const ImpairmentRule* last = nullptr;
   for (const ImpairmentRule& rule : hearer.told.impairment.rules) {
     const bool hears = rule.to_vehicle == kNobody || rule.to_vehicle == hearer.told.id;

@@ -1,0 +1,182 @@
+#include "services/fleetctl/why.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <exception>
+
+#include "services/fleetctl/reading_along.h"
+#include "services/fleetctl/why_report.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr int kCouldNotRun = 2;
+constexpr const char* kProc = "/proc";
+
+template <typename Number>
+std::optional<Number> Whole(std::string_view text) {
+  Number number{};
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || stop != text.data() + text.size() || number <= 0) return std::nullopt;
+  return number;
+}
+
+bool Fits(const Named& named, const FleetMember& member) {
+  if (named.pid != 0) return member.pid == named.pid;
+  if (named.world || member.is_world) return named.world == member.is_world;
+  return member.id == named.id;
+}
+
+std::string Listed(const std::vector<FleetMember>& members) {
+  std::string text;
+  for (const FleetMember& member : members) {
+    const std::string who = member.is_world        ? "the world"
+                            : member.id == kNobody ? "a vehicle without a given id"
+                                                   : fmt::format("vehicle {}", Number(member.id));
+    text += fmt::format("\n  pid:{}  {} in domain {}", member.pid, who, member.domain);
+  }
+  return text.empty() ? " no process of a fleet" : text;
+}
+
+// A hearer or speaker of which nothing but its name is known; it is taken to be as the other.
+ProcessSituation StandIn(const Named& named, const ProcessSituation& other) {
+  ProcessSituation situation;
+  situation.pid = other.pid;
+  situation.network_namespace = other.network_namespace;
+  situation.mount_namespace = other.mount_namespace;
+  situation.told = other.told;
+  situation.told.is_world = named.world;
+  situation.told.id = named.id;
+  situation.told.impairment = {};
+  return situation;
+}
+
+std::uint32_t VehiclesIn(const std::vector<FleetMember>& members, std::uint32_t domain) {
+  return static_cast<std::uint32_t>(std::ranges::count_if(
+      members, [&](const FleetMember& one) { return !one.is_world && one.domain == domain; }));
+}
+
+void AddNotKnown(const std::optional<ProcessSituation>& process, const Named& named,
+                 WhyReport* report) {
+  if (!process) {
+    report->not_known.push_back(TextOf(named) +
+                                " is no process of this machine: judged by what "
+                                "can be heard");
+    return;
+  }
+  for (const std::string& fact : process->not_known) {
+    report->not_known.push_back(NameOf(*process) + ": " + fact);
+  }
+}
+
+int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
+           const ChosenPair& chosen) {
+  const auto read = [](int pid) { return pid == 0 ? std::nullopt : ReadSituation(kProc, pid); };
+  const auto hearer = read(chosen.hearer);
+  const auto speaker = read(chosen.speaker);
+  if (!hearer && !speaker) {
+    std::fprintf(stderr, "both processes have ended meanwhile\n");
+    return kCouldNotRun;
+  }
+  const ProcessSituation from = hearer ? *hearer : StandIn(options.hearer, *speaker);
+  const ProcessSituation to = speaker ? *speaker : StandIn(options.speaker, *hearer);
+  WhyReport report;
+  report.hearer = hearer ? NameOf(*hearer) : TextOf(options.hearer);
+  report.speaker = speaker ? NameOf(*speaker) : TextOf(options.speaker);
+  report.foretold = hearer && speaker;
+  report.topics = report.foretold ? Predict(from, to, VehiclesIn(members, from.told.domain))
+                                  : TopicsBetween(from.told, to.told);
+  if (report.topics.empty()) {
+    std::fprintf(stderr, "two worlds do not talk to each other\n");
+    return kCouldNotRun;
+  }
+  AddNotKnown(hearer, options.hearer, &report);
+  AddNotKnown(speaker, options.speaker, &report);
+  report.host_id = speaker ? HostId(*speaker) : std::nullopt;
+  if (options.probe) {
+    report.probe =
+        Probe({from, speaker ? speaker->pid_inside : 0, to.told, report.topics, options.seconds});
+  }
+  const Told told = Tell(options.json ? ToJson(report) : ToText(report));
+  return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report);
+}
+
+}  // namespace
+
+std::optional<Named> ParseNamed(const std::string& text) {
+  if (text == "world") return Named{.world = true};
+  if (text.starts_with("pid:")) {
+    const auto pid = Whole<int>(std::string_view(text).substr(4));
+    return pid ? std::optional(Named{.pid = *pid}) : std::nullopt;
+  }
+  const auto id = Whole<std::uint32_t>(text);
+  return id ? std::optional(Named{.id = VehicleId{*id}}) : std::nullopt;
+}
+
+std::string TextOf(const Named& named) {
+  if (named.world) return "the world";
+  if (named.pid != 0) return fmt::format("pid {}", named.pid);
+  return fmt::format("vehicle {}", Number(named.id));
+}
+
+std::variant<ChosenPair, std::string> Choose(const std::vector<FleetMember>& members,
+                                             const WhyOptions& options) {
+  const auto fitting = [&](const Named& named) {
+    std::vector<FleetMember> fit;
+    for (const FleetMember& member : members) {
+      const bool here = !options.domain || named.pid != 0 || member.domain == *options.domain;
+      if (here && Fits(named, member)) fit.push_back(member);
+    }
+    return fit;
+  };
+  const auto hearers = fitting(options.hearer);
+  const auto speakers = fitting(options.speaker);
+  for (const auto& [named, fit] :
+       {std::pair{&options.hearer, &hearers}, {&options.speaker, &speakers}}) {
+    if (named->pid != 0 && fit->empty()) {
+      return fmt::format("pid {} is no process of a fleet; there is:{}", named->pid,
+                         Listed(members));
+    }
+  }
+  if (hearers.empty() && speakers.empty()) {
+    return fmt::format("neither {} nor {} is a process of this machine; there is:{}",
+                       TextOf(options.hearer), TextOf(options.speaker), Listed(members));
+  }
+  std::vector<ChosenPair> pairs;
+  std::vector<ChosenPair> together;  // in one domain
+  for (const FleetMember& a : hearers.empty() ? std::vector<FleetMember>(1) : hearers) {
+    for (const FleetMember& b : speakers.empty() ? std::vector<FleetMember>(1) : speakers) {
+      if (a.pid != 0 && a.pid == b.pid) continue;
+      pairs.push_back({a.pid, b.pid});
+      if (a.domain == b.domain) together.push_back(pairs.back());
+    }
+  }
+  if (pairs.empty()) return "both names are of one process, and nobody hears itself";
+  if (pairs.size() == 1) return pairs.front();
+  if (together.size() == 1) return together.front();
+  std::vector<FleetMember> meant = hearers;
+  meant.insert(meant.end(), speakers.begin(), speakers.end());
+  return fmt::format("several processes are called {} or {}; choose by --domain or pid:{}",
+                     TextOf(options.hearer), TextOf(options.speaker), Listed(meant));
+}
+
+int RunWhy(const WhyOptions& options) {
+  if (!HasStdout()) return 0;
+  try {
+    const std::vector<FleetMember> members = FindFleet(kProc);
+    const auto chosen = Choose(members, options);
+    if (const auto* why = std::get_if<std::string>(&chosen)) {
+      std::fprintf(stderr, "%s\n", why->c_str());
+      return kCouldNotRun;
+    }
+    return Report(options, members, std::get<ChosenPair>(chosen));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return kCouldNotRun;
+  }
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,242 @@
+#include "services/fleetctl/why_probe.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <sstream>
+#include <stdexcept>
+
+#include "services/app/process.h"
+#include "services/fleetctl/file_descriptor.h"
+#include "services/link/ear.h"
+#include "services/link/observer_link.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);
+// A vehicle tells its status five times a second; discovery takes some of the first.
+constexpr double kOwnWordSeconds = 1.5;
+
+[[noreturn]] void Throw(const std::string& what) {
+  throw std::runtime_error(what + ": " + std::strerror(errno));
+}
+
+// A namespace to enter, opened before any is entered: /proc looks different from inside.
+class Namespace {
+ public:
+  Namespace(int pid, const char* kind, int type, std::optional<std::uint64_t> theirs)
+      : kind_(kind), type_(type) {
+    const std::string own = fmt::format("/proc/self/ns/{}", kind);
+    char link[64] = {};
+    const ssize_t length = readlink(own.c_str(), link, sizeof(link) - 1);
+    if (!theirs || (length > 0 && link == fmt::format("{}:[{}]", kind, *theirs))) return;
+    fd_ = FileDescriptor(open(fmt::format("/proc/{}/ns/{}", pid, kind).c_str(), O_RDONLY));
+    if (!fd_.IsOpen()) Throw(fmt::format("cannot open its {} namespace", kind));
+  }
+  bool IsOther() const { return fd_.IsOpen(); }
+  void Enter() const {
+    if (IsOther() && setns(fd_.Get(), type_) != 0) {
+      Throw(fmt::format("cannot enter its {} namespace", kind_));
+    }
+  }
+
+ private:
+  const char* kind_;
+  int type_;
+  FileDescriptor fd_;
+};
+
+void TakePlace(const ProcessSituation& hearer) {
+  const Namespace network(hearer.pid, "net", CLONE_NEWNET, hearer.network_namespace);
+  const Namespace mounts(hearer.pid, "mnt", CLONE_NEWNS, hearer.mount_namespace);
+  network.Enter();
+  mounts.Enter();
+}
+
+link::LinkOptions OptionsOf(const Instructions& told) {
+  link::LinkOptions options;
+  options.domain = told.domain;
+  options.interface = told.interface;
+  options.qos_file = told.qos_file;
+  options.area = told.area;
+  options.fleet_size = told.fleet_size;
+  return options;
+}
+
+std::vector<link::EarTopic> EarTopics(const std::vector<TopicOutlook>& topics) {
+  std::vector<link::EarTopic> all;
+  for (const TopicOutlook& topic : topics) all.push_back({topic.topic, topic.read_in});
+  return all;
+}
+
+class Probing {
+ public:
+  explicit Probing(const ProbeOrder& order)
+      : order_(order),
+        observer_(OptionsOf(order.hearer.told)),
+        ear_(Impaired(order.hearer.told), EarTopics(order.topics), order.hearer.told.id),
+        since_(app::SteadyNow()) {}
+
+  ProbeResult Listen() {
+    while (!IsOver()) {
+      app::SleepUntil(app::SteadyNow() + kTurn);
+      for (const link::EarProcess& process : ear_.Listen()) {
+        if (IsSpeaker(process)) Note(process);
+      }
+      NoteOwnWord(observer_.Take());
+    }
+    result_.listened_ms = SinceMs();
+    return std::move(result_);
+  }
+
+ private:
+  static link::LinkOptions Impaired(const Instructions& told) {
+    link::LinkOptions options = OptionsOf(told);
+    options.impairment = told.impairment;
+    return options;
+  }
+  double SinceMs() const { return Seconds(app::SteadyNow() - since_) * 1e3; }
+
+  bool IsOver() const {
+    const double seconds = SinceMs() * 1e-3;
+    if (seconds >= order_.seconds) return true;
+    const bool all = std::ranges::all_of(order_.topics, [&](const TopicOutlook& topic) {
+      const auto found = result_.topics.find(topic.topic);
+      return found != result_.topics.end() && found->second.samples > 0;
+    });
+    const bool asked = result_.own_word || order_.hearer.told.is_world;
+    return all && (asked || seconds >= kOwnWordSeconds);
+  }
+
+  bool IsSpeaker(const link::EarProcess& process) const {
+    if (order_.speaker_pid_inside != 0) {
+      return process.process == static_cast<std::uint16_t>(order_.speaker_pid_inside);
+    }
+    if (!order_.speaker.is_world) return process.vehicle == order_.speaker.id;
+    return std::ranges::find(process.partitions, "world") != process.partitions.end();
+  }
+
+  void Note(const link::EarProcess& process) {
+    result_.discovered = true;
+    result_.host_id = process.host_id;
+    for (const auto& [name, count] : process.topics) {
+      ProbedTopic& topic = result_.topics[name];
+      topic.matched |= count.matched;
+      topic.samples = std::max(topic.samples, count.samples);
+      if (topic.samples > 0 && !topic.first_ms) topic.first_ms = SinceMs();
+    }
+  }
+
+  void NoteOwnWord(const link::Observed& observed) {
+    for (const VehicleStatus& status : observed.statuses) {
+      if (order_.hearer.told.id == kNobody || status.vehicle != order_.hearer.told.id) continue;
+      result_.own_word =
+          OwnWord{status.peers_heard, status.qos.matched, status.qos.incompatible_qos};
+    }
+    // So that blackouts fall where they fall in the hearer.
+    for (const Truth& truth : observed.truths) {
+      if (truth.time_s < 0) continue;
+      ear_.StartImpairment(app::SteadyNow() -
+                           Nanoseconds(static_cast<std::int64_t>(truth.time_s * 1e9)));
+    }
+  }
+
+  const ProbeOrder& order_;
+  link::ObserverLink observer_;
+  link::Ear ear_;
+  const SteadyTime since_;
+  ProbeResult result_;
+};
+
+// One line a fact; the first word says which.
+std::string Written(const ProbeResult& result) {
+  std::string text = fmt::format("listened {}\n", result.listened_ms);
+  if (result.discovered) text += fmt::format("found {}\n", result.host_id.value_or(0));
+  for (const auto& [name, topic] : result.topics) {
+    text += fmt::format("topic {} {} {} {}\n", name, topic.matched ? 1 : 0, topic.samples,
+                        topic.first_ms.value_or(-1));
+  }
+  if (const auto& word = result.own_word) {
+    text += fmt::format("word {} {} {}\n", word->peers_heard, word->matched, word->incompatible);
+  }
+  return text;
+}
+
+ProbeResult Understood(const std::string& text) {
+  ProbeResult result;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    words >> kind;
+    if (kind == "listened") words >> result.listened_ms;
+    if (kind == "found") result.discovered = bool(words >> result.host_id.emplace());
+    if (kind == "trouble") std::getline(words >> std::ws, result.trouble);
+    if (kind == "topic") {
+      std::string name;
+      ProbedTopic topic;
+      double first_ms = -1;
+      words >> name >> topic.matched >> topic.samples >> first_ms;
+      if (first_ms >= 0) topic.first_ms = first_ms;
+      result.topics[name] = topic;
+    }
+    if (kind == "word") {
+      OwnWord& word = result.own_word.emplace();
+      words >> word.peers_heard >> word.matched >> word.incompatible;
+    }
+  }
+  return result;
+}
+
+std::string Heard(const ProbeOrder& order) {
+  try {
+    TakePlace(order.hearer);
+    return Written(Probing(order).Listen());
+  } catch (const std::exception& error) {
+    std::string why = error.what();
+    std::ranges::replace(why, '\n', ' ');
+    return "trouble " + why + "\n";
+  }
+}
+
+std::string ReadAll(int pipe_end) {
+  std::string text;
+  char part[4096];
+  while (true) {
+    const ssize_t count = read(pipe_end, part, sizeof(part));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return text;
+    text.append(part, static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace
+
+ProbeResult Probe(const ProbeOrder& order) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) Throw("pipe");
+  FileDescriptor reading(ends[0]);
+  FileDescriptor writing(ends[1]);
+  const pid_t child = fork();
+  if (child < 0) Throw("fork");
+  if (child == 0) {
+    const std::string text = Heard(order);
+    // A pipe holds 64 kB: what is told here fits, and is not waited for.
+    _exit(write(writing.Get(), text.data(), text.size()) < 0 ? 1 : 0);
+  }
+  writing.Close();
+  const std::string text = ReadAll(reading.Get());
+  waitpid(child, nullptr, 0);
+  ProbeResult result = Understood(text);
+  if (text.empty()) result.trouble = "the probing process ended without a word";
+  return result;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,49 @@
+// Verifies by ear: a short-lived reader of our own takes the hearer's place (its domain, profile
+// set, interface, impairment, network and mount namespace) and listens to the speaker.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/why_rules.h"
+
+namespace giveway::fleetctl {
+
+struct ProbedTopic {
+  bool matched = false;
+  std::uint64_t samples = 0;
+  std::optional<double> first_ms;  // since the probe began
+};
+
+// What the hearer's own status says, if one came.
+struct OwnWord {
+  std::uint32_t peers_heard = 0;  // with a fresh beacon
+  std::uint32_t matched = 0;
+  std::uint32_t incompatible = 0;
+};
+
+struct ProbeResult {
+  std::string trouble;  // why there was no probe; empty if there was
+  double listened_ms = 0;
+  bool discovered = false;                    // a writer of the speaker was found
+  std::optional<std::uint16_t> host_id;       // as its participant tells it
+  std::map<std::string, ProbedTopic> topics;  // by name
+  std::optional<OwnWord> own_word;
+};
+
+struct ProbeOrder {
+  const ProcessSituation& hearer;
+  // By process id; by vehicle id if that is 0: the speaker is on another machine.
+  int speaker_pid_inside = 0;
+  Instructions speaker;
+  const std::vector<TopicOutlook>& topics;
+  double seconds = 3;
+};
+
+// Runs in a child process: this one enters no namespace and loads no profiles. Ends as soon as
+// every topic was heard.
+ProbeResult Probe(const ProbeOrder& order);
+
+}  // namespace giveway::fleetctl

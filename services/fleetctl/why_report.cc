@@ -1,0 +1,220 @@
+#include "services/fleetctl/why_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/app/json_line.h"
+#include "services/fleetctl/finding_text.h"
+#include "services/fleetctl/json_object.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+bool Probed(const WhyReport& report) { return report.probe && report.probe->trouble.empty(); }
+
+ProbedTopic ProbedOf(const WhyReport& report, const std::string& topic) {
+  if (!Probed(report)) return {};
+  const auto found = report.probe->topics.find(topic);
+  return found == report.probe->topics.end() ? ProbedTopic{} : found->second;
+}
+
+std::string_view Word(Outlook outlook) {
+  switch (outlook) {
+    case Outlook::kHears:
+      return "hears";
+    case Outlook::kCannot:
+      return "cannot";
+    case Outlook::kNotKnown:
+      break;
+  }
+  return "not known";
+}
+
+std::string_view Word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHears:
+      return "hears";
+    case Verdict::kDoesNot:
+      return "does not hear";
+    case Verdict::kNotKnown:
+      break;
+  }
+  return "may hear";
+}
+
+// How far the probe came: found, matched, heard.
+std::string ProbedText(const WhyReport& report, const std::string& topic) {
+  if (!report.probe) return "not probed";
+  if (!Probed(report)) return "not probed: " + report.probe->trouble;
+  const ProbedTopic probed = ProbedOf(report, topic);
+  if (probed.samples > 0) {
+    return fmt::format("heard {} sample{}, the first after {:.0f} ms", probed.samples,
+                       probed.samples == 1 ? "" : "s", probed.first_ms.value_or(0));
+  }
+  const char* const far = probed.matched             ? "its writer matched"
+                          : report.probe->discovered ? "it was discovered, but no writer matched"
+                                                     : "it was not discovered";
+  return fmt::format("nothing in {:.1f} s, {}", report.probe->listened_ms * 1e-3, far);
+}
+
+// Every cause once, in order, those that prevent first.
+std::vector<Cause> CausesOf(const WhyReport& report) {
+  std::vector<Cause> all;
+  for (const TopicOutlook& topic : report.topics) {
+    for (const Cause& cause : topic.causes) {
+      const bool known = std::ranges::any_of(all, [&](const Cause& other) {
+        return other.finding.rule == cause.finding.rule &&
+               other.finding.subject == cause.finding.subject &&
+               other.finding.values == cause.finding.values;
+      });
+      if (!known) all.push_back(cause);
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Cause::weight);
+  return all;
+}
+
+bool AnyDisagrees(const WhyReport& report) {
+  return !Contradiction(report).empty() ||
+         std::ranges::any_of(report.topics, [&](const TopicOutlook& topic) {
+           return VerdictOf(report, topic).disagree;
+         });
+}
+
+std::string OwnWordText(const WhyReport& report) {
+  if (!Probed(report) || !report.probe->own_word) return {};
+  const OwnWord& word = *report.probe->own_word;
+  return fmt::format("its own status: {} peer{} heard, {} matched, {} incompatible",
+                     word.peers_heard, word.peers_heard == 1 ? "" : "s", word.matched,
+                     word.incompatible);
+}
+
+std::string HostIdText(const WhyReport& report) {
+  if (!Probed(report) || !report.probe->host_id || !report.host_id) return {};
+  if (*report.probe->host_id == *report.host_id) return {};
+  return fmt::format(
+      "host id of {}: {:#06x} by its addresses now, {:#06x} as it tells itself: its addresses "
+      "have changed since it began",
+      report.speaker, *report.host_id, *report.probe->host_id);
+}
+
+std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
+  const TopicVerdict verdict = VerdictOf(report, topic);
+  const ProbedTopic probed = ProbedOf(report, topic.topic);
+  JsonObject object;
+  object.Add("topic", std::string_view(topic.topic));
+  object.Add("verdict", Word(verdict.verdict));
+  if (report.foretold) object.Add("predicted", Word(topic.outlook));
+  if (report.foretold) object.Add("predicted_in_place", Word(topic.in_place));
+  if (Probed(report)) {
+    object.Add("matched", probed.matched);
+    object.Add("samples", probed.samples);
+    object.Add("first_ms", probed.first_ms);
+  }
+  object.Add("disagree", verdict.disagree);
+  std::string reasons;
+  for (const Cause& cause : topic.causes) {
+    if (cause.weight != Weight::kPrevents) continue;
+    reasons += (reasons.empty() ? "" : ",") + app::JsonString(cause.finding.rule);
+  }
+  object.AddRaw("reasons", "[" + reasons + "]");
+  return object.Text();
+}
+
+}  // namespace
+
+TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
+  TopicVerdict verdict;
+  const bool heard = ProbedOf(report, topic.topic).samples > 0;
+  const bool own = topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot;
+  if (Probed(report)) {
+    verdict.verdict = heard && !own ? Verdict::kHears : Verdict::kDoesNot;
+    verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
+                       heard != (topic.in_place == Outlook::kHears);
+  } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
+    verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;
+  }
+  const std::string predicted =
+      !report.foretold ? "not predicted"
+      : own ? fmt::format("predicted: cannot, another in its place {}", Word(topic.in_place))
+            : fmt::format("predicted: {}", Word(topic.outlook));
+  verdict.explanation = predicted + "; probed: " + ProbedText(report, topic.topic);
+  return verdict;
+}
+
+std::string Contradiction(const WhyReport& report) {
+  if (!Probed(report) || !report.probe->own_word || !report.foretold) return {};
+  for (const TopicOutlook& topic : report.topics) {
+    const bool own = topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot;
+    if (own) return "it cannot, and yet it tells its status";
+    const bool hears = VerdictOf(report, topic).verdict == Verdict::kHears;
+    if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->peers_heard == 0) {
+      return "a reader in its place hears, and it says that it hears nobody";
+    }
+  }
+  return {};
+}
+
+std::string ToText(const WhyReport& report) {
+  std::string text;
+  for (const TopicOutlook& topic : report.topics) {
+    const TopicVerdict verdict = VerdictOf(report, topic);
+    text += fmt::format("{} {} {} on {} ({})\n", report.hearer, Word(verdict.verdict),
+                        report.speaker, topic.topic, verdict.explanation);
+  }
+  for (const Cause& cause : CausesOf(report)) text += ToText(cause.finding, "processes");
+  if (AnyDisagrees(report)) {
+    const std::string more = Contradiction(report);
+    text += "prediction and probe disagree" + (more.empty() ? "" : ": " + more) + "\n";
+  }
+  for (const std::string& line : {OwnWordText(report), HostIdText(report)}) {
+    if (!line.empty()) text += line + "\n";
+  }
+  for (const std::string& fact : report.not_known) text += "not known: " + fact + "\n";
+  return text;
+}
+
+std::string ToJson(const WhyReport& report) {
+  std::string topics;
+  for (const TopicOutlook& topic : report.topics) {
+    topics += (topics.empty() ? "" : ",") + TopicJson(report, topic);
+  }
+  std::string findings;
+  for (const Cause& cause : CausesOf(report)) {
+    findings += (findings.empty() ? "" : ",") + ToJson(cause.finding);
+  }
+  std::string not_known;
+  for (const std::string& fact : report.not_known) {
+    not_known += (not_known.empty() ? "" : ",") + app::JsonString(fact);
+  }
+  JsonObject object;
+  object.Add("hearer", std::string_view(report.hearer));
+  object.Add("speaker", std::string_view(report.speaker));
+  object.Add("hears", ExitCode(report) == 0);
+  object.Add("disagree", AnyDisagrees(report));
+  object.Add("probed", Probed(report));
+  if (report.probe && !Probed(report)) {
+    object.Add("trouble", std::string_view(report.probe->trouble));
+  }
+  if (Probed(report)) object.Add("listened_ms", report.probe->listened_ms);
+  if (Probed(report) && report.probe->own_word) {
+    object.Add("own_peers_heard", report.probe->own_word->peers_heard);
+    object.Add("own_matched", report.probe->own_word->matched);
+    object.Add("own_incompatible", report.probe->own_word->incompatible);
+  }
+  object.AddRaw("topics", "[" + topics + "]");
+  object.AddRaw("findings", "[" + findings + "]");
+  object.AddRaw("not_known", "[" + not_known + "]");
+  return object.Text() + "\n";
+}
+
+int ExitCode(const WhyReport& report) {
+  if (!report.foretold && !Probed(report)) return 2;
+  const bool all = std::ranges::all_of(report.topics, [&](const TopicOutlook& topic) {
+    return VerdictOf(report, topic).verdict == Verdict::kHears;
+  });
+  return all && !AnyDisagrees(report) ? 0 : 1;
+}
+
+}  // namespace giveway::fleetctl
