@@ -86,6 +86,7 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   WhyReport report;
   report.hearer = hearer ? NameOf(*hearer) : TextOf(options.hearer);
   report.speaker = speaker ? NameOf(*speaker) : TextOf(options.speaker);
+  report.hearer_here = hearer.has_value();
   report.foretold = hearer && speaker;
   report.topics = report.foretold ? Predict(from, to, VehiclesIn(members, from.told.domain))
                                   : TopicsBetween(from.told, to.told);

@@ -138,7 +138,8 @@ class Probing {
     for (const VehicleStatus& status : observed.statuses) {
       if (order_.hearer.told.id == kNobody || status.vehicle != order_.hearer.told.id) continue;
       result_.own_word =
-          OwnWord{status.peers_heard, status.qos.matched, status.qos.incompatible_qos};
+          OwnWord{status.peers_heard,       status.beacons.taken,      status.beacons.accepted,
+                  status.beacons.not_heard, status.beacons.Rejected(), status.qos.incompatible_qos};
     }
     // So that blackouts fall where they fall in the hearer.
     for (const Truth& truth : observed.truths) {
@@ -164,7 +165,8 @@ std::string Written(const ProbeResult& result) {
                         topic.first_ms.value_or(-1));
   }
   if (const auto& word = result.own_word) {
-    text += fmt::format("word {} {} {}\n", word->peers_heard, word->matched, word->incompatible);
+    text += fmt::format("word {} {} {} {} {} {}\n", word->peers_heard, word->taken, word->accepted,
+                        word->too_far, word->rejected, word->incompatible);
   }
   return text;
 }
@@ -189,7 +191,8 @@ ProbeResult Understood(const std::string& text) {
     }
     if (kind == "word") {
       OwnWord& word = result.own_word.emplace();
-      words >> word.peers_heard >> word.matched >> word.incompatible;
+      words >> word.peers_heard >> word.taken >> word.accepted >> word.too_far >> word.rejected >>
+          word.incompatible;
     }
   }
   return result;

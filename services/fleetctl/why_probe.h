@@ -19,9 +19,12 @@ struct ProbedTopic {
 
 // What the hearer's own status says, if one came.
 struct OwnWord {
-  std::uint32_t peers_heard = 0;  // with a fresh beacon
-  std::uint32_t matched = 0;
-  std::uint32_t incompatible = 0;
+  std::uint32_t peers_heard = 0;  // near enough, and with a fresh beacon
+  std::uint32_t taken = 0;        // beacons of anybody, since it began; here and below
+  std::uint32_t accepted = 0;
+  std::uint32_t too_far = 0;  // from beyond the emission radius: heard, and passed over
+  std::uint32_t rejected = 0;
+  std::uint32_t incompatible = 0;  // writers whose QoS does not match
 };
 
 struct ProbeResult {

@@ -85,9 +85,11 @@ bool AnyDisagrees(const WhyReport& report) {
 std::string OwnWordText(const WhyReport& report) {
   if (!Probed(report) || !report.probe->own_word) return {};
   const OwnWord& word = *report.probe->own_word;
-  return fmt::format("its own status: {} peer{} heard, {} matched, {} incompatible",
-                     word.peers_heard, word.peers_heard == 1 ? "" : "s", word.matched,
-                     word.incompatible);
+  return fmt::format(
+      "its own status: {} near peer{} with a fresh beacon; of {} beacons it took since it began {} "
+      "accepted, {} from too far, {} rejected; {} incompatible writer{}",
+      word.peers_heard, word.peers_heard == 1 ? "" : "s", word.taken, word.accepted, word.too_far,
+      word.rejected, word.incompatible, word.incompatible == 1 ? "" : "s");
 }
 
 std::string HostIdText(const WhyReport& report) {
@@ -130,6 +132,8 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
   const bool own = topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot;
   if (Probed(report)) {
     verdict.verdict = heard && !own ? Verdict::kHears : Verdict::kDoesNot;
+    // Who is elsewhere may stand otherwise than the probe did.
+    if (!report.hearer_here) verdict.verdict = Verdict::kNotKnown;
     verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
   } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
@@ -149,8 +153,8 @@ std::string Contradiction(const WhyReport& report) {
     const bool own = topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot;
     if (own) return "it cannot, and yet it tells its status";
     const bool hears = VerdictOf(report, topic).verdict == Verdict::kHears;
-    if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->peers_heard == 0) {
-      return "a reader in its place hears, and it says that it hears nobody";
+    if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->taken == 0) {
+      return "a reader in its place hears, and by its own status it took no beacon at all";
     }
   }
   return {};
@@ -199,9 +203,15 @@ std::string ToJson(const WhyReport& report) {
   }
   if (Probed(report)) object.Add("listened_ms", report.probe->listened_ms);
   if (Probed(report) && report.probe->own_word) {
-    object.Add("own_peers_heard", report.probe->own_word->peers_heard);
-    object.Add("own_matched", report.probe->own_word->matched);
-    object.Add("own_incompatible", report.probe->own_word->incompatible);
+    const OwnWord& word = *report.probe->own_word;
+    JsonObject own;
+    own.Add("peers_heard", word.peers_heard);
+    own.Add("taken", word.taken);
+    own.Add("accepted", word.accepted);
+    own.Add("too_far", word.too_far);
+    own.Add("rejected", word.rejected);
+    own.Add("incompatible", word.incompatible);
+    object.Add("own_status", own);
   }
   object.AddRaw("topics", "[" + topics + "]");
   object.AddRaw("findings", "[" + findings + "]");

@@ -14,7 +14,8 @@ namespace giveway::fleetctl {
 struct WhyReport {
   std::string hearer;  // "vehicle 1 (pid 7)"
   std::string speaker;
-  bool foretold = true;  // false: one of the two is not on this machine
+  bool hearer_here = true;  // it is on this machine
+  bool foretold = true;     // false: one of the two is not
   std::vector<TopicOutlook> topics;
   std::optional<ProbeResult> probe;  // absent: not asked for
   std::vector<std::string> not_known;

@@ -54,9 +54,9 @@ std::optional<std::uint16_t> HostId(const ProcessSituation& process) {
   if (!any) return std::uint16_t{0x017f};
   boost::uuids::detail::md5::digest_type digest;
   sum.get_digest(digest);
-  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&digest);
+  static_assert(sizeof(digest[0]) == 4, "four words, the first byte of each the highest");
   std::uint32_t id = 0;
-  for (std::size_t i = 0; i < 16; i += 2) id ^= bytes[i] << 8U | bytes[i + 1];
+  for (const std::uint32_t word : digest) id ^= word ^ word >> 16U;
   return static_cast<std::uint16_t>(id);
 }
 
