@@ -30,15 +30,20 @@ bool Fits(const Named& named, const FleetMember& member) {
   return member.id == named.id;
 }
 
-std::string Listed(const std::vector<FleetMember>& members) {
+// Those of the domain, if one is given.
+std::string Listed(const std::vector<FleetMember>& members,
+                   std::optional<std::uint32_t> domain = std::nullopt) {
   std::string text;
   for (const FleetMember& member : members) {
+    if (domain && member.domain != *domain) continue;
     const std::string who = member.is_world        ? "the world"
                             : member.id == kNobody ? "a vehicle without a given id"
                                                    : fmt::format("vehicle {}", Number(member.id));
     text += fmt::format("\n  pid:{}  {} in domain {}", member.pid, who, member.domain);
   }
-  return text.empty() ? " no process of a fleet" : text;
+  if (!text.empty()) return text;
+  return domain ? fmt::format(" no process of a fleet in domain {}", *domain)
+                : " no process of a fleet";
 }
 
 // A hearer or speaker of which nothing but its name is known; it is taken to be as the other.
@@ -98,8 +103,8 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   AddNotKnown(speaker, options.speaker, &report);
   report.host_id = speaker ? HostId(*speaker) : std::nullopt;
   if (options.probe) {
-    report.probe =
-        Probe({from, speaker ? speaker->pid_inside : 0, to.told, report.topics, options.seconds});
+    report.probe = Probe({from, to, report.topics, options.seconds});
+    AddNotJoined(from, to, &report);
   }
   const Told told = Tell(options.json ? ToJson(report) : ToText(report));
   return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report);
@@ -144,7 +149,8 @@ std::variant<ChosenPair, std::string> Choose(const std::vector<FleetMember>& mem
   }
   if (hearers.empty() && speakers.empty()) {
     return fmt::format("neither {} nor {} is a process of this machine; there is:{}",
-                       TextOf(options.hearer), TextOf(options.speaker), Listed(members));
+                       TextOf(options.hearer), TextOf(options.speaker),
+                       Listed(members, options.domain));
   }
   std::vector<ChosenPair> pairs;
   std::vector<ChosenPair> together;  // in one domain

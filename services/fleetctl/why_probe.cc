@@ -89,6 +89,7 @@ class Probing {
       app::SleepUntil(app::SteadyNow() + kTurn);
       for (const link::EarProcess& process : ear_.Listen()) {
         if (IsSpeaker(process)) Note(process);
+        if (IsHearer(process)) NoteHearer(process);
       }
       NoteOwnWord(observer_.Take());
     }
@@ -116,15 +117,25 @@ class Probing {
   }
 
   bool IsSpeaker(const link::EarProcess& process) const {
-    if (order_.speaker_pid_inside != 0) {
-      return process.process == static_cast<std::uint16_t>(order_.speaker_pid_inside);
+    if (order_.speaker.pid_inside != 0) {
+      return process.process == static_cast<std::uint16_t>(order_.speaker.pid_inside);
     }
-    if (!order_.speaker.is_world) return process.vehicle == order_.speaker.id;
+    if (!order_.speaker.told.is_world) return process.vehicle == order_.speaker.told.id;
     return std::ranges::find(process.partitions, "world") != process.partitions.end();
+  }
+
+  bool IsHearer(const link::EarProcess& process) const {
+    return order_.hearer.pid_inside != 0 &&
+           process.process == static_cast<std::uint16_t>(order_.hearer.pid_inside);
+  }
+  void NoteHearer(const link::EarProcess& process) {
+    result_.hearer_discovered = true;
+    result_.hearer_joined |= process.vehicle != kNobody;
   }
 
   void Note(const link::EarProcess& process) {
     result_.discovered = true;
+    result_.joined |= process.vehicle != kNobody;
     result_.host_id = process.host_id;
     for (const auto& [name, count] : process.topics) {
       ProbedTopic& topic = result_.topics[name];
@@ -159,7 +170,12 @@ class Probing {
 // One line a fact; the first word says which.
 std::string Written(const ProbeResult& result) {
   std::string text = fmt::format("listened {}\n", result.listened_ms);
-  if (result.discovered) text += fmt::format("found {}\n", result.host_id.value_or(0));
+  if (result.discovered) {
+    text += fmt::format("found {} {}\n", result.joined ? 1 : 0, result.host_id.value_or(0));
+  }
+  if (result.hearer_discovered) {
+    text += fmt::format("hearer {}\n", result.hearer_joined ? 1 : 0);
+  }
   for (const auto& [name, topic] : result.topics) {
     text += fmt::format("topic {} {} {} {}\n", name, topic.matched ? 1 : 0, topic.samples,
                         topic.first_ms.value_or(-1));
@@ -179,7 +195,10 @@ ProbeResult Understood(const std::string& text) {
     std::string kind;
     words >> kind;
     if (kind == "listened") words >> result.listened_ms;
-    if (kind == "found") result.discovered = bool(words >> result.host_id.emplace());
+    if (kind == "found") {
+      result.discovered = bool(words >> result.joined >> result.host_id.emplace());
+    }
+    if (kind == "hearer") result.hearer_discovered = bool(words >> result.hearer_joined);
     if (kind == "trouble") std::getline(words >> std::ws, result.trouble);
     if (kind == "topic") {
       std::string name;

@@ -30,17 +30,21 @@ struct OwnWord {
 struct ProbeResult {
   std::string trouble;  // why there was no probe; empty if there was
   double listened_ms = 0;
-  bool discovered = false;                    // a writer of the speaker was found
+  bool discovered = false;  // a writer of the speaker was found
+  bool hearer_discovered = false;
+  // A vehicle without a place in a world has no beacons, and reads none: its writers name nobody.
+  bool joined = false;
+  bool hearer_joined = false;
   std::optional<std::uint16_t> host_id;       // as its participant tells it
   std::map<std::string, ProbedTopic> topics;  // by name
   std::optional<OwnWord> own_word;
 };
 
 struct ProbeOrder {
+  // Known by their process ids; where pid_inside is 0, by the vehicle's id: it is not on this
+  // machine.
   const ProcessSituation& hearer;
-  // By process id; by vehicle id if that is 0: the speaker is on another machine.
-  int speaker_pid_inside = 0;
-  Instructions speaker;
+  const ProcessSituation& speaker;
   const std::vector<TopicOutlook>& topics;
   double seconds = 3;
 };

@@ -124,25 +124,74 @@ std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
   return object.Text();
 }
 
+// Whether the vehicle was seen without a place. Discovery takes a moment: who was seen for less
+// than that may have one.
+bool IsWithoutPlace(const Instructions& told, bool discovered, bool joined, double listened_ms) {
+  constexpr double kLongEnoughMs = 1000;
+  return !told.is_world && discovered && !joined && listened_ms >= kLongEnoughMs;
+}
+
+bool NeedsPlace(const TopicOutlook& topic) {
+  return topic.topic != "fleet/join" && topic.topic != "world/roster";
+}
+
+// Whether the hearer itself cannot, though another reader in its place might.
+bool IsItselfDeaf(const WhyReport& report, const TopicOutlook& topic) {
+  return (topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot) ||
+         (report.hearer_without_place && NeedsPlace(topic));
+}
+
+Cause NotJoined(const ProcessSituation& process, bool hears) {
+  return {{qos::Severity::kError,
+           "not_joined",
+           {},
+           NameOf(process),
+           "has no place in a world: it was discovered, and none of its writers names a vehicle",
+           hears ? "It reads nothing but the answer of a world."
+                 : "It writes nothing but its request for a place.",
+           "start giveway-world in its domain and network; its log says what it waits for"},
+          Weight::kPrevents,
+          !hears};
+}
+
 }  // namespace
+
+void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
+                  WhyReport* report) {
+  if (!Probed(*report)) return;
+  const ProbeResult& probe = *report->probe;
+  report->hearer_without_place =
+      IsWithoutPlace(hearer.told, probe.hearer_discovered, probe.hearer_joined, probe.listened_ms);
+  report->speaker_without_place =
+      IsWithoutPlace(speaker.told, probe.discovered, probe.joined, probe.listened_ms);
+  for (TopicOutlook& topic : report->topics) {
+    if (!NeedsPlace(topic)) continue;
+    if (report->hearer_without_place) topic.causes.push_back(NotJoined(hearer, true));
+    if (report->speaker_without_place) topic.causes.push_back(NotJoined(speaker, false));
+    std::ranges::stable_sort(topic.causes, {}, &Cause::weight);
+  }
+}
 
 TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
   TopicVerdict verdict;
   const bool heard = ProbedOf(report, topic.topic).samples > 0;
-  const bool own = topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot;
+  const bool own = IsItselfDeaf(report, topic);
   if (Probed(report)) {
     verdict.verdict = heard && !own ? Verdict::kHears : Verdict::kDoesNot;
     // Who is elsewhere may stand otherwise than the probe did.
     if (!report.hearer_here) verdict.verdict = Verdict::kNotKnown;
     verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
+    // That could not be foretold.
+    if (!heard && report.speaker_without_place && NeedsPlace(topic)) verdict.disagree = false;
   } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
     verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;
   }
   const std::string predicted =
       !report.foretold ? "not predicted"
-      : own ? fmt::format("predicted: cannot, another in its place {}", Word(topic.in_place))
-            : fmt::format("predicted: {}", Word(topic.outlook));
+      : own && topic.outlook == Outlook::kCannot
+          ? fmt::format("predicted: cannot, another in its place {}", Word(topic.in_place))
+          : fmt::format("predicted: {}", Word(topic.outlook));
   verdict.explanation = predicted + "; probed: " + ProbedText(report, topic.topic);
   return verdict;
 }
@@ -150,8 +199,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
 std::string Contradiction(const WhyReport& report) {
   if (!Probed(report) || !report.probe->own_word || !report.foretold) return {};
   for (const TopicOutlook& topic : report.topics) {
-    const bool own = topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot;
-    if (own) return "it cannot, and yet it tells its status";
+    if (IsItselfDeaf(report, topic)) return "it cannot, and yet it tells its status";
     const bool hears = VerdictOf(report, topic).verdict == Verdict::kHears;
     if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->taken == 0) {
       return "a reader in its place hears, and by its own status it took no beacon at all";

@@ -17,6 +17,9 @@ struct WhyReport {
   bool hearer_here = true;  // it is on this machine
   bool foretold = true;     // false: one of the two is not
   std::vector<TopicOutlook> topics;
+  // Found by the probe alone; here and below. Without a place in a world a vehicle talks to worlds.
+  bool hearer_without_place = false;
+  bool speaker_without_place = false;
   std::optional<ProbeResult> probe;  // absent: not asked for
   std::vector<std::string> not_known;
   std::optional<std::uint16_t> host_id;  // of the speaker, as foretold
@@ -29,6 +32,11 @@ struct TopicVerdict {
   bool disagree = false;    // of what was foretold with what was probed
   std::string explanation;  // "predicted: hears; probed: heard 40 samples, the first after 31 ms"
 };
+
+// Adds the reason that no file of /proc tells and the probe does: a vehicle that has no place in a
+// world yet.
+void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
+                  WhyReport* report);
 
 TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic);
 // What the hearer's own status says against the verdict; empty if it agrees or says nothing.

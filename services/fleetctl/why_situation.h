@@ -50,7 +50,7 @@ struct Instructions {
 
 struct ProcessSituation {
   int pid = 0;
-  int pid_inside = 0;  // in its own namespace of process ids: what its GUID holds
+  int pid_inside = 0;  // in its own namespace of process ids: what its GUID holds; 0: not known
   Instructions told;
   std::optional<qos::ProfileSet> profiles;  // the set as the file is now
   bool profiles_changed = false;            // the file was written to after the process began

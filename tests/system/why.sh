@@ -37,21 +37,15 @@ hears() { # NAME A B: on every topic, foretold and probed, and nothing else is t
 
 # More places than lanes.textproto has, and the same in another area. The first starts the run: a
 # world that waits for several waits until they hear each other.
-cat "$REPOSITORY/tests/system/lanes.textproto" - >six.textproto <<'TEXT'
-start_with: 1
-spawn {
-  start { x_m: 0 y_m: 12 heading_deg: 0 }
-  cruise_m_s: 0.35
-  goal { x_m: 300 y_m: 12 }
-}
-spawn {
-  start { x_m: 0 y_m: 15 heading_deg: 0 }
-  cruise_m_s: 0.35
-  goal { x_m: 300 y_m: 15 }
-}
-TEXT
-sed 's/^name: .*/&\narea: "north"/' six.textproto >north.textproto
-LANES=$SCRATCH/six.textproto
+{
+  cat "$REPOSITORY/tests/system/lanes.textproto"
+  echo 'start_with: 1'
+  for y in 12 15 18 21 24 27; do
+    echo "spawn { start { x_m: 0 y_m: $y heading_deg: 0 } cruise_m_s: 0.35 goal { x_m: 300 y_m: $y } }"
+  done
+} >many.textproto
+sed 's/^name: .*/&\narea: "north"/' many.textproto >north.textproto
+LANES=$SCRATCH/many.textproto
 # A beacon offered less often than the others request it.
 sed '/profile_name="fleet_beacon_writer"/,/data_writer>/s/100000000/400000000/' \
   "$REPOSITORY/config/qos/default.xml" >slow.xml
@@ -64,6 +58,7 @@ start three giveway-vehicle --id 3 --qos slow.xml
 LANES=$SCRATCH/north.textproto start four giveway-vehicle --id 4 --partition-free
 start five giveway-vehicle --id 5 --impair 'from=1,loss=1'
 for name in two three four five; do await "$name drives" 20 "$name" cruise; done
+[[ $failures -eq 0 ]] || exit 1
 
 hears "two vehicles" 1 2 --domain "$DOMAIN"
 says "two vehicles" '(.topics | length == 1 and .[0].topic == "fleet/beacon")
@@ -96,32 +91,49 @@ says "a stopped hearer" '.disagree == false and .topics[0].samples > 0
   and .topics[0].verdict == "does not hear" and .topics[0].reasons == ["process_stopped"]'
 kill -CONT "${PID[two]}"
 
-# Nobody else is to be there: a vehicle of another domain waits for a world.
+# Each of the others has a world of its own, and speaks.
 first=$DOMAIN
 one=pid:${PID[one]}
 take_domain
 start six giveway-vehicle --id 6
-await "six waits" 10 six 'no answer'
+start eleven giveway-vehicle --id 11
+for name in six eleven; do await "$name waits" 10 "$name" 'no answer'; done
+why 1 "no place" "pid:${PID[six]}" "pid:${PID[eleven]}" --seconds 1.5 --json
+says "no place" '.disagree == false and .topics[0].reasons == ["not_joined", "not_joined"]
+  and .topics[0].predicted == "hears" and .topics[0].verdict == "does not hear"'
+start world2 giveway-world
+await "six drives" 10 six cruise
 deaf "another domain" domain_apart "$one" "pid:${PID[six]}"
 says "another domain" ".findings[0].values | test(\"domain $first,\") and test(\"domain $DOMAIN\")"
-DOMAIN=$first
 deaf "and back" domain_apart "pid:${PID[six]}" "$one"
+DOMAIN=$first
 
 if [[ $(id -u) -eq 0 ]] && unshare -nm true 2>/dev/null; then
   unshare -n bash -c 'ip link set lo up && exec "$@"' apart \
+    "$BIN/giveway-world" --scenario "$LANES" --domain "$DOMAIN" 2>world3.log &
+  PID[world3]=$!
+  until_apart=$((SECONDS + 10))
+  until [[ $(readlink "/proc/${PID[world3]}/exe") == */giveway-world ]]; do
+    ((SECONDS < until_apart)) || { fail "no world apart: $(cat world3.log)" && break; }
+    sleep 0.05
+  done
+  nsenter -t "${PID[world3]}" -n \
     "$BIN/giveway-vehicle" --scenario "$LANES" --domain "$DOMAIN" --id 7 2>seven.log &
   PID[seven]=$!
-  await "seven waits" 10 seven 'no answer'
+  await "seven drives" 10 seven cruise
   deaf "another network namespace" network_apart 1 7 --domain "$DOMAIN"
   deaf "and from there" network_apart 7 1 --domain "$DOMAIN"
+  hears "inside of it" "pid:${PID[seven]}" "pid:${PID[world3]}"
 
   same=$REPOSITORY/config/qos/same_host.xml
   start eight giveway-vehicle --id 8 --qos "$same"
+  start nine giveway-vehicle --id 9 --qos "$same"
   unshare -m bash -c 'mount -t tmpfs none /dev/shm && exec "$@"' apart \
-    "$BIN/giveway-vehicle" --scenario "$LANES" --domain "$DOMAIN" --id 9 --qos "$same" 2>nine.log &
-  PID[nine]=$!
-  await "eight asks" 20 eight 'cruise|no answer'
-  deaf "another shared memory" shared_memory_apart 8 9 --domain "$DOMAIN"
+    "$BIN/giveway-vehicle" --scenario "$LANES" --domain "$DOMAIN" --id 10 --qos "$same" 2>ten.log &
+  PID[ten]=$!
+  for name in eight nine ten; do await "$name drives" 20 "$name" cruise; done
+  hears "shared memory" 8 9 --domain "$DOMAIN"
+  deaf "another shared memory" shared_memory_apart 8 10 --domain "$DOMAIN"
 else
   echo "not root: other namespaces are left out" >&2
 fi
