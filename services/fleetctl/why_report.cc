@@ -49,13 +49,13 @@ std::string ProbedText(const WhyReport& report, const std::string& topic) {
   if (!Probed(report)) return "not probed: " + report.probe->trouble;
   const ProbedTopic probed = ProbedOf(report, topic);
   if (probed.samples > 0) {
-    return fmt::format("heard {} sample{}, the first after {:.0f} ms", probed.samples,
+    return fmt::format("probed: heard {} sample{}, the first after {:.0f} ms", probed.samples,
                        probed.samples == 1 ? "" : "s", probed.first_ms.value_or(0));
   }
   const char* const far = probed.matched             ? "its writer matched"
                           : report.probe->discovered ? "it was discovered, but no writer matched"
                                                      : "it was not discovered";
-  return fmt::format("nothing in {:.1f} s, {}", report.probe->listened_ms * 1e-3, far);
+  return fmt::format("probed: nothing in {:.1f} s, {}", report.probe->listened_ms * 1e-3, far);
 }
 
 // Every cause once, in order, those that prevent first.
@@ -192,7 +192,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
       : own && topic.outlook == Outlook::kCannot
           ? fmt::format("predicted: cannot, another in its place {}", Word(topic.in_place))
           : fmt::format("predicted: {}", Word(topic.outlook));
-  verdict.explanation = predicted + "; probed: " + ProbedText(report, topic.topic);
+  verdict.explanation = predicted + "; " + ProbedText(report, topic.topic);
   return verdict;
 }
 
