@@ -6,7 +6,10 @@
 #include <charconv>
 #include <cstdio>
 #include <exception>
+#include <map>
+#include <set>
 
+#include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/reading_along.h"
 #include "services/fleetctl/why_report.h"
 
@@ -59,6 +62,48 @@ ProcessSituation StandIn(const Named& named, const ProcessSituation& other) {
   return situation;
 }
 
+bool IsIn(const std::optional<std::uint32_t>& domain, const FleetMember& member) {
+  return !domain || member.domain == *domain;
+}
+
+// Whether someone who was named may be among those that were given no id.
+bool MayBeNameless(const Named& named, const std::vector<FleetMember>& members,
+                   const std::optional<std::uint32_t>& domain) {
+  const auto found = std::ranges::find_if(members, [&](const FleetMember& member) {
+    return Fits(named, member) && (named.pid != 0 || IsIn(domain, member));
+  });
+  if (named.pid == 0) return !named.world && found == members.end();
+  return found != members.end() && !found->is_world && found->id == kNobody;
+}
+
+// Names the vehicles of a domain that were given no id, as far as they are heard in the place of
+// the first of them.
+void NameNameless(std::uint32_t domain, std::vector<FleetMember>* members) {
+  std::map<std::uint16_t, FleetMember*> nameless;
+  std::optional<ProcessSituation> place;
+  for (FleetMember& member : *members) {
+    if (member.is_world || member.id != kNobody || member.domain != domain) continue;
+    auto situation = ReadSituation(kProc, member.pid);
+    if (!situation) continue;
+    nameless[static_cast<std::uint16_t>(situation->pid_inside)] = &member;
+    if (!place) place = std::move(situation);
+  }
+  if (!place) return;
+  std::set<std::uint16_t> wanted;
+  for (const auto& [process, member] : nameless) wanted.insert(process);
+  for (const auto& [process, id] : ListenForNames(*place, wanted)) {
+    if (nameless.contains(process)) nameless[process]->id = id;
+  }
+}
+
+std::optional<ProcessSituation> Read(int pid, const std::vector<FleetMember>& members) {
+  if (pid == 0) return std::nullopt;
+  auto situation = ReadSituation(kProc, pid);
+  const auto member = std::ranges::find(members, pid, &FleetMember::pid);
+  if (situation && member != members.end()) situation->told.id = member->id;
+  return situation;
+}
+
 std::uint32_t VehiclesIn(const std::vector<FleetMember>& members, std::uint32_t domain) {
   return static_cast<std::uint32_t>(std::ranges::count_if(
       members, [&](const FleetMember& one) { return !one.is_world && one.domain == domain; }));
@@ -79,9 +124,8 @@ void AddNotKnown(const std::optional<ProcessSituation>& process, const Named& na
 
 int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
            const ChosenPair& chosen) {
-  const auto read = [](int pid) { return pid == 0 ? std::nullopt : ReadSituation(kProc, pid); };
-  const auto hearer = read(chosen.hearer);
-  const auto speaker = read(chosen.speaker);
+  const auto hearer = Read(chosen.hearer, members);
+  const auto speaker = Read(chosen.speaker, members);
   if (!hearer && !speaker) {
     std::fprintf(stderr, "both processes have ended meanwhile\n");
     return kCouldNotRun;
@@ -133,7 +177,7 @@ std::variant<ChosenPair, std::string> Choose(const std::vector<FleetMember>& mem
   const auto fitting = [&](const Named& named) {
     std::vector<FleetMember> fit;
     for (const FleetMember& member : members) {
-      const bool here = !options.domain || named.pid != 0 || member.domain == *options.domain;
+      const bool here = named.pid != 0 || IsIn(options.domain, member);
       if (here && Fits(named, member)) fit.push_back(member);
     }
     return fit;
@@ -173,7 +217,14 @@ std::variant<ChosenPair, std::string> Choose(const std::vector<FleetMember>& mem
 int RunWhy(const WhyOptions& options) {
   if (!HasStdout()) return 0;
   try {
-    const std::vector<FleetMember> members = FindFleet(kProc);
+    std::vector<FleetMember> members = FindFleet(kProc);
+    const bool nameless = MayBeNameless(options.hearer, members, options.domain) ||
+                          MayBeNameless(options.speaker, members, options.domain);
+    if (nameless) {
+      for (std::uint32_t domain = kFirstDomain; domain <= kLastDomain; ++domain) {
+        if (!options.domain || domain == *options.domain) NameNameless(domain, &members);
+      }
+    }
     const auto chosen = Choose(members, options);
     if (const auto* why = std::get_if<std::string>(&chosen)) {
       std::fprintf(stderr, "%s\n", why->c_str());

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 
@@ -21,8 +22,10 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);
-// A vehicle tells its status five times a second; discovery takes some of the first.
-constexpr double kOwnWordSeconds = 1.5;
+// A vehicle tells its status five times a second, and may itself be a moment behind the probe.
+constexpr double kOwnWordSeconds = 2.5;
+constexpr double kRunTimeMs = 2000;
+constexpr Nanoseconds kNamesTime = std::chrono::seconds(2);
 
 [[noreturn]] void Throw(const std::string& what) {
   throw std::runtime_error(what + ": " + std::strerror(errno));
@@ -54,6 +57,7 @@ class Namespace {
 };
 
 void TakePlace(const ProcessSituation& hearer) {
+  if (!hearer.network_namespace) throw std::runtime_error("its network namespace is not known");
   const Namespace network(hearer.pid, "net", CLONE_NEWNET, hearer.network_namespace);
   const Namespace mounts(hearer.pid, "mnt", CLONE_NEWNS, hearer.mount_namespace);
   network.Enter();
@@ -79,15 +83,20 @@ std::vector<link::EarTopic> EarTopics(const std::vector<TopicOutlook>& topics) {
 class Probing {
  public:
   explicit Probing(const ProbeOrder& order)
-      : order_(order),
-        observer_(OptionsOf(order.hearer.told)),
-        ear_(Impaired(order.hearer.told), EarTopics(order.topics), order.hearer.told.id),
-        since_(app::SteadyNow()) {}
+      : order_(order), observer_(OptionsOf(order.hearer.told)), since_(app::SteadyNow()) {
+    // Blackouts are counted from the start of the run: the world tells how long ago that was.
+    while (HasBlackouts() && !run_began_ && SinceMs() < kRunTimeMs) {
+      app::SleepUntil(app::SteadyNow() + kTurn);
+      NoteOwnWord(observer_.Take());
+    }
+    ear_.emplace(Impaired(order.hearer.told), EarTopics(order.topics), order.hearer.told.id);
+    if (run_began_) ear_->StartImpairment(*run_began_);
+  }
 
   ProbeResult Listen() {
     while (!IsOver()) {
       app::SleepUntil(app::SteadyNow() + kTurn);
-      for (const link::EarProcess& process : ear_.Listen()) {
+      for (const link::EarProcess& process : ear_->Listen()) {
         if (IsSpeaker(process)) Note(process);
         if (IsHearer(process)) NoteHearer(process);
       }
@@ -103,6 +112,10 @@ class Probing {
     options.impairment = told.impairment;
     return options;
   }
+  bool HasBlackouts() const {
+    return std::ranges::any_of(order_.hearer.told.impairment.rules,
+                               [](const ImpairmentRule& rule) { return !rule.blackouts.empty(); });
+  }
   double SinceMs() const { return Seconds(app::SteadyNow() - since_) * 1e3; }
 
   bool IsOver() const {
@@ -112,8 +125,12 @@ class Probing {
       const auto found = result_.topics.find(topic.topic);
       return found != result_.topics.end() && found->second.samples > 0;
     });
-    const bool asked = result_.own_word || order_.hearer.told.is_world;
-    return all && (asked || seconds >= kOwnWordSeconds);
+    return all && (OwnWordFits() || seconds >= kOwnWordSeconds);
+  }
+  // It said something, and of a hearer of beacons that it took some: else it is given time to.
+  bool OwnWordFits() const {
+    if (order_.hearer.told.is_world) return true;
+    return result_.own_word && (order_.speaker.told.is_world || result_.own_word->taken > 0);
   }
 
   bool IsSpeaker(const link::EarProcess& process) const {
@@ -152,18 +169,17 @@ class Probing {
           OwnWord{status.peers_heard,       status.beacons.taken,      status.beacons.accepted,
                   status.beacons.not_heard, status.beacons.Rejected(), status.qos.incompatible_qos};
     }
-    // So that blackouts fall where they fall in the hearer.
     for (const Truth& truth : observed.truths) {
       if (truth.time_s < 0) continue;
-      ear_.StartImpairment(app::SteadyNow() -
-                           Nanoseconds(static_cast<std::int64_t>(truth.time_s * 1e9)));
+      run_began_ = app::SteadyNow() - Nanoseconds(static_cast<std::int64_t>(truth.time_s * 1e9));
     }
   }
 
   const ProbeOrder& order_;
   link::ObserverLink observer_;
-  link::Ear ear_;
   const SteadyTime since_;
+  std::optional<SteadyTime> run_began_;
+  std::optional<link::Ear> ear_;
   ProbeResult result_;
 };
 
@@ -217,15 +233,21 @@ ProbeResult Understood(const std::string& text) {
   return result;
 }
 
-std::string Heard(const ProbeOrder& order) {
-  try {
-    TakePlace(order.hearer);
-    return Written(Probing(order).Listen());
-  } catch (const std::exception& error) {
-    std::string why = error.what();
-    std::ranges::replace(why, '\n', ' ');
-    return "trouble " + why + "\n";
+// What each process calls itself, by the low half of its process id.
+std::string NamesHeard(const Instructions& told, std::set<std::uint16_t> wanted) {
+  link::Ear ear(OptionsOf(told), {}, kNobody);
+  std::string text;
+  for (const SteadyTime end = app::SteadyNow() + kNamesTime;
+       app::SteadyNow() < end && !wanted.empty();) {
+    app::SleepUntil(app::SteadyNow() + kTurn);
+    text.clear();
+    for (const link::EarProcess& process : ear.Listen()) {
+      if (process.vehicle == kNobody) continue;
+      wanted.erase(process.process);
+      text += fmt::format("name {} {}\n", process.process, Number(process.vehicle));
+    }
   }
+  return text;
 }
 
 std::string ReadAll(int pipe_end) {
@@ -239,9 +261,9 @@ std::string ReadAll(int pipe_end) {
   }
 }
 
-}  // namespace
-
-ProbeResult Probe(const ProbeOrder& order) {
+// What `listen` tells in a child process that has taken the place of another; "trouble WHY" where
+// it could not.
+std::string InPlaceOf(const ProcessSituation& process, const std::function<std::string()>& listen) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) Throw("pipe");
   FileDescriptor reading(ends[0]);
@@ -249,16 +271,42 @@ ProbeResult Probe(const ProbeOrder& order) {
   const pid_t child = fork();
   if (child < 0) Throw("fork");
   if (child == 0) {
-    const std::string text = Heard(order);
+    std::string text;
+    try {
+      TakePlace(process);
+      text = listen();
+    } catch (const std::exception& error) {
+      text = std::string("trouble ") + error.what();
+      std::ranges::replace(text, '\n', ' ');
+    }
     // A pipe holds 64 kB: what is told here fits, and is not waited for.
     _exit(write(writing.Get(), text.data(), text.size()) < 0 ? 1 : 0);
   }
   writing.Close();
   const std::string text = ReadAll(reading.Get());
   waitpid(child, nullptr, 0);
+  return text;
+}
+
+}  // namespace
+
+ProbeResult Probe(const ProbeOrder& order) {
+  const std::string text =
+      InPlaceOf(order.hearer, [&order] { return Written(Probing(order).Listen()); });
   ProbeResult result = Understood(text);
   if (text.empty()) result.trouble = "the probing process ended without a word";
   return result;
+}
+
+std::map<std::uint16_t, VehicleId> ListenForNames(const ProcessSituation& place,
+                                                  const std::set<std::uint16_t>& wanted) {
+  std::map<std::uint16_t, VehicleId> names;
+  std::istringstream words(InPlaceOf(place, [&] { return NamesHeard(place.told, wanted); }));
+  std::string kind;
+  std::uint16_t process = 0;
+  std::uint32_t id = 0;
+  while (words >> kind >> process >> id) names[process] = VehicleId{id};
+  return names;
 }
 
 }  // namespace giveway::fleetctl

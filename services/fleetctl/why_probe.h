@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,5 +53,11 @@ struct ProbeOrder {
 // Runs in a child process: this one enters no namespace and loads no profiles. Ends as soon as
 // every topic was heard.
 ProbeResult Probe(const ProbeOrder& order);
+
+// The vehicles that are heard in the place of a process, by the low half of their process ids: a
+// vehicle that asked the world for any id has it nowhere else. Ends when all that are wanted are
+// known, or after two seconds; empty where it cannot.
+std::map<std::uint16_t, VehicleId> ListenForNames(const ProcessSituation& place,
+                                                  const std::set<std::uint16_t>& wanted);
 
 }  // namespace giveway::fleetctl

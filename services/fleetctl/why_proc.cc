@@ -171,11 +171,20 @@ void Reading::ReadScenario() {
   if (!fs::exists(file, error)) {
     file = Seen(ConfigFolder() / "scenarios" / (to_.told.scenario + ".textproto"));
   }
+  if (!fs::exists(file, error)) {
+    to_.not_known.push_back("scenario " + to_.told.scenario + ": cannot be read");
+    return;
+  }
   const bool given = started_.Value("--impair").has_value();
   AddScenario(file, given, &to_.told, &to_.not_known);
 }
 
 void Reading::ReadProfiles() {
+  if (to_.told.qos_file.empty() && ConfigFolder().empty()) {
+    to_.told.qos_file = ResolveQosFile("");
+    to_.not_known.push_back("profiles: their folder cannot be read; taken to be the default");
+    return;
+  }
   fs::path path =
       to_.told.qos_file.empty() ? ConfigFolder() / "qos/default.xml" : fs::path(to_.told.qos_file);
   const fs::path seen = Seen(path);

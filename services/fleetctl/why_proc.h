@@ -13,7 +13,7 @@ namespace giveway::fleetctl {
 struct FleetMember {
   int pid = 0;
   bool is_world = false;
-  VehicleId id = kNobody;  // of a vehicle that asked for one
+  VehicleId id = kNobody;  // of a vehicle that asked for one, or was heard to have one
   std::uint32_t domain = 0;
 };
 

@@ -11,6 +11,9 @@
 namespace giveway::fleetctl {
 namespace {
 
+// Discovery takes a moment: what was not seen for less than this may only be late.
+constexpr double kLongEnoughMs = 1000;
+
 bool Probed(const WhyReport& report) { return report.probe && report.probe->trouble.empty(); }
 
 ProbedTopic ProbedOf(const WhyReport& report, const std::string& topic) {
@@ -124,10 +127,8 @@ std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
   return object.Text();
 }
 
-// Whether the vehicle was seen without a place. Discovery takes a moment: who was seen for less
-// than that may have one.
+// Whether the vehicle was seen, and without a place.
 bool IsWithoutPlace(const Instructions& told, bool discovered, bool joined, double listened_ms) {
-  constexpr double kLongEnoughMs = 1000;
   return !told.is_world && discovered && !joined && listened_ms >= kLongEnoughMs;
 }
 
@@ -201,7 +202,10 @@ std::string Contradiction(const WhyReport& report) {
   for (const TopicOutlook& topic : report.topics) {
     if (IsItselfDeaf(report, topic)) return "it cannot, and yet it tells its status";
     const bool hears = VerdictOf(report, topic).verdict == Verdict::kHears;
-    if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->taken == 0) {
+    const double heard_for_ms =
+        report.probe->listened_ms - ProbedOf(report, topic.topic).first_ms.value_or(0);
+    if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->taken == 0 &&
+        heard_for_ms >= kLongEnoughMs) {
       return "a reader in its place hears, and by its own status it took no beacon at all";
     }
   }

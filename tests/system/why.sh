@@ -30,7 +30,7 @@ deaf() {
 hears() { # NAME A B: on every topic, foretold and probed, and nothing else is to be said
   local name=$1
   shift
-  why 0 "$name" "$@" --json
+  why 0 "$name" "$@" --seconds 8 --json
   says "$name" '.hears and .probed and .disagree == false and .findings == [] and .not_known == []
     and all(.topics[]; .verdict == "hears" and .predicted == "hears" and .samples > 0 and .matched)'
 }
@@ -137,6 +137,11 @@ if [[ $(id -u) -eq 0 ]] && unshare -nm true 2>/dev/null; then
 else
   echo "not root: other namespaces are left out" >&2
 fi
+
+# Its id is told by ear alone.
+start twelve giveway-vehicle
+await "twelve drives" 20 twelve cruise
+hears "a vehicle without a given id" "$(id_of twelve)" 1 --domain "$DOMAIN"
 
 # Who is not here is judged by what can be heard, and what makes no sense is said.
 why 1 "nobody of that name" 1 77 --domain "$DOMAIN" --seconds 1 --json
