@@ -68,7 +68,7 @@ says "ranges" '[.topics[].topic] == ["world/ranges", "world/roster"]'
 hears "commands" world 2 --domain "$DOMAIN"
 says "commands" '[.topics[].topic] == ["fleet/motor_command", "fleet/join"]'
 hears "by process" "pid:${PID[one]}" "pid:${PID[two]}"
-why 0 "for people" 1 2 --domain "$DOMAIN"
+why 0 "for people" 1 2 --domain "$DOMAIN" --seconds 8
 grep -Eq '^vehicle 1 \(pid [0-9]+\) hears vehicle 2 \(pid [0-9]+\) on fleet/beacon' out ||
   fail "for people: $(cat out)"
 grep -q 'host id' out && fail "the host id is not that of the library: $(cat out)"
@@ -86,7 +86,7 @@ hears "an impairment of another" 5 2 --domain "$DOMAIN"
 
 kill -STOP "${PID[two]}"
 deaf "a stopped speaker" process_stopped 1 2 --domain "$DOMAIN"
-why 1 "a stopped hearer" 2 1 --domain "$DOMAIN" --json
+why 1 "a stopped hearer" 2 1 --domain "$DOMAIN" --seconds 8 --json
 says "a stopped hearer" '.disagree == false and .topics[0].samples > 0
   and .topics[0].verdict == "does not hear" and .topics[0].reasons == ["process_stopped"]'
 kill -CONT "${PID[two]}"
@@ -98,7 +98,7 @@ take_domain
 start six giveway-vehicle --id 6
 start eleven giveway-vehicle --id 11
 for name in six eleven; do await "$name waits" 10 "$name" 'no answer'; done
-why 1 "no place" "pid:${PID[six]}" "pid:${PID[eleven]}" --seconds 1.5 --json
+why 1 "no place" "pid:${PID[six]}" "pid:${PID[eleven]}" --seconds 4 --json
 says "no place" '.disagree == false and .topics[0].reasons == ["not_joined", "not_joined"]
   and .topics[0].predicted == "hears" and .topics[0].verdict == "does not hear"'
 start world2 giveway-world
@@ -146,7 +146,7 @@ hears "a vehicle without a given id" "$(id_of twelve)" 1 --domain "$DOMAIN"
 # Who is not here is judged by what can be heard, and what makes no sense is said.
 why 1 "nobody of that name" 1 77 --domain "$DOMAIN" --seconds 1 --json
 says "nobody of that name" '.topics[0].samples == 0 and (.not_known[0] | test("vehicle 77"))'
-why 1 "no such hearer" 77 1 --domain "$DOMAIN" --seconds 1 --json
+why 1 "no such hearer" 77 1 --domain "$DOMAIN" --seconds 8 --json
 says "no such hearer" '.topics[0].samples > 0 and .topics[0].verdict == "may hear"'
 why 2 "neither" 77 78
 grep -q "pid:${PID[one]} *vehicle 1 in domain $DOMAIN" err || fail "neither: $(cat err)"

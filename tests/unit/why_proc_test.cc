@@ -40,6 +40,7 @@ constexpr const char* kRoute =
     "Iface\tDestination\tGateway \tFlags\tRefCnt\tUse\tMetric\tMask\t\tMTU\tWindow\tIRTT\n"
     "eth0\t00000000\t010200C0\t0003\t0\t0\t0\t00000000\t0\t0\t0\n"
     "eth0\t000200C0\t00000000\t0001\t0\t0\t0\t00FFFFFF\t0\t0\t0\n"
+    "veth1\t000200C0\t010200C0\t0003\t0\t0\t0\t80FFFFFF\t0\t0\t0\n"
     "veth1\t0000000A\t00000000\t0001\t0\t0\t0\t000000FF\t0\t0\t0\n";
 constexpr const char* kDev =
     "Inter-|   Receive                                                |  Transmit\n"

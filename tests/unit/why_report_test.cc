@@ -82,6 +82,8 @@ TEST(WhyReport, TheHearersOwnWordCounts) {
   report.probe->own_word = OwnWord{.taken = 0};
   EXPECT_EQ(ExitCode(report), 1);
   EXPECT_THAT(ToText(report), HasSubstr("it took no beacon at all"));
+  report.probe->listened_ms = 500;  // it may be a moment behind the probe
+  EXPECT_EQ(ExitCode(report), 0);
 }
 
 TEST(WhyReport, AVehicleWithoutAPlaceIsTheReasonAndNoDisagreement) {

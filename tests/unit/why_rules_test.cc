@@ -265,6 +265,16 @@ TEST(WhyPrediction, SharedMemoryApartIsNoReasonWhereOneHasItAlone) {
   EXPECT_THAT(RulesOf(Foretold(pair)), IsEmpty());
 }
 
+TEST(WhyPrediction, SharedMemoryApartIsNoReasonBetweenTwoHosts) {
+  Pair pair;
+  pair.hearer.profiles = pair.speaker.profiles = SetWith("", "", "", true);
+  pair.speaker.shared_memory = FileIdentity{23, 1};
+  pair.speaker.network_namespace = 4026531999;
+  pair.speaker.addresses = {{{"eth0", kEthernetAddress + 1, 0xffffff00}}};
+  pair.hearer.told.interface = pair.speaker.told.interface = "any";
+  EXPECT_THAT(RulesOf(Foretold(pair)), ElementsAre("network_between"));
+}
+
 TEST(WhyPrediction, WithoutAFactItRestsOnItIsNotKnown) {
   for (const auto& forget : std::vector<std::function<void(ProcessSituation&)>>{
            [](ProcessSituation& one) { one.network_namespace.reset(); },
