@@ -24,8 +24,8 @@ std::string Shown(std::string text) {
 
 }  // namespace
 
-std::string ToText(const qos::Finding& finding) {
-  std::string where = finding.place.file.empty() ? "environment" : finding.place.file;
+std::string ToText(const qos::Finding& finding, const std::string& nowhere) {
+  std::string where = finding.place.file.empty() ? nowhere : finding.place.file;
   if (finding.place.line > 0) where += fmt::format(":{}", finding.place.line);
   const std::string subject = finding.subject.empty() ? "" : finding.subject + ": ";
   return fmt::format("{}\n    {}\n    Remedy: {}\n",

@@ -1,4 +1,4 @@
-// A finding as people and programs read it.
+// A finding for people and as JSON.
 #pragma once
 
 #include <string>
@@ -7,8 +7,10 @@
 
 namespace giveway::fleetctl {
 
-// Three lines: where and what, what comes of it, what to do.
-std::string ToText(const qos::Finding& finding);
+// Three lines: where, which values and how bad; what comes of it; the remedy. `nowhere` stands
+// where a finding is about no file.
+std::string ToText(const qos::Finding& finding, const std::string& nowhere = "environment");
+// One JSON object.
 std::string ToJson(const qos::Finding& finding);
 
 }  // namespace giveway::fleetctl

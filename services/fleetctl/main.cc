@@ -14,7 +14,7 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
     return error;
   }
   return "there is no verb '" + std::string(argv[1]) +
-         "'; verbs: listen, qos, replay, run, shrink, stopwatch, top, virtual";
+         "'; verbs: listen, qos, replay, run, shrink, stopwatch, top, virtual, why";
 }
 
 }  // namespace
@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   giveway::fleetctl::AddStopwatchVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddTopVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddWhyVerb(&fleetctl, &exit_code);
   try {
     fleetctl.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -229,5 +229,4 @@ int RunStopwatch(const StopwatchOptions& options) {
   return report.Kept() ? 0 : kBroken;
 }
 
-
 }  // namespace giveway::fleetctl

@@ -16,5 +16,6 @@ void AddShrinkVerb(CLI::App* fleetctl, int* exit_code);
 void AddStopwatchVerb(CLI::App* fleetctl, int* exit_code);
 void AddTopVerb(CLI::App* fleetctl, int* exit_code);
 void AddVirtualVerb(CLI::App* fleetctl, int* exit_code);
+void AddWhyVerb(CLI::App* fleetctl, int* exit_code);
 
 }  // namespace giveway::fleetctl

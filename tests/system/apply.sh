@@ -80,6 +80,8 @@ says "a canary" '.verdict == "applied" and .vehicles[0].id == 2 and .trial.worse
 grep -q 'restarts itself' logs/vehicle-2.log || fail "a canary: vehicle 2 did not restart"
 [[ $(find_child "$fleet" 2) == "$pid" ]] || fail "a canary: vehicle 2 is another process"
 
+"$FLEETCTL" why 1 2 --domain "$domain" >out 2>err || fail "why, after a restart: $(cat out err)"
+
 apply 1 "a mismatch" mismatch.xml --to 1 --domain "$domain" --json
 says "a mismatch" '.verdict == "refused" and any(.findings[]; .rule == "liveliness_lease_mismatch")'
 

@@ -1,0 +1,63 @@
+// Verifies by ear: a short-lived reader of our own takes the hearer's place (its domain, profile
+// set, interface, impairment, network and mount namespace) and listens to the speaker.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/why_rules.h"
+
+namespace giveway::fleetctl {
+
+struct ProbedTopic {
+  bool matched = false;
+  std::uint64_t samples = 0;
+  std::optional<double> first_ms;  // since the probe began
+};
+
+// What the hearer's own status says, if one came.
+struct OwnWord {
+  std::uint32_t peers_heard = 0;  // near enough, and with a fresh beacon
+  std::uint32_t taken = 0;        // beacons of anybody, since it began; here and below
+  std::uint32_t accepted = 0;
+  std::uint32_t too_far = 0;  // from beyond the emission radius: heard, and passed over
+  std::uint32_t rejected = 0;
+  std::uint32_t incompatible = 0;  // writers whose QoS does not match
+};
+
+struct ProbeResult {
+  std::string trouble;  // why there was no probe; empty if there was
+  double listened_ms = 0;
+  bool discovered = false;  // a writer of the speaker was found
+  bool hearer_discovered = false;
+  // A vehicle without a place in a world has no beacons, and reads none: its writers name nobody.
+  bool joined = false;
+  bool hearer_joined = false;
+  std::optional<std::uint16_t> host_id;       // as its participant tells it
+  std::map<std::string, ProbedTopic> topics;  // by name
+  std::optional<OwnWord> own_word;
+};
+
+struct ProbeOrder {
+  // Known by their process ids; where pid_inside is 0, by the vehicle's id: it is not on this
+  // machine.
+  const ProcessSituation& hearer;
+  const ProcessSituation& speaker;
+  const std::vector<TopicOutlook>& topics;
+  double seconds = 3;
+};
+
+// Runs in a child process: this one enters no namespace and loads no profiles. Ends as soon as
+// every topic was heard.
+ProbeResult Probe(const ProbeOrder& order);
+
+// The vehicles that are heard in the place of a process, by the low half of their process ids: a
+// vehicle that asked the world for any id has it nowhere else. Ends when all that are wanted are
+// known, or after two seconds; empty where it cannot.
+std::map<std::uint16_t, VehicleId> ListenForNames(const ProcessSituation& place,
+                                                  const std::set<std::uint16_t>& wanted);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,27 @@
+// Finds the processes of fleets on this machine and reads where they stand, from /proc alone:
+// nothing is stopped, entered or written to. Another folder of the same shape can be read instead.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "services/fleetctl/why_situation.h"
+
+namespace giveway::fleetctl {
+
+// What is to be seen of every process, at a glance.
+struct FleetMember {
+  int pid = 0;
+  bool is_world = false;
+  VehicleId id = kNobody;  // of a vehicle that asked for one, or was heard to have one
+  std::uint32_t domain = 0;
+};
+
+// By process id. Those of other users count too, as far as they can be seen.
+std::vector<FleetMember> FindFleet(const std::filesystem::path& proc);
+
+// Everything that can be read; what cannot is in `not_known`. Nothing if there is no such process,
+// or it is none of a fleet's.
+std::optional<ProcessSituation> ReadSituation(const std::filesystem::path& proc, int pid);
+
+}  // namespace giveway::fleetctl

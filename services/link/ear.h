@@ -1,0 +1,55 @@
+// An ear in another's place: reads chosen topics in chosen partitions and tells, process by
+// process, what was discovered, what matched and what came. Writes nothing, understands no sample.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/link/link_options.h"
+#include "services/types/ids.h"
+#include "services/types/time.h"
+
+namespace giveway::link {
+
+struct EarTopic {
+  std::string name;       // "fleet/beacon"
+  std::string partition;  // of the reader
+};
+
+struct EarCount {
+  bool matched = false;  // with a writer of the process, at some time
+  std::uint64_t samples = 0;
+};
+
+// What a participant's GUID and its writers say.
+struct EarProcess {
+  std::uint16_t host_id = 0;    // as Fast DDS made it from the machine's addresses
+  std::uint16_t process = 0;    // the low half of its process id, in its own namespace of ids
+  VehicleId vehicle = kNobody;  // whom a partition of its writers names
+  std::vector<std::string> partitions;     // of its writers; "" is the default one
+  std::map<std::string, EarCount> topics;  // by name
+};
+
+class Ear {
+ public:
+  // `hearer` is whose impairment is asked for, if one is. Throws LinkError, also where a topic is
+  // unknown.
+  Ear(const LinkOptions& options, const std::vector<EarTopic>& topics, VehicleId hearer);
+  ~Ear();
+  Ear(const Ear&) = delete;
+  Ear& operator=(const Ear&) = delete;
+
+  // Blackouts of the impairment count from here; only the first call counts.
+  void StartImpairment(SteadyTime start);
+  // Everyone found so far, and all that came of them.
+  std::vector<EarProcess> Listen();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace giveway::link
