@@ -4,6 +4,7 @@
 #include "services/fleetctl/qos_check.h"
 #include "services/fleetctl/qos_live.h"
 #include "services/fleetctl/qos_show.h"
+#include "services/fleetctl/qos_tune_verb.h"
 #include "services/fleetctl/verbs.h"
 
 namespace giveway::fleetctl {
@@ -102,11 +103,13 @@ void AddShow(CLI::App* qos, int* exit_code) {
 }  // namespace
 
 void AddQosVerb(CLI::App* fleetctl, int* exit_code) {
-  CLI::App* qos = fleetctl->add_subcommand("qos", "Explain and check QoS profiles");
+  CLI::App* qos = fleetctl->add_subcommand("qos", "Explain, check and tune QoS profiles");
   qos->require_subcommand(1);
-  qos->footer("\nMore: fleetctl qos check --help, fleetctl qos show --help\n");
+  qos->footer(
+      "\nMore: fleetctl qos check --help, fleetctl qos show --help, fleetctl qos tune --help\n");
   AddCheck(qos, exit_code);
   AddShow(qos, exit_code);
+  AddQosTune(qos, exit_code);
 }
 
 }  // namespace giveway::fleetctl
