@@ -71,14 +71,14 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
   verb->add_option("--out", options->out, "Folder of the search")
       ->check(CheckNotEmpty)
       ->capture_default_str();
-  verb->add_option("--fleets", options->fleets, "Side by side; without it one a core")
+  verb->add_option("--fleets", options->fleets, "Side by side; without it two a core")
       ->check(CLI::Range(1U, 64U));
   verb->add_option("--seed", options->seed, "Of losses and kills")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "Fewer candidates and trials: under 3 minutes");
   verb->add_option("--trial-seconds", options->trial_s,
-                   "Watched while all are alive; 20, with --quick 8")
+                   "Watched while all are alive; 20, with --quick 12")
       ->check(CheckSeconds);
   verb->add_option("--candidates", options->candidates, "At most so many, the base among them")
       ->check(CLI::Range(1U, 1000U));

@@ -17,6 +17,7 @@ void FoldDetections(const std::vector<TrialEvidence>& trials, TuneFigures* figur
   double squares = 0;
   double from_kill = 0;
   for (const TrialEvidence& trial : trials) {
+    if (!trial.trouble.empty()) continue;
     for (const DetectionReading& reading : trial.detections) {
       ++figures->detections;
       figures->detected_by.Add(reading.cause);

@@ -19,6 +19,9 @@ constexpr char kReader[] = "fleet_beacon_reader";
 // a limit between two multiples is one kind of limit; where between matters once beacons are late.
 constexpr std::array<double, 9> kDeadlines = {3.8, 3.3, 2.6, 4.6, 3.5, 5.6, 2.3, 4.3, 1.6};
 constexpr std::size_t kQuickDeadlines = 4;
+// With retransmissions a limit just below a whole number of periods costs less: the turn before
+// acts.
+constexpr double kEarlyDeadline = 2.8;
 constexpr double kLongLease = 8;   // periods
 constexpr double kShortLease = 4;  // periods
 
@@ -117,6 +120,7 @@ std::vector<TuneCandidate> MakeCandidates(const BeaconQos& base, const TunePlanO
   candidates.Add(WithLease(patient, periods(kLongLease)));
   candidates.Add(WithReliable(patient, !base.reliable));
   candidates.Add(WithReliable(base, !base.reliable));
+  candidates.Add(WithReliable(WithDeadline(base, periods(kEarlyDeadline)), !base.reliable));
   candidates.Add(WithDepth(patient, base.depth * 2));
   if (options.quick) return candidates.Take(options.most);
   candidates.Add(WithLease(base, periods(kShortLease)));

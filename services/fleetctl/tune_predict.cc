@@ -8,8 +8,9 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr int kMostLost = 200;           // in a row; what is rarer is added as one
-constexpr double kHostJitterMs = 1;      // of an idle machine, half the width
+constexpr double kHostJitterMs = 0.5;    // of an idle machine, half the width
 constexpr double kLoopbackMs = 0.5;      // from the sender's turn to the reader
+constexpr double kTimerEarlyMs = 0.5;    // mean: Fast DDS 2.9.1 cuts timers to whole milliseconds
 constexpr double kDetectionSlackMs = 5;  // beyond three standard errors: the host's own pauses
 constexpr int kDelaySteps = 64;
 
@@ -42,17 +43,8 @@ class Model {
         limits_{Milliseconds(qos.requested), Milliseconds(qos.lease)},
         age_limit_(fleet.age_limit_ms) {}
 
-  // Of one peer, per beacon: silences of exactly m, over all m, that somebody tells of.
-  double AlarmsPerBeacon() const {
-    double alarms = 0;
-    double longer = SilenceProbability(channel_, 0);
-    for (int lost = 0; lost <= kMostLost; ++lost) {
-      const double this_long = longer;
-      longer = SilenceProbability(channel_, lost + 1);
-      alarms += (this_long - longer) * AlarmGiven(lost);
-    }
-    return alarms + longer;
-  }
+  // Of one peer, per beacon.
+  double AlarmsPerBeacon() const { return BySilences() + ByOwnLostScans(); }
 
   // From the last beacon sent, the last `lost` of which never came, to the turn that acts on it.
   double Detection() const {
@@ -78,6 +70,41 @@ class Model {
   }
 
  private:
+  // Deadline or lease, whichever tells first.
+  double Limit() const { return std::min(limits_[0], limits_[1]) - kTimerEarlyMs; }
+
+  // Silences of exactly m lost beacons, over all m, that somebody tells of.
+  double BySilences() const {
+    double alarms = 0;
+    double longer = SilenceProbability(channel_, 0);
+    for (int lost = 0; lost <= kMostLost; ++lost) {
+      const double this_long = longer;
+      longer = SilenceProbability(channel_, lost + 1);
+      alarms += (this_long - longer) * AlarmGiven(lost);
+    }
+    return alarms + longer;
+  }
+
+  // A vehicle decides on beacons of ticks before its own: while its own scans are lost no newer one
+  // counts, and age tells. Its loop then turns after 1.5, 3, 4, 5 ... ticks, the n-th time with n
+  // scans lost; `lost` beacons before those make them older by as many ticks.
+  double ByOwnLostScans() const {
+    const double q = channel_.scan_loss;
+    double alarms = 0;
+    for (int lost = 0; lost * tick_ < age_limit_; ++lost) {
+      double reached = 1 - q;
+      double unseen = 1;  // that no turn before has told
+      for (int scans = 1; scans <= kMostLost; ++scans) {
+        reached *= q;
+        const double turn = scans == 1 ? 1.5 : scans + 1;
+        const double told = ChanceOfMore(age_limit_ - (turn + lost) * tick_, kHostJitterMs);
+        alarms += SilenceProbability(channel_, lost) * reached * unseen * told;
+        unseen *= 1 - told;
+      }
+    }
+    return alarms;
+  }
+
   // That a silence lasts longer than `limit`: either end of it may be half a tick late.
   double LongerThan(double limit, int lost) const {
     const double width = channel_.jitter_ms + kHostJitterMs;
@@ -89,21 +116,25 @@ class Model {
   }
 
   double AlarmGiven(int lost) const {
-    const double by_event = LongerThan(std::min(limits_[0], limits_[1]), lost);
+    const double by_event = LongerThan(Limit(), lost);
     return std::max(by_event, ChanceOfMore(age_limit_ - lost * tick_, kHostJitterMs));
   }
 
   // The last beacon that came was heard after `delay` ms.
   double DetectionAfter(double delay) const {
-    const double told = delay + std::min(limits_[0], limits_[1]);
-    const double by_event = std::ceil(told / tick_) * tick_;
+    const double told = delay + Limit();
     const double heard = std::ceil(delay / tick_) * tick_;
     // Of a limit of whole ticks the turn that lies on it may see it passed or not.
     const double ticks = age_limit_ / tick_;
     const double first = heard + (std::floor(ticks) + 1) * tick_;
     const bool whole = std::abs(ticks - std::round(ticks)) < 1e-9;
     const double early = whole ? heard + std::round(ticks) * tick_ : first;
-    return 0.5 * std::min(by_event, early) + 0.5 * std::min(by_event, first);
+    double sum = 0;
+    for (const double jitter : {-2 * kHostJitterMs, 2 * kHostJitterMs}) {
+      const double by_event = std::ceil((told + jitter) / tick_) * tick_;
+      sum += std::min(by_event, early) + std::min(by_event, first);
+    }
+    return sum / 4;
   }
 
   BeaconChannel channel_;

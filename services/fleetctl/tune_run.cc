@@ -31,9 +31,9 @@ namespace fs = std::filesystem;
 
 // What the defaults of the flags come to.
 QosTuneOptions Filled(QosTuneOptions options) {
-  if (options.trial_s <= 0) options.trial_s = options.quick ? 8 : 20;
+  if (options.trial_s <= 0) options.trial_s = options.quick ? 12 : 20;
   if (options.verify_trials == 0) options.verify_trials = options.quick ? 4 : 6;
-  if (options.fleets == 0) options.fleets = std::max(1U, std::thread::hardware_concurrency());
+  if (options.fleets == 0) options.fleets = 2 * std::max(1U, std::thread::hardware_concurrency());
   // A vehicle that is not impaired counts no packets: this impairs nothing, and counts.
   if (options.impair == "none" || options.impair.empty()) options.impair = "loss=0";
   return options;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);  // how exactly a kill falls
 constexpr Nanoseconds kWordEvery = std::chrono::seconds(5);
-constexpr int kMostFailures = 2;  // of one trial, before it is given up
+constexpr int kMostRepeats = 2;  // of one trial, before it is taken as it is
 // Start, settling, kills and the end of a trial; only for the time left.
 constexpr double kAroundTrialSeconds = 5;
 
@@ -28,6 +28,7 @@ TuneSearch::TuneSearch(const TuneGround& ground, const TuneStore& store, std::si
       fleets_(fleets),
       seed_(seed),
       planned_(trials_planned),
+      repeats_left_(trials_planned / 3 + 1),
       begun_(app::SteadyNow()) {
   for (const TrialEvidence& found : store.Found()) {
     if (!found.trouble.empty()) continue;  // tried once more
@@ -78,18 +79,32 @@ void TuneSearch::TakeFinished() {
     const TrialOrder order = running_[i]->Order();
     running_.erase(running_.begin() + static_cast<std::ptrdiff_t>(i));
     const Key key{order.verification, order.candidate, order.trial};
-    if (!evidence.trouble.empty()) {
-      std::fprintf(stderr, "%s, trial %u: %s\n", order.candidate.c_str(), order.trial,
-                   evidence.trouble.c_str());
-      if (++failures_[key] <= kMostFailures) {
-        waiting_.push_back(order);
-        continue;
-      }
+    if (MayRepeat(key, evidence)) {
+      waiting_.push_back(order);
+      continue;
     }
     ++measured_;
     store_.Keep(evidence);
     evidence_[key] = std::move(evidence);
   }
+}
+
+// A trial that failed, or in which the machine itself stood still for longer than a loop ever waits
+// (one and a half ticks): what that showed is not the profile's doing.
+bool TuneSearch::MayRepeat(const Key& key, const TrialEvidence& evidence) {
+  const double longest_ms = 2 * Milliseconds(ground_.scenario->tick_period);
+  std::string why = evidence.trouble;
+  if (why.empty() && evidence.longest_pause_ms > longest_ms) {
+    why = fmt::format("the machine stood still for {:.0f} ms", evidence.longest_pause_ms);
+  }
+  if (why.empty()) return false;
+  const bool again = repeats_left_ > 0 && repeats_[key] < kMostRepeats;
+  std::fprintf(stderr, "%s, trial %u: %s%s\n", key.candidate.c_str(), key.trial, why.c_str(),
+               again ? "; once more" : "");
+  if (!again) return false;
+  ++repeats_[key];
+  --repeats_left_;
+  return true;
 }
 
 void TuneSearch::TellProgress(SteadyTime now) {

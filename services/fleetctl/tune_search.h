@@ -44,6 +44,8 @@ class TuneSearch {
 
   void StartNext();
   void TakeFinished();
+  // Says why, if the trial is to be run again.
+  bool MayRepeat(const Key& key, const TrialEvidence& evidence);
   void TellProgress(SteadyTime now);
 
   const TuneGround& ground_;
@@ -54,7 +56,8 @@ class TuneSearch {
   std::map<Key, TrialEvidence> evidence_;
   std::deque<TrialOrder> waiting_;
   std::vector<std::unique_ptr<TuneTrial>> running_;
-  std::map<Key, int> failures_;
+  std::map<Key, int> repeats_;
+  std::size_t repeats_left_;
   std::size_t measured_ = 0;
   SteadyTime begun_{0};
   SteadyTime next_word_{0};
