@@ -78,7 +78,7 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "Fewer candidates and trials: under 3 minutes");
   verb->add_option("--trial-seconds", options->trial_s,
-                   "Watched while all are alive; 20, with --quick 12")
+                   "Watched while all are alive; 20, with --quick 10")
       ->check(CheckSeconds);
   verb->add_option("--candidates", options->candidates, "At most so many, the base among them")
       ->check(CLI::Range(1U, 1000U));

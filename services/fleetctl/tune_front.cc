@@ -83,7 +83,9 @@ bool HasFewerAlarms(const TuneFigures& one, const TuneFigures& than) {
 }
 
 bool NoticesNoLater(const TuneFigures& one, const TuneFigures& than) {
-  return Detection(one) <= Detection(than) + kSameDetectionMs;
+  const double error = std::hypot(one.detection_error_ms, than.detection_error_ms);
+  const double chance = std::clamp(2 * error, kSameDetectionMs, kMostChanceMs);
+  return Detection(one) <= Detection(than) + chance;
 }
 
 std::size_t Recommended(const std::vector<TuneFigures>& figures, std::size_t base) {

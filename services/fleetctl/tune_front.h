@@ -18,6 +18,9 @@ namespace giveway::fleetctl {
 // between two looks is acted on at the second.
 inline constexpr double kSameDetectionMs = 12.5;  // a quarter of a tick of 50 ms
 
+// However few readings there are, more than this is later: a turn later is 50.
+inline constexpr double kMostChanceMs = 20;
+
 // Places of those that no other beats: none has fewer false alarms and notices as early, or notices
 // earlier with as few. By rising detection time.
 std::vector<std::size_t> ParetoFront(const std::vector<TuneFigures>& figures);
@@ -28,6 +31,7 @@ std::vector<std::size_t> Ranking(const std::vector<TuneFigures>& figures);
 
 // True if the rates differ by more than two standard errors.
 bool HasFewerAlarms(const TuneFigures& one, const TuneFigures& than);
+// True unless its mean is later by more than two standard errors, within the two bounds above.
 bool NoticesNoLater(const TuneFigures& one, const TuneFigures& than);
 
 // The place of the recommended one; figures[base] is the base's.

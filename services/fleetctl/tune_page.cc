@@ -12,8 +12,7 @@ namespace {
 // A rate of none has no place on a logarithmic axis.
 constexpr double kLeastRate = 1;
 
-constexpr const char* kSettings =
-    "set terminal svg size 900,560 dynamic font 'sans-serif,13' background '#ffffff'\n"
+constexpr const char* kAxes =
     "set grid lc rgb '#dddddd'\nset key below\nset logscale y\nset tics nomirror\nset border 3\n";
 
 constexpr const char* kStyle = R"(
@@ -22,6 +21,12 @@ table { border-collapse: collapse } td, th { padding: .25em .7em; text-align: ri
 td:first-child, th:first-child { text-align: left } tr.chosen { background: #e6f4ea } tr.base { background: #eef2fb }
 .differs { color: #b00020 } pre { background: #f5f5f5; padding: 1em; overflow-x: auto } svg { max-width: 100%; height: auto }
 )";
+
+// The name keeps two pictures apart in one page.
+std::string Settings(const std::string& name) {
+  return "set terminal svg size 900,560 dynamic font 'sans-serif,13' background '#ffffff' name '" +
+         name + "'\n" + kAxes;
+}
 
 std::string Escaped(const std::string& text) {
   std::string safe;
@@ -70,7 +75,7 @@ TunePlot FrontPlot(const TuneResult& result) {
         "{0} using 1:2:5 with labels left offset 0.7,0.4 font ',10' textcolor rgb '{2}' notitle",
         data, title, colour);
   };
-  std::string program = std::string(kSettings) +
+  std::string program = Settings("front") +
                         "set xlabel 'a dead vehicle is noticed after, ms (mean, from its last "
                         "beacon)'\nset ylabel 'false alarms per vehicle-hour'\n";
   std::string draws;
@@ -96,7 +101,7 @@ TunePlot PredictionPlot(const TuneResult& result) {
   }
   if (points.empty()) return {};
   return {"prediction", "Measured against predicted",
-          std::string(kSettings) +
+          Settings("prediction") +
               "set logscale x\nset xlabel 'predicted false alarms per vehicle-hour'\n"
               "set ylabel 'measured, with 99 % interval'\n$points << EOD\n" +
               points +

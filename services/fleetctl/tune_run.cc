@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 // What the defaults of the flags come to.
 QosTuneOptions Filled(QosTuneOptions options) {
-  if (options.trial_s <= 0) options.trial_s = options.quick ? 12 : 20;
+  if (options.trial_s <= 0) options.trial_s = options.quick ? 10 : 20;
   if (options.verify_trials == 0) options.verify_trials = options.quick ? 4 : 6;
   if (options.fleets == 0) options.fleets = 2 * std::max(1U, std::thread::hardware_concurrency());
   // A vehicle that is not impaired counts no packets: this impairs nothing, and counts.
@@ -214,6 +214,8 @@ TuneResult Tuning::Run() {
   Judge(&result_);
   Verify(&search);
   result_.trials = search.All();
+  std::error_code ignored;
+  fs::remove(store_.Folder() / "running", ignored);
   if (search.Measured() == 0) {
     std::fprintf(stderr, "nothing left to measure: all %zu trials are there\n", before);
   }

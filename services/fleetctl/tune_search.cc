@@ -28,7 +28,7 @@ TuneSearch::TuneSearch(const TuneGround& ground, const TuneStore& store, std::si
       fleets_(fleets),
       seed_(seed),
       planned_(trials_planned),
-      repeats_left_(trials_planned / 3 + 1),
+      repeats_left_(trials_planned / 5 + 1),
       begun_(app::SteadyNow()) {
   for (const TrialEvidence& found : store.Found()) {
     if (!found.trouble.empty()) continue;  // tried once more
@@ -112,8 +112,11 @@ void TuneSearch::TellProgress(SteadyTime now) {
   next_word_ = now + kWordEvery;
   const std::size_t done = evidence_.size();
   const std::size_t left = std::max(planned_, done + waiting_.size() + running_.size()) - done;
-  const double trial_s = ground_.alive_s + kAroundTrialSeconds;
-  const double left_s = static_cast<double>((left + fleets_ - 1) / fleets_) * trial_s;
+  // By what the trials took so far; before the first are over, by what they should.
+  const double guess_s = (ground_.alive_s + kAroundTrialSeconds) / static_cast<double>(fleets_);
+  const double each_s =
+      measured_ < fleets_ ? guess_s : Seconds(now - begun_) / static_cast<double>(measured_);
+  const double left_s = static_cast<double>(left) * each_s;
   std::string names;
   for (const auto& trial : running_) {
     names += (names.empty() ? "" : ", ") + trial->Order().candidate;

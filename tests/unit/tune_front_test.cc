@@ -54,6 +54,17 @@ TEST(TuneFront, FewerIsBeyondChance) {
   EXPECT_FALSE(HasFewerAlarms(Figures(100, 200), Figures(50, 200)));
 }
 
+TEST(TuneFront, LaterIsBeyondChance) {
+  TuneFigures unsure = Figures(10, 214);
+  EXPECT_FALSE(NoticesNoLater(unsure, Figures(10, 200)));
+  unsure.detection_error_ms = 8;
+  EXPECT_TRUE(NoticesNoLater(unsure, Figures(10, 200)));
+  unsure.detection_error_ms = 50;  // nothing is known, and that excuses no whole turn
+  unsure.detection_ms = 225;
+  EXPECT_FALSE(NoticesNoLater(unsure, Figures(10, 200)));
+  EXPECT_TRUE(NoticesNoLater(Figures(10, 150), Figures(10, 200)));
+}
+
 TEST(TuneFront, RecommendedIsTheFirstToNoticeOfThoseWithFewerAlarms) {
   EXPECT_EQ(Recommended({Figures(100, 200), Figures(20, 200), Figures(40, 150)}, 0), 2U);
 }
