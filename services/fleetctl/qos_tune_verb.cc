@@ -78,12 +78,12 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "Fewer candidates and trials: under 3 minutes");
   verb->add_option("--trial-seconds", options->trial_s,
-                   "Watched while all are alive; 20, with --quick 10")
+                   "Watched while all are alive; 20, with --quick 12")
       ->check(CheckSeconds);
   verb->add_option("--candidates", options->candidates, "At most so many, the base among them")
       ->check(CLI::Range(1U, 1000U));
   verb->add_option("--verify-trials", options->verify_trials,
-                   "Of base and recommended each; 6, with --quick 4")
+                   "Of base and recommended each; 6, with --quick 5")
       ->check(CLI::Range(1U, 1000U));
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->callback([options, exit_code] { *exit_code = RunQosTune(*options); });

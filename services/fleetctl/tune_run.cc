@@ -12,6 +12,7 @@
 #include "services/app/scenario_file.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
+#include "services/fleetctl/json_object.h"
 #include "services/fleetctl/qos_files.h"
 #include "services/fleetctl/tune_draw.h"
 #include "services/fleetctl/tune_front.h"
@@ -31,8 +32,8 @@ namespace fs = std::filesystem;
 
 // What the defaults of the flags come to.
 QosTuneOptions Filled(QosTuneOptions options) {
-  if (options.trial_s <= 0) options.trial_s = options.quick ? 10 : 20;
-  if (options.verify_trials == 0) options.verify_trials = options.quick ? 4 : 6;
+  if (options.trial_s <= 0) options.trial_s = options.quick ? 12 : 20;
+  if (options.verify_trials == 0) options.verify_trials = options.quick ? 5 : 6;
   if (options.fleets == 0) options.fleets = 2 * std::max(1U, std::thread::hardware_concurrency());
   // A vehicle that is not impaired counts no packets: this impairs nothing, and counts.
   if (options.impair == "none" || options.impair.empty()) options.impair = "loss=0";
@@ -41,11 +42,16 @@ QosTuneOptions Filled(QosTuneOptions options) {
 
 // All that the evidence depends on; how many fleets run side by side may change.
 std::string PlanOf(const QosTuneOptions& options, const std::string& base_file) {
-  return fmt::format(
-      R"({{"base":"{}","impair":"{}","vehicles":{},"seed":{},"quick":{},"trial_s":{},)"
-      R"("candidates":{},"verify_trials":{}}})",
-      base_file, options.impair, options.vehicles, options.seed, options.quick, options.trial_s,
-      options.candidates, options.verify_trials);
+  JsonObject plan;
+  plan.Add("base", std::string_view(base_file));
+  plan.Add("impair", std::string_view(options.impair));
+  plan.Add("vehicles", options.vehicles);
+  plan.Add("seed", options.seed);
+  plan.Add("quick", options.quick);
+  plan.Add("trial_s", options.trial_s);
+  plan.Add("candidates", options.candidates);
+  plan.Add("verify_trials", options.verify_trials);
+  return plan.Text();
 }
 
 class Tuning {

@@ -15,9 +15,9 @@ struct QosTuneOptions {
   std::uint32_t seed = 1;
   std::string out = "qos-tune";
   bool quick = false;
-  double trial_s = 0;               // watched while all live; 0: 20, quick 10
+  double trial_s = 0;               // watched while all live; 0: 20, quick 12
   std::uint32_t candidates = 1000;  // at most, the base among them
-  std::uint32_t verify_trials = 0;  // of base and recommended each; 0: 6, quick 4
+  std::uint32_t verify_trials = 0;  // of base and recommended each; 0: 6, quick 5
   bool json = false;
 };
 
