@@ -52,6 +52,11 @@ tune "0 1" "the same again" "${small[@]}" --out small
 grep -q 'nothing left to measure' err || fail "the same again: $(cat err)"
 grep -Eq '^\* ' out || fail "the same again: no front in $(cat out)"
 diff -r before small >/dev/null || fail "the same again: files changed"
+code=0
+env PATH="$SCRATCH/nothing" "$FLEETCTL" qos tune "${small[@]}" --out small >out 2>err || code=$?
+[[ $code -le 1 ]] || fail "without gnuplot: exit code $code: $(cat err)"
+grep -q 'gnuplot-nox' err || fail "without gnuplot: $(cat err)"
+grep -q 'No pictures' small/report.html || fail "without gnuplot: report.html says nothing of it"
 rm small/trials/base-0.json
 tune "0 1" "one is missing" "${small[@]}" --out small
 [[ -s small/trials/base-0.json ]] || fail "one is missing: it was not measured anew"
