@@ -10,13 +10,19 @@
 #include <utility>
 #include <vector>
 
+#include "services/app/hang_signal.h"
 #include "services/app/process.h"
 #include "services/app/recorder.h"
+#include "services/app/restart.h"
 #include "services/app/scenario_file.h"
+#include "services/app/text_file.h"
+#include "services/beacon_news.h"
 #include "services/link/vehicle_link.h"
 #include "services/service_main.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/vehicle.h"
+#include "services/vehicle_admin.h"
+#include "services/vehicle_join.h"
 #include "services/vehicle_report.h"
 
 namespace giveway {
@@ -24,67 +30,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Nanoseconds kJoinPoll = milliseconds(20);
-constexpr Nanoseconds kAskAgain =
-    std::chrono::seconds(1);  // who waits and does not ask is forgotten
-constexpr Nanoseconds kJoinReminder = std::chrono::seconds(5);
+constexpr Nanoseconds kHangPoll = milliseconds(20);
 constexpr Nanoseconds kStatusPeriod = milliseconds(200);
 constexpr Nanoseconds kFlushTimeout = milliseconds(300);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
-
-// Asks the world for a place, again and again, until it is given or refused for good.
-class Asking {
- public:
-  Asking(link::VehicleLink* link, VehicleId wanted) : link_(*link) {
-    request_.wanted = wanted;
-    for (std::uint32_t& word : request_.session) word = app::RandomNonZero();
-    Ask();
-  }
-
-  const SessionId& Session() const { return request_.session; }
-  bool Answered() const { return answered_; }
-
-  void AskAgainIfDue() {
-    if (app::SteadyNow() >= again_) Ask();
-  }
-  // True if this is the last word on the request; a reason to wait is only logged.
-  bool IsFinal(const RosterEntry& entry) {
-    answered_ = true;
-    if (!entry.accepted && entry.waiting)
-      app::LogWarning("the world lets it wait: " + entry.reason);
-    return entry.accepted || !entry.waiting;
-  }
-
- private:
-  void Ask() {
-    link_.SendJoin(request_);
-    again_ = app::SteadyNow() + kAskAgain;
-  }
-
-  link::VehicleLink& link_;
-  JoinRequest request_;
-  SteadyTime again_{0};
-  bool answered_ = false;
-};
-
-// Empty if asked to stop meanwhile.
-std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,
-                                VehicleId wanted) {
-  Asking asking(link, wanted);
-  SteadyTime remind = app::SteadyNow() + kJoinReminder;
-  while (!stop.IsSet()) {
-    const auto entry = link->TakeRoster(asking.Session());
-    if (entry && asking.IsFinal(*entry)) return entry;
-    asking.AskAgainIfDue();
-    app::SleepUntil(app::SteadyNow() + kJoinPoll);
-    if (app::SteadyNow() < remind) continue;
-    remind += kJoinReminder;
-    if (asking.Answered()) continue;
-    app::LogWarning("no answer from a world yet: is giveway-world running in this domain?");
-  }
-  link->SendLeave(asking.Session());
-  return std::nullopt;
-}
 
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
   const auto& known = entry.spawn == 0 ? scenario.vehicles : scenario.spawns;
@@ -103,13 +52,23 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
   return options;
 }
 
+enum class DriveEnd { kOver, kRefused, kRestarts };
+
+// A drill. As of a loop that really hangs: SIGTERM finds it deaf too.
+void Hang() {
+  app::LogWarning("drill: the control loop hangs");
+  while (app::HangSignal::IsUp()) app::SleepUntil(app::SteadyNow() + kHangPoll);
+  app::LogWarning("drill: the control loop goes on");
+}
+
 // The loop and what it must remember between two turns.
 class Loop {
  public:
   // `recorder` is null where nothing is recorded.
-  Loop(link::VehicleLink* link, const Scenario& scenario, const RosterEntry& entry, bool lockstep,
-       app::Recorder* recorder)
+  Loop(link::VehicleLink* link, VehicleAdmin* admin, const Scenario& scenario,
+       const RosterEntry& entry, bool lockstep, app::Recorder* recorder)
       : link_(*link),
+        admin_(*admin),
         scenario_(scenario),
         lockstep_(lockstep),
         recorder_(recorder),
@@ -121,18 +80,34 @@ class Loop {
     if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_);
   }
 
-  // Until the run has ended, `stop` is set, or the world refuses it: false in that case. Says
-  // good-bye in the second.
-  bool Drive(const app::StopSignal& stop) {
-    while (!stop.IsSet() && !RunEnded() && !refused_) Turn(false);
-    for (int i = 0; stop.IsSet() && i < kGoodByes; ++i) Turn(true);
+  // Until the run has ended, `stop` is set, the world refuses it, or an operator's order takes a
+  // restart. Halts and says good-bye if the run goes on without it; for good only in the second
+  // case, in the last it keeps its place.
+  DriveEnd Drive(const app::StopSignal& stop) {
+    while (!stop.IsSet() && !RunEnded() && !refused_ && !restarts_) Turn(false);
+    const bool goes = stop.IsSet() || restarts_;
+    for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
+    if (restarts_ && !stop.IsSet()) {
+      AskForTime();
+      return DriveEnd::kRestarts;
+    }
     report_.SendFinal(vehicle_, link_);
     link_.FlushStatus(kFlushTimeout);
     if (stop.IsSet() && !RunEnded()) link_.SendLeave(place_.session);
-    return !refused_;
+    return refused_ ? DriveEnd::kRefused : DriveEnd::kOver;
   }
+  const SessionId& Session() const { return place_.session; }
+  VehicleId Id() const { return options_.id; }
 
  private:
+  // To the world a second of silence is a death. Who asks for its place again is given longer,
+  // until it speaks; so what it said last must have been taken by then.
+  void AskForTime() {
+    app::SleepUntil(app::SteadyNow() + 3 * options_.tick_period);
+    link_.SendJoin({place_.session, options_.id});
+    link_.FlushJoin(kFlushTimeout);
+  }
+
   bool RunEnded() const { return place_.run_state == RunState::kEnded; }
 
   // A world that was restarted, or that gives the vehicle another place, says where it stands now.
@@ -170,6 +145,7 @@ class Loop {
 
   void Turn(bool leaving) {
     const bool woken = link_.WaitForScan(leaving ? Nanoseconds{0} : Patience());
+    if (app::HangSignal::IsUp()) Hang();
     const SteadyTime woke = app::SteadyNow();
     link::Taken taken = link_.Take(woke);
     Inputs& inputs = taken.inputs;
@@ -192,6 +168,8 @@ class Loop {
     if (recorder_ != nullptr) recorder_->Step(inputs, outputs, vehicle_.Hash());
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
     Tell(events);
+    if (!leaving && admin_.Serve()) restarts_ = true;
+    TellOfBeacons(inputs.now, woke);
     if (outputs.decision_changed || woke >= next_status_) {
       report_.Send(vehicle_, link_);
       next_status_ = woke + kStatusPeriod;
@@ -205,8 +183,22 @@ class Loop {
       const bool is_trouble = event.kind == QosEventKind::kDeadlineMissed ||
                               event.kind == QosEventKind::kLivelinessLost ||
                               event.kind == QosEventKind::kIncompatibleQos;
-      (is_trouble ? app::LogWarning : app::LogInfo)(Describe(event));
+      is_trouble ? app::LogWarning(Describe(event), event.at)
+                 : app::LogInfo(Describe(event), event.at);
     }
+  }
+
+  // Whose beacons can be decided by, and whose no more. `now` is what the brain takes for the time.
+  void TellOfBeacons(SteadyTime now, SteadyTime woke) {
+    beacon_news_.Look(vehicle_.State().peers.Peers(), now, vehicle_.State().tick, options_);
+    for (const BeaconNewsItem& item : beacon_news_.Items()) {
+      const bool is_trouble = item.kind == BeaconNewsKind::kStale;
+      is_trouble ? app::LogWarning(Describe(item), woke) : app::LogInfo(Describe(item), woke);
+    }
+    const auto blackouts_since = told_blackouts_ ? std::nullopt : link_.BlackoutsSince();
+    if (!blackouts_since) return;
+    told_blackouts_ = true;
+    app::LogInfo("impairment: blackouts are counted from here", *blackouts_since);
   }
 
   // In lockstep the only clock is the world's tick: the run repeats whatever the machine does, so
@@ -227,6 +219,7 @@ class Loop {
   }
 
   link::VehicleLink& link_;
+  VehicleAdmin& admin_;
   const Scenario& scenario_;
   const bool lockstep_;
   app::Recorder* const recorder_;
@@ -237,7 +230,10 @@ class Loop {
   std::optional<RosterEntry> news_;  // that the brain has yet to hear
   std::optional<Asking> asking_;     // for another place
   bool refused_ = false;
+  bool restarts_ = false;
   VehicleReport report_;
+  BeaconNews beacon_news_;
+  bool told_blackouts_ = false;
   SteadyTime last_scan_{0};
   SteadyTime last_beacon_{0};
   SteadyTime next_status_{0};
@@ -252,30 +248,56 @@ Impairment ImpairmentOf(const app::ServiceFlags& flags, const Scenario& scenario
   return impairment;
 }
 
+// What it takes to come back as the same vehicle with the profiles of an order.
+app::NewFlags ToComeBack(const Loop& loop, const AdminOrder& order) {
+  return {{"--id", std::to_string(Number(loop.Id()))},
+          {"--qos", app::HoldText(order.profiles.name, order.profiles.text)},
+          {"--resume", app::ToText({loop.Session(), order.number})}};
+}
+
+// From joining to the end of the link. Empty where the process ends with `exit_code`.
+std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario& scenario,
+                                  const app::StopSignal& stop, int* exit_code) {
+  std::optional<app::Recorder> recorder;
+  if (!flags.record.empty()) recorder.emplace(flags.record);
+  link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
+  link_options.impairment = ImpairmentOf(flags, scenario);
+  link::VehicleLink link(link_options);
+  const QosProfiles profiles{app::NameOf(flags.qos), app::ReadTextFile(flags.qos)};
+  app::LetGo(flags.qos);
+  const std::optional<SessionId> session =
+      flags.resume ? std::optional(flags.resume->session) : std::nullopt;
+  const auto entry = Join(&link, stop, VehicleId{flags.id}, session);
+  if (!entry) return {};
+  if (!entry->accepted) {
+    app::LogError("the world refused this vehicle: " + entry->reason);
+    *exit_code = 2;
+    return {};
+  }
+  if (flags.id == 0) app::LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
+  const VehicleOptions options = OptionsOf(scenario, *entry);
+  link.Open(options.id, options.profile, !scenario.signals.empty());
+  VehicleAdmin admin(&link, link_options, options.id, profiles, flags.lockstep);
+  if (flags.resume) admin.AnswerResumed(flags.resume->order);
+  std::optional<app::HangSignal> hang;
+  if (flags.hang_on_signal) hang.emplace();
+  Loop loop(&link, &admin, scenario, *entry, flags.lockstep, recorder ? &*recorder : nullptr);
+  const DriveEnd end = loop.Drive(stop);
+  if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));
+  if (end == DriveEnd::kRefused) *exit_code = 2;
+  if (end != DriveEnd::kRestarts) return {};
+  return ToComeBack(loop, admin.Pending());
+}
+
 int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const std::string name = flags.id == 0 ? "vehicle" : "vehicle " + std::to_string(flags.id);
   app::InitLog(name, flags.log_format, flags.log_level);
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
-  std::optional<app::Recorder> recorder;
-  if (!flags.record.empty()) recorder.emplace(flags.record);
-  link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
-  link_options.impairment = ImpairmentOf(flags, scenario);
-  link::VehicleLink link(link_options);
-  const auto entry = Join(&link, stop, VehicleId{flags.id});
-  if (!entry) return 0;
-  if (!entry->accepted) {
-    app::LogError("the world refused this vehicle: " + entry->reason);
-    return 2;
-  }
-  if (flags.id == 0) app::LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
-  const VehicleOptions options = OptionsOf(scenario, *entry);
-  link.Open(options.id, options.profile, !scenario.signals.empty());
-  Loop loop(&link, scenario, *entry, flags.lockstep, recorder ? &*recorder : nullptr);
-  const bool welcome = loop.Drive(stop);
-  if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));
-  return welcome ? 0 : 2;
+  int exit_code = 0;
+  if (const auto new_flags = Live(flags, scenario, stop, &exit_code)) app::RestartWith(*new_flags);
+  return exit_code;
 }
 
 }  // namespace

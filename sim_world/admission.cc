@@ -82,7 +82,10 @@ Admission::Result Admission::Try(Waiting* waiting) {
   // A body it has from an earlier epoch still rolls: what it were told now would soon be wrong.
   if (const Seat* seat = roster_.SeatOf(request.session)) {
     const auto told = told_.find(seat->vehicle);
-    if (told != told_.end()) return {.waits = false, .tell = told->second};
+    if (told != told_.end()) {
+      run_.AsksAgain(seat->vehicle);
+      return {.waits = false, .tell = told->second};
+    }
     const Body* body = run_.BodyOf(seat->vehicle);
     if (body != nullptr && !Stands(*body)) return {.waits = true, .tell = {}};
   }

@@ -118,6 +118,10 @@ void Run::Take(std::span<const MotorCommand> commands) {
   }
 }
 
+void Run::AsksAgain(VehicleId vehicle) {
+  if (!attendance_.IsSilent(vehicle)) attendance_.Join(vehicle, world_.Now());
+}
+
 // In a closed run silence is for good. In an open one the network may have been away for a while.
 bool Run::MayReturn(VehicleId vehicle) const { return open_ && BodyOf(vehicle) != nullptr; }
 

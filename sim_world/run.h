@@ -37,6 +37,9 @@ class Run {
   // The same for any vehicle, also while the run is under way. A body that still stands, since the
   // vehicle had fallen silent, stays where it is and is the vehicle's again.
   void Join(const VehicleOptions& options);
+  // A vehicle that is in the run asks for its place with the same session: its process has
+  // restarted itself, and its new endpoints must be found before it is heard again.
+  void AsksAgain(VehicleId vehicle);
   // The vehicle said good-bye: its body is taken away. Ends a closed run that is under way.
   void Leave(VehicleId vehicle);
   bool EveryoneJoined() const;

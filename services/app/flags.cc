@@ -39,6 +39,9 @@ class CommandLine {
           "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
           "none; the README lists the keys");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
+      Add("--resume", "WORD", "given by a vehicle to itself when an operator's order restarts it");
+      AddSwitch("--hang-on-signal",
+                "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
@@ -109,6 +112,17 @@ std::optional<Impairment> ReadImpairment(FlagValues* values) {
   return std::move(parsed.impairment);
 }
 
+std::optional<Resumed> ReadResumed(FlagValues* values) {
+  const auto text = values->Text("--resume");
+  if (!text) return std::nullopt;
+  const auto resumed = ParseResumed(*text);
+  if (!resumed) {
+    values->Complain("--resume", "\"" + *text + "\" is not what a vehicle gives to itself",
+                     "leave it out: fleetctl qos apply makes a vehicle restart itself");
+  }
+  return resumed;
+}
+
 ServiceFlags Read(Service service, FlagValues* values) {
   constexpr double kMaxWhole = 4294967295.0;
   ServiceFlags flags;
@@ -123,7 +137,9 @@ ServiceFlags Read(Service service, FlagValues* values) {
     flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
     if (values->Text("--record")) flags.record = values->TextOr("", "--record");
     flags.impair = ReadImpairment(values);
+    flags.resume = ReadResumed(values);
     flags.partition_free = values->Switch("--partition-free");
+    flags.hang_on_signal = values->Switch("--hang-on-signal");
   }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <variant>
 
+#include "services/app/restart.h"
 #include "services/types/decision.h"
 #include "services/types/impairment.h"
 
@@ -23,6 +24,8 @@ struct ServiceFlags {
   std::string checkpoint;               // world only; the file it is kept in; empty: none is
   std::string record;                   // vehicle only; the file it is written to; empty: none is
   bool partition_free = false;          // vehicle only; beacons also without a partition
+  std::optional<Resumed> resume;        // vehicle only; it was itself before, see restart.h
+  bool hang_on_signal = false;          // vehicle only; a drill, see HangSignal
   std::optional<Impairment> impair;     // vehicle only; instead of the scenario's
   // Overrides of the scenario's; 0 moves nothing. Without the flag: the scenario's own seed.
   std::optional<std::uint32_t> seed;

@@ -14,6 +14,9 @@
 namespace giveway::app {
 namespace {
 
+// Of the line being written: lines are formatted on the thread that logs.
+thread_local SteadyTime line_at{0};
+
 std::string_view View(spdlog::string_view_t text) { return {text.data(), text.size()}; }
 
 class JsonFormatter : public spdlog::formatter {
@@ -22,9 +25,10 @@ class JsonFormatter : public spdlog::formatter {
     const auto time = std::chrono::floor<std::chrono::milliseconds>(message.time);
     const auto second = std::chrono::floor<std::chrono::seconds>(time);
     fmt::format_to(std::back_inserter(line),
-                   "{{\"time\":\"{:%FT%T}.{:03d}Z\",\"level\":{},\"process\":{},\"text\":{}}}\n",
+                   "{{\"time\":\"{:%FT%T}.{:03d}Z\",\"steady_ns\":{},\"level\":{},\"process\":{},"
+                   "\"text\":{}}}\n",
                    fmt::gmtime(std::chrono::system_clock::to_time_t(second)),
-                   (time - second).count(),
+                   (time - second).count(), line_at.count(),
                    JsonString(View(spdlog::level::to_string_view(message.level))),
                    JsonString(View(message.logger_name)), JsonString(View(message.payload)));
   }
@@ -45,7 +49,8 @@ std::shared_ptr<spdlog::logger>& Logger() {
   return logger;
 }
 
-void Log(spdlog::level::level_enum level, const std::string& text) {
+void Log(spdlog::level::level_enum level, const std::string& text, SteadyTime at) {
+  line_at = at;
   Logger()->log(level, spdlog::string_view_t(text.data(), text.size()));
 }
 
@@ -61,9 +66,11 @@ void InitLog(const std::string& process_name, const std::string& format, const s
   Logger() = std::move(logger);
 }
 
-void LogDebug(const std::string& text) { Log(spdlog::level::debug, text); }
-void LogInfo(const std::string& text) { Log(spdlog::level::info, text); }
-void LogWarning(const std::string& text) { Log(spdlog::level::warn, text); }
-void LogError(const std::string& text) { Log(spdlog::level::err, text); }
+void LogDebug(const std::string& text) { Log(spdlog::level::debug, text, SteadyNow()); }
+void LogInfo(const std::string& text) { LogInfo(text, SteadyNow()); }
+void LogInfo(const std::string& text, SteadyTime at) { Log(spdlog::level::info, text, at); }
+void LogWarning(const std::string& text) { LogWarning(text, SteadyNow()); }
+void LogWarning(const std::string& text, SteadyTime at) { Log(spdlog::level::warn, text, at); }
+void LogError(const std::string& text) { Log(spdlog::level::err, text, SteadyNow()); }
 
 }  // namespace giveway::app

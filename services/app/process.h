@@ -45,12 +45,16 @@ class Ticker {
   SteadyTime next_;
 };
 
-// Log lines go to stderr. Format "text" or "json" (one object a line: time, level, process, text),
-// level "debug", "info", "warning" or "error". Before InitLog: text from info on.
+// Log lines go to stderr. Format "text" or "json" (one object a line: time, steady_ns, level,
+// process, text; steady_ns is the steady clock, which all processes of a machine share), level
+// "debug", "info", "warning" or "error". Before InitLog: text from info on.
 void InitLog(const std::string& process_name, const std::string& format, const std::string& level);
 void LogDebug(const std::string& text);
 void LogInfo(const std::string& text);
 void LogWarning(const std::string& text);
+// About something that was noticed at `at`: that becomes the line's steady_ns.
+void LogInfo(const std::string& text, SteadyTime at);
+void LogWarning(const std::string& text, SteadyTime at);
 void LogError(const std::string& text);
 
 }  // namespace giveway::app

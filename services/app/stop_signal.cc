@@ -18,6 +18,14 @@ std::array<struct sigaction, kSignals.size()> before;
 
 void OnStop(int /*signal*/) { stop_set = true; }
 
+// A process that restarted itself held its signals back until now.
+void LetPass() {
+  sigset_t ours;
+  sigemptyset(&ours);
+  for (const int number : kSignals) sigaddset(&ours, number);
+  sigprocmask(SIG_UNBLOCK, &ours, nullptr);
+}
+
 }  // namespace
 
 StopSignal::StopSignal() {
@@ -32,6 +40,7 @@ StopSignal::StopSignal() {
     const int failed = sigaction(kSignals[i], &action, &before[i]);
     GIVEWAY_CHECK(failed == 0, kSignals[i]);
   }
+  LetPass();
 }
 
 StopSignal::~StopSignal() {

@@ -75,7 +75,8 @@ std::string Describe(ProcessEnd end) {
   return "signal " + std::to_string(end.number) + " (" + ::strsignal(end.number) + ")";
 }
 
-ChildProcess::ChildProcess(const ChildCommand& command) : name_(command.name) {
+ChildProcess::ChildProcess(const ChildCommand& command)
+    : name_(command.name), hands_on_lines_(command.hands_on_lines) {
   if (!command.log_file.empty()) {
     log_.open(command.log_file, std::ios::trunc);
     if (!log_) throw StartError("cannot write " + command.log_file + ": " + ErrnoText());
@@ -132,6 +133,7 @@ void ChildProcess::KeepLines(const char* text, std::size_t size) {
       if (unfinished_line_.size() < kLongestLine) unfinished_line_.push_back(character);
       continue;
     }
+    if (hands_on_lines_) lines_.push_back(unfinished_line_);
     last_lines_.push_back(std::move(unfinished_line_));
     unfinished_line_.clear();
     if (last_lines_.size() > kLinesKept) last_lines_.pop_front();

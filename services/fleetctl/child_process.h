@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/fleetctl/file_descriptor.h"
@@ -39,13 +40,15 @@ struct ChildCommand {
   std::vector<std::string> words;  // the program's path, then its arguments
   std::string log_file;            // everything the child says is copied here; empty: nowhere
   int kept_fd = -1;                // stays open in the child as descriptor 3; -1: none
+  bool hands_on_lines = false;     // every line is kept for TakeLines
 };
 
 class ChildProcess {
  public:
   static constexpr std::size_t kLinesKept = 20;
 
-  // Call from the main thread: the parent-death signal is tied to the thread that forks.
+  // Call from the main thread, or one that outlives the child: the parent-death signal is tied to
+  // the thread that forks.
   explicit ChildProcess(const ChildCommand& command);  // Throws StartError.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -60,6 +63,8 @@ class ChildProcess {
 
   const std::string& Name() const { return name_; }
   pid_t Pid() const { return pid_; }
+  // The whole lines it said since the last call, where the command asked for that.
+  std::vector<std::string> TakeLines() { return std::exchange(lines_, {}); }
   // The last lines the child said, oldest first.
   const std::deque<std::string>& LastLines() const { return last_lines_; }
 
@@ -71,9 +76,11 @@ class ChildProcess {
   pid_t pid_ = -1;
   FileDescriptor output_;
   std::ofstream log_;
+  bool hands_on_lines_;
   std::optional<ProcessEnd> end_;
   std::string unfinished_line_;
   std::deque<std::string> last_lines_;
+  std::vector<std::string> lines_;
 };
 
 }  // namespace giveway::fleetctl

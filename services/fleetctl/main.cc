@@ -14,7 +14,7 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
     return error;
   }
   return "there is no verb '" + std::string(argv[1]) +
-         "'; verbs: listen, qos, replay, run, shrink, top, virtual";
+         "'; verbs: listen, qos, replay, run, shrink, stopwatch, top, virtual";
 }
 
 }  // namespace
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddShrinkVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddStopwatchVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddTopVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);
   try {

@@ -4,85 +4,118 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <optional>
-#include <thread>
 
 #include "services/app/json_line.h"
 #include "services/fleetctl/exit_codes.h"
+#include "services/fleetctl/interrupts.h"
+#include "services/fleetctl/orders.h"
 #include "services/fleetctl/qos_effective.h"
-#include "services/link/observer_link.h"
-#include "services/types/check.h"
+#include "services/qos/deployment.h"
+#include "services/qos/xml_tree.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(10);
-constexpr auto kPoll = std::chrono::milliseconds(20);
 
-// One value of the vehicle's status, and the row of the file it stands for.
+// One live value, and what the file it should run with makes of it; nothing where it has no such
+// endpoint or value.
 struct Told {
   std::string profile;
-  std::string value;
-  QosRow expected;
+  QosRow live;
+  std::optional<QosRow> expected;
+
+  bool AsExpected() const { return !expected || expected->value == live.value; }
 };
 
-std::optional<VehicleStatus> StatusOf(const QosLiveOptions& options, const std::string& file) {
+std::optional<AdminAnswer> AnswerOf(const QosLiveOptions& options, const std::string& file) {
   link::LinkOptions link_options;
   link_options.domain = options.domain;
   link_options.interface = options.set.interface;
   link_options.qos_file = file;
   link_options.fleet_size = options.set.vehicles;
-  link::ObserverLink observer(link_options);
-  const auto end = std::chrono::steady_clock::now() + kPatience;
-  while (std::chrono::steady_clock::now() < end) {
-    for (const VehicleStatus& status : observer.Take().statuses) {
-      if (Number(status.vehicle) == options.vehicle) return status;
+  const Interrupts interrupts;
+  Orders orders(link_options);
+  const VehicleId vehicle{options.vehicle};
+  if (!orders.Seek({vehicle}, kPatience).empty()) return std::nullopt;
+  return orders.Give(TellOrder(vehicle), kPatience);
+}
+
+// The live endpoints, with the origin of each value in the file that the vehicle has.
+std::vector<EffectiveEndpoint> LiveEndpoints(const AdminAnswer& answer) {
+  std::vector<link::ResolvedEntity> entities;
+  for (const LiveValue& value : answer.live) {
+    if (entities.empty() || entities.back().profile != value.profile) {
+      const qos::Topic* const topic = qos::TopicOfProfile(value.profile);
+      entities.push_back({value.profile, topic == nullptr ? "" : std::string(topic->name), {}});
     }
-    std::this_thread::sleep_for(kPoll);
+    entities.back().values.push_back({value.policy, value.number});
   }
-  return std::nullopt;
+  const qos::XmlRead read = qos::ReadXml(answer.profiles.text, answer.profiles.name);
+  return EffectiveQos(entities, read.root ? qos::ReadProfiles(*read.root, answer.profiles.name)
+                                          : qos::ProfileSet{});
 }
 
-// The status tells milliseconds; infinite is a time nobody lives to see.
-std::string DurationOf(double milliseconds) {
-  if (milliseconds >= 2147483647e3) return qos::DurationText(qos::kInfinite);
-  return qos::DurationText(std::llround(milliseconds * 1e6));
-}
-
-Told Beside(const EffectiveSet& set, const std::string& profile, const std::string& policy,
-            double milliseconds) {
+std::optional<QosRow> Expected(const EffectiveSet& set, const std::string& profile,
+                               const std::string& policy) {
   const auto endpoint = std::ranges::find(set.endpoints, profile, &EffectiveEndpoint::profile);
-  GIVEWAY_CHECK(endpoint != set.endpoints.end(), profile);
+  if (endpoint == set.endpoints.end()) return {};
   const auto row = std::ranges::find(endpoint->rows, policy, &QosRow::policy);
-  GIVEWAY_CHECK(row != endpoint->rows.end(), policy);
-  return {profile, DurationOf(milliseconds), *row};
+  return row == endpoint->rows.end() ? std::nullopt : std::optional(*row);
 }
 
-std::string ToText(const Told& told, const std::string& file) {
-  const std::string origin = OriginText(told.expected, file);
-  return fmt::format("  {:<20} {:<17} {:<10} {}\n", told.profile, told.expected.policy, told.value,
-                     told.value == told.expected.value
-                         ? origin
-                         : fmt::format("not {} as by {}", told.expected.value, origin));
+std::vector<Told> HoldAgainst(const EffectiveSet& set, const AdminAnswer& answer,
+                              const std::vector<std::string>& wanted) {
+  std::vector<Told> all;
+  for (const EffectiveEndpoint& endpoint : LiveEndpoints(answer)) {
+    const auto is_it = [&](const std::string& word) {
+      return word == endpoint.profile || word == endpoint.topic;
+    };
+    if (!wanted.empty() && std::ranges::none_of(wanted, is_it)) continue;
+    for (const QosRow& row : endpoint.rows) {
+      all.push_back({endpoint.profile, row, Expected(set, endpoint.profile, row.policy)});
+    }
+  }
+  return all;
+}
+
+std::string ToText(const Told& told, const std::string& own_file, const std::string& file) {
+  const std::string origin = OriginText(told.live, own_file);
+  return fmt::format("  {:<28} {:<24} {}{}\n", told.live.policy, told.live.value, origin,
+                     told.AsExpected() ? ""
+                                       : fmt::format("; not {} as by {}", told.expected->value,
+                                                     OriginText(*told.expected, file)));
 }
 
 std::string ToJson(const Told& told) {
-  return fmt::format(R"({{"profile":"{}","policy":"{}","value":"{}","expected":"{}","line":{}}})",
-                     told.profile, told.expected.policy, told.value, told.expected.value,
-                     told.expected.line);
+  std::string json =
+      fmt::format(R"({{"profile":"{}","policy":"{}","value":{},"origin":"{}")", told.profile,
+                  told.live.policy, app::JsonString(told.live.value), Name(told.live.origin));
+  if (told.live.line > 0) json += fmt::format(R"(,"line":{})", told.live.line);
+  if (told.expected)
+    json += fmt::format(R"(,"expected":{})", app::JsonString(told.expected->value));
+  return json + "}";
 }
 
-void Print(const QosLiveOptions& options, const std::string& file, const std::vector<Told>& all) {
+void Print(const QosLiveOptions& options, const std::string& file, const AdminAnswer& answer,
+           const std::vector<Told>& all) {
   std::string text;
+  std::string profile;
   for (const Told& told : all) {
-    if (options.set.json && !text.empty()) text += ",";
-    text += options.set.json ? ToJson(told) : ToText(told, file);
+    if (options.set.json) {
+      text += (text.empty() ? "" : ",") + ToJson(told);
+      continue;
+    }
+    if (told.profile != profile) text += told.profile + "\n";
+    profile = told.profile;
+    text += ToText(told, answer.profiles.name, file);
   }
   if (options.set.json) {
-    text = fmt::format(R"({{"vehicle":{},"domain":{},"file":{},"values":[{}]}})", options.vehicle,
-                       options.domain, app::JsonString(file), text) +
+    text = fmt::format(R"({{"vehicle":{},"domain":{},"runs_with":{},"file":{},"values":[{}]}})",
+                       options.vehicle, options.domain, app::JsonString(answer.profiles.name),
+                       app::JsonString(file), text) +
            "\n";
   }
   std::fputs(text.c_str(), stdout);
@@ -93,22 +126,18 @@ void Print(const QosLiveOptions& options, const std::string& file, const std::ve
 int RunQosLive(const QosLiveOptions& options) {
   const EffectiveSet set =
       EffectiveQosOfFile(options.set.qos_file, options.set.interface, options.set.vehicles);
-  const auto status = StatusOf(options, set.file);
-  if (!status) {
+  const auto answer = AnswerOf(options, set.file);
+  if (!answer) {
     std::fprintf(stderr,
                  "vehicle %u is not heard in domain %u; give the domain and the interface "
                  "that its fleet was started with\n",
                  options.vehicle, options.domain);
     return kCouldNotRun;
   }
-  const std::vector<Told> all = {
-      Beside(set, "fleet_beacon_writer", "deadline", status->beacon_deadline_offered_ms),
-      Beside(set, "fleet_beacon_reader", "deadline", status->beacon_deadline_requested_ms),
-      Beside(set, "fleet_beacon_reader", "liveliness_lease", status->beacon_lease_ms)};
-  Print(options, set.file, all);
+  const std::vector<Told> all = HoldAgainst(set, *answer, options.set.wanted);
+  Print(options, set.file, *answer, all);
   if (std::fflush(stdout) != 0) return kCouldNotRun;
-  const auto as_expected = [](const Told& told) { return told.value == told.expected.value; };
-  return std::ranges::all_of(all, as_expected) ? 0 : 1;
+  return std::ranges::all_of(all, &Told::AsExpected) ? 0 : 1;
 }
 
 }  // namespace giveway::fleetctl

@@ -1,5 +1,3 @@
-#include "services/fleetctl/qos_tune_verb.h"
-
 #include <limits>
 #include <memory>
 #include <string>
@@ -7,6 +5,7 @@
 #include "services/app/impair_text.h"
 #include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/tune_run.h"
+#include "services/fleetctl/verbs.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -4,7 +4,6 @@
 #include "services/fleetctl/qos_check.h"
 #include "services/fleetctl/qos_live.h"
 #include "services/fleetctl/qos_show.h"
-#include "services/fleetctl/qos_tune_verb.h"
 #include "services/fleetctl/verbs.h"
 
 namespace giveway::fleetctl {
@@ -33,8 +32,8 @@ Exit code: 0 nothing found, 1 warnings, 2 errors, or it could not run.
 constexpr const char* kShowFooter = R"(
 The library itself resolves the profiles, as it would for a service; no socket is opened. Each value
 comes with its origin: FILE:LINE, library default, code (follows from fleet size, area or id),
-environment or flag. --live asks a running vehicle for the deadlines and the lease of its beacons,
-which it tells in its status, and says where they differ from the file.
+environment or flag. --live asks a running vehicle what its endpoints have now, with the origins in
+the file that it was started with or given since, and says where that differs from --qos.
 
 Examples
   fleetctl qos show fleet/beacon
@@ -103,12 +102,12 @@ void AddShow(CLI::App* qos, int* exit_code) {
 }  // namespace
 
 void AddQosVerb(CLI::App* fleetctl, int* exit_code) {
-  CLI::App* qos = fleetctl->add_subcommand("qos", "Explain, check and tune QoS profiles");
+  CLI::App* qos = fleetctl->add_subcommand("qos", "Explain, check, change and tune QoS");
   qos->require_subcommand(1);
-  qos->footer(
-      "\nMore: fleetctl qos check --help, fleetctl qos show --help, fleetctl qos tune --help\n");
+  qos->footer("\nMore: fleetctl qos check --help, and so on\n");
   AddCheck(qos, exit_code);
   AddShow(qos, exit_code);
+  AddQosApply(qos, exit_code);
   AddQosTune(qos, exit_code);
 }
 

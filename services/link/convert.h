@@ -5,6 +5,7 @@
 #pragma once
 
 #include "services/link/fastdds_version.h"
+#include "services/types/admin.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
@@ -24,6 +25,8 @@ wire::MotorCommand ToWire(const MotorCommand& command);
 wire::Status ToWire(const VehicleStatus& status);
 wire::Join ToWire(const JoinRequest& request);
 wire::Roster ToWire(const RosterEntry& entry);
+wire::Order ToWire(const AdminOrder& order);
+wire::Answer ToWire(const AdminAnswer& answer);
 wire::Truth ToWire(const Truth& truth);
 wire::Event ToWire(const WorldEvent& event);
 wire::Figures ToWire(const RunFigures& figures);
@@ -44,6 +47,8 @@ bool FromWire(const wire::MotorCommand& sample, MotorCommand& command);
 bool FromWire(const wire::Status& sample, VehicleStatus& status);
 bool FromWire(const wire::Join& sample, JoinRequest& request);
 bool FromWire(const wire::Roster& sample, RosterEntry& entry);
+bool FromWire(const wire::Order& sample, AdminOrder& order);
+bool FromWire(const wire::Answer& sample, AdminAnswer& answer);
 bool FromWire(const wire::Truth& sample, Truth& truth);
 bool FromWire(const wire::Event& sample, WorldEvent& event);
 bool FromWire(const wire::Figures& sample, RunFigures& figures);

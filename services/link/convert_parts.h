@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "services/link/fastdds_version.h"
+#include "services/types/admin.h"
 #include "services/types/decision.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/pose.h"
@@ -30,6 +31,8 @@ static_assert(SameOrder(wire::QosEventKind::QOS_EVENT_INCOMPATIBLE_QOS,
                         giveway::QosEventKind::kIncompatibleQos));
 static_assert(SameOrder(wire::RunPhase::RUN_ENDED, RunState::kEnded));
 static_assert(SameOrder(wire::EventKind::EVENT_VERDICT, giveway::EventKind::kVerdict));
+static_assert(SameOrder(wire::OrderKind::ORDER_APPLY, giveway::OrderKind::kApply));
+static_assert(SameOrder(wire::AnswerState::ANSWER_REFUSED, giveway::AnswerState::kRefused));
 
 template <typename Wire, typename Ours>
 constexpr Wire ToWireEnum(Ours ours) {
@@ -123,11 +126,10 @@ inline std::optional<double> FromWirePart(const wire::OptionalNumber& sent) {
   return sent.known() ? std::optional(sent.number()) : std::nullopt;
 }
 
-// At most 255 bytes, never ending inside a UTF-8 character.
-inline std::string CutText(std::string_view text) {
-  constexpr std::size_t kBytes = 255;
-  if (text.size() <= kBytes) return std::string(text);
-  std::size_t end = kBytes;
+// At most so many bytes, never ending inside a UTF-8 character.
+inline std::string CutText(std::string_view text, std::size_t most = 255) {
+  if (text.size() <= most) return std::string(text);
+  std::size_t end = most;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   return std::string(text.substr(0, end));
 }

@@ -48,6 +48,11 @@ void Impairer::Start(SteadyTime now) {
   model_.Start(now);
 }
 
+std::optional<SteadyTime> Impairer::Started() const {
+  const std::scoped_lock lock(mutex_);
+  return model_.Started();
+}
+
 void Impairer::OnWriter(const PrefixBytes& process, const std::vector<std::string>& partitions) {
   const Sender named = NamedBy(partitions);
   if (named.kind == Sender::Kind::kUnknown) return;

@@ -30,6 +30,7 @@ class Impairer {
   void NameOwn(const PrefixBytes& own);
   void NameHearer(VehicleId hearer);
   void Start(SteadyTime now);
+  std::optional<SteadyTime> Started() const;
   // Discovery of a writer tells whose process it is: a vehicle by its beacon writer in
   // `<area>/v<id>`, the world by any in `world`. What is known once is known for good.
   void OnWriter(const PrefixBytes& process, const std::vector<std::string>& partitions);

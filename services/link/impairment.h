@@ -42,6 +42,7 @@ class ChannelModel {
   void NameHearer(VehicleId hearer);
   // The start signal was heard: blackouts are counted from `now`. Only the first call counts.
   void Start(SteadyTime now);
+  const std::optional<SteadyTime>& Started() const { return started_; }
   // `now` never goes back.
   PacketFate Decide(const Sender& sender, std::uint32_t bytes, SteadyTime now);
 

@@ -160,10 +160,12 @@ dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& p
   auto* writer = publisher->create_datawriter(&topic, WriterQos(*publisher, profile, depth),
                                               nullptr, dds::StatusMask::none());
   if (writer == nullptr) ThrowNotMade("writer of profile \"" + profile + "\"");
+  writers_.emplace_back(profile, writer);
   return *writer;
 }
 
 void Participant::Delete(dds::DataWriter& writer) {
+  std::erase_if(writers_, [&](const auto& made) { return made.second == &writer; });
   // The library shows a writer its publisher only as const; it was made for this writer alone.
   auto* publisher = const_cast<dds::Publisher*>(writer.get_publisher());
   publisher->delete_datawriter(&writer);
@@ -182,6 +184,7 @@ dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& p
   auto* reader =
       subscriber->create_datareader(&topic, ReaderQos(*subscriber, profile, depth), listener, mask);
   if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
+  readers_.emplace_back(profile, reader);
   return *reader;
 }
 

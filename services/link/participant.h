@@ -6,10 +6,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "services/link/endpoint.h"
 #include "services/link/link_options.h"
 #include "services/link/topics.h"
+#include "services/types/admin.h"
 #include "services/types/ids.h"
 
 namespace giveway::link {
@@ -42,6 +45,12 @@ class Participant {
   // Deletes a writer made here, and its publisher. What is left goes with the participant.
   void Delete(dds::DataWriter& writer);
 
+  // Every value of every endpoint there is now, as the library has it.
+  std::vector<LiveValue> LiveQos() const;
+  // Gives the endpoints of a profile another deadline while they run. False if the library refused
+  // it for one of them.
+  bool SetDeadline(const std::string& profile, const Duration& deadline);
+
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
   // Null where no impairment was asked for.
   Impairer* ImpairerOrNull() const { return impairer_.get(); }
@@ -65,6 +74,8 @@ class Participant {
   std::shared_ptr<Impairer> impairer_;
   std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
+  std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
+  std::vector<std::pair<std::string, dds::DataReader*>> readers_;
 };
 
 // What an entity is made with: its profile as the library read it, and what code adds. Throw

@@ -3,8 +3,9 @@
 #include <utility>
 
 namespace giveway::link {
-PeerEvents::PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own)
-    : names_(names), own_(own) {}
+
+PeerEvents::PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own, std::string area)
+    : names_(names), own_(own), area_(std::move(area)) {}
 
 void PeerEvents::Matched(VehicleId vehicle) {
   ++matched_writers_;
@@ -27,11 +28,37 @@ void PeerEvents::Heard(VehicleId vehicle) {
   if (peer != peers_.end()) peer->second.missed = false;
 }
 
+VehicleId PeerEvents::NewestUnmatched() {
+  if (area_.empty()) return kNobody;
+  const WriterEntry* newest = nullptr;
+  names_.ForEach([&](const WriterEntry& entry) {
+    if (entry.area != area_ || matched_.contains(entry.identity)) return;
+    if (unfit_.contains(entry.identity)) return;
+    if (newest == nullptr || entry.found > newest->found) newest = &entry;
+  });
+  std::erase_if(unfit_, [this](std::uint64_t writer) { return names_.Find(writer) == nullptr; });
+  if (newest == nullptr) return kNobody;
+  unfit_.insert(newest->identity);
+  return newest->vehicle;
+}
+
+void PeerEvents::NoteMatch(const ReaderEvent& event) {
+  const std::uint64_t writer = Identity(GuidOf(event.handle));
+  if (event.kind == ReaderEvent::Kind::kMatched) {
+    matched_.insert(writer);
+    unfit_.erase(writer);
+  } else if (event.kind == ReaderEvent::Kind::kUnmatched) {
+    matched_.erase(writer);
+  }
+}
+
 void PeerEvents::Translate(std::span<const ReaderEvent> events, SteadyTime now,
                            std::vector<QosEvent>& told) {
+  // All matches first: who is matched a moment later is not the one that does not fit.
+  for (const ReaderEvent& event : events) NoteMatch(event);
   for (const ReaderEvent& event : events) {
     if (event.kind == ReaderEvent::Kind::kIncompatibleQos) {
-      told.push_back({QosEventKind::kIncompatibleQos, kNobody, now});
+      told.push_back({QosEventKind::kIncompatibleQos, NewestUnmatched(), now});
       continue;
     }
     if (event.kind == ReaderEvent::Kind::kDeadlineMissed) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -17,8 +18,9 @@ namespace giveway::link {
 
 class PeerEvents {
  public:
-  // Nothing is told of writers with the prefix `own`: a reader matches its own participant's.
-  PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own);
+  // Of a reader of the beacons of `area`, or of another topic where it is empty. Nothing is told of
+  // writers with the prefix `own`: a reader matches its own participant's.
+  PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own, std::string area);
 
   // Appends to `told`. `names` must be updated after `events` were taken.
   void Translate(std::span<const ReaderEvent> events, SteadyTime now, std::vector<QosEvent>& told);
@@ -35,15 +37,23 @@ class PeerEvents {
     bool missed = false;
   };
 
+  void NoteMatch(const ReaderEvent& event);
   void Matched(VehicleId vehicle);
   void Unmatched(VehicleId vehicle);
   bool IsNewMiss(VehicleId vehicle);
+  // Whom an incompatible writer belongs to. The library says that there is one and not which: it is
+  // one that was discovered in the area, is not matched, and was not told of before; the newest,
+  // for a writer is discovered the moment before it is found not to fit. kNobody if there is none.
+  VehicleId NewestUnmatched();
 
   const WriterNames& names_;
   rtps::GuidPrefix_t own_;
+  const std::string area_;
   std::uint32_t matched_writers_ = 0;
   std::unordered_map<VehicleId, Peer> peers_;    // with at least one matched writer
   std::unordered_set<std::uint64_t> not_alive_;  // matched writers that fell silent, by identity
+  std::unordered_set<std::uint64_t> matched_;    // own included
+  std::unordered_set<std::uint64_t> unfit_;      // told to be incompatible
 };
 
 }  // namespace giveway::link

@@ -68,6 +68,8 @@ std::vector<ResolvedEntity> ResolveQos(const LinkOptions& options) {
   participant.Append<wire::Beacon>(kOfProfile, resolved);
   participant.Append<wire::MotorCommand>(kOfProfile, resolved);
   participant.Append<wire::Status>(kOfProfile, resolved);
+  participant.Append<wire::Order>(kOfProfile, resolved);
+  participant.Append<wire::Answer>(kOfProfile, resolved);
   participant.Append<wire::Join>(kOfProfile, resolved);
   participant.Append<wire::RangeScan>(kOfProfile, resolved);
   participant.Append<wire::RadarScan>(kOfProfile, resolved);

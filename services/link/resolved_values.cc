@@ -56,6 +56,12 @@ std::vector<ResolvedValue> EndpointValues(const Qos& qos, const Around& around) 
 
 }  // namespace
 
+Duration ToDuration(std::int64_t nanoseconds) {
+  if (nanoseconds == kInfiniteDuration) return dds::DeadlineQosPolicy().period;
+  return {static_cast<std::int32_t>(nanoseconds / 1'000'000'000),
+          static_cast<std::uint32_t>(nanoseconds % 1'000'000'000)};
+}
+
 std::vector<ResolvedValue> ValuesOf(const dds::DataWriterQos& qos,
                                     const dds::PublisherQos& around) {
   std::vector<ResolvedValue> values = EndpointValues(qos, around);

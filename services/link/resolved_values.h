@@ -8,6 +8,9 @@
 
 namespace giveway::link {
 
+// Back from a number of nanoseconds, or kInfiniteDuration.
+Duration ToDuration(std::int64_t nanoseconds);
+
 std::vector<ResolvedValue> ValuesOf(const dds::DomainParticipantQos& qos);
 std::vector<ResolvedValue> ValuesOf(const dds::DataWriterQos& qos, const dds::PublisherQos& around);
 std::vector<ResolvedValue> ValuesOf(const dds::DataReaderQos& qos,

@@ -24,6 +24,10 @@ GIVEWAY_TOPIC(MotorCommand, "fleet/motor_command", "fleet_motor_command");  // v
 GIVEWAY_TOPIC(Status, "fleet/status", "fleet_status");                      // v<id>
 GIVEWAY_TOPIC(Join, "fleet/join", "fleet_join");                            // fleet
 
+// Between an operator and a vehicle, in its partition v<id>; keyed by vehicle.
+GIVEWAY_TOPIC(Order, "fleet/admin", "fleet_admin");
+GIVEWAY_TOPIC(Answer, "fleet/answer", "fleet_answer");
+
 // From the world to one vehicle, in its partition v<id>; but for ranges only where fitted.
 GIVEWAY_TOPIC(RangeScan, "world/ranges", "world_ranges");
 GIVEWAY_TOPIC(RadarScan, "world/radar", "world_radar");

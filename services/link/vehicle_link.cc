@@ -8,6 +8,7 @@
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
 #include "services/link/reader_events.h"
+#include "services/link/resolved_values.h"
 #include "services/link/roster_inbox.h"
 #include "services/link/scan_inbox.h"
 #include "services/link/signal_inbox.h"
@@ -73,6 +74,8 @@ struct OwnEndpoints {
             options.area + "/*", Participant::kProfileDepth, &events, ReaderEvents::Mask())),
         command_writer(participant.MakeWriter<wire::MotorCommand>(VehiclePartition(id))),
         status_writer(participant.MakeWriter<wire::Status>(VehiclePartition(id))),
+        order_reader(participant.MakeReader<wire::Order>(VehiclePartition(id))),
+        answer_writer(participant.MakeWriter<wire::Answer>(VehiclePartition(id))),
         beacons(beacon_reader, names, participant.Prefix()),
         ranges(participant.MakeReader<wire::RangeScan>(VehiclePartition(id)), id),
         sensors(id, profile, participant),
@@ -102,6 +105,8 @@ struct OwnEndpoints {
   Reader<wire::Beacon> beacon_reader;
   Writer<wire::MotorCommand> command_writer;
   Writer<wire::Status> status_writer;
+  Reader<wire::Order> order_reader;
+  Writer<wire::Answer> answer_writer;
   BeaconInbox beacons;
   ScanInbox<wire::RangeScan, RangeScan> ranges;
   FittedSensors sensors;
@@ -116,7 +121,7 @@ struct VehicleLink::Impl {
         participant(options, "giveway-vehicle", names),
         join_writer(participant.MakeWriter<wire::Join>("fleet")),
         roster(participant.MakeReader<wire::Roster>(kWorld)),
-        peers(names, participant.Prefix()) {
+        peers(names, participant.Prefix(), options.area) {
     taken_beacons.reserve(kExpectedBeacons);
     qos_events.reserve(kExpectedBeacons);
   }
@@ -179,6 +184,8 @@ std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& tol
 }
 
 void VehicleLink::SendJoin(const JoinRequest& request) { impl_->SendJoin(request); }
+
+void VehicleLink::FlushJoin(Nanoseconds timeout) { impl_->join_writer.WaitUntilHeard(timeout); }
 
 std::optional<RosterEntry> VehicleLink::TakeRoster(const SessionId& session) {
   GIVEWAY_CHECK(impl_->joined && impl_->joined->session == session, "not the session that joined");
@@ -252,6 +259,29 @@ void VehicleLink::FlushStatus(Nanoseconds timeout) {
   impl_->Own().status_writer.WaitUntilHeard(timeout);
 }
 
+std::optional<AdminOrder> VehicleLink::TakeOrder() {
+  std::optional<AdminOrder> newest;
+  impl_->Own().order_reader.TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
+    AdminOrder order;
+    if (FromWire(sample, order)) newest = std::move(order);
+  });
+  return newest;
+}
+
+void VehicleLink::SendAnswer(const AdminAnswer& answer) {
+  impl_->CountWrite(impl_->Own().answer_writer.Write(ToWire(answer)));
+}
+
+void VehicleLink::FlushAnswer(Nanoseconds timeout) {
+  impl_->Own().answer_writer.WaitUntilHeard(timeout);
+}
+
+std::vector<LiveValue> VehicleLink::LiveQos() const { return impl_->participant.LiveQos(); }
+
+bool VehicleLink::SetDeadline(const std::string& profile, std::int64_t deadline) {
+  return impl_->participant.SetDeadline(profile, ToDuration(deadline));
+}
+
 VehicleLinkCounters VehicleLink::Counters() const {
   VehicleLinkCounters counters = impl_->counters;
   counters.events_dropped = impl_->events.Dropped();
@@ -279,6 +309,12 @@ std::optional<ImpairmentCounters> VehicleLink::Impaired() const {
   const Impairer* const impairer = impl_->participant.ImpairerOrNull();
   if (impairer == nullptr) return std::nullopt;
   return impairer->Counters();
+}
+
+std::optional<SteadyTime> VehicleLink::BlackoutsSince() const {
+  const Impairer* const impairer = impl_->participant.ImpairerOrNull();
+  if (impairer == nullptr) return std::nullopt;
+  return impairer->Started();
 }
 
 }  // namespace giveway::link

@@ -5,9 +5,12 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "services/link/link_options.h"
+#include "services/link/resolved_qos.h"
+#include "services/types/admin.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/impairment.h"
 #include "services/types/vehicle_io.h"
@@ -55,6 +58,8 @@ class VehicleLink {
 
   // Kept for worlds that start later: each of them finds the newest request of a session.
   void SendJoin(const JoinRequest& request);
+  // Waits until every matched world has the last request, or `timeout`.
+  void FlushJoin(Nanoseconds timeout);
   // The newest roster entry of this session, if one has come since the last call. `session` is that
   // of the last request.
   std::optional<RosterEntry> TakeRoster(const SessionId& session);
@@ -77,10 +82,24 @@ class VehicleLink {
   // Waits until every matched observer has the last status, or `timeout`.
   void FlushStatus(Nanoseconds timeout);
 
+  // The newest order to this vehicle, if one has come since the last call.
+  std::optional<AdminOrder> TakeOrder();
+  void SendAnswer(const AdminAnswer& answer);
+  // Waits until every matched operator has the last answer, or `timeout`.
+  void FlushAnswer(Nanoseconds timeout);
+  // What the endpoints there are now run with.
+  std::vector<LiveValue> LiveQos() const;
+  // Gives the endpoints of a profile another deadline while they run; one without endpoints here is
+  // passed over. `deadline` in nanoseconds, or kInfiniteDuration. False if the library refused.
+  bool SetDeadline(const std::string& profile, std::int64_t deadline);
+
   VehicleLinkCounters Counters() const;
   EffectiveBeaconQos BeaconQos() const;
   // What was injected into what this vehicle hears; nothing where no impairment was asked for.
   std::optional<ImpairmentCounters> Impaired() const;
+  // From when on this vehicle's blackouts are counted; nothing before the start signal, or where no
+  // impairment was asked for.
+  std::optional<SteadyTime> BlackoutsSince() const;
 
  private:
   struct Impl;

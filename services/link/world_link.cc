@@ -35,7 +35,7 @@ struct WorldLink::Impl {
         truth_writer(participant.MakeWriter<wire::Truth>(kWorld)),
         event_writer(participant.MakeWriter<wire::Event>(kWorld, EventDepth(options.fleet_size))),
         figures_writer(participant.MakeWriter<wire::Figures>(kWorld)),
-        vehicles(names, participant.Prefix()),
+        vehicles(names, participant.Prefix(), ""),
         command_wait(command_reader.Entity()) {}
 
   void FollowDiscovery() {

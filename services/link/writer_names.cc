@@ -29,6 +29,13 @@ VehicleId NamedVehicle(const std::vector<std::string>& partitions) {
   return VehicleId{number};
 }
 
+std::string BeaconArea(const std::vector<std::string>& partitions) {
+  if (NamedVehicle(partitions) == kNobody) return "";
+  const std::string& name = partitions.front();
+  const std::size_t slash = name.rfind('/');
+  return slash == std::string::npos ? "" : name.substr(0, slash);
+}
+
 std::uint64_t Identity(const rtps::GUID_t& endpoint) {
   static_assert(sizeof(endpoint.guidPrefix.value) + sizeof(endpoint.entityId.value) == 16);
   std::uint64_t high = 0;
@@ -49,7 +56,7 @@ rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle) {
 
 void WriterNames::OnWriter(Change change, const rtps::GUID_t& writer,
                            const std::vector<std::string>& partitions) {
-  const Queued queued{change, Identity(writer), NamedVehicle(partitions)};
+  const Queued queued{change, Identity(writer), NamedVehicle(partitions), BeaconArea(partitions)};
   const std::scoped_lock lock(mutex_);
   queue_.push_back(queued);
 }
@@ -69,6 +76,7 @@ void WriterNames::Update() {
       gone_.push_back(queued.identity);
     } else {
       entry.vehicle = queued.vehicle;
+      entry.area = queued.area;
     }
   }
   for (; gone_.size() > kGoneKept; gone_.pop_front()) {

@@ -19,6 +19,8 @@ namespace giveway::link {
 // The vehicle named by a writer's partitions: exactly one partition whose last part is `v<id>`.
 // kNobody for anything else: wildcards, several partitions, leading zeros, numbers out of range.
 VehicleId NamedVehicle(const std::vector<std::string>& partitions);
+// The area of a writer of beacons, whose partition is `<area>/v<id>`; empty for any other writer.
+std::string BeaconArea(const std::vector<std::string>& partitions);
 
 // 64 bits that stand for one endpoint; never 0. Mixed from all of its GUID, so that two among a
 // thousand endpoints coincide about once in 10^13 fleets.
@@ -29,6 +31,7 @@ rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle);
 // What the link knows of one writer.
 struct WriterEntry {
   VehicleId vehicle = kNobody;  // whom its partition names
+  std::string area;             // of a writer of beacons, else empty
   std::uint64_t identity = 0;
   std::uint64_t last_sequence = 0;  // of the last sample taken from it; 0 before the first
   bool gone = false;                // left; may be found again
@@ -48,12 +51,20 @@ class WriterNames final : public DiscoveryListener {
   WriterEntry* Find(const rtps::GUID_t& writer);
   const WriterEntry* Find(const rtps::GUID_t& writer) const;
   const WriterEntry* Find(std::uint64_t identity) const;
+  // Calls visit(entry) of every writer that is there, in no order.
+  template <typename Visit>
+  void ForEach(Visit&& visit) const {
+    for (const auto& [identity, entry] : writers_) {
+      if (!entry.gone) visit(entry);
+    }
+  }
 
  private:
   struct Queued {
     Change change;
     std::uint64_t identity;
     VehicleId vehicle;
+    std::string area;
   };
   std::mutex mutex_;
   std::vector<Queued> queue_;  // guarded by mutex_

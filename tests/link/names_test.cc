@@ -27,6 +27,15 @@ TEST(NamedVehicle, IsNobodyForAnythingElse) {
   EXPECT_EQ(NamedVehicle({"v1", "v2"}), kNobody);
 }
 
+TEST(BeaconArea, IsThatOfAWriterOfBeaconsAndOfNoOther) {
+  EXPECT_EQ(BeaconArea({"main/v4"}), "main");
+  EXPECT_EQ(BeaconArea({"hall_2/v17"}), "hall_2");
+  for (const char* name : {"v4", "world", "fleet", "main/*", "main/v0"}) {
+    EXPECT_EQ(BeaconArea({name}), "") << name;
+  }
+  EXPECT_EQ(BeaconArea({}), "");
+}
+
 rtps::GUID_t WriterNumber(std::uint32_t number) {
   rtps::GUID_t guid;
   guid.guidPrefix.value[11] = static_cast<rtps::octet>(number & 0xffU);

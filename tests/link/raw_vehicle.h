@@ -36,7 +36,7 @@ class RawListener {
                                                       link::Participant::kProfileDepth, &events_,
                                                       link::ReaderEvents::Mask())),
         inbox_(reader_, names_, participant_.Prefix()),
-        peers_(names_, participant_.Prefix()) {}
+        peers_(names_, participant_.Prefix(), "main") {}
 
   // One turn of VehicleLink::Take.
   void Listen() {

@@ -49,6 +49,19 @@ TEST(ChildProcess, ExitCodeAndLastLinesAreKept) {
   EXPECT_THAT(child.LastLines(), ElementsAre("to stdout", "to stderr", "unfinished"));
 }
 
+TEST(ChildProcess, EveryLineIsHandedOnOnceWhereThatIsAskedFor) {
+  ChildCommand command = Shell("for i in $(seq 1 1000); do echo line $i; done");
+  ChildProcess silent(command);
+  command.hands_on_lines = true;
+  ChildProcess child(command);
+  ASSERT_TRUE(WaitForEnd(&child) && WaitForEnd(&silent));
+  const std::vector<std::string> lines = child.TakeLines();
+  ASSERT_THAT(lines, SizeIs(1000));
+  EXPECT_EQ(lines.front(), "line 1");
+  EXPECT_THAT(child.TakeLines(), SizeIs(0));
+  EXPECT_THAT(silent.TakeLines(), SizeIs(0));
+}
+
 TEST(ChildProcess, OnlyTheLastTwentyLinesAreKept) {
   ChildProcess child(Shell("for i in $(seq 1 1000); do echo line $i; done"));
   ASSERT_TRUE(WaitForEnd(&child));

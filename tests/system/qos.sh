@@ -95,7 +95,7 @@ qos 2 "an unknown scenario" check --scenario no_such --json
 says "an unknown scenario" '.findings[0].rule == "could_not_run"'
 
 qos 0 "show" show --json
-says "show" '(.endpoints | length) == 27
+says "show" '(.endpoints | length) == 31
   and any(.endpoints[]; .profile == "fleet_beacon_writer" and any(.values[];
     .policy == "deadline" and .value == "100 ms" and .origin == "profile" and .line > 0))
   and any(.endpoints[].values[]; .policy == "heartbeat_period" and .origin == "code")
@@ -133,9 +133,11 @@ arrives() { # SET: the crossing under way passes
 
 crossing lossy_radio
 qos 0 "live" show --live 2 --domain "$domain" --qos lossy_radio --json
-says "live" '.vehicle == 2 and (.values | length == 3 and all(.[]; .value == .expected))'
+says "live" '.vehicle == 2 and .runs_with == "lossy_radio.xml" and (.values | length > 150) and
+  all(.values[]; .value == .expected) and any(.values[]; .profile == "fleet_beacon_reader" and
+  .policy == "liveliness_lease" and .value == "500 ms" and .origin == "profile" and .line > 0)'
 qos 1 "live, of another file" show --live 2 --domain "$domain"
-grep -q '200 ms .*not 150 ms as by' "$SCRATCH/out" || fail "live: $(cat "$SCRATCH/out")"
+grep -q '200 ms .*lossy_radio.xml:[0-9]*; not 150 ms as by' "$SCRATCH/out" || fail "live: $(cat "$SCRATCH/out")"
 arrives lossy_radio
 crossing same_host
 arrives same_host

@@ -255,6 +255,33 @@ TEST(Admission, AVehicleKilledByPlanMayComeBackIntoAClosedRun) {
   EXPECT_EQ(door.run.EndReason(), "process_died");
 }
 
+TEST(Admission, WhoAsksAgainWithItsSessionHasTimeForItsFirstWords) {
+  Door door(ClosedScenario());
+  door.Join(Ask(1, 1));
+  door.Join(Ask(2, 2));
+  door.run.Start();
+  door.Tick(5);
+  door.dead.insert(VehicleId{2});  // it restarts itself
+  door.Tick(10);
+  EXPECT_TRUE(door.Join(Ask(2, 2)).accepted);
+  door.Tick(80);  // four seconds; without the question one is the end of a closed run
+  EXPECT_EQ(door.run.State(), RunState::kRunning);
+  door.Tick(25);  // but not for ever
+  EXPECT_EQ(door.run.EndReason(), "process_died");
+}
+
+TEST(Admission, AskingAgainDoesNotBringBackWhoWasSilentForTooLong) {
+  Door door(ClosedScenario());
+  door.Join(Ask(1, 1));
+  door.Join(Ask(2, 2));
+  door.run.Start();
+  door.Tick(5);
+  door.dead.insert(VehicleId{2});
+  door.Tick(25);
+  door.Join(Ask(2, 2));
+  EXPECT_EQ(door.run.EndReason(), "process_died");
+}
+
 TEST(Admission, AGoodByeEndsAClosedRun) {
   Door door(ClosedScenario());
   door.Join(Ask(1, 1));

@@ -139,8 +139,11 @@ TEST(Flags, OnlyAVehicleBeaconsWithoutAPartitionAndOnlyIfAsked) {
   const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
   EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).partition_free);
   std::vector<const char*> words = least;
+  EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).hang_on_signal);
   words.push_back("--partition-free");
+  words.push_back("--hang-on-signal");
   EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).partition_free);
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).hang_on_signal);
   CaptureStderr();
   EXPECT_EQ(std::get<int>(World(words)), 2);
   EXPECT_THAT(GetCapturedStderr(), HasSubstr("--partition-free"));

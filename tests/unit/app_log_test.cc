@@ -26,10 +26,21 @@ TEST(Log, ALineIsAJsonObject) {
   InitLog("vehicle 1", "json", "debug");
   LogDebug("gives way to {} \"2\"\n");
   const std::string line = GetCapturedStderr();
-  EXPECT_THAT(line, ::testing::MatchesRegex(
-                        R"(\{"time":"....-..-..T..:..:..\....Z","level":"debug",)"
-                        R"("process":"vehicle 1","text":"gives way to \{\} \\"2\\"\\n"\})"
-                        "\n"));
+  EXPECT_THAT(line,
+              ::testing::MatchesRegex(
+                  R"(\{"time":"....-..-..T..:..:..\....Z","steady_ns":[0-9]+,"level":"debug",)"
+                  R"("process":"vehicle 1","text":"gives way to \{\} \\"2\\"\\n"\})"
+                  "\n"));
+}
+
+TEST(Log, ALineCarriesWhenItWasNoticedAndNotWhenItWasWritten) {
+  CaptureStderr();
+  InitLog("vehicle 1", "json", "info");
+  LogWarning("beacon_stale: vehicle 2", SteadyTime{1234});
+  LogInfo("cruise");
+  const std::string lines = GetCapturedStderr();
+  EXPECT_THAT(lines, HasSubstr("\"steady_ns\":1234,"));
+  EXPECT_THAT(lines.substr(lines.find('\n')), ::testing::Not(HasSubstr("\"steady_ns\":1234,")));
 }
 
 TEST(Log, TextNamesLevelAndProcess) {

@@ -2,12 +2,23 @@
 
 #include <csignal>
 
+#include "services/app/hang_signal.h"
 #include "services/app/process.h"
 
 namespace giveway::app {
 namespace {
 
 using namespace std::chrono_literals;
+
+TEST(HangSignal, TheFirstMakesTheLoopHangAndTheNextLetsItGo) {
+  EXPECT_FALSE(HangSignal::IsUp());
+  const HangSignal drill;
+  EXPECT_FALSE(HangSignal::IsUp());
+  std::raise(SIGUSR2);
+  EXPECT_TRUE(HangSignal::IsUp());
+  std::raise(SIGUSR2);
+  EXPECT_FALSE(HangSignal::IsUp());
+}
 
 TEST(Ticker, OnTimeNothingIsMissed) {
   const NextTick next = AfterDeadline(100ms, 50ms, 60ms);

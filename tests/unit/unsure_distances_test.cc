@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "services/types/math.h"
+#include "services/vehicle/echoes.h"
 #include "services/vehicle/situation.h"
 #include "tests/support/brain_bench.h"
 
@@ -45,6 +46,17 @@ class Onlooker {
   bool CanMatter(const Pose& pose, const PoseCovariance& covariance) {
     At(pose, covariance);
     return giveway::CanMatter(peer_, true, *situation_);
+  }
+  // Whether an echo straight ahead, so much nearer than the body of a peer 1.5 m ahead, is its own.
+  bool TakesForItsOwn(double nearer_m, const PoseCovariance& covariance) {
+    const PeerView view = At({{1.5, 0}, kPi}, covariance);
+    const std::size_t ahead = 3;  // the sensor that looks most nearly ahead
+    const Vec2 mount = options_.profile.sonar[ahead].position_body;
+    RangeScan scan = test::ClearScan(2);
+    test::SetEcho(&scan, 3, Norm(Vec2{1.5, 0} - mount) - peer_.beacon.body_radius_m - nearer_m);
+    ranges_.Take(scan, SteadyTime{0}, options_.tick_period);
+    HearEchoes(ranges_, situation_->tick, options_, &echoes_);
+    return EchoesOf(view, *situation_) != 0;
   }
 
  private:
@@ -111,6 +123,12 @@ TEST(Peers, ThatAreUnsureMatterFromFartherAway) {
   const Pose beside{{30, -3}, 0};
   EXPECT_FALSE(onlooker.CanMatter(beside, {}));
   EXPECT_TRUE(onlooker.CanMatter(beside, {.xx_m2 = 4, .yy_m2 = 4}));
+}
+
+TEST(Echoes, OfAPeerMayBeNearerByTwiceWhatIsUnsure) {
+  EXPECT_TRUE(Onlooker().TakesForItsOwn(0, {}));
+  EXPECT_FALSE(Onlooker().TakesForItsOwn(0.15, {}));
+  EXPECT_TRUE(Onlooker().TakesForItsOwn(0.15, {.xx_m2 = 0.01, .yy_m2 = 0.01}));
 }
 
 // Who drives on a heading it is not sure of is less sure of its place the farther it comes.

@@ -1,0 +1,34 @@
+#include "services/app/hang_signal.h"
+
+#include <atomic>
+
+#include "services/types/check.h"
+
+namespace giveway::app {
+namespace {
+
+// The handler runs on any thread at any moment: a lock-free flag is all it may touch.
+std::atomic<bool> is_up{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void OnSignal(int /*signal*/) { is_up = !is_up; }
+
+}  // namespace
+
+HangSignal::HangSignal() {
+  is_up = false;
+  struct sigaction action {};
+  sigemptyset(&action.sa_mask);
+  action.sa_handler = OnSignal;
+  const int failed = sigaction(SIGUSR2, &action, &before_);
+  GIVEWAY_CHECK(failed == 0);
+}
+
+HangSignal::~HangSignal() {
+  sigaction(SIGUSR2, &before_, nullptr);
+  is_up = false;
+}
+
+bool HangSignal::IsUp() { return is_up; }
+
+}  // namespace giveway::app

@@ -1,0 +1,47 @@
+// A process that goes on as itself with other flags: the same process id, pipes and parent, but a
+// new program image, because the library keeps the first profiles it loads until the process ends.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/types/fleet_facts.h"
+
+namespace giveway::app {
+
+// What it hands on to itself: the world knows it by its session, the operator by the order.
+struct Resumed {
+  SessionId session{};
+  std::uint64_t order = 0;
+
+  friend bool operator==(const Resumed&, const Resumed&) = default;
+};
+
+// "0123abcd-...": four words of the session and the order, hexadecimal.
+std::string ToText(const Resumed& resumed);
+std::optional<Resumed> ParseResumed(std::string_view text);
+
+// Flags by name, "--qos", and their values.
+using NewFlags = std::map<std::string, std::string>;
+
+// The command line with these flags instead of what it said of them.
+std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments,
+                                       const NewFlags& flags);
+
+// Replaces this process. Nothing is destroyed: whatever must be closed is closed before. Throws
+// std::system_error.
+[[noreturn]] void RestartWith(const NewFlags& flags);
+
+// Keeps a text in memory under a path that a restarted process still finds; a container's file
+// system may be read-only. Throws std::system_error.
+std::string HoldText(const std::string& name, const std::string& text);
+// The file's name, for people; of a held text the name it was given.
+std::string NameOf(const std::string& path);
+// A held text that has been read goes with this process image; any other path is left alone.
+void LetGo(const std::string& path);
+
+}  // namespace giveway::app

@@ -1,0 +1,38 @@
+// Watches a fleet for a span of time and gathers what one vehicle counted and what the rest did.
+#pragma once
+
+#include <chrono>
+#include <map>
+
+#include "services/fleetctl/canary.h"
+#include "services/link/observer_link.h"
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+class CanaryWatch {
+ public:
+  explicit CanaryWatch(const link::LinkOptions& options) : observer_(options) {}
+
+  // Waits until the vehicle hears as many peers as any other; false after `patience`.
+  bool WaitUntilItHears(VehicleId vehicle, std::chrono::milliseconds patience);
+  struct Both {
+    ServiceFigures canary;
+    ServiceFigures rest;
+  };
+  Both Watch(VehicleId vehicle, Nanoseconds span);
+
+ private:
+  struct Seen {
+    VehicleStatus first;
+    SteadyTime first_at{0};
+    VehicleStatus last;
+    SteadyTime last_at{0};
+  };
+  void Take();
+
+  link::ObserverLink observer_;
+  std::map<VehicleId, Seen> seen_;
+};
+
+}  // namespace giveway::fleetctl

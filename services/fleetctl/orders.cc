@@ -1,0 +1,64 @@
+#include "services/fleetctl/orders.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "services/app/process.h"
+#include "services/fleetctl/interrupts.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(10);
+
+// Calls done() again and again. Whether it was true before `patience` was over.
+template <typename Done>
+bool WaitUntil(std::chrono::milliseconds patience, Done&& done) {
+  const SteadyTime end = app::SteadyNow() + patience;
+  while (!done()) {
+    if (app::SteadyNow() >= end || Interrupts::Count() > 0) return false;
+    std::this_thread::sleep_for(kPoll);
+  }
+  return true;
+}
+
+std::uint64_t RandomNumber() {
+  return static_cast<std::uint64_t>(app::RandomNonZero()) << 32U | app::RandomNonZero();
+}
+
+}  // namespace
+
+std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
+                                    std::chrono::milliseconds patience) {
+  for (const VehicleId vehicle : vehicles) {
+    if (sought_.insert(vehicle).second) link_.Seek(vehicle);
+  }
+  std::vector<VehicleId> missing = vehicles;
+  WaitUntil(patience, [&] {
+    std::erase_if(missing, [&](VehicleId vehicle) { return link_.Reaches(vehicle); });
+    return missing.empty();
+  });
+  return missing;
+}
+
+std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience) {
+  order.number = RandomNumber();
+  std::optional<AdminAnswer> last;
+  if (!link_.Send(order)) return last;
+  WaitUntil(patience, [&] {
+    for (AdminAnswer& answer : link_.Take()) {
+      const bool ours = answer.vehicle == order.vehicle && answer.order == order.number;
+      if (ours && answer.state != AnswerState::kRestarting) last = std::move(answer);
+    }
+    return last.has_value();
+  });
+  return last;
+}
+
+AdminOrder TellOrder(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }
+
+AdminOrder ApplyOrder(VehicleId vehicle, const QosProfiles& profiles) {
+  return {.vehicle = vehicle, .kind = OrderKind::kApply, .profiles = profiles};
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,36 @@
+// Orders to running vehicles, and their answers: finds the vehicles, sends, waits with a deadline.
+// What is ordered and what the answers mean, is the caller's.
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "services/link/operator_link.h"
+#include "services/types/admin.h"
+
+namespace giveway::fleetctl {
+
+class Orders {
+ public:
+  explicit Orders(const link::LinkOptions& options) : link_(options) {}
+
+  // Waits until each is reached; those that are not within `patience` come back.
+  std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles,
+                              std::chrono::milliseconds patience);
+  // Sends it to a vehicle that is reached, and waits for the answer in which it says that it is in
+  // effect, or refused. Nothing if it does not come within `patience`.
+  std::optional<AdminAnswer> Give(AdminOrder order, std::chrono::milliseconds patience);
+
+ private:
+  link::OperatorLink link_;
+  std::set<VehicleId> sought_;
+};
+
+// An order that asks what the vehicle runs with.
+AdminOrder TellOrder(VehicleId vehicle);
+AdminOrder ApplyOrder(VehicleId vehicle, const QosProfiles& profiles);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,29 @@
+// The verb `fleetctl qos apply`: gives running vehicles other QoS, one after the other; one first
+// and on trial if asked. Values in; the exit code out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/reading_along.h"
+
+namespace giveway::fleetctl {
+
+struct QosApplyOptions {
+  ObserverOptions where;          // its qos_file: what the fleet runs with
+  std::string profile;            // path or name of a shipped set: what it shall run with
+  std::vector<std::uint32_t> to;  // vehicle ids
+  std::uint32_t canary = 0;       // one of them, or 0: nobody goes first
+  double watch_s = 10;            // how long the canary is on trial
+  bool restart = true;            // false: only if every change takes effect while they run
+  bool dry_run = false;           // says what would change
+  bool force = false;             // though old and new profiles do not match
+  bool json = false;
+};
+
+// 0 in effect everywhere, or nothing to do; 1 refused, rolled back, or not seen to be in effect;
+// 2 could not run, and nothing was changed. Throws LinkError, InputError.
+int RunQosApply(const QosApplyOptions& options);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,41 @@
+// How long the machine stood still: a thread a CPU wakes every millisecond and keeps the gaps
+// between its wakings that are longer than they should be. What the scheduler does to it, it does
+// to a vehicle. Threads at the edge; what they found is asked for by time.
+#pragma once
+
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+class StallMonitor {
+ public:
+  StallMonitor();
+  ~StallMonitor() = default;
+  StallMonitor(const StallMonitor&) = delete;
+  StallMonitor& operator=(const StallMonitor&) = delete;
+
+  // The longest gap between two wakings that lies at least in part within [from, to]: never less
+  // than the period of the monitor, which sees nothing shorter. What is older than ten minutes is
+  // forgotten.
+  Nanoseconds LongestPause(SteadyTime from, SteadyTime to) const;
+
+ private:
+  struct Gap {
+    SteadyTime from{0};
+    SteadyTime to{0};
+  };
+
+  void Watch(const std::stop_token& stop, int cpu);
+  void Note(const Gap& gap);
+
+  mutable std::mutex mutex_;
+  std::deque<Gap> gaps_;  // guarded by mutex_; by their ends
+  std::vector<std::jthread> threads_;
+};
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,33 @@
+// An operator's side: gives orders to vehicles, one by one, and hears their answers.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "services/link/link_options.h"
+#include "services/types/admin.h"
+
+namespace giveway::link {
+
+class OperatorLink {
+ public:
+  explicit OperatorLink(const LinkOptions& options);  // Throws LinkError.
+  ~OperatorLink();
+  OperatorLink(const OperatorLink&) = delete;
+  OperatorLink& operator=(const OperatorLink&) = delete;
+
+  // Begins to look for the vehicle. Once each. Throws LinkError.
+  void Seek(VehicleId vehicle);
+  // Whether it would get an order now. It was sought.
+  bool Reaches(VehicleId vehicle) const;
+  // False if the library refused the order. It was sought, and is reached.
+  bool Send(const AdminOrder& order);
+  // Everything that came since the last call.
+  std::vector<AdminAnswer> Take();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace giveway::link

@@ -1,0 +1,119 @@
+#include "services/qos/changes.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace giveway::qos {
+namespace {
+
+// Policies are told apart by the table; everything else by where it stands in the file.
+using Elsewhere = std::map<std::pair<std::string, std::string>, std::string>;
+
+bool IsPolicy(Owner owner, const std::string& path) {
+  return std::ranges::any_of(Policies(), [&](const PolicyInfo& info) {
+    return Has(owner, info) &&
+           (path == info.path || path.starts_with(std::string(info.path) + '/'));
+  });
+}
+
+// Adds the texts below an element whose path `skip` does not know; those of a list in its order.
+template <typename Skip>
+void Flatten(const XmlElement& element, const std::string& owner, const std::string& path,
+             const Skip& skip, Elsewhere& to) {
+  if (!path.empty() && skip(path)) return;
+  if (!element.text.empty() && !path.empty()) {
+    std::string& text = to[{owner, path}];
+    text += (text.empty() ? "" : " ") + element.text;
+  }
+  for (const XmlElement& child : element.children) {
+    Flatten(child, owner, path.empty() ? child.name : path + '/' + child.name, skip, to);
+  }
+}
+
+void FlattenProfiles(const XmlElement& profiles, Elsewhere& to) {
+  static const std::map<std::string, Owner> kOwners = {{"participant", Owner::kParticipant},
+                                                       {"data_writer", Owner::kWriter},
+                                                       {"publisher", Owner::kWriter},
+                                                       {"data_reader", Owner::kReader},
+                                                       {"subscriber", Owner::kReader}};
+  const auto nothing = [](const std::string&) { return false; };
+  for (const XmlElement& child : profiles.children) {
+    if (const auto owner = kOwners.find(child.name); owner != kOwners.end()) {
+      const auto is_policy = [&](const std::string& path) { return IsPolicy(owner->second, path); };
+      Flatten(child, child.Attribute("profile_name"), "", is_policy, to);
+    } else if (child.name == "transport_descriptors") {
+      for (const XmlElement& descriptor : child.children) {
+        const XmlElement* const id = descriptor.Child("transport_id");
+        Flatten(descriptor, "transport " + (id == nullptr ? "" : id->text), "", nothing, to);
+      }
+    } else {
+      Flatten(child, child.name, "", nothing, to);
+    }
+  }
+}
+
+Elsewhere ElsewhereOf(const XmlElement& root) {
+  Elsewhere all;
+  if (root.name == "profiles") FlattenProfiles(root, all);
+  for (const XmlElement& child : root.children) {
+    if (child.name == "profiles") {
+      FlattenProfiles(child, all);
+    } else if (root.name != "profiles") {
+      Flatten(
+          child, child.name, "", [](const std::string&) { return false; }, all);
+    }
+  }
+  return all;
+}
+
+void AddValues(const Profile& from, const Profile& to, std::vector<Change>* changes) {
+  for (const PolicyInfo& info : Policies()) {
+    const std::int64_t before = from.Number(info.policy);
+    const std::int64_t after = to.Number(info.policy);
+    if (!Has(to.owner, info) || before == after) continue;
+    const Effect effect = info.policy == Policy::kDeadline ? Effect::kNow : Effect::kRestart;
+    changes->push_back({to.name, std::string(info.name), Text(info.policy, before),
+                        Text(info.policy, after), effect, after});
+  }
+}
+
+void AddValues(const ProfileSet& from, const ProfileSet& to, std::vector<Change>* changes) {
+  std::set<std::pair<std::string, Owner>> names;
+  for (const ProfileSet* set : {&from, &to}) {
+    for (const Profile& profile : set->profiles) names.emplace(profile.name, profile.owner);
+  }
+  for (const auto& [name, owner] : names) {
+    const Profile* const before = from.Find(owner, name);
+    const Profile* const after = to.Find(owner, name);
+    if (before != nullptr && after != nullptr) {
+      AddValues(*before, *after, changes);
+    } else {
+      changes->push_back({name, "profile", before == nullptr ? "" : "there",
+                          after == nullptr ? "" : "there", Effect::kRestart, 0});
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Change> Changes(const XmlElement& from, const XmlElement& to) {
+  std::vector<Change> changes;
+  AddValues(ReadProfiles(from, ""), ReadProfiles(to, ""), &changes);
+  Elsewhere before = ElsewhereOf(from);
+  Elsewhere after = ElsewhereOf(to);
+  for (const auto& [where, text] : before) after.try_emplace(where, "");
+  for (const auto& [where, text] : after) {
+    const std::string& old = before[where];
+    if (old != text) changes.push_back({where.first, where.second, old, text, Effect::kRestart, 0});
+  }
+  return changes;
+}
+
+bool NeedsRestart(const std::vector<Change>& changes) {
+  return std::ranges::any_of(changes,
+                             [](const Change& one) { return one.effect == Effect::kRestart; });
+}
+
+}  // namespace giveway::qos

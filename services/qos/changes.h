@@ -1,0 +1,34 @@
+// What changes for a running process that takes other profiles, value by value, and whether that
+// takes a restart.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/qos/profile_set.h"
+#include "services/qos/xml_tree.h"
+
+namespace giveway::qos {
+
+enum class Effect : std::uint8_t {
+  kNow,      // the library takes it while the endpoint runs
+  kRestart,  // fixed once the endpoint or the participant is made
+};
+
+struct Change {
+  std::string profile;  // or "transport giveway_udp", "library_settings"
+  std::string what;     // a policy's name; of all else the path of the element
+  std::string from;     // as a person writes it; empty: not said
+  std::string to;
+  Effect effect = Effect::kRestart;
+  std::int64_t number = 0;  // the new value, of a policy
+};
+
+// Profiles in the order of their names. A value that is only written down differently, as a default
+// that the other file leaves out, is no change.
+std::vector<Change> Changes(const XmlElement& from, const XmlElement& to);
+
+bool NeedsRestart(const std::vector<Change>& changes);
+
+}  // namespace giveway::qos

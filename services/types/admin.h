@@ -1,0 +1,60 @@
+// What an operator asks of a running vehicle, and what it answers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/types/ids.h"
+
+namespace giveway {
+
+enum class OrderKind : std::uint8_t {
+  kTell,   // say what you run with
+  kApply,  // run with these profiles: at once where that is enough, else after a restart
+};
+
+// A profile set as it travels: its text, because the vehicle may be on another machine.
+struct QosProfiles {
+  static constexpr std::size_t kMostBytes = 60'000;  // the bound of the wire
+
+  std::string name;  // for people: "lossy_radio.xml"
+  std::string text;  // Fast DDS XML
+
+  friend bool operator==(const QosProfiles&, const QosProfiles&) = default;
+};
+
+struct AdminOrder {
+  VehicleId vehicle = kNobody;
+  std::uint64_t number = 0;  // the operator's; the answer repeats it
+  OrderKind kind = OrderKind::kTell;
+  QosProfiles profiles;  // of kApply
+};
+
+enum class AnswerState : std::uint8_t {
+  kInEffect,    // what the answer tells is what the vehicle runs with
+  kRestarting,  // it halts and comes back with the profiles; the answer to follow is kInEffect
+  kRefused,     // nothing was changed; `reason` says why
+};
+
+// One value of a live endpoint, as the library has it. Durations in nanoseconds, kinds by number.
+struct LiveValue {
+  std::string profile;  // "fleet_beacon_writer"
+  std::string policy;   // "deadline"
+  std::int64_t number = 0;
+
+  friend bool operator==(const LiveValue&, const LiveValue&) = default;
+};
+
+struct AdminAnswer {
+  VehicleId vehicle = kNobody;
+  std::uint64_t order = 0;
+  AnswerState state = AnswerState::kInEffect;
+  std::string reason;
+  std::uint32_t fleet_size = 0;  // some values follow from it
+  std::string interface;         // as the vehicle was told
+  QosProfiles profiles;          // what it runs with, or restarts with
+  std::vector<LiveValue> live;   // of kInEffect
+};
+
+}  // namespace giveway

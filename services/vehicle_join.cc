@@ -1,0 +1,59 @@
+#include "services/vehicle_join.h"
+
+#include <chrono>
+
+namespace giveway {
+namespace {
+
+constexpr Nanoseconds kPoll = std::chrono::milliseconds(20);
+constexpr Nanoseconds kAskAgain =
+    std::chrono::seconds(1);  // who waits and does not ask is forgotten
+constexpr Nanoseconds kReminder = std::chrono::seconds(5);
+
+}  // namespace
+
+Asking::Asking(link::VehicleLink* link, VehicleId wanted, const std::optional<SessionId>& session)
+    : link_(*link) {
+  request_.wanted = wanted;
+  if (session) {
+    request_.session = *session;
+  } else {
+    for (std::uint32_t& word : request_.session) word = app::RandomNonZero();
+  }
+  Ask();
+}
+
+void Asking::AskAgainIfDue() {
+  if (app::SteadyNow() >= again_) Ask();
+}
+
+bool Asking::IsFinal(const RosterEntry& entry) {
+  answered_ = true;
+  if (!entry.accepted && entry.waiting) app::LogWarning("the world lets it wait: " + entry.reason);
+  return entry.accepted || !entry.waiting;
+}
+
+void Asking::Ask() {
+  link_.SendJoin(request_);
+  again_ = app::SteadyNow() + kAskAgain;
+}
+
+std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,
+                                VehicleId wanted, const std::optional<SessionId>& session) {
+  Asking asking(link, wanted, session);
+  SteadyTime remind = app::SteadyNow() + kReminder;
+  while (!stop.IsSet()) {
+    const auto entry = link->TakeRoster(asking.Session());
+    if (entry && asking.IsFinal(*entry)) return entry;
+    asking.AskAgainIfDue();
+    app::SleepUntil(app::SteadyNow() + kPoll);
+    if (app::SteadyNow() < remind) continue;
+    remind += kReminder;
+    if (asking.Answered()) continue;
+    app::LogWarning("no answer from a world yet: is giveway-world running in this domain?");
+  }
+  link->SendLeave(asking.Session());
+  return std::nullopt;
+}
+
+}  // namespace giveway

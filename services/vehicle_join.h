@@ -1,0 +1,39 @@
+// How a vehicle gets its place: asks the world, again and again, and hears its answer.
+#pragma once
+
+#include <optional>
+
+#include "services/app/process.h"
+#include "services/link/vehicle_link.h"
+#include "services/types/vehicle_options.h"
+
+namespace giveway {
+
+// One request until it is answered for good. Talks over a link that outlives it.
+class Asking {
+ public:
+  // With a session of its own, or the one that a restarted process had before.
+  Asking(link::VehicleLink* link, VehicleId wanted,
+         const std::optional<SessionId>& session = std::nullopt);
+
+  const SessionId& Session() const { return request_.session; }
+  bool Answered() const { return answered_; }
+
+  void AskAgainIfDue();
+  // True if this is the last word on the request; a reason to wait is only logged.
+  bool IsFinal(const RosterEntry& entry);
+
+ private:
+  void Ask();
+
+  link::VehicleLink& link_;
+  JoinRequest request_;
+  SteadyTime again_{0};
+  bool answered_ = false;
+};
+
+// Waits for the last word. Empty if asked to stop meanwhile.
+std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,
+                                VehicleId wanted, const std::optional<SessionId>& session);
+
+}  // namespace giveway

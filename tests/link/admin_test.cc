@@ -1,0 +1,112 @@
+// Orders and answers over the wire, and a deadline that is changed while the endpoint runs.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "services/link/operator_link.h"
+#include "tests/link/fleet.h"
+
+namespace giveway::test {
+namespace {
+
+using std::chrono::milliseconds;
+
+AdminOrder OrderTo(VehicleId vehicle, std::uint64_t number) {
+  return {.vehicle = vehicle,
+          .number = number,
+          .kind = OrderKind::kApply,
+          .profiles = {"mine.xml", "<dds>" + std::string(40'000, ' ') + "</dds>"}};
+}
+
+TEST(Admin, AnOrderReachesItsVehicleAloneAndWhole) {
+  const DomainLock domain;
+  Beaconing one(OptionsIn(domain), VehicleId{1});
+  Beaconing two(OptionsIn(domain), VehicleId{2});
+  link::OperatorLink chief(OptionsIn(domain));
+  chief.Seek(VehicleId{1});
+  chief.Seek(VehicleId{2});
+  ASSERT_TRUE(
+      Eventually([&] { return chief.Reaches(VehicleId{1}) && chief.Reaches(VehicleId{2}); }));
+  const AdminOrder sent = OrderTo(VehicleId{2}, 77);
+  ASSERT_TRUE(chief.Send(sent));
+  std::optional<AdminOrder> got;
+  ASSERT_TRUE(Eventually([&] {
+    got = two.Link().TakeOrder();
+    return got.has_value();
+  }));
+  EXPECT_EQ(got->number, 77U);
+  EXPECT_EQ(got->kind, OrderKind::kApply);
+  EXPECT_EQ(got->profiles, sent.profiles);
+  EXPECT_FALSE(one.Link().TakeOrder());
+}
+
+TEST(Admin, AnOrderIsNotKeptForAVehicleThatComesLater) {
+  const DomainLock domain;
+  link::OperatorLink chief(OptionsIn(domain));
+  chief.Seek(VehicleId{1});
+  {
+    Beaconing before(OptionsIn(domain), VehicleId{1});
+    ASSERT_TRUE(Eventually([&] { return chief.Reaches(VehicleId{1}); }));
+    ASSERT_TRUE(chief.Send(OrderTo(VehicleId{1}, 1)));
+    ASSERT_TRUE(Eventually([&] { return before.Link().TakeOrder().has_value(); }));
+  }
+  ASSERT_TRUE(Eventually([&] { return !chief.Reaches(VehicleId{1}); }));
+  Beaconing again(OptionsIn(domain), VehicleId{1});
+  ASSERT_TRUE(Eventually([&] { return chief.Reaches(VehicleId{1}); }));
+  ASSERT_TRUE(chief.Send(OrderTo(VehicleId{1}, 2)));
+  std::optional<AdminOrder> got;
+  ASSERT_TRUE(Eventually([&] {
+    got = again.Link().TakeOrder();
+    return got.has_value();
+  }));
+  EXPECT_EQ(got->number, 2U);
+}
+
+TEST(Admin, AnAnswerTellsWhatTheEndpointsRunWith) {
+  const DomainLock domain;
+  Beaconing vehicle(OptionsIn(domain), VehicleId{3});
+  link::OperatorLink chief(OptionsIn(domain));
+  vehicle.Link().SendAnswer({.vehicle = VehicleId{3},
+                             .order = 5,
+                             .state = AnswerState::kInEffect,
+                             .fleet_size = 2,
+                             .interface = "127.0.0.1",
+                             .profiles = {"mine.xml", "<dds/>"},
+                             .live = vehicle.Link().LiveQos()});
+  std::vector<AdminAnswer> got;  // kept for whoever comes later
+  ASSERT_TRUE(Eventually([&] {
+    got = chief.Take();
+    return !got.empty();
+  }));
+  EXPECT_EQ(got[0].order, 5U);
+  EXPECT_EQ(got[0].profiles.name, "mine.xml");
+  const LiveValue deadline{"fleet_beacon_reader", "deadline", 150'000'000};
+  EXPECT_THAT(got[0].live, ::testing::Contains(deadline));
+}
+
+TEST(Admin, ADeadlineThatWasChangedIsTheOneThatHolds) {
+  const DomainLock domain;
+  constexpr milliseconds kLonger(600);
+  Beaconing sender(OptionsIn(domain), VehicleId{1});
+  Beaconing hearer(OptionsIn(domain), VehicleId{2});
+  ASSERT_TRUE(hearer.Link().SetDeadline("fleet_beacon_reader", Nanoseconds(kLonger).count()));
+  EXPECT_EQ(hearer.Link().BeaconQos().deadline_requested_ms, 600);
+  Ears ears(hearer.Link());
+  ASSERT_TRUE(Eventually([&] {
+    sender.Send();
+    ears.Listen();
+    return ears.Heard().contains(VehicleId{1});
+  }));
+  const auto silent_since = std::chrono::steady_clock::now();
+  ASSERT_TRUE(Eventually([&] {
+    ears.Listen();
+    const auto told = ears.Told(QosEventKind::kDeadlineMissed);
+    return std::ranges::find(told, VehicleId{1}) != told.end();
+  }));
+  // The last sample came a moment before.
+  EXPECT_GE(std::chrono::steady_clock::now() - silent_since, kLonger - milliseconds(100));
+}
+
+}  // namespace
+}  // namespace giveway::test

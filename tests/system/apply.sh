@@ -1,0 +1,105 @@
+#!/usr/bin/env bash
+# fleetctl qos apply on a fleet that another fleetctl runs: a deadline while it drives, a restart,
+# a canary that is promoted and one that is rolled back, and what is refused.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
+cd "$SCRATCH"
+default=$REPOSITORY/config/qos/default.xml
+
+# apply CODE NAME ARGUMENTS...: fleetctl qos apply ends with CODE; output in ./out, ./err.
+apply() {
+  local wanted=$1 name=$2 code=0
+  shift 2
+  timeout 100 "$FLEETCTL" qos apply "$@" >out 2>err || code=$?
+  [[ $code -eq $wanted ]] || fail "$name: exit code $code: $(head -c 600 out err)"
+}
+# says NAME CONDITION: true of the JSON object of the last command.
+says() { jq -e "$2" out >/dev/null || fail "$1: not true of $(head -c 900 out): $2"; }
+
+# with FILE PROFILE SED...: a copy of the default in which one profile is edited.
+with() {
+  local file=$1 profile=$2
+  shift 2
+  sed "/profile_name=\"$profile\"/,/<\/data_/ { $* }" "$default" >"$file"
+  ! cmp -s "$file" "$default" || fail "$file is the default"
+}
+with deadline.xml fleet_beacon_reader 's/<nanosec>150000000/<nanosec>180000000/'
+with depth.xml fleet_beacon_reader 's/<depth>4/<depth>8/'
+# First what is offered, then what is requested.
+with offered.xml fleet_beacon_writer 's/<nanosec>100000000/<nanosec>60000000/'
+sed '/profile_name="fleet_beacon_reader"/,/<\/data_/ s/<nanosec>150000000/<nanosec>60000000/' \
+  offered.xml >tight.xml
+with mismatch.xml fleet_beacon_writer 's/<nanosec>250000000/<nanosec>500000000/'
+printf '<dds><profiles>' >cut.xml
+
+
+# Four on rounds of their own, in earshot of each other and never near.
+{
+  printf 'name: "rounds"\nduration_s: 110\nemission_radius_m: 100\n'
+  for id in 1 2 3 4; do
+    x=$((id * 6))
+    printf 'vehicle { id: %d start { x_m: %d y_m: 0 heading_deg: 0 } cruise_m_s: 0.3\n' "$id" "$x"
+    for corner in "$((x + 2)) 0" "$((x + 2)) 2" "$x 2" "$x 0"; do
+      printf '  waypoint { x_m: %d y_m: %d }\n' "${corner% *}" "${corner#* }"
+    done
+    printf '  loop: true }\n'
+  done
+  printf 'expect { contacts: 0 }\n'
+} >rounds.textproto
+
+# With one beacon in ten lost, a deadline of little more than a period is missed again and again.
+"$FLEETCTL" run rounds.textproto --impair loss=0.1 --json --logs logs >run.json 2>run.err &
+fleet=$!
+for _ in $(seq 200); do
+  domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
+  [[ -n $domain ]] && grep -q running run.err && break
+  sleep 0.1
+done
+[[ -n ${domain:-} ]] || {
+  fail "no domain in $(cat run.err)"
+  exit 1
+}
+pid=$(find_child "$fleet" 2)
+
+apply 0 "dry run" depth.xml --to 1,2,3,4 --domain "$domain" --dry-run
+grep -q 'depth  *4 -> 8  (restart)' out || fail "dry run: $(cat out)"
+
+apply 0 "a deadline" deadline.xml --to 1,2 --domain "$domain" --json
+says "a deadline" '.verdict == "applied" and all(.vehicles[]; .in_effect and .checked > 0 and
+  .seen == .checked and all(.changes[]; .effect == "now"))'
+! grep -q 'restarts itself' logs/vehicle-2.log || fail "a deadline: vehicle 2 restarted"
+
+apply 0 "the same again" deadline.xml --to 1 --domain "$domain" --json
+says "the same again" '.verdict == "nothing_to_do"'
+apply 1 "no restart" depth.xml --to 1 --domain "$domain" --no-restart --json
+says "no restart" '.verdict == "refused"'
+
+apply 0 "a canary" depth.xml --to 1,2,3,4 --domain "$domain" --canary 2 --watch 4 --json
+says "a canary" '.verdict == "applied" and .vehicles[0].id == 2 and .trial.worse == "" and
+  (.vehicles | length == 4) and all(.vehicles[]; .in_effect and .seen == .checked)'
+grep -q 'restarts itself' logs/vehicle-2.log || fail "a canary: vehicle 2 did not restart"
+[[ $(find_child "$fleet" 2) == "$pid" ]] || fail "a canary: vehicle 2 is another process"
+
+apply 1 "a mismatch" mismatch.xml --to 1 --domain "$domain" --json
+says "a mismatch" '.verdict == "refused" and any(.findings[]; .rule == "liveliness_lease_mismatch")'
+
+apply 0 "offered first" offered.xml --to 1,2,3,4 --domain "$domain" --json
+apply 1 "a canary that serves worse" tight.xml --to 1,2 --domain "$domain" --canary 1 --watch 6 --json
+says "a canary that serves worse" '.verdict == "rolled_back" and (.trial.worse | contains("alarms"))'
+"$FLEETCTL" qos show --live 1 --domain "$domain" --qos offered.xml >out 2>err ||
+  fail "rolled back to something else: $(grep not out; cat err)"
+
+apply 2 "nobody of that id" deadline.xml --to 9 --domain "$domain"
+grep -q 'vehicle 9 is not heard' err || fail "nobody of that id: $(cat err)"
+for bad in "cut.xml --to 1" "/no/such.xml --to 1" "deadline.xml --to 0" "deadline.xml --to 1,1" \
+  "deadline.xml" "deadline.xml --to 1 --canary 2" "deadline.xml --to 1 --watch 3"; do
+  # shellcheck disable=SC2086  # words of a command line
+  apply 2 "refused: $bad" $bad --domain "$domain"
+  [[ -s err ]] || fail "refused without a word: $bad"
+done
+
+kill -INT "$fleet"
+wait "$fleet" && fail "an interrupted run passed"
+jq -e '.reason == "interrupted" and .contacts == 0' run.json >/dev/null || fail "run: $(cat run.json)"
+((failures == 0)) && echo "qos apply: ok"
+exit $((failures > 0))
