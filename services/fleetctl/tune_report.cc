@@ -9,8 +9,9 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kHead =
-    "  candidate             alarms per vehicle-hour       noticed after, ms    age  heard    CPU\n"
-    "                         measured (99 %)  predicted   mean  pred.   max     ms   kB/s      "
+    "  candidate               alarms per vehicle-hour       noticed after, ms    age  heard    "
+    "CPU\n"
+    "                           measured (99 %)  predicted   mean  pred.   max     ms   kB/s      "
     "%\n";
 
 std::string Optional(const std::optional<double>& value, int width, int digits) {
@@ -19,7 +20,7 @@ std::string Optional(const std::optional<double>& value, int width, int digits) 
 }
 
 std::string Line(const TunedCandidate& tuned) {
-  std::string line = fmt::format("{} {:<19}", tuned.on_front ? "*" : " ", tuned.candidate.name);
+  std::string line = fmt::format("{} {:<21}", tuned.on_front ? "*" : " ", tuned.candidate.name);
   if (!tuned.figures) return line + " not measured: " + tuned.trouble + "\n";
   const TuneFigures& f = *tuned.figures;
   std::optional<double> alarms;
@@ -31,7 +32,7 @@ std::string Line(const TunedCandidate& tuned) {
   std::optional<double> heard;
   if (f.heard_bytes_s) heard = *f.heard_bytes_s / 1000;
   line += fmt::format(" {:>7.0f} ({:.0f}..{:.0f})", f.alarms_per_hour, f.alarms_low, f.alarms_high);
-  line.resize(std::max<std::size_t>(line.size(), 42), ' ');
+  line.resize(std::max<std::size_t>(line.size(), 44), ' ');
   line += fmt::format("{} {:>6.0f} {} {:>5.0f} {:>6.1f} {} {:>6.1f}", Optional(alarms, 9, 0),
                       f.detection_ms, Optional(detection, 6, 0), f.detection_max_ms, f.age_mean_ms,
                       Optional(heard, 6, 1), f.cpu_share * 100);

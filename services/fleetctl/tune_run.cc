@@ -81,7 +81,7 @@ class Tuning {
   std::string CheckedProfile(const TuneCandidate& candidate, std::string* trouble) const;
   std::size_t PlannedTrials(const std::vector<Rung>& rungs) const;
   void Climb(const std::vector<Rung>& rungs, TuneSearch* search);
-  void TakeFigures(const TuneSearch& search);
+  void TakeFigures(const TuneSearch& search, std::uint32_t most);
   void Verify(TuneSearch* search);
 
   QosTuneOptions options_;
@@ -161,9 +161,11 @@ std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
   return trials;
 }
 
-void Tuning::TakeFigures(const TuneSearch& search) {
+// Of the first so many trials: a search that goes on sees what it saw when it was cut off.
+void Tuning::TakeFigures(const TuneSearch& search, std::uint32_t most) {
   for (TunedCandidate& tuned : result_.candidates) {
-    const auto trials = search.TrialsOf(tuned.candidate.name, false);
+    auto trials = search.TrialsOf(tuned.candidate.name, false);
+    if (trials.size() > most) trials.resize(most);
     tuned.figures = FiguresOf(trials);
     if (!tuned.figures && !trials.empty()) tuned.trouble = trials.front().trouble;
     if (tuned.figures && tuned.predicted) {
@@ -186,7 +188,7 @@ void Tuning::Climb(const std::vector<Rung>& rungs, TuneSearch* search) {
       candidates.push_back(result_.candidates[place].candidate);
     }
     search->Measure(candidates, false, rung.trials);
-    TakeFigures(*search);
+    TakeFigures(*search, rung.trials);
     const TunedCandidate& base = result_.candidates.front();
     if (!base.figures) throw StartError("the base cannot be measured: " + base.trouble);
     std::erase_if(left, [&](std::size_t place) { return !result_.candidates[place].figures; });
