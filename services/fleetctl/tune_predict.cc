@@ -89,13 +89,16 @@ class Model {
   // counts, and age tells. Its loop then turns after 1.5, 3, 4, 5 ... ticks, the n-th time with n
   // scans lost; `lost` beacons before those make them older by as many ticks.
   double ByOwnLostScans() const {
-    const double q = channel_.scan_loss;
+    const double in_bursts = channel_.scan_burst * channel_.scan_burst_loss;
+    const BeaconChannel own{.loss = 1 - (1 - channel_.scan_loss) / (1 - in_bursts),
+                            .burst = channel_.scan_burst,
+                            .burst_length = channel_.scan_burst_length,
+                            .burst_loss = channel_.scan_burst_loss};
     double alarms = 0;
     for (int lost = 0; lost * tick_ < age_limit_; ++lost) {
-      double reached = 1 - q;
       double unseen = 1;  // that no turn before has told
       for (int scans = 1; scans <= kMostLost; ++scans) {
-        reached *= q;
+        const double reached = SilenceProbability(own, scans);
         const double turn = scans == 1 ? 1.5 : scans + 1;
         const double told = ChanceOfMore(age_limit_ - (turn + lost) * tick_, kHostJitterMs);
         alarms += SilenceProbability(channel_, lost) * reached * unseen * told;
@@ -158,6 +161,9 @@ std::optional<BeaconChannel> ChannelOf(const Impairment& impairment) {
   }
   if (const ImpairmentRule* rule = LastFor(impairment, ImpairedSender::kWorld)) {
     channel.scan_loss = 1 - (1 - rule->loss) * (1 - rule->burst * rule->burst_loss);
+    channel.scan_burst = rule->burst;
+    channel.scan_burst_length = rule->burst_length;
+    channel.scan_burst_loss = rule->burst_loss;
   }
   return channel;
 }

@@ -29,7 +29,10 @@ struct BeaconChannel {
   double burst_loss = 1;
   double delay_ms = 0;
   double jitter_ms = 0;
-  double scan_loss = 0;  // of the world's packets
+  double scan_loss = 0;  // of the world's packets: in all, and how they come in bursts
+  double scan_burst = 0;
+  double scan_burst_length = 5;
+  double scan_burst_loss = 1;
 };
 
 // Nothing where the impairment is not the same for all, or has no closed form: a rate limit,

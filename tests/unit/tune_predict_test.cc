@@ -84,6 +84,17 @@ TEST(TunePredict, WhileOwnScansAreLostTheAgeOfBeaconsTells) {
   EXPECT_NEAR(lossy, 0.81 * (three + one_before + 1e-2 * 1e-2 + 1e-3 * 0.1), 1e-9);
 }
 
+TEST(TunePredict, ScansLostInBurstsTellMoreThanAsManyLostSingly) {
+  ImpairmentRule bursts;
+  bursts.burst = 0.1;
+  bursts.burst_length = 3;
+  bursts.from = ImpairedSender::kWorld;
+  const auto channel = ChannelOf({.rules = {bursts}});
+  ASSERT_TRUE(channel);
+  EXPECT_NEAR(channel->scan_loss, 0.1, 1e-12);
+  EXPECT_GT(Alarms(Qos(900, 900), *channel), 5 * Alarms(Qos(900, 900), {.scan_loss = 0.1}));
+}
+
 TEST(TunePredict, LateBeaconsOfSendersWithoutScansMakeSilencesLonger) {
   const BeaconChannel on_time{.loss = 0.1};
   const BeaconChannel late{.loss = 0.1, .scan_loss = 0.1};
