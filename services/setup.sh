@@ -18,13 +18,14 @@ debian_version() {
   (. /etc/os-release 2>/dev/null && printf '%s' "${VERSION_ID:-0}")
 }
 
-# Debian 13 renamed the library with its third major version.
+# Debian 13 renamed the library with its third major version. gnuplot draws the pictures of
+# fleetctl qos tune, which does without where it is missing.
 build_packages() {
   local fastdds=libfastrtps-dev
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && fastdds=libfastdds-dev
   printf '%s\n' git g++ cmake ninja-build ccache "$fastdds" fastddsgen \
     libprotobuf-dev protobuf-compiler libspdlog-dev libfmt-dev libcli11-dev libboost-dev libeigen3-dev \
-    libtinyxml2-dev libyaml-cpp-dev \
+    libtinyxml2-dev libyaml-cpp-dev gnuplot-nox \
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 }
 

@@ -102,12 +102,13 @@ void AddShow(CLI::App* qos, int* exit_code) {
 }  // namespace
 
 void AddQosVerb(CLI::App* fleetctl, int* exit_code) {
-  CLI::App* qos = fleetctl->add_subcommand("qos", "Explain, check and change QoS");
+  CLI::App* qos = fleetctl->add_subcommand("qos", "Explain, check, change and tune QoS");
   qos->require_subcommand(1);
   qos->footer("\nMore: fleetctl qos check --help, and so on\n");
   AddCheck(qos, exit_code);
   AddShow(qos, exit_code);
   AddQosApply(qos, exit_code);
+  AddQosTune(qos, exit_code);
 }
 
 }  // namespace giveway::fleetctl

@@ -9,6 +9,7 @@ namespace giveway::fleetctl {
 
 void AddListenVerb(CLI::App* fleetctl, int* exit_code);
 void AddQosApply(CLI::App* qos, int* exit_code);  // of the verb qos
+void AddQosTune(CLI::App* qos, int* exit_code);   // of the verb qos
 void AddQosVerb(CLI::App* fleetctl, int* exit_code);
 void AddReplayVerb(CLI::App* fleetctl, int* exit_code);
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);
