@@ -1,7 +1,6 @@
 #include "services/vehicle_admin.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -13,12 +12,12 @@
 namespace giveway {
 namespace {
 
-// The operator must know that the silence to come is meant.
-constexpr Nanoseconds kFlushTimeout = std::chrono::milliseconds(300);
-
 // Why these profiles would not do; empty if they would. An operator has looked already: this is for
 // the one that did not.
 std::string WhatIsWrong(const QosProfiles& profiles, std::uint32_t fleet_size) {
+  // It would write files, wherever the sender says.
+  const qos::XmlRead read = qos::ReadXml(profiles.text, profiles.name);
+  if (read.root && read.root->Child("log") != nullptr) return "has a <log>, which is no QoS";
   const qos::Findings findings =
       qos::Check({{profiles.name, profiles.text}}, {.vehicles = fleet_size});
   const auto worst = std::ranges::find(findings, qos::Severity::kError, &qos::Finding::severity);
@@ -47,17 +46,17 @@ VehicleAdmin::VehicleAdmin(link::VehicleLink* link, const link::LinkOptions& opt
 void VehicleAdmin::AnswerResumed(std::uint64_t order) { Answer(order, AnswerState::kInEffect); }
 
 bool VehicleAdmin::Serve() {
-  const auto order = link_.TakeOrder();
-  if (!order || order->vehicle != vehicle_) return false;
-  if (order->kind == OrderKind::kTell) {
-    Answer(order->number, AnswerState::kInEffect);
-    return false;
+  for (const AdminOrder& order : link_.TakeOrders()) {
+    if (order.vehicle != vehicle_) continue;
+    if (order.kind == OrderKind::kTell) {
+      Answer(order.number, AnswerState::kInEffect);
+    } else if (lockstep_) {
+      Answer(order.number, AnswerState::kRefused, "runs in lockstep, which nothing may disturb");
+    } else if (Apply(order)) {
+      return true;
+    }
   }
-  if (lockstep_) {
-    Answer(order->number, AnswerState::kRefused, "runs in lockstep, which nothing may disturb");
-    return false;
-  }
-  return Apply(*order);
+  return false;
 }
 
 bool VehicleAdmin::Apply(const AdminOrder& order) {
@@ -71,7 +70,6 @@ bool VehicleAdmin::Apply(const AdminOrder& order) {
   if (qos::NeedsRestart(changes) || !TakeNow(changes)) {
     app::LogInfo("restarts itself with the QoS of " + order.profiles.name);
     Answer(order.number, AnswerState::kRestarting);
-    link_.FlushAnswer(kFlushTimeout);
     pending_ = order;
     return true;
   }

@@ -22,7 +22,7 @@ class VehicleAdmin {
 
   // Answers the order that made this process restart: it is in effect now.
   void AnswerResumed(std::uint64_t order);
-  // Carries out the newest order, if one has come. True if that takes a restart.
+  // Carries out the orders that have come. True if one takes a restart: those behind it are lost.
   bool Serve();
   // The order that a restart is for.
   const AdminOrder& Pending() const { return *pending_; }

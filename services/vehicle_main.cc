@@ -106,6 +106,7 @@ class Loop {
     app::SleepUntil(app::SteadyNow() + 3 * options_.tick_period);
     link_.SendJoin({place_.session, options_.id});
     link_.FlushJoin(kFlushTimeout);
+    link_.FlushAnswer(kFlushTimeout);  // an operator must know that the silence is meant
   }
 
   bool RunEnded() const { return place_.run_state == RunState::kEnded; }
@@ -263,7 +264,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
   link_options.impairment = ImpairmentOf(flags, scenario);
   link::VehicleLink link(link_options);
-  const QosProfiles profiles{app::NameOf(flags.qos), app::ReadTextFile(flags.qos)};
+  const QosProfiles profiles{app::NameOf(flags.qos), app::ReadBytes(flags.qos)};
   app::LetGo(flags.qos);
   const std::optional<SessionId> session =
       flags.resume ? std::optional(flags.resume->session) : std::nullopt;
@@ -296,7 +297,11 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
   int exit_code = 0;
-  if (const auto new_flags = Live(flags, scenario, stop, &exit_code)) app::RestartWith(*new_flags);
+  const auto new_flags = Live(flags, scenario, stop, &exit_code);
+  if (!new_flags) return exit_code;
+  app::HoldSignalsBack();
+  // A stop that came while the link was closed would be forgotten by a new process image.
+  if (!stop.IsSet()) app::RestartWith(*new_flags);
   return exit_code;
 }
 

@@ -18,6 +18,7 @@ namespace giveway::app {
 namespace {
 
 constexpr std::string_view kHeldFolder = "/proc/self/fd/";
+constexpr std::size_t kMostNameBytes = 200;  // the kernel takes 249
 
 [[noreturn]] void ThrowErrno(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
@@ -43,15 +44,6 @@ int HeldDescriptor(const std::string& path) {
   const std::string_view digits = std::string_view(path).substr(kHeldFolder.size());
   const auto read = std::from_chars(digits.begin(), digits.end(), number);
   return read.ec == std::errc() && read.ptr == digits.end() ? number : -1;
-}
-
-// Until the new image has its handlers, a signal waits instead of ending the process.
-void HoldSignalsBack() {
-  sigset_t stops;
-  sigemptyset(&stops);
-  sigaddset(&stops, SIGINT);
-  sigaddset(&stops, SIGTERM);
-  sigprocmask(SIG_BLOCK, &stops, nullptr);
 }
 
 }  // namespace
@@ -90,18 +82,25 @@ std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments
   return kept;
 }
 
+void HoldSignalsBack() {
+  sigset_t stops;
+  sigemptyset(&stops);
+  sigaddset(&stops, SIGINT);
+  sigaddset(&stops, SIGTERM);
+  sigprocmask(SIG_BLOCK, &stops, nullptr);
+}
+
 void RestartWith(const NewFlags& flags) {
   std::vector<std::string> arguments = ArgumentsWith(OwnArguments(), flags);
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
-  HoldSignalsBack();
   execv("/proc/self/exe", words.data());
   ThrowErrno("cannot restart itself");
 }
 
 std::string HoldText(const std::string& name, const std::string& text) {
-  const int descriptor = memfd_create(name.c_str(), 0);
+  const int descriptor = memfd_create(name.substr(0, kMostNameBytes).c_str(), 0);
   if (descriptor < 0) ThrowErrno("no memory for the profiles");
   std::ofstream stream(std::string(kHeldFolder) + std::to_string(descriptor), std::ios::binary);
   stream << text;

@@ -32,12 +32,15 @@ using NewFlags = std::map<std::string, std::string>;
 std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments,
                                        const NewFlags& flags);
 
+// From now on a stop signal waits for the next process image instead of being forgotten by it. What
+// came before is for the caller to look at.
+void HoldSignalsBack();
 // Replaces this process. Nothing is destroyed: whatever must be closed is closed before. Throws
 // std::system_error.
 [[noreturn]] void RestartWith(const NewFlags& flags);
 
-// Keeps a text in memory under a path that a restarted process still finds; a container's file
-// system may be read-only. Throws std::system_error.
+// The name is cut to what the system takes. Keeps a text in memory under a path that a restarted
+// process still finds; a container's file system may be read-only. Throws std::system_error.
 std::string HoldText(const std::string& name, const std::string& text);
 // The file's name, for people; of a held text the name it was given.
 std::string NameOf(const std::string& path);

@@ -75,7 +75,7 @@ int LineNestedTooDeep(std::string_view text) {
   return 0;
 }
 
-std::string ReadTextFile(const std::string& path) {
+std::string ReadBytes(const std::string& path) {
   RefuseOddFiles(path);
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
@@ -84,6 +84,11 @@ std::string ReadTextFile(const std::string& path) {
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   if (stream.bad()) Refuse(path, "cannot be read to its end", "check the file");
+  return text;
+}
+
+std::string ReadTextFile(const std::string& path) {
+  std::string text = ReadBytes(path);
   if (!IsText(text)) Refuse(path, "is binary, not UTF-8 text", "check that this is the right file");
   if (const int line = LineNestedTooDeep(text); line > 0) {
     Refuse(path, fmt::format("nests deeper than {} brackets", kMaxNesting),

@@ -29,6 +29,7 @@ ServiceFigures& ServiceFigures::operator+=(const ServiceFigures& other) {
   alarms += other.alarms;
   lost += other.lost;
   taken += other.taken;
+  seconds += other.seconds;
   pair_seconds += other.pair_seconds;
   return *this;
 }
@@ -42,6 +43,10 @@ double ServiceFigures::LostShare() const {
   return sent > 0 ? static_cast<double>(lost) / static_cast<double>(sent) : 0;
 }
 
+double ServiceFigures::TakenPerSecond() const {
+  return seconds > 0 ? static_cast<double>(taken) / seconds : 0;
+}
+
 ServiceFigures Between(const VehicleStatus& before, const VehicleStatus& after, double seconds) {
   const auto alarms = [](const VehicleStatus& status) {
     return std::uint64_t{status.qos.deadline_missed} + status.qos.liveliness_lost;
@@ -50,10 +55,12 @@ ServiceFigures Between(const VehicleStatus& before, const VehicleStatus& after, 
   return {.alarms = alarms(after) - alarms(before),
           .lost = after.beacons.lost - before.beacons.lost,
           .taken = after.beacons.taken - before.beacons.taken,
+          .seconds = seconds,
           .pair_seconds = seconds * peers};
 }
 
 std::string WhyWorse(const ServiceFigures& canary, const ServiceFigures& rest) {
+  if (rest.taken == 0) return "there is nobody to compare it with";
   if (canary.taken == 0) return "it hears no beacon";
   const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
   if (IsMore(number(canary.alarms), canary.pair_seconds, number(rest.alarms), rest.pair_seconds)) {
@@ -64,6 +71,10 @@ std::string WhyWorse(const ServiceFigures& canary, const ServiceFigures& rest) {
              number(rest.lost + rest.taken))) {
     return fmt::format("{:.1f} % of its beacons are lost, of the rest's {:.1f} %",
                        100 * canary.LostShare(), 100 * rest.LostShare());
+  }
+  if (IsMore(number(rest.taken), rest.seconds, number(canary.taken), canary.seconds)) {
+    return fmt::format("it takes {:.0f} beacons a second, each of the rest {:.0f}",
+                       canary.TakenPerSecond(), rest.TakenPerSecond());
   }
   return "";
 }

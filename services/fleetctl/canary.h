@@ -14,19 +14,21 @@ struct ServiceFigures {
   std::uint64_t alarms = 0;  // deadlines missed and livelinesses lost of its peers
   std::uint64_t lost = 0;    // beacons that never arrived
   std::uint64_t taken = 0;   // beacons that did
-  double pair_seconds = 0;   // time, for each peer it heard
+  double seconds = 0;        // time, of every vehicle counted
+  double pair_seconds = 0;   // time, for each peer near enough to be heard
 
   ServiceFigures& operator+=(const ServiceFigures& other);
   double AlarmsPerPairHour() const;
   double LostShare() const;
+  double TakenPerSecond() const;  // of one vehicle
 };
 
 // Of one vehicle from one report to a later one of the same process.
 ServiceFigures Between(const VehicleStatus& before, const VehicleStatus& after, double seconds);
 
-// Why `canary` serves worse than `rest`; empty if it does not. Worse is what chance does not
-// explain: the counts are taken for Poisson's, and the difference of two rates must be over three
-// standard deviations and over a fifth of the rest's.
+// Why `canary` serves worse than `rest`, or cannot be judged; empty if it does not. Worse is what
+// chance does not explain: the counts are taken for Poisson's, and the difference of two rates must
+// be over three standard deviations and over a fifth of the rest's.
 std::string WhyWorse(const ServiceFigures& canary, const ServiceFigures& rest);
 
 }  // namespace giveway::fleetctl

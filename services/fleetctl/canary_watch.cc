@@ -1,13 +1,12 @@
 #include "services/fleetctl/canary_watch.h"
 
-#include <algorithm>
-
 #include "services/app/process.h"
 #include "services/fleetctl/interrupts.h"
 
 namespace giveway::fleetctl {
 namespace {
 
+constexpr Nanoseconds kSilence = std::chrono::seconds(1);  // it reports five times a second
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(20);
 
 }  // namespace
@@ -19,7 +18,9 @@ void CanaryWatch::Take() {
     const auto [entry, is_new] = seen_.try_emplace(status.vehicle);
     Seen& seen = entry->second;
     // A process that began anew counts from nothing.
-    if (is_new || status.beacons.sent < seen.last.beacons.sent) {
+    const bool began_anew = !is_new && status.beacons.sent < seen.last.beacons.sent;
+    seen.began_anew |= began_anew;
+    if (is_new || began_anew) {
       seen.first = status;
       seen.first_at = now;
     }
@@ -35,10 +36,7 @@ bool CanaryWatch::WaitUntilItHears(VehicleId vehicle, std::chrono::milliseconds 
     Take();
     const auto ours = seen_.find(vehicle);
     if (ours == seen_.end()) continue;
-    const auto hears_more = [&](const auto& entry) {
-      return entry.second.last.peers_heard > ours->second.last.peers_heard;
-    };
-    if (ours->second.last.peers_heard > 0 && std::ranges::none_of(seen_, hears_more)) return true;
+    if (ours->second.last.beacons.taken > 0) return true;
   }
   return false;
 }
@@ -48,6 +46,12 @@ CanaryWatch::Both CanaryWatch::Watch(VehicleId vehicle, Nanoseconds span) {
   const SteadyTime end = app::SteadyNow() + span;
   while (app::SteadyNow() < end && Interrupts::Count() == 0) Take();
   Both both;
+  const auto ours = seen_.find(vehicle);
+  if (ours == seen_.end() || end - ours->second.last_at > kSilence) {
+    both.trouble = "it fell silent";
+  } else if (ours->second.began_anew) {
+    both.trouble = "its process began anew";
+  }
   for (const auto& [id, seen] : seen_) {
     ServiceFigures& figures = id == vehicle ? both.canary : both.rest;
     figures += Between(seen.first, seen.last, Seconds(seen.last_at - seen.first_at));

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <map>
+#include <string>
 
 #include "services/fleetctl/canary.h"
 #include "services/link/observer_link.h"
@@ -14,11 +15,12 @@ class CanaryWatch {
  public:
   explicit CanaryWatch(const link::LinkOptions& options) : observer_(options) {}
 
-  // Waits until the vehicle hears as many peers as any other; false after `patience`.
+  // Waits until the vehicle has taken a beacon since its process began; false after `patience`.
   bool WaitUntilItHears(VehicleId vehicle, std::chrono::milliseconds patience);
   struct Both {
     ServiceFigures canary;
     ServiceFigures rest;
+    std::string trouble;  // what happened to the canary meanwhile; empty: nothing
   };
   Both Watch(VehicleId vehicle, Nanoseconds span);
 
@@ -28,6 +30,7 @@ class CanaryWatch {
     SteadyTime first_at{0};
     VehicleStatus last;
     SteadyTime last_at{0};
+    bool began_anew = false;  // its process
   };
   void Take();
 

@@ -47,8 +47,7 @@ void ResetSignals() {
   ResetSignals();
   // An own process group: Ctrl-C reaches fleetctl alone, which stops the fleet in good order.
   ::setpgid(0, 0);
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(kCannotExec);  // the parent died before the prctl
+  DieWith(parent, SIGTERM);
   const int nothing = ::open("/dev/null", O_RDONLY);
   if (nothing >= 0) ::dup2(nothing, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
@@ -69,6 +68,11 @@ void ResetSignals() {
 }
 
 }  // namespace
+
+void DieWith(pid_t parent, int signal_number) {
+  ::prctl(PR_SET_PDEATHSIG, signal_number);
+  if (::getppid() != parent) ::_exit(kCannotExec);  // the parent died before the prctl
+}
 
 std::string Describe(ProcessEnd end) {
   if (!end.by_signal) return "exit code " + std::to_string(end.number);

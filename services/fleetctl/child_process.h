@@ -24,6 +24,10 @@ class StartError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// For a process that was just forked: when its parent dies it gets the signal, and it ends at once
+// if the parent has died already.
+void DieWith(pid_t parent, int signal_number);
+
 // How a process ended.
 struct ProcessEnd {
   bool by_signal = false;

@@ -14,15 +14,14 @@ std::string Name(qos::Severity severity) {
   return severity == qos::Severity::kError ? "error" : "warning";
 }
 
-// What a file holds must not command the terminal it is shown on.
+}  // namespace
+
 std::string Shown(std::string text) {
   text = app::WellFormed(text);
   std::ranges::replace_if(
       text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
   return text;
 }
-
-}  // namespace
 
 std::string ToText(const qos::Finding& finding, const std::string& nowhere) {
   std::string where = finding.place.file.empty() ? nowhere : finding.place.file;

@@ -7,6 +7,9 @@
 
 namespace giveway::fleetctl {
 
+// Text from a file or from the wire, which must not command the terminal it is shown on.
+std::string Shown(std::string text);
+
 // Three lines: where, which values and how bad; what comes of it; the remedy. `nowhere` stands
 // where a finding is about no file.
 std::string ToText(const qos::Finding& finding, const std::string& nowhere = "environment");

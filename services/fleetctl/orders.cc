@@ -11,12 +11,13 @@ namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
 
-// Calls done() again and again. Whether it was true before `patience` was over.
+// Calls done() again and again. Whether it was true before `patience` was over, or the operator's
+// after so many Ctrl-C.
 template <typename Done>
-bool WaitUntil(std::chrono::milliseconds patience, Done&& done) {
+bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) {
   const SteadyTime end = app::SteadyNow() + patience;
   while (!done()) {
-    if (app::SteadyNow() >= end || Interrupts::Count() > 0) return false;
+    if (app::SteadyNow() >= end || Interrupts::Count() >= interrupts) return false;
     std::this_thread::sleep_for(kPoll);
   }
   return true;
@@ -34,18 +35,19 @@ std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
     if (sought_.insert(vehicle).second) link_.Seek(vehicle);
   }
   std::vector<VehicleId> missing = vehicles;
-  WaitUntil(patience, [&] {
+  WaitUntil(patience, 1, [&] {
     std::erase_if(missing, [&](VehicleId vehicle) { return link_.Reaches(vehicle); });
     return missing.empty();
   });
   return missing;
 }
 
-std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience) {
+std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience,
+                                        bool insist) {
   order.number = RandomNumber();
   std::optional<AdminAnswer> last;
   if (!link_.Send(order)) return last;
-  WaitUntil(patience, [&] {
+  WaitUntil(patience, insist ? 2 : 1, [&] {
     for (AdminAnswer& answer : link_.Take()) {
       const bool ours = answer.vehicle == order.vehicle && answer.order == order.number;
       if (ours && answer.state != AnswerState::kRestarting) last = std::move(answer);

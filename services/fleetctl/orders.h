@@ -22,7 +22,9 @@ class Orders {
                               std::chrono::milliseconds patience);
   // Sends it to a vehicle that is reached, and waits for the answer in which it says that it is in
   // effect, or refused. Nothing if it does not come within `patience`.
-  std::optional<AdminAnswer> Give(AdminOrder order, std::chrono::milliseconds patience);
+  // Ctrl-C ends the waiting; `insist`: only the second one does.
+  std::optional<AdminAnswer> Give(AdminOrder order, std::chrono::milliseconds patience,
+                                  bool insist = false);
 
  private:
   link::OperatorLink link_;

@@ -4,9 +4,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <sstream>
 #include <string>
+
+#include "services/fleetctl/child_process.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -70,9 +73,11 @@ std::vector<link::ResolvedEntity> Understood(const std::string& text) {
 std::vector<link::ResolvedEntity> ResolveQosApart(const link::LinkOptions& options) {
   int ends[2];
   if (pipe(ends) != 0) throw link::LinkError(std::string("pipe: ") + std::strerror(errno));
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) throw link::LinkError(std::string("fork: ") + std::strerror(errno));
   if (child == 0) {
+    DieWith(parent, SIGKILL);
     close(ends[0]);
     TellAndExit(options, ends[1]);
   }

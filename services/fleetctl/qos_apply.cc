@@ -86,7 +86,8 @@ class Applying {
   void CheckAgainstOld();
   bool ApplyTo(AppliedTo* applied);
   std::optional<ApplyVerdict> Try(AppliedTo* canary);
-  void RollBack(const AppliedTo& canary);
+  // Whether it says that it runs with its old profiles.
+  bool RollBack(VehicleId canary);
   const AdminAnswer& ToldBy(VehicleId vehicle) const { return told_.at(vehicle); }
   void Say(const std::string& text) const {
     if (!options_.json) std::fputs(text.c_str(), stdout);
@@ -185,6 +186,7 @@ bool Applying::ApplyTo(AppliedTo* applied) {
   const SteadyTime begun = app::SteadyNow();
   const auto answer = orders_.Give(ApplyOrder(applied->vehicle, wanted_), kApplyPatience);
   applied->seconds = Seconds(app::SteadyNow() - begun);
+  applied->answered = answer.has_value();
   applied->in_effect = answer && answer->state == AnswerState::kInEffect;
   if (!answer) applied->refusal = "gave no answer; see its log";
   if (answer && !applied->in_effect) applied->refusal = "refuses it: " + answer->reason;
@@ -193,38 +195,35 @@ bool Applying::ApplyTo(AppliedTo* applied) {
   return applied->in_effect;
 }
 
-void Applying::RollBack(const AppliedTo& canary) {
-  AppliedTo back;
-  back.vehicle = canary.vehicle;
-  const QosProfiles& old = ToldBy(canary.vehicle).profiles;
-  back.changes = qos::Changes(RootOf(wanted_), RootOf(old));
-  const auto answer = orders_.Give(ApplyOrder(canary.vehicle, old), kApplyPatience);
-  if (answer && answer->state == AnswerState::kInEffect) return;
-  std::fprintf(stderr, "vehicle %u did not say that it went back; see its log\n",
-               Number(canary.vehicle));
+bool Applying::RollBack(VehicleId canary) {
+  const auto answer =
+      orders_.Give(ApplyOrder(canary, ToldBy(canary).profiles), kApplyPatience, true);
+  return answer && answer->state == AnswerState::kInEffect;
 }
 
 std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   CanaryWatch watch(link_);
-  if (!ApplyTo(canary)) return ApplyVerdict::kRefused;
   CanaryTrial trial;
   trial.vehicle = canary->vehicle;
-  trial.seconds = options_.watch_s;
-  if (watch.WaitUntilItHears(canary->vehicle, kHearPatience)) {
+  if (!ApplyTo(canary)) {
+    // Refused: nothing was changed. Without an answer nobody knows.
+    if (canary->answered) return ApplyVerdict::kRefused;
+    trial.worse = canary->refusal;
+  } else if (watch.WaitUntilItHears(canary->vehicle, kHearPatience)) {
     const auto both = watch.Watch(canary->vehicle, FromSeconds(options_.watch_s));
+    trial.seconds = options_.watch_s;
     trial.canary = both.canary;
     trial.rest = both.rest;
-    trial.worse = WhyWorse(both.canary, both.rest);
+    trial.worse = both.trouble.empty() ? WhyWorse(both.canary, both.rest) : both.trouble;
   } else {
-    trial.worse = "it does not hear whom the rest hears";
+    trial.worse = "it hears no beacon";
   }
   // An operator who stops the trial has not seen that it is good.
   if (Interrupts::Count() > 0) trial.worse = "interrupted";
   report_.trial = trial;
   Say(LineOf(trial));
   if (trial.worse.empty()) return {};
-  RollBack(*canary);
-  return ApplyVerdict::kRolledBack;
+  return RollBack(canary->vehicle) ? ApplyVerdict::kRolledBack : ApplyVerdict::kNotRolledBack;
 }
 
 ApplyReport Applying::Run() {
@@ -253,6 +252,7 @@ ApplyReport Applying::Run() {
 }  // namespace
 
 int RunQosApply(const QosApplyOptions& options) {
+  if (!HasStdout()) return kCouldNotRun;
   QosProfiles wanted = ReadProfilesToApply(options.profile);
   link::LinkOptions link = LinkOptionsOf(options.where);
   // The library's own word, before this process touches it and before any vehicle depends on it.

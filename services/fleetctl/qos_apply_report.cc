@@ -23,6 +23,8 @@ std::string Name(ApplyVerdict verdict) {
       return "refused";
     case ApplyVerdict::kRolledBack:
       return "rolled_back";
+    case ApplyVerdict::kNotRolledBack:
+      return "not_rolled_back";
     case ApplyVerdict::kNotSeen:
       break;
   }
@@ -114,8 +116,8 @@ int ExitCode(ApplyVerdict verdict) {
 std::string PlanText(const ApplyReport& report) {
   std::vector<std::pair<std::string, std::string>> groups;  // changes, and whose they are
   for (const AppliedTo& applied : report.vehicles) {
-    const std::string changes =
-        fmt::format(": {} -> {}\n", applied.before, report.profile) + ChangesText(applied.changes);
+    const std::string changes = fmt::format(": {} -> {}\n", Shown(applied.before), report.profile) +
+                                ChangesText(applied.changes);
     auto group = std::ranges::find(groups, changes, &std::pair<std::string, std::string>::first);
     if (group == groups.end()) group = groups.insert(group, {changes, "vehicle"});
     group->second += fmt::format(" {}", Number(applied.vehicle));
@@ -127,7 +129,7 @@ std::string PlanText(const ApplyReport& report) {
 
 std::string LineOf(const AppliedTo& applied) {
   if (!applied.in_effect) {
-    return fmt::format("vehicle {}: {}\n", Number(applied.vehicle), applied.refusal);
+    return fmt::format("vehicle {}: {}\n", Number(applied.vehicle), Shown(applied.refusal));
   }
   return fmt::format("vehicle {}: in effect after {:.2f} s{}; {} of {} values seen in it\n",
                      Number(applied.vehicle), applied.seconds,
@@ -151,6 +153,10 @@ std::string LineOf(const ApplyReport& report) {
     case ApplyVerdict::kRolledBack:
       return fmt::format("rolled back: vehicle {} runs with {} again\n",
                          Number(report.trial->vehicle), report.vehicles.front().before);
+    case ApplyVerdict::kNotRolledBack:
+      return fmt::format(
+          "NOT rolled back: vehicle {} did not say that it runs with {} again; see its log\n",
+          Number(report.trial->vehicle), Shown(report.vehicles.front().before));
     case ApplyVerdict::kNotSeen:
       return "a vehicle says it is in effect, and its endpoints run with other values\n";
     case ApplyVerdict::kNothingToDo:

@@ -16,6 +16,7 @@ struct AppliedTo {
   VehicleId vehicle = kNobody;
   std::string before;  // name of the profiles it ran with
   std::vector<qos::Change> changes;
+  bool answered = false;
   bool in_effect = false;
   std::string refusal;        // in its own words; or that it did not answer
   double seconds = 0;         // from the order to its answer
@@ -35,9 +36,10 @@ enum class ApplyVerdict : std::uint8_t {
   kApplied,
   kNothingToDo,
   kDryRun,
-  kRefused,     // by our checks or by a vehicle
-  kRolledBack,  // the canary served worse, and runs with its old profiles again
-  kNotSeen,     // a vehicle says it is in effect, and its endpoints say otherwise
+  kRefused,        // by our checks or by a vehicle
+  kRolledBack,     // the canary served worse, and runs with its old profiles again
+  kNotRolledBack,  // the canary served worse, and did not say that it went back
+  kNotSeen,        // a vehicle says it is in effect, and its endpoints say otherwise
 };
 
 struct ApplyReport {

@@ -12,6 +12,7 @@
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/orders.h"
 #include "services/fleetctl/qos_effective.h"
+#include "services/fleetctl/reading_along.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
 
@@ -22,7 +23,7 @@ constexpr auto kPatience = std::chrono::seconds(10);
 
 // One live value, and what the file it should run with makes of it; nothing where it has no such
 // endpoint or value.
-struct Told {
+struct LiveRow {
   std::string profile;
   QosRow live;
   std::optional<QosRow> expected;
@@ -66,9 +67,9 @@ std::optional<QosRow> Expected(const EffectiveSet& set, const std::string& profi
   return row == endpoint->rows.end() ? std::nullopt : std::optional(*row);
 }
 
-std::vector<Told> HoldAgainst(const EffectiveSet& set, const AdminAnswer& answer,
-                              const std::vector<std::string>& wanted) {
-  std::vector<Told> all;
+std::vector<LiveRow> HoldAgainst(const EffectiveSet& set, const AdminAnswer& answer,
+                                 const std::vector<std::string>& wanted) {
+  std::vector<LiveRow> all;
   for (const EffectiveEndpoint& endpoint : LiveEndpoints(answer)) {
     const auto is_it = [&](const std::string& word) {
       return word == endpoint.profile || word == endpoint.topic;
@@ -81,7 +82,7 @@ std::vector<Told> HoldAgainst(const EffectiveSet& set, const AdminAnswer& answer
   return all;
 }
 
-std::string ToText(const Told& told, const std::string& own_file, const std::string& file) {
+std::string ToText(const LiveRow& told, const std::string& own_file, const std::string& file) {
   const std::string origin = OriginText(told.live, own_file);
   return fmt::format("  {:<28} {:<24} {}{}\n", told.live.policy, told.live.value, origin,
                      told.AsExpected() ? ""
@@ -89,7 +90,7 @@ std::string ToText(const Told& told, const std::string& own_file, const std::str
                                                      OriginText(*told.expected, file)));
 }
 
-std::string ToJson(const Told& told) {
+std::string ToJson(const LiveRow& told) {
   std::string json =
       fmt::format(R"({{"profile":"{}","policy":"{}","value":{},"origin":"{}")", told.profile,
                   told.live.policy, app::JsonString(told.live.value), Name(told.live.origin));
@@ -100,10 +101,10 @@ std::string ToJson(const Told& told) {
 }
 
 void Print(const QosLiveOptions& options, const std::string& file, const AdminAnswer& answer,
-           const std::vector<Told>& all) {
+           const std::vector<LiveRow>& all) {
   std::string text;
   std::string profile;
-  for (const Told& told : all) {
+  for (const LiveRow& told : all) {
     if (options.set.json) {
       text += (text.empty() ? "" : ",") + ToJson(told);
       continue;
@@ -124,6 +125,7 @@ void Print(const QosLiveOptions& options, const std::string& file, const AdminAn
 }  // namespace
 
 int RunQosLive(const QosLiveOptions& options) {
+  if (!HasStdout()) return kCouldNotRun;
   const EffectiveSet set =
       EffectiveQosOfFile(options.set.qos_file, options.set.interface, options.set.vehicles);
   const auto answer = AnswerOf(options, set.file);
@@ -134,10 +136,10 @@ int RunQosLive(const QosLiveOptions& options) {
                  options.vehicle, options.domain);
     return kCouldNotRun;
   }
-  const std::vector<Told> all = HoldAgainst(set, *answer, options.set.wanted);
+  const std::vector<LiveRow> all = HoldAgainst(set, *answer, options.set.wanted);
   Print(options, set.file, *answer, all);
   if (std::fflush(stdout) != 0) return kCouldNotRun;
-  return std::ranges::all_of(all, &Told::AsExpected) ? 0 : 1;
+  return std::ranges::all_of(all, &LiveRow::AsExpected) ? 0 : 1;
 }
 
 }  // namespace giveway::fleetctl

@@ -127,6 +127,7 @@ class Session {
       for (std::size_t i = 0; i < fleets; ++i) threads.emplace_back([this] { Work(); });
     }
     if (error_) std::rethrow_exception(error_);
+    if (next_ < tasks_.size() && report_.problems.empty()) report_.problems = {"interrupted"};
     report_.vehicles = options_.vehicles;
     report_.fleets = options_.fleets;
     report_.seed = options_.seed;

@@ -45,7 +45,7 @@ class StopwatchFleet {
 
   // Sleeps for a moment and takes in what was said.
   void Turn();
-  const Hearing& WhoHears() const { return hearing_; }
+  const PeersHeard& WhoHears() const { return hearing_; }
   // Since the last ForgetSaid, vehicle by vehicle in its order.
   const std::vector<Said>& Heard() const { return said_; }
   void ForgetSaid() { said_.clear(); }
@@ -72,7 +72,7 @@ class StopwatchFleet {
   std::unique_ptr<ChildProcess> world_;
   std::map<VehicleId, Vehicle> vehicles_;
   std::map<VehicleId, SteadyTime> blackouts_since_;
-  Hearing hearing_;
+  PeersHeard hearing_;
   std::vector<Said> said_;
 };
 

@@ -27,7 +27,7 @@ Examples
 Exit code: 0 every promise was kept; 1 one was broken, or it was interrupted; 2 could not run.
 )";
 
-// Of the participant's profile above 32 the lease is another one; one place is left free.
+// Above 32 vehicles code sets another lease; one place stays free.
 constexpr std::uint32_t kMostVehicles = 31;
 constexpr std::uint32_t kMostTrials = 100'000;
 constexpr std::uint32_t kMostFleets = 16;

@@ -57,7 +57,7 @@ std::optional<Word> WordOf(std::string_view line) {
   return std::nullopt;
 }
 
-void Hearing::Fold(VehicleId hearer, const Word& word) {
+void PeersHeard::Fold(VehicleId hearer, const Word& word) {
   if (word.about == kNobody) return;
   View& view = views_[hearer][word.about];
   switch (word.kind) {
@@ -87,9 +87,9 @@ void Hearing::Fold(VehicleId hearer, const Word& word) {
   }
 }
 
-void Hearing::Restart(VehicleId hearer) { views_.erase(hearer); }
+void PeersHeard::Restart(VehicleId hearer) { views_.erase(hearer); }
 
-bool Hearing::Hears(VehicleId hearer, VehicleId about) const {
+bool PeersHeard::Hears(VehicleId hearer, VehicleId about) const {
   const auto views = views_.find(hearer);
   if (views == views_.end()) return false;
   const auto view = views->second.find(about);
@@ -97,7 +97,7 @@ bool Hearing::Hears(VehicleId hearer, VehicleId about) const {
          view->second.alive;
 }
 
-std::optional<std::pair<VehicleId, VehicleId>> Hearing::FirstDeaf(
+std::optional<std::pair<VehicleId, VehicleId>> PeersHeard::FirstDeaf(
     std::span<const VehicleId> fleet) const {
   for (const VehicleId hearer : fleet) {
     for (const VehicleId about : fleet) {

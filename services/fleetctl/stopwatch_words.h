@@ -40,7 +40,7 @@ struct Word {
 std::optional<Word> WordOf(std::string_view line);
 
 // Who hears whom, by what they have said so far.
-class Hearing {
+class PeersHeard {
  public:
   void Fold(VehicleId hearer, const Word& word);
   // A new life of the vehicle: it has heard nobody yet. What the others think of it stays.

@@ -83,6 +83,7 @@ bool HasFewerAlarms(const TuneFigures& one, const TuneFigures& than) {
 }
 
 bool NoticesNoLater(const TuneFigures& one, const TuneFigures& than) {
+  if (one.undetected > 0) return false;
   const double error = std::hypot(one.detection_error_ms, than.detection_error_ms);
   const double chance = std::clamp(2 * error, kSameDetectionMs, kMostChanceMs);
   return Detection(one) <= Detection(than) + chance;
@@ -96,9 +97,12 @@ std::size_t Recommended(const std::vector<TuneFigures>& figures, std::size_t bas
       better.push_back(i);
     }
   }
-  if (better.empty()) better = AllPlaces(figures);
   const auto fewest = [&](std::size_t place) { return TieBreak(figures[place]); };
-  if (better.size() == figures.size()) return *std::ranges::min_element(better, {}, fewest);
+  if (better.empty()) {
+    std::vector<std::size_t> sure = AllPlaces(figures);
+    std::erase_if(sure, [&](std::size_t place) { return figures[place].undetected > 0; });
+    return sure.empty() ? base : *std::ranges::min_element(sure, {}, fewest);
+  }
   const auto detection = [&](std::size_t place) { return Detection(figures[place]); };
   const double first = detection(*std::ranges::min_element(better, {}, detection));
   std::erase_if(better,

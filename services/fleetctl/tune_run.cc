@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <numeric>
+#include <span>
 #include <thread>
 
 #include "services/app/impair_text.h"
@@ -18,6 +18,7 @@
 #include "services/fleetctl/tune_front.h"
 #include "services/fleetctl/tune_report.h"
 #include "services/fleetctl/tune_search.h"
+#include "services/link/crc32c.h"
 #include "services/qos/check.h"
 
 namespace giveway::fleetctl {
@@ -41,9 +42,12 @@ QosTuneOptions Filled(QosTuneOptions options) {
 }
 
 // All that the evidence depends on; how many fleets run side by side may change.
-std::string PlanOf(const QosTuneOptions& options, const std::string& base_file) {
+std::string PlanOf(const QosTuneOptions& options, const qos::ProfileFile& base) {
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(base.bytes.data()),
+                        base.bytes.size());
   JsonObject plan;
-  plan.Add("base", std::string_view(base_file));
+  plan.Add("base", std::string_view(base.name));
+  plan.Add("base_crc", link::Crc32c(bytes));
   plan.Add("impair", std::string_view(options.impair));
   plan.Add("vehicles", options.vehicles);
   plan.Add("seed", options.seed);
@@ -75,7 +79,7 @@ class Tuning {
   std::string ProfileOf(const std::string& candidate) const { return profiles_.at(candidate); }
 
  private:
-  std::string Plan() const { return PlanOf(options_, base_.name); }
+  std::string Plan() const { return PlanOf(options_, base_); }
   qos::ProfileFile ReadBase();
   void MakeProfiles();
   std::string CheckedProfile(const TuneCandidate& candidate, std::string* trouble) const;

@@ -215,7 +215,7 @@ std::variant<ChosenPair, std::string> Choose(const std::vector<FleetMember>& mem
 }
 
 int RunWhy(const WhyOptions& options) {
-  if (!HasStdout()) return 0;
+  if (!HasStdout()) return kCouldNotRun;
   std::vector<FleetMember> members = FindFleet(kProc);
   const bool nameless = MayBeNameless(options.hearer, members, options.domain) ||
                         MayBeNameless(options.speaker, members, options.domain);

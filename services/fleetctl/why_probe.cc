@@ -8,12 +8,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <functional>
 #include <sstream>
 #include <stdexcept>
 
 #include "services/app/process.h"
+#include "services/fleetctl/child_process.h"
 #include "services/fleetctl/file_descriptor.h"
 #include "services/link/ear.h"
 #include "services/link/observer_link.h"
@@ -133,7 +135,13 @@ class Probing {
     return result_.own_word && (order_.speaker.told.is_world || result_.own_word->taken > 0);
   }
 
+  // In containers everybody is process 1: where both ids are known they must be the same.
+  static bool MayBe(const ProcessSituation& meant, const link::EarProcess& process) {
+    return meant.told.id == kNobody || process.vehicle == kNobody ||
+           meant.told.id == process.vehicle;
+  }
   bool IsSpeaker(const link::EarProcess& process) const {
+    if (!MayBe(order_.speaker, process)) return false;
     if (order_.speaker.pid_inside != 0) {
       return process.process == static_cast<std::uint16_t>(order_.speaker.pid_inside);
     }
@@ -142,7 +150,7 @@ class Probing {
   }
 
   bool IsHearer(const link::EarProcess& process) const {
-    return order_.hearer.pid_inside != 0 &&
+    return order_.hearer.pid_inside != 0 && MayBe(order_.hearer, process) &&
            process.process == static_cast<std::uint16_t>(order_.hearer.pid_inside);
   }
   void NoteHearer(const link::EarProcess& process) {
@@ -268,9 +276,11 @@ std::string InPlaceOf(const ProcessSituation& process, const std::function<std::
   if (pipe2(ends, O_CLOEXEC) != 0) Throw("pipe");
   FileDescriptor reading(ends[0]);
   FileDescriptor writing(ends[1]);
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) Throw("fork");
   if (child == 0) {
+    DieWith(parent, SIGKILL);
     std::string text;
     try {
       TakePlace(process);

@@ -58,23 +58,19 @@ void CheckProfilesChanged(const ProcessSituation& process, Causes* causes) {
 void CheckState(const ProcessSituation& process, bool hears, Causes* causes) {
   if (!process.state) return;
   const char state = *process.state;
-  if (state != 'T' && state != 't' && state != 'Z') return;
-  const bool over = state == 'Z';
+  if (state != 'T' && state != 't') return;
   const std::string deaf = "It takes nothing from its readers until it goes on.";
   const std::string silent = "It sends nothing until it goes on.";
-  causes->push_back(
-      {{qos::Severity::kError,
-        over ? "process_ended" : "process_stopped",
-        {},
-        NameOf(process),
-        fmt::format("is in state {} ({}), and not running", state,
-                    over           ? "ended, not yet reaped"
-                    : state == 'T' ? "stopped by a signal"
-                                   : "stopped by a debugger"),
-        over ? "It hears and sends nothing any more." : (hears ? deaf : silent),
-        over ? "start it anew" : fmt::format("kill -CONT {}, or let the debugger go", process.pid)},
-       Weight::kPrevents,
-       !hears});
+  causes->push_back({{qos::Severity::kError,
+                      "process_stopped",
+                      {},
+                      NameOf(process),
+                      fmt::format("is in state {} ({}), and not running", state,
+                                  state == 'T' ? "stopped by a signal" : "stopped by a debugger"),
+                      hears ? deaf : silent,
+                      fmt::format("kill -CONT {}, or let the debugger go", process.pid)},
+                     Weight::kPrevents,
+                     !hears});
 }
 
 void CheckParticipant(const ProcessSituation& process, bool hears, Causes* causes) {

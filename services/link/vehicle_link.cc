@@ -259,13 +259,13 @@ void VehicleLink::FlushStatus(Nanoseconds timeout) {
   impl_->Own().status_writer.WaitUntilHeard(timeout);
 }
 
-std::optional<AdminOrder> VehicleLink::TakeOrder() {
-  std::optional<AdminOrder> newest;
+std::vector<AdminOrder> VehicleLink::TakeOrders() {
+  std::vector<AdminOrder> orders;
   impl_->Own().order_reader.TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
     AdminOrder order;
-    if (FromWire(sample, order)) newest = std::move(order);
+    if (FromWire(sample, order)) orders.push_back(std::move(order));
   });
-  return newest;
+  return orders;
 }
 
 void VehicleLink::SendAnswer(const AdminAnswer& answer) {

@@ -82,8 +82,8 @@ class VehicleLink {
   // Waits until every matched observer has the last status, or `timeout`.
   void FlushStatus(Nanoseconds timeout);
 
-  // The newest order to this vehicle, if one has come since the last call.
-  std::optional<AdminOrder> TakeOrder();
+  // The orders to this vehicle that have come since the last call.
+  std::vector<AdminOrder> TakeOrders();
   void SendAnswer(const AdminAnswer& answer);
   // Waits until every matched operator has the last answer, or `timeout`.
   void FlushAnswer(Nanoseconds timeout);

@@ -35,7 +35,7 @@ printf '<dds><profiles>' >cut.xml
 
 # Four on rounds of their own, in earshot of each other and never near.
 {
-  printf 'name: "rounds"\nduration_s: 110\nemission_radius_m: 100\n'
+  printf 'name: "rounds"\nduration_s: 600\nemission_radius_m: 100\n'
   for id in 1 2 3 4; do
     x=$((id * 6))
     printf 'vehicle { id: %d start { x_m: %d y_m: 0 heading_deg: 0 } cruise_m_s: 0.3\n' "$id" "$x"
@@ -50,6 +50,7 @@ printf '<dds><profiles>' >cut.xml
 # With one beacon in ten lost, a deadline of little more than a period is missed again and again.
 "$FLEETCTL" run rounds.textproto --impair loss=0.1 --json --logs logs >run.json 2>run.err &
 fleet=$!
+trap 'kill -INT "$fleet" 2>/dev/null; wait "$fleet" 2>/dev/null; rm -rf "$SCRATCH"' EXIT
 for _ in $(seq 200); do
   domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
   [[ -n $domain ]] && grep -q running run.err && break

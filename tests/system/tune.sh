@@ -71,13 +71,22 @@ for _ in $(seq 400); do
   compgen -G 'cut/trials/*.json' >/dev/null && break
   sleep 0.1
 done
-domain=$(for pid in $(children_of "$tuning"); do domain_of "$pid"; done | head -n 1)
+domain=
+for _ in $(seq 200); do
+  domain=$(for pid in $(children_of "$tuning"); do domain_of "$pid"; done | head -n 1)
+  [[ -z $domain ]] || break
+  sleep 0.05
+done
 kill -INT "$tuning"
 code=0
 wait "$tuning" || code=$?
 [[ $code -eq 1 ]] || fail "cut off: exit code $code: $(cat err)"
 grep -q 'goes on from here' err || fail "cut off: $(cat err)"
-[[ -z $domain ]] || all_gone "$domain" 50 || fail "cut off: vehicles are left on domain $domain"
+if [[ -z $domain ]]; then
+  fail "cut off: nobody was started"
+elif ! all_gone "$domain" 50; then
+  fail "cut off: vehicles are left on domain $domain"
+fi
 compgen -G 'cut/trials/*.json' >/dev/null || fail "cut off: no evidence was kept"
 tune "0 1" "going on" "${small[@]}" --out cut
 grep -q 'going on: [1-9]' err || fail "going on: $(cat err)"

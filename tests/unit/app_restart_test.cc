@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "services/app/restart.h"
+#include "services/app/text_file.h"
 
 namespace giveway::app {
 namespace {
@@ -27,6 +28,15 @@ TEST(Restart, PutsTheNewFlagsInPlaceOfTheOld) {
                             {{"--qos", "b.xml"}, {"--id", "4"}, {"--resume", "word"}}),
               ElementsAre("vehicle", "--lockstep", "--seed", "1", "--id", "4", "--qos", "b.xml",
                           "--resume", "word"));
+}
+
+TEST(Restart, FindsATextThatItHoldsAndItsName) {
+  const std::string path = HoldText("mine.xml", "<dds/>");
+  EXPECT_EQ(ReadBytes(path), "<dds/>");
+  EXPECT_EQ(NameOf(path), "mine.xml");
+  LetGo(path);  // only the next process image is without it
+  EXPECT_EQ(ReadBytes(path), "<dds/>");
+  EXPECT_EQ(NameOf(HoldText(std::string(300, 'x'), "")), std::string(200, 'x'));
 }
 
 TEST(Restart, NamesAFileByItsLastPart) { EXPECT_EQ(NameOf("/somewhere/mine.xml"), "mine.xml"); }

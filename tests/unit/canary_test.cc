@@ -9,7 +9,11 @@ using ::testing::HasSubstr;
 
 ServiceFigures Figures(std::uint64_t alarms, std::uint64_t lost, std::uint64_t taken,
                        double pair_seconds) {
-  return {.alarms = alarms, .lost = lost, .taken = taken, .pair_seconds = pair_seconds};
+  return {.alarms = alarms,
+          .lost = lost,
+          .taken = taken,
+          .seconds = pair_seconds / 3,
+          .pair_seconds = pair_seconds};
 }
 
 TEST(Canary, CountsFromOneReportToALater) {
@@ -26,6 +30,7 @@ TEST(Canary, CountsFromOneReportToALater) {
   EXPECT_EQ(figures.alarms, 3U);
   EXPECT_EQ(figures.lost, 4U);
   EXPECT_EQ(figures.taken, 60U);
+  EXPECT_EQ(figures.seconds, 10);
   EXPECT_EQ(figures.pair_seconds, 20);
   EXPECT_EQ(figures.AlarmsPerPairHour(), 540);
   EXPECT_EQ(figures.LostShare(), 4.0 / 64);
@@ -52,8 +57,12 @@ TEST(Canary, ThatHearsNobodyIsWorse) {
   EXPECT_THAT(WhyWorse(Figures(0, 0, 0, 0), Figures(0, 0, 4200, 210)), HasSubstr("no beacon"));
 }
 
-TEST(Canary, WithoutAnyRestToCompareWithIsNoWorse) {
-  EXPECT_EQ(WhyWorse(Figures(5, 5, 600, 30), {}), "");
+TEST(Canary, ThatHearsOnlySomeOfThePeersIsWorse) {
+  EXPECT_THAT(WhyWorse(Figures(0, 0, 400, 30), Figures(0, 0, 4200, 210)), HasSubstr("takes 40"));
+}
+
+TEST(Canary, WithoutAnyRestToCompareItWithIsNotPromoted) {
+  EXPECT_THAT(WhyWorse(Figures(0, 0, 600, 30), {}), HasSubstr("nobody"));
 }
 
 }  // namespace

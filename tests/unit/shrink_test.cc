@@ -2,6 +2,7 @@
 #include "services/fleetctl/shrink.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -63,7 +64,8 @@ TEST(Shrinking, TheFileFailsAsTheRunDid) {
   Scenario scenario = shrunk->made.scenario;
   scenario.vehicles[0].braitenberg = scenario.vehicles[1].braitenberg = LectureWeights();
   const auto before = sim::RunVirtually(scenario, shrunk->made.plan);
-  const std::string file = testing::TempDir() + "/shrunk.textproto";
+  const std::string file =
+      testing::TempDir() + "/shrunk_" + std::to_string(getpid()) + ".textproto";
   std::ofstream(file) << app::WriteScenario(scenario, "left");
   const Scenario read = app::LoadScenario(file, {});
   std::filesystem::remove(file);

@@ -33,7 +33,7 @@ TEST(StopwatchWords, OtherLinesSayNothing) {
   }
 }
 
-class HearingTest : public testing::Test {
+class PeersHeardTest : public testing::Test {
  protected:
   void Say(VehicleId hearer, WordKind kind, VehicleId about) {
     hearing_.Fold(hearer, {SteadyTime{0}, kind, about});
@@ -47,10 +47,10 @@ class HearingTest : public testing::Test {
   bool AllWell() const { return !hearing_.FirstDeaf(fleet_); }
 
   const std::vector<VehicleId> fleet_{kOne, kTwo};
-  Hearing hearing_;
+  PeersHeard hearing_;
 };
 
-TEST_F(HearingTest, NobodyIsHeardBeforeItIsMatchedAndFresh) {
+TEST_F(PeersHeardTest, NobodyIsHeardBeforeItIsMatchedAndFresh) {
   EXPECT_FALSE(AllWell());
   Say(kOne, WordKind::kMatched, kTwo);
   EXPECT_FALSE(hearing_.Hears(kOne, kTwo));
@@ -60,7 +60,7 @@ TEST_F(HearingTest, NobodyIsHeardBeforeItIsMatchedAndFresh) {
   EXPECT_TRUE(AllWell());
 }
 
-TEST_F(HearingTest, EachKindOfSilenceIsDeafness) {
+TEST_F(PeersHeardTest, EachKindOfSilenceIsDeafness) {
   for (const WordKind kind :
        {WordKind::kBeaconStale, WordKind::kBeaconLeft, WordKind::kLivelinessLost}) {
     hearing_ = {};
@@ -71,14 +71,14 @@ TEST_F(HearingTest, EachKindOfSilenceIsDeafness) {
   }
 }
 
-TEST_F(HearingTest, ANewLifeHasHeardNobodyButIsHeardAsBefore) {
+TEST_F(PeersHeardTest, ANewLifeHasHeardNobodyButIsHeardAsBefore) {
   MeetBothWays();
   hearing_.Restart(kOne);
   EXPECT_FALSE(hearing_.Hears(kOne, kTwo));
   EXPECT_TRUE(hearing_.Hears(kTwo, kOne));
 }
 
-TEST_F(HearingTest, ANewWriterBeginsAlive) {
+TEST_F(PeersHeardTest, ANewWriterBeginsAlive) {
   MeetBothWays();
   Say(kOne, WordKind::kLivelinessLost, kTwo);
   Say(kOne, WordKind::kUnmatched, kTwo);

@@ -90,9 +90,14 @@ TEST(TuneEvidence, HalfAFileIsNoEvidence) {
 
 class TuneStoreTest : public testing::Test {
  protected:
-  TuneStoreTest() { fs::remove_all(folder_); }
-  ~TuneStoreTest() override { fs::remove_all(folder_); }
-  fs::path folder_ = fs::path(testing::TempDir()) / "giveway_tune_store";
+  TuneStoreTest() {
+    std::string name = testing::TempDir() + "tune_store_XXXXXX";
+    scratch_ = mkdtemp(name.data());
+    folder_ = scratch_ / "tuned";
+  }
+  ~TuneStoreTest() override { fs::remove_all(scratch_); }
+  fs::path scratch_;
+  fs::path folder_;  // not there yet
 };
 
 TEST_F(TuneStoreTest, GoesOnWhereItStopped) {

@@ -38,7 +38,9 @@ TEST(TuneFront, WhoMissedADeathIsLast) {
   TuneFigures blind = Figures(1, 10);
   blind.undetected = 1;
   EXPECT_THAT(ParetoFront({Figures(100, 200), blind}), ElementsAre(0, 1));
-  EXPECT_EQ(Recommended({Figures(100, 200), blind}, 0), 1U);  // the fewest of all, and no better
+  EXPECT_EQ(Recommended({Figures(100, 200), blind}, 0), 0U);
+  EXPECT_EQ(Recommended({blind, blind}, 0), 0U);
+  EXPECT_FALSE(NoticesNoLater(blind, blind));
   EXPECT_FALSE(NoticesNoLater(blind, Figures(100, 200)));
 }
 

@@ -137,7 +137,6 @@ const std::vector<Case>& Cases() {
       {"process_stopped", [](Pair& pair) { pair.speaker.state = 'T'; }},
       {"process_stopped", [](Pair& pair) { pair.hearer.state = 't'; }, Outlook::kCannot,
        Outlook::kHears},
-      {"process_ended", [](Pair& pair) { pair.speaker.state = 'Z'; }},
       {"open_files_limit", [](Pair& pair) { pair.hearer.open_files = 1020; }, Outlook::kHears,
        Outlook::kHears},
       {"profiles_changed", [](Pair& pair) { pair.speaker.profiles_changed = true; },
