@@ -177,15 +177,23 @@ class Loop {
     }
   }
 
-  // What the middleware says of the peers. Whoever comes or goes is news, the rest is trouble.
+  // What the middleware says of the peers. Whoever comes or goes is news, the rest is trouble; that
+  // a beacon was lost is neither on a radio, and would be said many times a second.
   void Tell(std::span<const QosEvent> events) {
     report_.NoteEvents(events);
     for (const QosEvent& event : events) {
-      const bool is_trouble = event.kind == QosEventKind::kDeadlineMissed ||
-                              event.kind == QosEventKind::kLivelinessLost ||
-                              event.kind == QosEventKind::kIncompatibleQos;
-      is_trouble ? app::LogWarning(Describe(event), event.at)
-                 : app::LogInfo(Describe(event), event.at);
+      switch (event.kind) {
+        case QosEventKind::kDeadlineMissed:
+        case QosEventKind::kLivelinessLost:
+        case QosEventKind::kIncompatibleQos:
+          app::LogWarning(Describe(event), event.at);
+          break;
+        case QosEventKind::kSampleLost:
+          app::LogDebug(Describe(event));
+          break;
+        default:
+          app::LogInfo(Describe(event), event.at);
+      }
     }
   }
 

@@ -10,14 +10,15 @@ BeaconInbox::BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names,
                          const rtps::GuidPrefix_t& own)
     : reader_(reader), names_(names), own_(own) {}
 
-void BeaconInbox::Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons) {
+void BeaconInbox::Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons,
+                        std::vector<QosEvent>* lost) {
   reader_.TakeEach([&](const wire::Beacon& sample, const dds::SampleInfo& info) {
-    Receive(sample, info, now, beacons);
+    Receive(sample, info, now, beacons, lost);
   });
 }
 
 void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& info, SteadyTime now,
-                          std::vector<ReceivedBeacon>& beacons) {
+                          std::vector<ReceivedBeacon>& beacons, std::vector<QosEvent>* lost) {
   const rtps::GUID_t& writer = info.sample_identity.writer_guid();
   if (writer.guidPrefix == own_) return;
   WriterEntry* const entry = names_.Find(writer);
@@ -26,7 +27,10 @@ void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& inf
     return;
   }
   const std::uint64_t sequence = info.sample_identity.sequence_number().to64long();
-  if (entry->last_sequence != 0) gaps_ += sequence - entry->last_sequence - 1;
+  if (entry->last_sequence != 0 && sequence > entry->last_sequence + 1) {
+    gaps_ += sequence - entry->last_sequence - 1;
+    if (lost != nullptr) lost->push_back({QosEventKind::kSampleLost, entry->vehicle, now});
+  }
   entry->last_sequence = sequence;
 
   ReceivedBeacon& received = beacons.emplace_back();

@@ -7,6 +7,7 @@
 #include "services/link/endpoint.h"
 #include "services/link/writer_names.h"
 #include "services/types/beacon.h"
+#include "services/types/qos_event.h"
 
 namespace giveway::link {
 
@@ -15,8 +16,10 @@ class BeaconInbox {
   // Beacons of writers with the prefix `own` are left out: a reader hears its own participant.
   BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names, const rtps::GuidPrefix_t& own);
 
-  // Appends what came, `now` stamped on it. `names` must be updated first.
-  void Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons);
+  // Appends what came, `now` stamped on it, and to `lost`, if given, whose samples are missing:
+  // once for each gap. `names` must be updated first.
+  void Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons,
+             std::vector<QosEvent>* lost = nullptr);
 
   // Samples overwritten in the reader before they were drained: gaps in the writers' sequence
   // numbers less those the library reports as lost on the way.
@@ -26,7 +29,7 @@ class BeaconInbox {
 
  private:
   void Receive(const wire::Beacon& sample, const dds::SampleInfo& info, SteadyTime now,
-               std::vector<ReceivedBeacon>& beacons);
+               std::vector<ReceivedBeacon>& beacons, std::vector<QosEvent>* lost);
 
   Reader<wire::Beacon> reader_;
   WriterNames& names_;

@@ -87,7 +87,7 @@ wire::LastQosEvent LastEventOf(const VehicleStatus& status) {
 
 bool TakeLastEvent(const wire::LastQosEvent& sent, VehicleStatus& status) {
   giveway::QosEventKind kind{};
-  if (!FromWireEnum(sent.kind(), giveway::QosEventKind::kIncompatibleQos, kind)) return false;
+  if (!FromWireEnum(sent.kind(), giveway::QosEventKind::kSampleLost, kind)) return false;
   status.last_event.reset();
   if (sent.known()) status.last_event = kind;
   status.last_event_about = VehicleId{sent.vehicle()};

@@ -27,8 +27,8 @@ static_assert(SameOrder(wire::DriveRule::RULE_LEAVING, Rule::kLeaving));
 static_assert(SameOrder(wire::EchoKind::ECHO_HEARD, Echo::kEcho));
 static_assert(SameOrder(wire::SeenClass::SEEN_SIGNAL, SeenClass::kSignal));
 static_assert(SameOrder(wire::SignalPhase::PHASE_GREEN, SignalPhase::kGreen));
-static_assert(SameOrder(wire::QosEventKind::QOS_EVENT_INCOMPATIBLE_QOS,
-                        giveway::QosEventKind::kIncompatibleQos));
+static_assert(SameOrder(wire::QosEventKind::QOS_EVENT_SAMPLE_LOST,
+                        giveway::QosEventKind::kSampleLost));
 static_assert(SameOrder(wire::RunPhase::RUN_ENDED, RunState::kEnded));
 static_assert(SameOrder(wire::EventKind::EVENT_VERDICT, giveway::EventKind::kVerdict));
 static_assert(SameOrder(wire::OrderKind::ORDER_APPLY, giveway::OrderKind::kApply));

@@ -233,7 +233,7 @@ Taken VehicleLink::Take(SteadyTime now) {
   own.sensors.Take(link.names, taken.inputs);
   if (link.signals) taken.inputs.signals = link.signals->Take();
   taken.inputs.roster = link.NewestEntry(link.told_to_step);
-  own.beacons.Drain(now, link.taken_beacons);
+  own.beacons.Drain(now, link.taken_beacons, &link.qos_events);
   for (const ReceivedBeacon& received : link.taken_beacons) {
     if (received.crc_valid && received.name_valid) link.peers.Heard(received.beacon.vehicle);
   }

@@ -17,12 +17,13 @@ enum class QosEventKind : std::uint8_t {
   kMatched,          // discovered and compatible
   kUnmatched,        // left, dropped, or no longer compatible
   kIncompatibleQos,  // discovered, and refused
+  kSampleLost,       // at least one beacon did not arrive, or was overwritten before it was taken
 };
 
 constexpr std::string_view Name(QosEventKind kind) {
-  constexpr std::array<std::string_view, 6> kNames = {"deadline_missed", "liveliness_lost",
-                                                      "liveliness_back", "matched",
-                                                      "unmatched",       "incompatible_qos"};
+  constexpr std::array<std::string_view, 7> kNames = {
+      "deadline_missed", "liveliness_lost",  "liveliness_back", "matched",
+      "unmatched",       "incompatible_qos", "sample_lost"};
   const auto index = static_cast<std::size_t>(kind);
   return index < kNames.size() ? kNames[index] : "unknown";
 }

@@ -171,6 +171,8 @@ void PeerTable::Note(const QosEvent& event, QosCounters* counters) {
     case QosEventKind::kUnmatched:
       ++counters->unmatched;
       return;
+    case QosEventKind::kSampleLost:
+      return;  // the numbers of the beacons that arrive say how many
     case QosEventKind::kLivelinessBack:
       return;  // its next beacon says more
   }

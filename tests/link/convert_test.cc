@@ -311,7 +311,7 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
   EXPECT_FALSE(FromWire(command, command_back));
 
   wire::Status status = ToWire(VehicleStatus{});
-  status.last_qos_event().kind(static_cast<wire::QosEventKind>(6));
+  status.last_qos_event().kind(static_cast<wire::QosEventKind>(7));
   VehicleStatus status_back;
   EXPECT_FALSE(FromWire(status, status_back));
 }

@@ -86,6 +86,10 @@ TEST(Impaired, ByAFifthLostHearsFourFifths) {
   EXPECT_NEAR(heard, 0.8, 5 * std::sqrt(0.2 * 0.8 / kSent) + 0.01);
   const ImpairmentCounters counters = listener.Impaired();
   EXPECT_EQ(counters.packets, counters.passed + counters.dropped_loss);
+  // A gap is told once, however wide: of 2000 with a fifth lost there are some 2000 * 0.2 * 0.8.
+  const auto gaps = listener.ears.Told(QosEventKind::kSampleLost);
+  EXPECT_NEAR(static_cast<double>(gaps.size()), 320, 100);
+  EXPECT_THAT(gaps, ::testing::Each(kThree));
 }
 
 TEST(Impaired, ByADelayHearsNothingEarlier) {

@@ -115,6 +115,14 @@ TEST(Recording, NothingAtAllSurvivesToo) {
   ExpectToSurvive(RecordedLife{});
 }
 
+TEST(Recording, EveryKindOfQosEventSurvives) {
+  RecordedStep step;
+  for (int i = 0; Name(static_cast<QosEventKind>(i)) != "unknown"; ++i) {
+    step.events.push_back({.kind = static_cast<QosEventKind>(i)});
+  }
+  ExpectToSurvive(step);
+}
+
 TEST(Recording, EveryBitOfANumberSurvives) {
   RecordedStep step;
   step.scan.emplace().wheels = {-0.0, std::numeric_limits<double>::denorm_min()};

@@ -54,7 +54,7 @@ TEST(StopwatchTable, APromiseIsTheLimitAndWhatLookingOnceAPeriodCosts) {
   EXPECT_EQ(PromisedWithin(Mechanism::kBeaconAge, Shipped()), milliseconds(300));
   EXPECT_EQ(PromisedWithin(Mechanism::kDeadline, Shipped()), milliseconds(200));
   EXPECT_EQ(PromisedWithin(Mechanism::kLiveliness, Shipped()), milliseconds(300));
-  EXPECT_EQ(PromisedWithin(Mechanism::kLease, Shipped()), milliseconds(10'050));
+  EXPECT_EQ(PromisedWithin(Mechanism::kLease, Shipped()), milliseconds(10'100));
   EXPECT_EQ(PromisedWithin(Mechanism::kGoodBye, Shipped()), milliseconds(100));
 }
 
