@@ -92,8 +92,8 @@ std::vector<Term> Promise(Mechanism mechanism, const Limits& limits) {
   // Measured: half of a fleet of eight struck together, 10 ms for each in the worst case.
   constexpr Nanoseconds kDropsOthersFirst = std::chrono::milliseconds(50);
   if (mechanism == Mechanism::kLease) {
-    terms.push_back({kDropsOthersFirst,
-                     "one thread of the library drops who fell silent together one by one"});
+    terms.push_back(
+        {kDropsOthersFirst, "one thread of the library drops who fell silent together one by one"});
   }
   return terms;
 }
