@@ -28,18 +28,27 @@ void PeerEvents::Heard(VehicleId vehicle) {
   if (peer != peers_.end()) peer->second.missed = false;
 }
 
-VehicleId PeerEvents::NewestUnmatched() {
+VehicleId PeerEvents::Unfit(const ReaderEvent& event) {
   if (area_.empty()) return kNobody;
+  const WriterEntry* unfit = names_.Find(GuidOf(event.handle));
+  if (unfit == nullptr || !MayBeUnfit(*unfit)) unfit = NewestUnmatched();
+  std::erase_if(unfit_, [this](std::uint64_t writer) { return names_.Find(writer) == nullptr; });
+  if (unfit == nullptr) return kNobody;
+  unfit_.insert(unfit->identity);
+  return unfit->vehicle;
+}
+
+bool PeerEvents::MayBeUnfit(const WriterEntry& writer) const {
+  return writer.area == area_ && !matched_.contains(writer.identity);
+}
+
+const WriterEntry* PeerEvents::NewestUnmatched() const {
   const WriterEntry* newest = nullptr;
   names_.ForEach([&](const WriterEntry& entry) {
-    if (entry.area != area_ || matched_.contains(entry.identity)) return;
-    if (unfit_.contains(entry.identity)) return;
+    if (!MayBeUnfit(entry) || unfit_.contains(entry.identity)) return;
     if (newest == nullptr || entry.found > newest->found) newest = &entry;
   });
-  std::erase_if(unfit_, [this](std::uint64_t writer) { return names_.Find(writer) == nullptr; });
-  if (newest == nullptr) return kNobody;
-  unfit_.insert(newest->identity);
-  return newest->vehicle;
+  return newest;
 }
 
 void PeerEvents::NoteMatch(const ReaderEvent& event) {
@@ -58,7 +67,7 @@ void PeerEvents::Translate(std::span<const ReaderEvent> events, SteadyTime now,
   for (const ReaderEvent& event : events) NoteMatch(event);
   for (const ReaderEvent& event : events) {
     if (event.kind == ReaderEvent::Kind::kIncompatibleQos) {
-      told.push_back({QosEventKind::kIncompatibleQos, NewestUnmatched(), now});
+      told.push_back({QosEventKind::kIncompatibleQos, Unfit(event), now});
       continue;
     }
     if (event.kind == ReaderEvent::Kind::kDeadlineMissed) {

@@ -41,10 +41,12 @@ class PeerEvents {
   void Matched(VehicleId vehicle);
   void Unmatched(VehicleId vehicle);
   bool IsNewMiss(VehicleId vehicle);
-  // Whom an incompatible writer belongs to. The library says that there is one and not which: it is
-  // one that was discovered in the area, is not matched, and was not told of before; the newest,
-  // for a writer is discovered the moment before it is found not to fit. kNobody if there is none.
-  VehicleId NewestUnmatched();
+  // Whom the writer that an event of incompatible QoS is about belongs to: the one it names. If
+  // that one cannot be meant, the newest that can and was not told of before; else kNobody.
+  VehicleId Unfit(const ReaderEvent& event);
+  // Whether it speaks in the area and is not matched.
+  bool MayBeUnfit(const WriterEntry& writer) const;
+  const WriterEntry* NewestUnmatched() const;
 
   const WriterNames& names_;
   rtps::GuidPrefix_t own_;

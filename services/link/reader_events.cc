@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/link/writer_names.h"
+
 namespace giveway::link {
 
 std::uint32_t KeyOf(const dds::InstanceHandle_t& instance) {
@@ -61,7 +63,7 @@ void ReaderEvents::on_subscription_matched(dds::DataReader*,
 
 void ReaderEvents::on_requested_incompatible_qos(dds::DataReader*,
                                                  const dds::RequestedIncompatibleQosStatus&) {
-  Push(ReaderEvent::Kind::kIncompatibleQos, {});
+  Push(ReaderEvent::Kind::kIncompatibleQos, WriterNames::FoundByThisThread());
 }
 
 }  // namespace giveway::link

@@ -20,7 +20,10 @@ struct ReaderEvent {
     kNotAlive,
     kMatched,
     kUnmatched,
-    kIncompatibleQos,  // the library does not say whose
+    // handle: the writer that this thread of the library discovered last. The library says that one
+    // does not fit and not which; it looks at one the moment after it told of its discovery, on the
+    // same thread, except where a reader is made or changed: then it is any other.
+    kIncompatibleQos,
   };
   Kind kind = Kind::kMatched;
   dds::InstanceHandle_t handle;

@@ -15,6 +15,8 @@ constexpr std::uint64_t Mix(std::uint64_t bits) {
   return bits ^ (bits >> 32U);
 }
 
+thread_local rtps::GUID_t found_by_this_thread;
+
 }  // namespace
 
 VehicleId NamedVehicle(const std::vector<std::string>& partitions) {
@@ -57,9 +59,12 @@ rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle) {
 void WriterNames::OnWriter(Change change, const rtps::GUID_t& writer,
                            const std::vector<std::string>& partitions) {
   const Queued queued{change, Identity(writer), NamedVehicle(partitions), BeaconArea(partitions)};
+  if (change == Change::kFound) found_by_this_thread = writer;
   const std::scoped_lock lock(mutex_);
   queue_.push_back(queued);
 }
+
+const rtps::GUID_t& WriterNames::FoundByThisThread() { return found_by_this_thread; }
 
 void WriterNames::Update() {
   batch_.clear();

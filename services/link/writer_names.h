@@ -44,6 +44,9 @@ class WriterNames final : public DiscoveryListener {
   void OnWriter(Change change, const rtps::GUID_t& writer,
                 const std::vector<std::string>& partitions) override;
 
+  // The writer that the calling thread told any WriterNames of last; unknown if it never did.
+  static const rtps::GUID_t& FoundByThisThread();
+
   // The loop's side: applies what was queued. Discovery of a writer is queued before any sample or
   // event of it can be.
   void Update();
