@@ -34,6 +34,23 @@ Pipe MakePipe() {
   return pipe;
 }
 
+std::vector<char*> Environment() {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
+  variables.push_back(nullptr);
+  return variables;
+}
+
+// Without those that stand for flags; the folder of the configuration is none.
+std::vector<char*> WithoutTwins() {
+  std::vector<char*> variables = Environment();
+  std::erase_if(variables, [](const char* variable) {
+    const std::string_view text(variable == nullptr ? "" : variable);
+    return text.starts_with("GIVEWAY_") && !text.starts_with("GIVEWAY_CONFIG_DIR=");
+  });
+  return variables;
+}
+
 // Signal masks and ignored signals survive exec: the child must start with neither.
 void ResetSignals() {
   sigset_t none;
@@ -43,7 +60,8 @@ void ResetSignals() {
 }
 
 // Between fork and exec, in a process whose other threads are gone: system calls only.
-[[noreturn]] void BecomeChild(char* const* words, pid_t parent, int output, int kept_fd) {
+[[noreturn]] void BecomeChild(char* const* words, char* const* environment, pid_t parent,
+                              int output, int kept_fd) {
   ResetSignals();
   // An own process group: Ctrl-C reaches fleetctl alone, which stops the fleet in good order.
   ::setpgid(0, 0);
@@ -59,7 +77,7 @@ void ResetSignals() {
   }
   // The library's sockets are not close-on-exec, and must not live on in the children.
   ::close_range(kept_fd >= 0 ? kKeptFd + 1 : kKeptFd, UINT_MAX, 0);
-  ::execv(words[0], words);
+  ::execve(words[0], words, environment);
   const char* reason = ::strerrordesc_np(errno);  // allocates nothing, takes no lock
   for (const char* part : {"cannot start ", static_cast<const char*>(words[0]), ": ", reason}) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part, std::strlen(part));
@@ -68,6 +86,10 @@ void ResetSignals() {
 }
 
 }  // namespace
+
+std::filesystem::path ProgramFolder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
 
 void DieWith(pid_t parent, int signal_number) {
   ::prctl(PR_SET_PDEATHSIG, signal_number);
@@ -89,12 +111,14 @@ ChildProcess::ChildProcess(const ChildCommand& command)
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
+  std::vector<char*> environment = command.flags_only ? WithoutTwins() : Environment();
 
   Pipe pipe = MakePipe();
   const pid_t parent = ::getpid();
   pid_ = ::fork();
   if (pid_ < 0) throw StartError("cannot fork for " + name_ + ": " + ErrnoText());
-  if (pid_ == 0) BecomeChild(argv.data(), parent, pipe.write.Get(), command.kept_fd);
+  if (pid_ == 0)
+    BecomeChild(argv.data(), environment.data(), parent, pipe.write.Get(), command.kept_fd);
   output_ = std::move(pipe.read);
 }
 

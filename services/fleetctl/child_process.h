@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -39,12 +40,16 @@ struct ProcessEnd {
 // "exit code 2" or "signal 9 (Killed)".
 std::string Describe(ProcessEnd end);
 
+// Where the fleet's programs are: beside this one.
+std::filesystem::path ProgramFolder();
+
 struct ChildCommand {
   std::string name;                // for people: "vehicle 2"
   std::vector<std::string> words;  // the program's path, then its arguments
   std::string log_file;            // everything the child says is copied here; empty: nowhere
   int kept_fd = -1;                // stays open in the child as descriptor 3; -1: none
   bool hands_on_lines = false;     // every line is kept for TakeLines
+  bool flags_only = false;         // no GIVEWAY_ variable of this shell is a flag of the child
 };
 
 class ChildProcess {

@@ -47,6 +47,7 @@ std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCom
                        {(command.program_folder / program).string()},
                        LogFile(options, log),
                        command.lock_fd};
+    child.flags_only = command.flags_only;
     child.words.insert(child.words.end(), flags.begin(), flags.end());
     return child;
   };

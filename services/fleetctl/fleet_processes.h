@@ -21,7 +21,8 @@ struct FleetCommand {
   std::string scenario_file;
   std::uint32_t domain = 0;
   std::string qos_file;
-  int lock_fd = -1;  // inherited: the domain stays taken until the last process is gone
+  int lock_fd = -1;         // inherited: the domain stays taken until the last process is gone
+  bool flags_only = false;  // a measurement: no variable of the shell has a say
 };
 
 // How many vehicles the scenario does not name are to be started: 0 of a closed fleet.

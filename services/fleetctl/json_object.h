@@ -32,4 +32,12 @@ class JsonObject {
   std::string fields_;
 };
 
+// A JSON array: `of` gives each item's JSON.
+template <typename Items, typename Of>
+std::string JsonArray(const Items& items, Of&& of) {
+  std::string json;
+  for (const auto& item : items) json += (json.empty() ? "" : ",") + of(item);
+  return "[" + json + "]";
+}
+
 }  // namespace giveway::fleetctl

@@ -48,14 +48,6 @@ std::string ChangesText(const std::vector<qos::Change>& changes) {
   return text.empty() ? "  nothing changes\n" : text;
 }
 
-// `of` each, as a JSON array.
-template <typename List, typename Of>
-std::string ArrayOf(const List& list, const Of& of) {
-  std::string json = "[";
-  for (const auto& one : list) json += (json.size() == 1 ? "" : ",") + of(one);
-  return json + "]";
-}
-
 std::string JsonOf(const qos::Change& change) {
   JsonObject object;
   object.Add("profile", change.profile);
@@ -76,7 +68,7 @@ std::string JsonOf(const AppliedTo& applied) {
   object.Add("checked", applied.checked);
   object.Add("seen", applied.seen);
   object.AddRaw("changes",
-                ArrayOf(applied.changes, [](const qos::Change& one) { return JsonOf(one); }));
+                JsonArray(applied.changes, [](const qos::Change& one) { return JsonOf(one); }));
   return object.Text();
 }
 
@@ -175,10 +167,10 @@ std::string ToJson(const ApplyReport& report) {
   object.Add("profile", report.profile);
   object.Add("verdict", Name(report.verdict));
   object.AddRaw("vehicles",
-                ArrayOf(report.vehicles, [](const AppliedTo& one) { return JsonOf(one); }));
+                JsonArray(report.vehicles, [](const AppliedTo& one) { return JsonOf(one); }));
   if (report.trial) object.Add("trial", JsonOf(*report.trial));
   object.AddRaw("findings",
-                ArrayOf(report.findings, [](const qos::Finding& one) { return ToJson(one); }));
+                JsonArray(report.findings, [](const qos::Finding& one) { return ToJson(one); }));
   if (!report.remedy.empty()) object.Add("remedy", report.remedy);
   return object.Text() + "\n";
 }

@@ -8,6 +8,7 @@
 #include "services/app/impair_text.h"
 #include "services/app/report.h"
 #include "services/app/scenario_file.h"
+#include "services/fleetctl/child_process.h"
 #include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/live_screen.h"
@@ -17,10 +18,6 @@
 
 namespace giveway::fleetctl {
 namespace {
-
-std::filesystem::path ProgramFolder() {
-  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
-}
 
 // False if stdout did not take it: then nobody has the verdict.
 bool Print(const RunOptions& options, const app::Report& report) {

@@ -12,6 +12,7 @@
 
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
+#include "services/fleetctl/child_process.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/output_file.h"
@@ -217,10 +218,9 @@ int RunStopwatch(const StopwatchOptions& options) {
   }
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
   const Interrupts interrupts;
-  Session session(options,
-                  {fs::read_symlink("/proc/self/exe").parent_path(), scenario_file, qos_file,
-                   options.interface, options.logs_folder},
-                  limits);
+  Session session(
+      options, {ProgramFolder(), scenario_file, qos_file, options.interface, options.logs_folder},
+      limits);
   const StopwatchReport report = session.Run();
   std::fputs((options.json ? StopwatchJson(report) : StopwatchText(report)).c_str(), stdout);
   if (std::fflush(stdout) != 0) {

@@ -31,10 +31,11 @@ StopwatchFleet::StopwatchFleet(const StopwatchFleetCommand& command,
   options.logs_folder = command.logs_folder;
   options.vehicles = 0;  // that nobody named
   const Scenario scenario = app::LoadScenario(command.scenario_file, {});
-  std::vector<ChildCommand> commands = MakeCommands(
-      options,
-      {command.program_folder, command.scenario_file, lock_.Domain(), command.qos_file, lock_.Fd()},
-      scenario);
+  std::vector<ChildCommand> commands =
+      MakeCommands(options,
+                   {command.program_folder, command.scenario_file, lock_.Domain(), command.qos_file,
+                    lock_.Fd(), true},
+                   scenario);
   world_ = std::make_unique<ChildProcess>(commands.front());
   for (std::size_t i = 0; i < fleet.size(); ++i) {
     ChildCommand& child = commands[i + 1];

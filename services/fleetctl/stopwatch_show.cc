@@ -78,6 +78,13 @@ std::string MaskingHint(const StopwatchReport& report) {
       Name(report.limits.tracked));
 }
 
+std::string JsonOfTerm(const Term& term) {
+  JsonObject one;
+  one.Add("ms", Milliseconds(term.time));
+  one.Add("reason", term.reason);
+  return one.Text();
+}
+
 std::string JsonOf(const Cell& cell, const Limits& limits) {
   JsonObject json;
   json.Add("fault", Name(cell.fault));
@@ -93,15 +100,8 @@ std::string JsonOf(const Cell& cell, const Limits& limits) {
     json.Add("max_ms", Milliseconds(cell.seen.max));
   }
   if (cell.duty == Duty::kMust) {
-    std::string terms;
-    for (const Term& term : Promise(cell.mechanism, limits)) {
-      JsonObject one;
-      one.Add("ms", Milliseconds(term.time));
-      one.Add("reason", term.reason);
-      terms += (terms.empty() ? "" : ",") + one.Text();
-    }
     json.Add("promised_ms", Milliseconds(cell.promised));
-    json.AddRaw("promise", "[" + terms + "]");
+    json.AddRaw("promise", JsonArray(Promise(cell.mechanism, limits), JsonOfTerm));
     json.Add("longest_pause_ms", Milliseconds(cell.longest_pause));
     json.Add("unseen", cell.unseen);
     json.Add("excused", cell.excused);
@@ -111,13 +111,6 @@ std::string JsonOf(const Cell& cell, const Limits& limits) {
   if (cell.duty == Duty::kNone) json.Add("uncalled_for", cell.uncalled_for);
   json.Add("kept", cell.Kept());
   return json.Text();
-}
-
-template <typename Items, typename ToJson>
-std::string List(const Items& items, ToJson&& to_json) {
-  std::string text;
-  for (const auto& item : items) text += (text.empty() ? "" : ",") + to_json(item);
-  return "[" + text + "]";
 }
 
 }  // namespace
@@ -171,10 +164,10 @@ std::string StopwatchJson(const StopwatchReport& report) {
   json.Add("seed", report.seed);
   json.Add("took_s", report.took_s);
   json.Add("false_alarms", report.false_alarms);
-  json.AddRaw("findings", List(Findings(report),
-                               [](const std::string& text) { return app::JsonString(text); }));
-  json.AddRaw("cells",
-              List(report.cells, [&](const Cell& cell) { return JsonOf(cell, report.limits); }));
+  json.AddRaw("findings", JsonArray(Findings(report),
+                                    [](const std::string& text) { return app::JsonString(text); }));
+  json.AddRaw("cells", JsonArray(report.cells,
+                                 [&](const Cell& cell) { return JsonOf(cell, report.limits); }));
   return json.Text() + "\n";
 }
 

@@ -92,13 +92,6 @@ JsonObject CandidateJson(const TunedCandidate& tuned) {
   return json;
 }
 
-template <typename Values, typename Print>
-std::string ListJson(const Values& values, Print&& print) {
-  std::string json;
-  for (const auto& value : values) json += (json.empty() ? "" : ",") + print(value);
-  return "[" + json + "]";
-}
-
 std::string VerifiedLine(const char* name, const TuneFigures& f) {
   return fmt::format(
       "  {:<12} {:.0f} alarms per vehicle-hour ({} in {:.3f} h), noticed after {:.0f} +- {:.0f} "
@@ -156,7 +149,7 @@ std::string ToJson(const TuneResult& result) {
   json.Add("alive_s", result.alive_s);
   json.Add("verified", result.IsBetter());
   json.AddRaw("recommended", name(result.recommended));
-  json.AddRaw("front", ListJson(result.front, name));
+  json.AddRaw("front", JsonArray(result.front, name));
   if (result.verified) {
     JsonObject verification;
     verification.Add("base", FiguresJson(result.verified->base));
@@ -165,11 +158,11 @@ std::string ToJson(const TuneResult& result) {
     verification.Add("no_later", result.verified->no_later);
     json.Add("verification", verification);
   }
-  json.AddRaw("candidates", ListJson(result.candidates, [](const TunedCandidate& tuned) {
+  json.AddRaw("candidates", JsonArray(result.candidates, [](const TunedCandidate& tuned) {
                 return CandidateJson(tuned).Text();
               }));
-  json.AddRaw("trials", ListJson(result.trials,
-                                 [](const TrialEvidence& evidence) { return ToJson(evidence); }));
+  json.AddRaw("trials", JsonArray(result.trials,
+                                  [](const TrialEvidence& evidence) { return ToJson(evidence); }));
   return json.Text();
 }
 

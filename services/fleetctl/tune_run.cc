@@ -10,6 +10,7 @@
 
 #include "services/app/impair_text.h"
 #include "services/app/scenario_file.h"
+#include "services/fleetctl/child_process.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/json_object.h"
@@ -65,7 +66,7 @@ class Tuning {
     store_.Write("scenario.textproto", TuneScenarioText(options_.vehicles));
     const std::string scenario_file = (store_.Folder() / "scenario.textproto").string();
     scenario_ = app::LoadScenario(scenario_file, {});
-    ground_ = {.program_folder = fs::read_symlink("/proc/self/exe").parent_path(),
+    ground_ = {.program_folder = ProgramFolder(),
                .scenario_file = scenario_file,
                .scenario = &scenario_,
                .observer_qos = base_.name,

@@ -42,15 +42,13 @@ AlarmCause CauseNamed(const std::string& name) {
 }
 
 std::string DetectionsJson(const std::vector<DetectionReading>& detections) {
-  std::string json;
-  for (const DetectionReading& detection : detections) {
+  return JsonArray(detections, [](const DetectionReading& detection) {
     JsonObject object;
     object.Add("from_kill_ms", detection.from_kill_ms);
     object.Add("from_last_beacon_ms", detection.from_last_beacon_ms);
     object.Add("by", Name(detection.cause));
-    json += (json.empty() ? "" : ",") + object.Text();
-  }
-  return "[" + json + "]";
+    return object.Text();
+  });
 }
 
 TrialEvidence FromTree(const ptree& json) {

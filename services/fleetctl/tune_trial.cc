@@ -76,7 +76,7 @@ TuneTrial::TuneTrial(const TuneGround& ground, const TrialOrder& order)
   std::filesystem::create_directories(order.folder);
   observer_.emplace(ObserverOptions(ground, lock_.Domain()));
   const FleetCommand command{ground.program_folder, ground.scenario_file, lock_.Domain(),
-                             order.qos_file, lock_.Fd()};
+                             order.qos_file,        lock_.Fd(),           true};
   for (const ChildCommand& child :
        MakeCommands(OptionsOf(ground, order), command, *ground.scenario)) {
     children_.emplace_back(child);

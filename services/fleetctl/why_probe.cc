@@ -15,7 +15,7 @@
 #include <stdexcept>
 
 #include "services/app/process.h"
-#include "services/fleetctl/child_process.h"
+#include "services/fleetctl/child_answer.h"
 #include "services/fleetctl/file_descriptor.h"
 #include "services/link/ear.h"
 #include "services/link/observer_link.h"
@@ -258,44 +258,20 @@ std::string NamesHeard(const Instructions& told, std::set<std::uint16_t> wanted)
   return text;
 }
 
-std::string ReadAll(int pipe_end) {
-  std::string text;
-  char part[4096];
-  while (true) {
-    const ssize_t count = read(pipe_end, part, sizeof(part));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return text;
-    text.append(part, static_cast<std::size_t>(count));
-  }
-}
-
 // What `listen` tells in a child process that has taken the place of another; "trouble WHY" where
 // it could not.
 std::string InPlaceOf(const ProcessSituation& process, const std::function<std::string()>& listen) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) Throw("pipe");
-  FileDescriptor reading(ends[0]);
-  FileDescriptor writing(ends[1]);
-  const pid_t parent = getpid();
-  const pid_t child = fork();
-  if (child < 0) Throw("fork");
-  if (child == 0) {
-    DieWith(parent, SIGKILL);
-    std::string text;
+  const auto in_its_place = [&] {
     try {
       TakePlace(process);
-      text = listen();
+      return listen();
     } catch (const std::exception& error) {
-      text = std::string("trouble ") + error.what();
+      std::string text = std::string("trouble ") + error.what();
       std::ranges::replace(text, '\n', ' ');
+      return text;
     }
-    // A pipe holds 64 kB: what is told here fits, and is not waited for.
-    _exit(write(writing.Get(), text.data(), text.size()) < 0 ? 1 : 0);
-  }
-  writing.Close();
-  const std::string text = ReadAll(reading.Get());
-  waitpid(child, nullptr, 0);
-  return text;
+  };
+  return AskChild(in_its_place).text;
 }
 
 }  // namespace

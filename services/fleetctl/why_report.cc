@@ -232,18 +232,6 @@ std::string ToText(const WhyReport& report) {
 }
 
 std::string ToJson(const WhyReport& report) {
-  std::string topics;
-  for (const TopicOutlook& topic : report.topics) {
-    topics += (topics.empty() ? "" : ",") + TopicJson(report, topic);
-  }
-  std::string findings;
-  for (const Cause& cause : CausesOf(report)) {
-    findings += (findings.empty() ? "" : ",") + ToJson(cause.finding);
-  }
-  std::string not_known;
-  for (const std::string& fact : report.not_known) {
-    not_known += (not_known.empty() ? "" : ",") + app::JsonString(fact);
-  }
   JsonObject object;
   object.Add("hearer", std::string_view(report.hearer));
   object.Add("speaker", std::string_view(report.speaker));
@@ -265,9 +253,12 @@ std::string ToJson(const WhyReport& report) {
     own.Add("incompatible", word.incompatible);
     object.Add("own_status", own);
   }
-  object.AddRaw("topics", "[" + topics + "]");
-  object.AddRaw("findings", "[" + findings + "]");
-  object.AddRaw("not_known", "[" + not_known + "]");
+  object.AddRaw("topics", JsonArray(report.topics, [&](const TopicOutlook& topic) {
+                  return TopicJson(report, topic);
+                }));
+  object.AddRaw("findings", JsonArray(CausesOf(report),
+                                      [](const Cause& cause) { return ToJson(cause.finding); }));
+  object.AddRaw("not_known", JsonArray(report.not_known, app::JsonString));
   return object.Text() + "\n";
 }
 

@@ -49,6 +49,23 @@ TEST(ChildProcess, ExitCodeAndLastLinesAreKept) {
   EXPECT_THAT(child.LastLines(), ElementsAre("to stdout", "to stderr", "unfinished"));
 }
 
+TEST(ChildProcess, IsToldByItsFlagsAloneWhereThatIsAskedFor) {
+  ::setenv("GIVEWAY_LOCKSTEP", "1", 1);
+  ::setenv("GIVEWAY_CONFIG_DIR", "here", 1);
+  ::setenv("NO_TWIN", "kept", 1);
+  ChildCommand command =
+      Shell("echo ${GIVEWAY_LOCKSTEP:-none} ${GIVEWAY_CONFIG_DIR:-none} $NO_TWIN");
+  ChildProcess told(command);
+  command.flags_only = true;
+  ChildProcess child(command);
+  ::unsetenv("GIVEWAY_LOCKSTEP");
+  ::unsetenv("GIVEWAY_CONFIG_DIR");
+  ::unsetenv("NO_TWIN");
+  ASSERT_TRUE(WaitForEnd(&told) && WaitForEnd(&child));
+  EXPECT_THAT(told.LastLines(), ElementsAre("1 here kept"));
+  EXPECT_THAT(child.LastLines(), ElementsAre("none here kept"));
+}
+
 TEST(ChildProcess, EveryLineIsHandedOnOnceWhereThatIsAskedFor) {
   ChildCommand command = Shell("for i in $(seq 1 1000); do echo line $i; done");
   ChildProcess silent(command);
