@@ -9,7 +9,6 @@ namespace giveway::fleetctl {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
