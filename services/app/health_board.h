@@ -27,8 +27,7 @@ class HealthBoard {
     std::memcpy(words.data(), &value, sizeof(Value));
     const std::uint64_t turn = turn_.load(std::memory_order_relaxed);
     turn_.store(turn + 1, std::memory_order_relaxed);  // odd: being written
-    std::atomic_thread_fence(std::memory_order_release);
-    for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_relaxed);
+    for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
     turn_.store(turn + 2, std::memory_order_release);
   }
 
@@ -37,8 +36,7 @@ class HealthBoard {
       const std::uint64_t before = turn_.load(std::memory_order_acquire);
       if (before % 2 != 0) continue;
       Words words{};
-      for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_relaxed);
-      std::atomic_thread_fence(std::memory_order_acquire);
+      for (std::size_t i = 0; i < kWords; ++i) words[i] = words_[i].load(std::memory_order_acquire);
       if (turn_.load(std::memory_order_relaxed) != before) continue;
       Value value;
       std::memcpy(static_cast<void*>(&value), words.data(), sizeof(Value));

@@ -26,12 +26,12 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kThreads = 2;
-constexpr int kMostWaiting = 16;               // connections; further ones are closed at once
+constexpr int kMostWaiting = 4;                // connections; further ones are closed at once
 constexpr std::size_t kLongestRequest = 8192;  // bytes: a probe or a scraper sends some hundred
-constexpr Nanoseconds kRequestTime = std::chrono::seconds(2);  // for a request and its answer
+constexpr Nanoseconds kRequestTime = std::chrono::seconds(1);  // for a request and its answer
 constexpr Nanoseconds kGoodByeTime = milliseconds(100);
 constexpr Nanoseconds kSlice = milliseconds(20);  // how soon a server that stops is heard of
-constexpr time_t kClientPatience_s = 2;
+constexpr time_t kClientPatience_s = 4;           // longer than others can hold its place
 
 constexpr int kNo = 1;
 constexpr int kNobody = 2;
