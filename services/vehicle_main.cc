@@ -91,13 +91,12 @@ class Loop {
     health_.Leaves();
     const bool goes = stop.IsSet() || restarts_;
     for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
-    if (restarts_ && !stop.IsSet()) {
-      AskForTime();
-      return DriveEnd::kRestarts;
-    }
+    if (restarts_ && !stop.IsSet()) AskForTime();
+    if (restarts_ && !stop.IsSet()) return DriveEnd::kRestarts;
     report_.SendFinal(vehicle_, link_);
-    link_.FlushStatus(kFlushTimeout);
+    // Said before the wait: whoever has died without a word delays both, and may do so only once.
     if (stop.IsSet() && !RunEnded()) link_.SendLeave(place_.session);
+    link_.FlushStatus(kFlushTimeout);
     return refused_ ? DriveEnd::kRefused : DriveEnd::kOver;
   }
   const SessionId& Session() const { return place_.session; }
