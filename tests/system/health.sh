@@ -189,7 +189,16 @@ else
   echo "no right to make process namespaces: process 1 is not tried" >&2
 fi
 
+# watched_in_vain: an observer joins, and dies without a word: nobody may wait for it for long.
+watched_in_vain() {
+  "$FLEETCTL" top --domain "$DOMAIN" >"$SCRATCH/top.log" 2>/dev/null &
+  PID[top]=$!
+  await "an observer sees" 5 top 'cruise|halt'
+  kill_now top
+}
+
 # --- With its world dead a vehicle says so, and stops as ever.
+watched_in_vain
 kill_now world
 await_health "no world any more" 3 "$A" ready 1 'the ranges are [0-9.]+ s old'
 await_health "and yet alive" 1 "$A" live 0 '^live$'
@@ -203,6 +212,7 @@ stops world2
 start world3 giveway-world --health-port "$WORLD"
 start d giveway-vehicle --health-port "$A"
 await_health "d drives" 10 "$A" ready 0 '^ready$'
+watched_in_vain
 since=$(date +%s%N)
 stops world3
 ended d 0 "$since" 3000
