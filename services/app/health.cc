@@ -36,7 +36,7 @@ std::string NotThere(const VehicleHealth& vehicle) {
       }
       return fmt::format("not joined: {}", vehicle.waits_for.View());
     case HealthStage::kLeaving:
-      return "leaving: it was asked to stop";
+      return "leaving: it was asked to stop, or to restart";
     case HealthStage::kUnderWay:
       break;
   }

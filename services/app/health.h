@@ -14,8 +14,10 @@
 
 namespace giveway::app {
 
-// A loop that is silent for longer hangs. To the world a second without a command is a death, too;
-// every wait of a loop, at joining, leaving and restarting included, is shorter.
+// A loop that is silent for longer hangs: 20 ticks of the shipped period. To the world a second
+// without a command is a death, too, and every wait of a vehicle's loop, at joining, leaving and
+// restarting included, is shorter. A world in lockstep waits for as long, and may seem to hang
+// once.
 inline constexpr Nanoseconds kLoopSilenceLimit{1'000'000'000};
 // Files and a participant are made before the loop turns, on a machine that may be busy.
 inline constexpr Nanoseconds kStartLimit{10'000'000'000};

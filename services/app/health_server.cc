@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -43,21 +44,25 @@ class BoundedStream : public httplib::Stream {
   BoundedStream(int socket, const std::atomic<bool>& stops)
       : socket_(socket), stops_(stops), until_(SteadyNow() + kRequestTime) {}
 
-  bool is_readable() const override { return Wait(POLLIN, until_); }
-  bool is_writable() const override { return Wait(POLLOUT, until_); }
-  ssize_t read(char* to, size_t size) override {
+  // Without `override`: which of these its base declares depends on the library's version.
+  virtual bool is_readable() const { return Wait(POLLIN, until_); }
+  virtual bool is_writable() const { return Wait(POLLOUT, until_); }
+  virtual bool wait_readable() const { return is_readable(); }
+  virtual bool wait_writable() const { return is_writable(); }
+  virtual time_t duration() const { return 0; }
+  virtual ssize_t read(char* to, size_t size) {
     const std::size_t most = std::min(size, kLongestRequest - taken_);
     if (most == 0 || !is_readable()) return -1;
     const ssize_t got = recv(socket_, to, most, 0);
     taken_ += static_cast<std::size_t>(std::max<ssize_t>(got, 0));
     return got;
   }
-  ssize_t write(const char* from, size_t size) override {
+  virtual ssize_t write(const char* from, size_t size) {
     return is_writable() ? send(socket_, from, size, MSG_NOSIGNAL) : -1;
   }
-  void get_remote_ip_and_port(std::string& /*ip*/, int& port) const override { port = 0; }
-  void get_local_ip_and_port(std::string& /*ip*/, int& port) const override { port = 0; }
-  socket_t socket() const override { return socket_; }
+  virtual void get_remote_ip_and_port(std::string& /*ip*/, int& port) const { port = 0; }
+  virtual void get_local_ip_and_port(std::string& /*ip*/, int& port) const { port = 0; }
+  virtual socket_t socket() const { return socket_; }
 
   // Lets the other side take what was said: closing over unread bytes would take it back.
   void SayGoodBye() {
@@ -130,7 +135,7 @@ class BoundedServer : public httplib::Server {
     return true;
   }
 
-  // A template, since the library's 0.18 wants the addresses handed in, and 0.11 does not.
+  // A template: later versions of the library want the addresses handed in, 0.11 does not.
   template <typename Server>
   static void Answer(Server& server, BoundedStream& stream) {
     bool closed = false;
