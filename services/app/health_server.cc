@@ -251,7 +251,7 @@ HealthServer::HealthServer(const std::string& address, std::uint16_t port, Healt
   errno = 0;
   if (!server.bind_to_port(address, port)) {
     const int why = errno;
-    throw InputError({{.file = "command line",
+    throw InputError({{.file = "command line or environment",
                        .field = "--health-port",
                        .value = std::to_string(port),
                        .message = "cannot listen on " + address +

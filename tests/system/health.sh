@@ -117,8 +117,12 @@ for _ in $(seq 12); do # half open; more than there are threads and waiting plac
 done
 await_health "behind half-open connections" 6 "$A" live 0 '^live$'
 for socket in "${sockets[@]}"; do exec {socket}>&-; done
-[[ $(metric "$A" giveway_vehicle_late_scans_total) == "$late" ]] || fail "a came late"
-[[ $(metric "$B" giveway_vehicle_deadline_missed_total) == "$missed" ]] || fail "b missed a"
+# A few a busy machine takes by itself; a loop that waits for strangers would come late ten times a
+# half-open connection.
+late=$(($(metric "$A" giveway_vehicle_late_scans_total) - late))
+missed=$(($(metric "$B" giveway_vehicle_deadline_missed_total) - missed))
+echo "beside strangers: $late scans late, $missed beacons missed" >&2
+((late <= 5 && missed <= 2)) || fail "strangers disturb the loop: $late late, $missed missed"
 
 # --- A loop that hangs is not live, and is again when it goes on.
 kill -USR2 "${PID[b]}"
@@ -157,6 +161,12 @@ kill_now c
 await "a loses c" 3 a "(stale|lost).*vehicle $id_b" "$line"
 start c2 giveway-vehicle --health-port "$C" --id "$id_b"
 await_health "c is back" 5 "$C" ready 0 '^ready$'
+
+# --- Two with one id: the later one waits, says why, and stops as ever.
+start twin giveway-vehicle --health-port "$B" --id "$id_b"
+await_health "a taken id" 5 "$B" ready 1 "not joined: the world lets it wait: .*$id_b"
+await_health "a taken id, alive" 1 "$B" live 0 '^live$'
+stops twin
 
 # --- At any moment of joining.
 for moment in 0.05 0.1 0.15 0.2 0.3; do
