@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "services/app/flags.h"
+#include "services/app/health_server.h"
 #include "services/app/process.h"
 #include "services/link/link_options.h"
 #include "services/types/scenario.h"
@@ -28,11 +29,16 @@ inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Sce
 inline int ServiceMain(const std::variant<app::ServiceFlags, int>& parsed,
                        int (*run)(const app::ServiceFlags&, const app::StopSignal&)) {
   if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  const auto& flags = std::get<app::ServiceFlags>(parsed);
+  if (!flags.ask_health.empty()) {
+    return app::AskHealth(flags.health_address, static_cast<std::uint16_t>(flags.health_port),
+                          flags.ask_health);
+  }
   // Never destroyed: a second SIGTERM may come while the process is already leaving, and must not
   // end it by the default handler then.
   static const app::StopSignal& stop = *new app::StopSignal;
   try {
-    return run(std::get<app::ServiceFlags>(parsed), stop);
+    return run(flags, stop);
   } catch (const std::exception& error) {
     app::LogError(error.what());
     return 2;

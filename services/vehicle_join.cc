@@ -29,7 +29,10 @@ void Asking::AskAgainIfDue() {
 
 bool Asking::IsFinal(const RosterEntry& entry) {
   answered_ = true;
-  if (!entry.accepted && entry.waiting) app::LogWarning("the world lets it wait: " + entry.reason);
+  if (!entry.accepted && entry.waiting) {
+    waits_for_ = "the world lets it wait: " + entry.reason;
+    app::LogWarning(waits_for_);
+  }
   return entry.accepted || !entry.waiting;
 }
 
@@ -39,13 +42,15 @@ void Asking::Ask() {
 }
 
 std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,
-                                VehicleId wanted, const std::optional<SessionId>& session) {
+                                VehicleId wanted, const std::optional<SessionId>& session,
+                                VehicleHealthTeller* health) {
   Asking asking(link, wanted, session);
   SteadyTime remind = app::SteadyNow() + kReminder;
   while (!stop.IsSet()) {
     const auto entry = link->TakeRoster(asking.Session());
     if (entry && asking.IsFinal(*entry)) return entry;
     asking.AskAgainIfDue();
+    health->Joins(asking.WaitsFor());
     app::SleepUntil(app::SteadyNow() + kPoll);
     if (app::SteadyNow() < remind) continue;
     remind += kReminder;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "services/app/process.h"
 #include "services/link/vehicle_link.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle_health.h"
 
 namespace giveway {
 
@@ -18,6 +20,8 @@ class Asking {
 
   const SessionId& Session() const { return request_.session; }
   bool Answered() const { return answered_; }
+  // The world's reason to let it wait; empty before it gave one.
+  const std::string& WaitsFor() const { return waits_for_; }
 
   void AskAgainIfDue();
   // True if this is the last word on the request; a reason to wait is only logged.
@@ -30,10 +34,12 @@ class Asking {
   JoinRequest request_;
   SteadyTime again_{0};
   bool answered_ = false;
+  std::string waits_for_;
 };
 
 // Waits for the last word. Empty if asked to stop meanwhile.
 std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,
-                                VehicleId wanted, const std::optional<SessionId>& session);
+                                VehicleId wanted, const std::optional<SessionId>& session,
+                                VehicleHealthTeller* health);
 
 }  // namespace giveway

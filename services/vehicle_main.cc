@@ -22,6 +22,7 @@
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/vehicle.h"
 #include "services/vehicle_admin.h"
+#include "services/vehicle_health.h"
 #include "services/vehicle_join.h"
 #include "services/vehicle_report.h"
 
@@ -65,10 +66,11 @@ void Hang() {
 class Loop {
  public:
   // `recorder` is null where nothing is recorded.
-  Loop(link::VehicleLink* link, VehicleAdmin* admin, const Scenario& scenario,
-       const RosterEntry& entry, bool lockstep, app::Recorder* recorder)
+  Loop(link::VehicleLink* link, VehicleAdmin* admin, VehicleHealthTeller* health,
+       const Scenario& scenario, const RosterEntry& entry, bool lockstep, app::Recorder* recorder)
       : link_(*link),
         admin_(*admin),
+        health_(*health),
         scenario_(scenario),
         lockstep_(lockstep),
         recorder_(recorder),
@@ -78,6 +80,7 @@ class Loop {
         vehicle_(options_, boot_epoch_),
         news_(entry) {
     if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_);
+    health_.Placed(options_.ranges_age_limit);
   }
 
   // Until the run has ended, `stop` is set, the world refuses it, or an operator's order takes a
@@ -85,15 +88,15 @@ class Loop {
   // case, in the last it keeps its place.
   DriveEnd Drive(const app::StopSignal& stop) {
     while (!stop.IsSet() && !RunEnded() && !refused_ && !restarts_) Turn(false);
+    health_.Leaves();
     const bool goes = stop.IsSet() || restarts_;
     for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
-    if (restarts_ && !stop.IsSet()) {
-      AskForTime();
-      return DriveEnd::kRestarts;
-    }
+    if (restarts_ && !stop.IsSet()) AskForTime();
+    if (restarts_ && !stop.IsSet()) return DriveEnd::kRestarts;
     report_.SendFinal(vehicle_, link_);
-    link_.FlushStatus(kFlushTimeout);
+    // Said before the wait: whoever has died without a word delays both, and may do so only once.
     if (stop.IsSet() && !RunEnded()) link_.SendLeave(place_.session);
+    link_.FlushStatus(kFlushTimeout);
     return refused_ ? DriveEnd::kRefused : DriveEnd::kOver;
   }
   const SessionId& Session() const { return place_.session; }
@@ -128,6 +131,7 @@ class Loop {
     options_ = OptionsOf(scenario_, entry);
     vehicle_.Reseat(options_);
     if (recorder_ != nullptr) recorder_->Reseat(options_);
+    health_.Placed(options_.ranges_age_limit);
     app::LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
   }
 
@@ -151,7 +155,11 @@ class Loop {
     link::Taken taken = link_.Take(woke);
     Inputs& inputs = taken.inputs;
     if (inputs.roster) Follow(*inputs.roster);
-    if (asking_) asking_->AskAgainIfDue();
+    health_.Turned(taken, link_.Counters(), place_, woke);
+    if (asking_) {
+      asking_->AskAgainIfDue();
+      health_.Joins(asking_->WaitsFor());
+    }
     inputs.leaving = leaving;
     if (inputs.scan) last_scan_ = woke;
     const std::span<const QosEvent> events = inputs.events;
@@ -172,7 +180,7 @@ class Loop {
     if (!leaving && admin_.Serve()) restarts_ = true;
     TellOfBeacons(inputs.now, woke);
     if (outputs.decision_changed || woke >= next_status_) {
-      report_.Send(vehicle_, link_);
+      health_.Reported(report_.Send(vehicle_, link_));
       next_status_ = woke + kStatusPeriod;
     }
   }
@@ -229,6 +237,7 @@ class Loop {
 
   link::VehicleLink& link_;
   VehicleAdmin& admin_;
+  VehicleHealthTeller& health_;
   const Scenario& scenario_;
   const bool lockstep_;
   app::Recorder* const recorder_;
@@ -267,6 +276,7 @@ app::NewFlags ToComeBack(const Loop& loop, const AdminOrder& order) {
 // From joining to the end of the link. Empty where the process ends with `exit_code`.
 std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario& scenario,
                                   const app::StopSignal& stop, int* exit_code) {
+  VehicleHealthTeller health(flags);
   std::optional<app::Recorder> recorder;
   if (!flags.record.empty()) recorder.emplace(flags.record);
   link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
@@ -276,7 +286,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   app::LetGo(flags.qos);
   const std::optional<SessionId> session =
       flags.resume ? std::optional(flags.resume->session) : std::nullopt;
-  const auto entry = Join(&link, stop, VehicleId{flags.id}, session);
+  const auto entry = Join(&link, stop, VehicleId{flags.id}, session, &health);
   if (!entry) return {};
   if (!entry->accepted) {
     app::LogError("the world refused this vehicle: " + entry->reason);
@@ -290,7 +300,8 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   if (flags.resume) admin.AnswerResumed(flags.resume->order);
   std::optional<app::HangSignal> hang;
   if (flags.hang_on_signal) hang.emplace();
-  Loop loop(&link, &admin, scenario, *entry, flags.lockstep, recorder ? &*recorder : nullptr);
+  Loop loop(&link, &admin, &health, scenario, *entry, flags.lockstep,
+            recorder ? &*recorder : nullptr);
   const DriveEnd end = loop.Drive(stop);
   if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));
   if (end == DriveEnd::kRefused) *exit_code = 2;

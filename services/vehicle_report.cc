@@ -100,8 +100,10 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::VehicleL
   return status;
 }
 
-void VehicleReport::Send(const Vehicle& vehicle, link::VehicleLink& link) {
-  link.SendStatus(Gather(vehicle, link));
+VehicleStatus VehicleReport::Send(const Vehicle& vehicle, link::VehicleLink& link) {
+  const VehicleStatus status = Gather(vehicle, link);
+  link.SendStatus(status);
+  return status;
 }
 
 void VehicleReport::SendFinal(const Vehicle& vehicle, link::VehicleLink& link) {

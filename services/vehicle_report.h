@@ -25,7 +25,8 @@ class VehicleReport {
   // `step` is what Vehicle::Step took, `turn` the time from waking on a scan to the command sent.
   void NoteStep(Nanoseconds step, Nanoseconds turn);
   void NoteEvents(std::span<const QosEvent> events);
-  void Send(const Vehicle& vehicle, link::VehicleLink& link);
+  // Sends it to the fleet, and gives back what it sent.
+  VehicleStatus Send(const Vehicle& vehicle, link::VehicleLink& link);
   void SendFinal(const Vehicle& vehicle, link::VehicleLink& link);
 
  private:

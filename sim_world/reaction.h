@@ -36,6 +36,7 @@ class ReactionMeter {
   void Applied(const MotorCommand& command, SteadyTime at);
 
   ReactionFigures Figures() const;
+  std::uint32_t Count() const { return count_; }
 
  private:
   struct Publication {

@@ -71,6 +71,7 @@ class Run {
   const std::string& EndReason() const { return end_reason_; }
   // Verdict and figures; complete once State() is kEnded. Reaction times are the caller's.
   RunFigures Figures() const { return figures_; }
+  std::uint32_t Contacts() const { return world_.Contacts(); }
   const CommandCounters& Commands() const { return world_.Commands(); }
   // Of ticks since the start signal, poses, wheels and contacts: equal runs have equal hashes
   // however long they waited.

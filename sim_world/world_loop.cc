@@ -53,9 +53,10 @@ WorldEpoch NewEpoch(const std::optional<sim::FleetCheckpoint>& checkpoint) {
 }  // namespace
 
 WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link,
-                     const WorldLoopOptions& options)
+                     app::HealthService<app::WorldHealth>* health, const WorldLoopOptions& options)
     : scenario_(scenario),
       link_(*link),
+      health_(*health),
       options_(options),
       epoch_(NewEpoch(options.checkpoint)),
       fleet_(std::make_unique<Fleet>(scenario, epoch_, options.parallel)),
@@ -92,7 +93,9 @@ bool WorldLoop::Drive(const app::StopSignal& stop) {
     if (stop.IsSet()) fleet_->run.End("interrupted");
     Tick();
     KeepCheckpoint();
+    TellHealth(app::HealthStage::kUnderWay);
   }
+  TellHealth(app::HealthStage::kLeaving);
   return TellTheEnd();
 }
 
@@ -298,6 +301,24 @@ bool WorldLoop::TellTheEnd() {
   app::LogInfo("ended: " + reason + "; " +
                (figures.passed ? "passed" : "failed: " + figures.reason));
   return figures.passed;
+}
+
+void WorldLoop::TellHealth(app::HealthStage stage) {
+  const link::WorldLinkCounters link = link_.Counters();
+  app::WorldHealth& now = health_.Now();
+  now.loop.stage = stage;
+  now.run_state = fleet_->run.State();
+  now.time_s = fleet_->run.TimeSeconds();
+  now.late_ticks = overruns_;
+  now.vehicles_joined = static_cast<std::uint32_t>(fleet_->admission.Told().size());
+  now.contacts = fleet_->run.Contacts();
+  now.reactions = reactions_.Count();
+  now.commands_taken = link.commands_taken;
+  now.commands_wrong_name = link.commands_wrong_name;
+  now.commands_unbound = link.commands_unbound;
+  now.commands_not_finite = link.commands_not_finite;
+  now.write_failures = link.write_failures;
+  health_.Tell();
 }
 
 }  // namespace giveway

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "services/app/health_service.h"
 #include "services/app/process.h"
 #include "services/link/world_link.h"
 #include "services/types/parallel.h"
@@ -27,7 +28,8 @@ struct WorldLoopOptions {
 
 class WorldLoop {
  public:
-  WorldLoop(const Scenario& scenario, link::WorldLink* link, const WorldLoopOptions& options);
+  WorldLoop(const Scenario& scenario, link::WorldLink* link,
+            app::HealthService<app::WorldHealth>* health, const WorldLoopOptions& options);
 
   // Runs to the end. True if everything expected came true.
   bool Drive(const app::StopSignal& stop);
@@ -68,9 +70,11 @@ class WorldLoop {
   bool Unanswered() const;
   void KeepCheckpoint();
   bool TellTheEnd();
+  void TellHealth(app::HealthStage stage);
 
   const Scenario& scenario_;
   link::WorldLink& link_;
+  app::HealthService<app::WorldHealth>& health_;
   const WorldLoopOptions options_;
   WorldEpoch epoch_;
   std::unique_ptr<Fleet> fleet_;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <variant>
 
+#include "services/app/health_service.h"
 #include "services/app/parallel_for.h"
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
@@ -52,6 +53,7 @@ std::optional<sim::FleetCheckpoint> ReadCheckpoint(const std::string& file, std:
 
 int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   app::InitLog("world", flags.log_format, flags.log_level);
+  app::HealthService<app::WorldHealth> health(flags);
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
@@ -65,7 +67,8 @@ int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
     options.checkpoint = ReadCheckpoint(flags.checkpoint, options.scenario_mark);
   }
   link::WorldLink link(LinkOptionsOf(flags, scenario));
-  return WorldLoop(scenario, &link, options).Drive(stop) ? 0 : 1;
+  const bool passed = WorldLoop(scenario, &link, &health, options).Drive(stop);
+  return passed || stop.IsSet() ? 0 : 1;  // to stop when asked to is no failure
 }
 
 }  // namespace

@@ -52,6 +52,11 @@ class CommandLine {
         "lecture_printed, which shows the flaws of the printed scripts: it collides");
     Add("--duration", "SECONDS", "end after this time instead of the scenario's");
     AddSwitch("--lockstep", "the world waits for every command of a tick");
+    Add("--health-port", "0..65535", "serves /livez, /readyz, /metrics; 0, the default: nowhere");
+    Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
+    AddOptional("--health", "live|ready|metrics",
+                "asks the service at --health-port, prints the answer, and ends:\n"
+                "0 yes, 1 no, 2 nobody answered (ready if no word follows)");
     Add("--log-format", "text|json", "of the lines on stderr (default text)");
     Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
   }
@@ -81,6 +86,13 @@ class CommandLine {
   void Add(const std::string& flag, const std::string& value_name, const std::string& help) {
     auto& [option, value] = options_.emplace_back();
     option = app_.add_option(flag, value, help)->type_name(value_name);
+  }
+
+  // Its value may be left out.
+  void AddOptional(const std::string& flag, const std::string& value_name,
+                   const std::string& help) {
+    Add(flag, value_name, help);
+    options_.back().first->expected(0, 1);
   }
 
   void AddSwitch(const std::string& flag, const std::string& help) {
@@ -123,9 +135,26 @@ std::optional<Resumed> ReadResumed(FlagValues* values) {
   return resumed;
 }
 
+void ReadHealth(FlagValues* values, ServiceFlags* flags) {
+  flags->health_port = values->Whole("--health-port", {0, 65535}).value_or(0);
+  flags->health_address = values->TextOr(flags->health_address, "--health-address");
+  const auto what = values->Text("--health");
+  if (what) {
+    const bool is_silent = what->empty();
+    flags->ask_health =
+        is_silent ? "ready" : values->OneOf("--health", {"live", "ready", "metrics"}).value_or("");
+  }
+  if (!flags->ask_health.empty() && flags->health_port == 0) {
+    values->Complain("--health", "asks at --health-port, and there is none",
+                     "write --health-port with the port of the service");
+  }
+}
+
 ServiceFlags Read(Service service, FlagValues* values) {
   constexpr double kMaxWhole = 4294967295.0;
   ServiceFlags flags;
+  ReadHealth(values, &flags);
+  if (values->Text("--health")) return flags;  // what a service needs, a question does not
   flags.scenario = values->RequiredText("--scenario", "name a file or a shipped scenario");
   if (!values->Text("--domain")) {
     values->Complain("--domain", "is required and missing", "write --domain with a number 1..99");

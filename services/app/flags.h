@@ -32,6 +32,11 @@ struct ServiceFlags {
   std::optional<Behaviour> behaviour;
   std::optional<double> duration_s;
   bool lockstep = false;
+  // Where its health is served; port 0: nowhere, for many vehicles share a host.
+  std::string health_address = "127.0.0.1";
+  std::uint32_t health_port = 0;
+  // Not a service but a question to one: "live", "ready" or "metrics"; empty: a service.
+  std::string ask_health;
   std::string log_format = "text";  // "text" or "json"
   std::string log_level = "info";   // "debug", "info", "warning" or "error"
 };

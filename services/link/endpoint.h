@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "services/link/loan.h"
@@ -34,6 +35,9 @@ class Writer {
   // True once every matched reliable reader has every sample; false after `timeout`.
   bool WaitUntilHeard(Nanoseconds timeout) {
     return Ok(writer_->wait_for_acknowledgments(ToDuration(timeout)));
+  }
+  bool WaitUntilHeard(std::chrono::steady_clock::time_point until) {
+    return WaitUntilHeard(Nanoseconds(until - std::chrono::steady_clock::now()));
   }
   bool HasReader() const {
     dds::PublicationMatchedStatus status;

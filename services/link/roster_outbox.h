@@ -18,7 +18,9 @@ class RosterOutbox {
   bool Send(const RosterEntry& entry);
   // The vehicle's session is over.
   void Retire(VehicleId vehicle);
-  bool WaitUntilHeard(Nanoseconds timeout) { return writer_.WaitUntilHeard(timeout); }
+  bool WaitUntilHeard(std::chrono::steady_clock::time_point until) {
+    return writer_.WaitUntilHeard(until);
+  }
 
  private:
   void Retire(const SessionId& session);

@@ -21,7 +21,7 @@ namespace {
 constexpr char kWorld[] = "world";
 constexpr std::size_t kExpectedBeacons = 256;  // a drain; more only costs an allocation, once
 
-// Closing waits this long for the good-bye to have been heard.
+// Closing waits for the good-bye to have been heard, until this long after it was said.
 constexpr Nanoseconds kLeaveTimeout = std::chrono::milliseconds(300);
 
 template <typename Wire, typename Ours>
@@ -127,7 +127,7 @@ struct VehicleLink::Impl {
   }
 
   ~Impl() {
-    if (left) join_writer.WaitUntilHeard(kLeaveTimeout);
+    if (heard_by) join_writer.WaitUntilHeard(*heard_by);
   }
 
   void SendJoin(const JoinRequest& request) {
@@ -153,8 +153,8 @@ struct VehicleLink::Impl {
   RosterInbox roster;
   RosterInbox::Mark told_to_join = 0;
   RosterInbox::Mark told_to_step = 0;
-  std::optional<JoinRequest> joined;  // the last request
-  bool left = false;
+  std::optional<JoinRequest> joined;                              // the last request
+  std::optional<std::chrono::steady_clock::time_point> heard_by;  // of the good-bye, once said
   PeerEvents peers;
   std::optional<OwnEndpoints> own;
   std::optional<SignalInbox> signals;
@@ -197,7 +197,7 @@ void VehicleLink::SendLeave(const SessionId& session) {
   impl_->SendJoin({.session = session,
                    .wanted = impl_->joined ? impl_->joined->wanted : kNobody,
                    .leaving = true});
-  impl_->left = true;
+  impl_->heard_by = std::chrono::steady_clock::now() + kLeaveTimeout;
 }
 
 void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals) {

@@ -63,7 +63,8 @@ class VehicleLink {
   // The newest roster entry of this session, if one has come since the last call. `session` is that
   // of the last request.
   std::optional<RosterEntry> TakeRoster(const SessionId& session);
-  // Gives the id back. Closing the link waits a moment for a world to have heard it.
+  // Gives the id back. Closing the link waits for a world to have heard it, but not later than a
+  // moment after this call.
   void SendLeave(const SessionId& session);
 
   // Makes every other endpoint, named after `id`: readers for the sensors the profile is fitted

@@ -1,6 +1,7 @@
 #include "services/link/world_link.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <unordered_map>
 
@@ -157,10 +158,12 @@ void WorldLink::SendFigures(const RunFigures& figures) {
 }
 
 void WorldLink::Flush(Nanoseconds timeout) {
-  // One after the other: each usually returns at once, so the sum stays near one `timeout`.
-  impl_->roster.WaitUntilHeard(timeout);
-  impl_->event_writer.WaitUntilHeard(timeout);
-  impl_->figures_writer.WaitUntilHeard(timeout);
+  // Where a reader has died without a word every one of them waits in vain, and all the while the
+  // others are heard: so the time is one for all.
+  const auto until = std::chrono::steady_clock::now() + timeout;
+  impl_->roster.WaitUntilHeard(until);
+  impl_->event_writer.WaitUntilHeard(until);
+  impl_->figures_writer.WaitUntilHeard(until);
 }
 
 WorldLinkCounters WorldLink::Counters() const { return impl_->counters; }

@@ -53,7 +53,7 @@ may_include() {
     fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|qos|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
       [[ $2 == services/@(vehicle|link|qos|app|types)/* ||
-        $2 == services/@(beacon_news|vehicle_admin|vehicle_join|vehicle_report|service_main).h ]]
+        $2 == services/@(beacon_news|vehicle_admin|vehicle_health|vehicle_join|vehicle_report|service_main).h ]]
       ;;
     world_main)
       [[ $2 == services/@(link|app|types)/* || $2 == sim_world/* || $2 == services/service_main.h ]]
@@ -74,6 +74,11 @@ check_system_include() {
     google/protobuf/* | spdlog/*)
       [[ $room == app || $room == tests ]] ||
         violation "$file: <$header>: only services/app knows Protobuf and spdlog"
+      return
+      ;;
+    httplib.h | prometheus/*)
+      [[ $file == services/app/health_@(server|metrics).cc || $room == tests ]] ||
+        violation "$file: <$header>: only services/app/health_server.cc and _metrics.cc know it"
       return
       ;;
     CLI/*)

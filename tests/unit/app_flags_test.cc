@@ -254,5 +254,28 @@ TEST(Flags, TheTwinOfAFlagIsSpeltInCapitals) {
   EXPECT_EQ(TwinOf("--log-level"), "GIVEWAY_LOG_LEVEL");
 }
 
+TEST(Flags, HealthIsServedOnlyWhereAPortIsNamed) {
+  const ParsedFlags none = Vehicle({"--scenario", "wall_only", "--domain", "7"});
+  EXPECT_EQ(std::get<ServiceFlags>(none).health_port, 0U);
+  const Variable port("GIVEWAY_HEALTH_PORT", "9100");
+  const ParsedFlags some =
+      World({"--scenario", "wall_only", "--domain", "7", "--health-address", "0.0.0.0"});
+  EXPECT_EQ(std::get<ServiceFlags>(some).health_port, 9100U);
+  EXPECT_EQ(std::get<ServiceFlags>(some).health_address, "0.0.0.0");
+  EXPECT_EQ(std::get<ServiceFlags>(some).ask_health, "");
+}
+
+TEST(Flags, AskingForHealthNeedsNothingButThePort) {
+  const auto asked = [](const ParsedFlags& parsed) {
+    return std::get<ServiceFlags>(parsed).ask_health;
+  };
+  EXPECT_EQ(asked(Vehicle({"--health", "--health-port", "9100"})), "ready");
+  EXPECT_EQ(asked(World({"--health-port", "9100", "--health"})), "ready");
+  EXPECT_EQ(asked(Vehicle({"--health", "live", "--health-port", "9100"})), "live");
+  EXPECT_THAT(Refusal({"--health"}), HasSubstr("write --health-port"));
+  EXPECT_THAT(Refusal({"--health", "well", "--health-port", "9100"}), HasSubstr("live, ready"));
+  EXPECT_THAT(Refusal({"--health", "--health-port", "65536"}), HasSubstr("0 and 65535"));
+}
+
 }  // namespace
 }  // namespace giveway::app

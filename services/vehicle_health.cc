@@ -1,0 +1,39 @@
+#include "services/vehicle_health.h"
+
+namespace giveway {
+
+void VehicleHealthTeller::Joins(const std::string& waits_for) {
+  app::VehicleHealth& now = service_.Now();
+  now.loop.stage = app::HealthStage::kJoining;
+  now.waits_for = app::ShortText(waits_for);
+  service_.Tell();
+}
+
+void VehicleHealthTeller::Placed(Nanoseconds ranges_age_limit) {
+  app::VehicleHealth& now = service_.Now();
+  now.loop.stage = app::HealthStage::kUnderWay;
+  now.ranges_age_limit = ranges_age_limit;
+  ++now.placements;
+  service_.Tell();
+}
+
+void VehicleHealthTeller::Turned(const link::Taken& taken,
+                                 const link::VehicleLinkCounters& counters,
+                                 const RosterEntry& place, SteadyTime woke) {
+  app::VehicleHealth& now = service_.Now();
+  if (taken.inputs.scan) now.scanned = woke;
+  now.late_scans += taken.scans_skipped;
+  now.run_state = place.run_state;
+  now.fleet_size = place.fleet_size;
+  now.matched_peers = counters.matched_peers;
+  now.write_failures = counters.write_failures;
+  now.ranges_deadline_missed = counters.ranges_deadline_missed;
+  service_.Tell();
+}
+
+void VehicleHealthTeller::Leaves() {
+  service_.Now().loop.stage = app::HealthStage::kLeaving;
+  service_.Tell();
+}
+
+}  // namespace giveway

@@ -1,0 +1,229 @@
+#!/usr/bin/env bash
+# /livez, /readyz and /metrics of real services, by --health and by whatever a stranger may send; a
+# loop that hangs; and stops: within a second of SIGTERM, with exit code 0, told apart from a loss.
+source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
+take_domain
+FIRST_PORT=$((21000 + DOMAIN * 10))
+WORLD=$FIRST_PORT A=$((FIRST_PORT + 1)) B=$((FIRST_PORT + 2)) C=$((FIRST_PORT + 3))
+
+ask() { "$BIN/giveway-vehicle" --health "$2" --health-port "$1" 2>&1; } # PORT live|ready|metrics
+
+# await_health WHAT SECONDS PORT live|ready CODE PATTERN: asks until both come.
+await_health() {
+  local what=$1 seconds=$2 port=$3 which=$4 wanted=$5 pattern=$6 begun code answer
+  begun=$(date +%s%N)
+  while true; do
+    code=0
+    answer=$(ask "$port" "$which") || code=$?
+    [[ $code -eq $wanted && $answer =~ $pattern ]] && break
+    if (($(date +%s%N) - begun > seconds * 1000000000)); then
+      fail "$what: no '$pattern' with exit code $wanted in $seconds s, but $code: $answer"
+      return
+    fi
+    sleep 0.05
+  done
+  echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms: $answer" >&2
+}
+
+# The value of a metric; empty if there is none.
+metric() { ask "$1" metrics | sed -n "s/^$2 //p"; } # PORT NAME
+
+# ended NAME CODE SINCE_NS LIMIT_MS: waits for the end of a member.
+ended() {
+  local name=$1 wanted=$2 since=$3 limit=$4 code=0
+  local pid=${PID[$name]}
+  while kill -0 "$pid" 2>/dev/null && (($(date +%s%N) - since < limit * 1000000)); do
+    sleep 0.01
+  done
+  local took=$((($(date +%s%N) - since) / 1000000))
+  if kill -9 "$pid" 2>/dev/null; then fail "$name: not gone after $took ms"; fi
+  wait "$pid" 2>/dev/null || code=$?
+  unset "PID[$name]"
+  [[ $code -eq $wanted ]] || fail "$name: exit code $code: $(tail -n 3 "$SCRATCH/$name.log")"
+  echo "$name: gone after $took ms" >&2
+}
+
+# stops NAME: SIGTERM ends it well within a second.
+stops() {
+  local since
+  since=$(date +%s%N)
+  kill -TERM "${PID[$1]}"
+  ended "$1" 0 "$since" 1000
+}
+
+# --- No world: live, and not ready; and it need not come for a vehicle to stop.
+start alone giveway-vehicle --health-port "$A"
+await_health "no world" 5 "$A" ready 1 'not joined: no answer from a world'
+await_health "no world, alive" 1 "$A" live 0 '^live$'
+stops alone
+
+start world giveway-world --health-port "$WORLD"
+start a giveway-vehicle --health-port "$A"
+start b giveway-vehicle --health-port "$B" --hang-on-signal
+await_health "the world is ready" 10 "$WORLD" ready 0 '^ready$'
+await_health "a drives" 15 "$A" ready 0 '^ready$'
+await_health "b drives" 15 "$B" ready 0 '^ready$'
+id_b=$(id_of b)
+
+# --- Metrics are those of this moment, and of the fleet's own counting.
+await "a drives" 5 a 'cruise'
+sleep 0.3 # a status
+turns=$(metric "$A" giveway_vehicle_loop_turns_total)
+(($(metric "$A" giveway_vehicle_beacons_accepted_total) > 0)) || fail "a accepted no beacon"
+[[ $(metric "$A" giveway_vehicle_peers_matched) == 1 ]] || fail "a is not matched with b"
+[[ $(metric "$A" 'giveway_vehicle_mode{mode="cooperative"}') == 1 ]] || fail "a: mode"
+[[ $(metric "$WORLD" giveway_world_vehicles_joined) == 2 ]] || fail "the world: vehicles joined"
+[[ $(metric "$WORLD" 'giveway_world_run_state{state="running"}') == 1 ]] || fail "the run"
+(($(metric "$A" giveway_vehicle_loop_turns_total) > turns)) || fail "the metrics of a stand still"
+
+# --- A port is taken by one: with its remedy, and at once.
+since=$(date +%s%N)
+start second giveway-vehicle --health-port "$A"
+ended second 2 "$since" 2000
+grep -q 'already in use.*port of its own' "$SCRATCH/second.log" ||
+  fail "a taken port: $(cat "$SCRATCH/second.log")"
+
+# --- Whatever a stranger sends, the loop goes on and the next probe is answered.
+# said_to PORT: sends stdin, prints the answer.
+said_to() {
+  local socket
+  exec {socket}<>"/dev/tcp/127.0.0.1/$1"
+  cat 1>&"$socket" 2>/dev/null || true
+  timeout 3 cat <&"$socket" 2>/dev/null || true
+  exec {socket}>&-
+}
+first_line() { said_to "$A" | head -n 1 | tr -d '\r'; }
+
+late=$(metric "$A" giveway_vehicle_late_scans_total)
+missed=$(metric "$B" giveway_vehicle_deadline_missed_total)
+get() { printf '%s %s HTTP/1.1\r\nHost: a\r\n%s\r\n' "$1" "$2" "${3:-}"; }
+[[ $(get GET /livez | first_line) == 'HTTP/1.1 200 OK' ]] || fail "GET /livez"
+[[ $(get HEAD /livez | first_line) == 'HTTP/1.1 200 OK' ]] || fail "HEAD /livez"
+[[ $(get GET /secrets | first_line) == 'HTTP/1.1 404 '* ]] || fail "an unknown page"
+[[ $(get GET /../../etc/passwd | first_line) == 'HTTP/1.1 404 '* ]] || fail "a way out"
+[[ $(get POST /livez $'Content-Length: 5\r\n' | first_line) == 'HTTP/1.1 405 '* ]] || fail "POST"
+[[ $(get DELETE /livez | first_line) == 'HTTP/1.1 405 '* ]] || fail "DELETE"
+get GET '/readyz?format=json' | said_to "$A" | grep -q '^{"ready":true,"reasons":\[\]}' || fail "JSON"
+printf '\0\377\r\n\r\n' | first_line >/dev/null
+{ printf 'GET /%07000d HTTP/1.1\r\n\r\n' 0; } | first_line >/dev/null
+get GET /metrics "Range: bytes=$(printf '0-1,%.0s' $(seq 1500))0-1"$'\r\n' | first_line >/dev/null
+{ printf 'GET /livez HTTP/1.1\r\nX: ' && head -c 1000000 /dev/zero | tr '\0' x; } | first_line \
+  >/dev/null
+sockets=()
+for _ in $(seq 12); do # half open; more than there are threads and waiting places
+  exec {socket}<>"/dev/tcp/127.0.0.1/$A"
+  printf 'GET /li' 1>&"$socket" 2>/dev/null || true
+  sockets+=("$socket")
+done
+await_health "behind half-open connections" 6 "$A" live 0 '^live$'
+for socket in "${sockets[@]}"; do exec {socket}>&-; done
+# A few a busy machine takes by itself; a loop that waits for strangers would come late ten times a
+# half-open connection.
+late=$(($(metric "$A" giveway_vehicle_late_scans_total) - late))
+missed=$(($(metric "$B" giveway_vehicle_deadline_missed_total) - missed))
+echo "beside strangers: $late scans late, $missed beacons missed" >&2
+((late <= 5 && missed <= 2)) || fail "strangers disturb the loop: $late late, $missed missed"
+
+# --- A loop that hangs is not live, and is again when it goes on.
+kill -USR2 "${PID[b]}"
+await_health "b hangs" 3 "$B" live 1 'not live: the control loop has been silent for [0-9.]+ s'
+await_health "b hangs and is not ready" 1 "$B" ready 1 'silent for'
+await_health "a does not hang" 1 "$A" live 0 '^live$'
+kill -USR2 "${PID[b]}"
+await_health "b goes on" 2 "$B" live 0 '^live$'
+await_health "b drives again" 5 "$B" ready 0 '^ready$'
+
+# --- A leave is no loss. Half a request is no reason to stay.
+await "a hears b again" 5 a "beacon_heard: vehicle $id_b"
+sleep 0.5
+line=$(lines_of a)
+lost=$(metric "$A" giveway_vehicle_liveliness_lost_total)
+exec {socket}<>"/dev/tcp/127.0.0.1/$B"
+printf 'GET /li' 1>&"$socket"
+stops b
+exec {socket}>&-
+grep -q 'leaving (leaving)' "$SCRATCH/b.log" || fail "b did not halt: $(tail -n 3 "$SCRATCH/b.log")"
+await "a is told" 2 a "beacon_left: vehicle $id_b" "$line"
+await "the world is told" 2 world "vehicle $id_b left the run"
+sleep 0.5
+if tail -n "+$((line + 1))" "$SCRATCH/a.log" | grep -E "(stale|lost|missed).*vehicle $id_b"; then
+  fail "a takes a leave for a loss"
+fi
+[[ $(metric "$A" giveway_vehicle_liveliness_lost_total) == "$lost" ]] || fail "a counted a loss"
+
+# --- kill -9 is a loss, and leaves neither id nor port taken.
+start c giveway-vehicle --health-port "$C" --id "$id_b" # which is free again
+await_health "c drives" 10 "$C" ready 0 '^ready$'
+[[ $(metric "$C" "giveway_vehicle_info{vehicle=\"$id_b\",version=\".*\"}") == 1 ]] ||
+  fail "c is not vehicle $id_b"
+line=$(lines_of a)
+kill_now c
+await "a loses c" 3 a "(stale|lost).*vehicle $id_b" "$line"
+start c2 giveway-vehicle --health-port "$C" --id "$id_b"
+await_health "c is back" 5 "$C" ready 0 '^ready$'
+
+# --- Two with one id: the later one waits, says why, and stops as ever.
+start twin giveway-vehicle --health-port "$B" --id "$id_b"
+await_health "a taken id" 5 "$B" ready 1 "not joined: the world lets it wait: .*$id_b"
+await_health "a taken id, alive" 1 "$B" live 0 '^live$'
+stops twin
+
+# --- At any moment of joining.
+for moment in 0.05 0.1 0.15 0.2 0.3; do
+  start "joins_$moment" giveway-vehicle --health-port "$B"
+  sleep "$moment"
+  stops "joins_$moment"
+done
+
+# --- As process 1 of a container: no signal has a default there, and strangers' children are left
+# as they are.
+if unshare --pid --fork --mount-proc true 2>/dev/null; then
+  unshare --pid --fork --mount-proc bash -c '(sleep 0.8 &); exec "$@"' bash \
+    "$BIN/giveway-vehicle" --scenario "$LANES" --domain "$DOMAIN" --health-port "$B" \
+    2>>"$SCRATCH/first.log" &
+  PID[first]=$!
+  await_health "process 1 drives" 10 "$B" ready 0 '^ready$'
+  inner=$(children_of "${PID[first]}")
+  orphan=$(children_of "$inner")
+  [[ -n $orphan ]] || fail "process 1 was given no orphan"
+  for _ in $(seq 100); do
+    state=$(awk '/^State:/ {print $2}' "/proc/$orphan/status" 2>/dev/null) || state=gone
+    [[ $state == S ]] || break
+    sleep 0.02
+  done
+  [[ $state == Z ]] || fail "process 1 was to leave a stranger's child as it is, which is $state"
+  since=$(date +%s%N)
+  kill -TERM "$inner"
+  ended first 0 "$since" 1000
+else
+  echo "no right to make process namespaces: process 1 is not tried" >&2
+fi
+
+# watched_in_vain: an observer joins, and dies without a word: nobody may wait for it for long.
+watched_in_vain() {
+  "$FLEETCTL" top --domain "$DOMAIN" >"$SCRATCH/top.log" 2>/dev/null &
+  PID[top]=$!
+  await "an observer sees" 5 top 'cruise|halt'
+  kill_now top
+}
+
+# --- With its world dead a vehicle says so, and stops as ever.
+watched_in_vain
+kill_now world
+await_health "no world any more" 3 "$A" ready 1 'the ranges are [0-9.]+ s old'
+await_health "and yet alive" 1 "$A" live 0 '^live$'
+stops a
+kill_now c2
+
+# --- The world stops as its vehicles do, with one of them there and with none.
+start world2 giveway-world --health-port "$WORLD"
+await_health "the port of a killed world" 5 "$WORLD" ready 0 '^ready$'
+stops world2
+start world3 giveway-world --health-port "$WORLD"
+start d giveway-vehicle --health-port "$A"
+await_health "d drives" 10 "$A" ready 0 '^ready$'
+watched_in_vain
+since=$(date +%s%N)
+stops world3
+ended d 0 "$since" 3000
+[[ $failures -eq 0 ]]
