@@ -14,7 +14,7 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
     return error;
   }
   return "there is no verb '" + std::string(argv[1]) +
-         "'; verbs: listen, qos, replay, run, shrink, stopwatch, top, virtual, why";
+         "'; verbs: doctor, listen, qos, replay, run, shrink, stopwatch, top, virtual, why";
 }
 
 }  // namespace
@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   fleetctl.set_version_flag("--version", "fleetctl " GIVEWAY_VERSION);
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = giveway::fleetctl::kCouldNotRun;
+  giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
