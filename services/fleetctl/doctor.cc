@@ -99,7 +99,7 @@ int RunDoctor(const DoctorOptions& options) {
   host.clock = ReadClock();
   std::vector<Removal> removals;
   if (options.fix) {
-    removals = RemoveGone(host.memory, folders.proc, host.user);
+    removals = RemoveGone(host.memory, host.user);
     host.memory = ReadSharedMemory(folders.memory, folders.proc);
   }
   const qos::Findings findings = Examine(host);

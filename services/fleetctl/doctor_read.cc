@@ -151,10 +151,12 @@ HostFacts ReadHost(const DoctorOptions& options, const HostFolders& folders) {
   if (host.memory.total_bytes == 0) {
     host.not_known.push_back(host.memory.folder + ": " + std::strerror(errno));
   }
-  if (!host.memory.unseen.empty()) {
-    host.not_known.push_back(
-        fmt::format("files of {}: they may not be looked into; examine as root",
-                    Counted(host.memory.unseen.size(), "process", "processes")));
+  const auto unknown =
+      std::ranges::count(GroupsOf(host.memory), MemoryState::kNotKnown, &MemoryGroup::state);
+  if (unknown > 0) {
+    host.not_known.push_back(fmt::format(
+        "whether somebody uses {}: only their owner and root may ask",
+        Counted(static_cast<std::size_t>(unknown), "segment or port", "segments and ports")));
   }
   ReadNetwork(folders.proc, &host);
   if (const auto limits = ReadFact(folders.proc / "self/limits", &host)) {

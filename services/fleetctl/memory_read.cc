@@ -4,18 +4,18 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
-#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cerrno>
 #include <ctime>
 #include <fstream>
 #include <map>
-#include <sstream>
+#include <optional>
 #include <utility>
 
 #include "services/fleetctl/file_descriptor.h"
+#include "services/fleetctl/file_lease.h"
 #include "services/fleetctl/why_proc.h"
 #include "services/fleetctl/why_proc_text.h"
 
@@ -57,7 +57,11 @@ class Look {
     if (error) return false;
     for (; open != fs::directory_iterator(); open.increment(error)) {
       struct stat held {};
-      if (::stat(open->path().c_str(), &held) == 0) Uses({held.st_dev, held.st_ino});
+      if (::stat(open->path().c_str(), &held) == 0) {
+        Uses({held.st_dev, held.st_ino});
+      } else if (errno == EACCES) {
+        return false;
+      }
     }
     return true;
   }
@@ -75,12 +79,6 @@ class Look {
   const std::map<FileKey, MemoryFile*>& files_;
 };
 
-// Kernel threads and those that have ended have no words, and no memory.
-bool HasWords(const fs::path& process) {
-  std::ifstream words(process / "cmdline");
-  return words && words.peek() != std::ifstream::traits_type::eof();
-}
-
 // Whether somebody holds the lock; also true if it may not be tried.
 bool IsLocked(const fs::path& file) {
   const FileDescriptor lock(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
@@ -89,8 +87,17 @@ bool IsLocked(const fs::path& file) {
   return ::flock(lock.Get(), LOCK_EX | LOCK_NB) != 0;
 }
 
-}  // namespace
+void AskKernel(const fs::path& folder, MemoryFile* file) {
+  if (!file->users.empty()) return;
+  const FileLease::Answer said = FileLease(folder / file->name).Said();
+  if (said != FileLease::Answer::kNotSaid) {
+    file->held = said == FileLease::Answer::kUsed;
+  } else if (PartOf(file->name) == MemoryPart::kLock) {
+    file->locked = IsLocked(folder / file->name);
+  }
+}
 
+// What can be seen of the file itself; nothing if it is no regular one.
 std::optional<MemoryFile> ReadMemoryFile(const fs::path& file) {
   struct stat found {};
   if (::lstat(file.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
@@ -104,6 +111,7 @@ std::optional<MemoryFile> ReadMemoryFile(const fs::path& file) {
   return read;
 }
 
+// Fills in `users`, and returns who may not be looked into. Our own process does not count.
 std::vector<UnseenProcess> ReadUsers(const fs::path& proc, std::vector<MemoryFile>* files) {
   std::vector<UnseenProcess> unseen;
   const auto by_key = ByKey(files);
@@ -113,12 +121,17 @@ std::vector<UnseenProcess> ReadUsers(const fs::path& proc, std::vector<MemoryFil
     Look look(process, pid, by_key);
     const bool maps = look.Maps();
     const bool holds = look.Holds();
+    if (maps && holds) continue;
+    // Kernel threads and those that have ended have no words.
     struct stat owner {};
-    if ((maps && holds) || !HasWords(process) || ::stat(process.c_str(), &owner) != 0) continue;
+    if (ReadText(process / "cmdline").value_or("").empty()) continue;
+    if (::stat(process.c_str(), &owner) != 0) continue;
     unseen.push_back({pid, owner.st_uid});
   }
   return unseen;
 }
+
+}  // namespace
 
 SharedMemory ReadSharedMemory(const fs::path& folder, const fs::path& proc) {
   SharedMemory memory;
@@ -135,10 +148,7 @@ SharedMemory ReadSharedMemory(const fs::path& folder, const fs::path& proc) {
   }
   std::ranges::sort(memory.files, {}, &MemoryFile::name);
   memory.unseen = ReadUsers(proc, &memory.files);
-  for (MemoryFile& file : memory.files) {
-    if (PartOf(file.name) != MemoryPart::kLock || !file.users.empty()) continue;
-    file.locked = IsLocked(folder / file.name);
-  }
+  for (MemoryFile& file : memory.files) AskKernel(folder, &file);
   return memory;
 }
 

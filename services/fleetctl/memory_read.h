@@ -1,11 +1,9 @@
-// Reads who uses which file of Fast DDS in a shared memory folder, and removes those nobody uses.
-// The folders may be others of the same shape, for tests. To learn whether a lock is held it is
-// tried for a moment, and only if nobody is seen to hold the file.
+// Reads the files of Fast DDS in a shared memory folder, and who uses them. The folders may be
+// others of the same shape, for tests. Where nobody is seen to use a file it is asked for alone,
+// for a moment, which the kernel refuses if somebody does.
 #pragma once
 
 #include <filesystem>
-#include <optional>
-#include <vector>
 
 #include "services/fleetctl/shared_memory.h"
 
@@ -13,13 +11,5 @@ namespace giveway::fleetctl {
 
 SharedMemory ReadSharedMemory(const std::filesystem::path& folder,
                               const std::filesystem::path& proc);
-
-// Fills in `users` of the files, and returns the processes that may not be looked into. The
-// caller's own process does not count.
-std::vector<UnseenProcess> ReadUsers(const std::filesystem::path& proc,
-                                     std::vector<MemoryFile>* files);
-
-// The file's facts as they are now, but for `locked` and `users`; nothing if it is no regular file.
-std::optional<MemoryFile> ReadMemoryFile(const std::filesystem::path& file);
 
 }  // namespace giveway::fleetctl

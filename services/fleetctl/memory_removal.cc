@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <semaphore.h>
-#include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,27 +10,21 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <memory>
+#include <optional>
 
-#include "services/fleetctl/file_descriptor.h"
-#include "services/fleetctl/finding_text.h"
-#include "services/fleetctl/memory_read.h"
+#include "services/fleetctl/file_lease.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Groups whose locks are held together: each costs descriptors, and each time all processes are
-// looked at.
-constexpr std::size_t kAtOnce = 100;
-
 // The semaphore a participant holds while it opens a port, taken if it is free: who opens the port
-// meanwhile waits for us. It is not free either if its owner died, which ReadUsers tells apart.
+// meanwhile waits for us. If its owner died it is not free either, and then nobody waits.
 class PortMutex {
  public:
   explicit PortMutex(const fs::path& file) {
-    const FileDescriptor open(::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW));
+    const FileDescriptor open(::open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
     struct stat found {};
     if (!open.IsOpen() || ::fstat(open.Get(), &found) != 0) return;
     if (found.st_size != sizeof(sem_t)) return;
@@ -54,106 +47,83 @@ class PortMutex {
   bool taken_ = false;
 };
 
-// One group that is about to go, with all its locks held.
-struct Candidate {
-  MemoryGroup group;
-  std::vector<FileDescriptor> locks;
-  std::unique_ptr<PortMutex> mutex;
-  std::string left;  // why it must stay
-};
-
-std::string WhyNotOurs(const MemoryGroup& group, std::uint32_t user) {
-  if (user == 0) return {};
-  for (const MemoryFile& file : group.files) {
-    if (file.user != user) {
-      return fmt::format("belongs to user {}; only root may remove it", file.user);
-    }
+// Takes the file for us alone; else why it must stay.
+std::string Take(const fs::path& folder, const MemoryFile& was, std::vector<FileLease>* leases) {
+  FileLease lease(folder / was.name);
+  struct stat now {};
+  if (lease.File().IsOpen() && (::fstat(lease.File().Get(), &now) != 0 ||
+                                FileIdentity{now.st_dev, now.st_ino} != was.identity)) {
+    return "was replaced meanwhile";
   }
+  if (lease.Said() == FileLease::Answer::kUsed) return "is used again";
+  if (lease.Said() == FileLease::Answer::kNotSaid) return "the kernel does not say who uses it";
+  leases->push_back(std::move(lease));
   return {};
 }
 
-void TakeLocks(const fs::path& folder, Candidate* candidate) {
-  for (const MemoryFile& file : candidate->group.files) {
-    const fs::path path = folder / file.name;
-    if (PartOf(file.name) == MemoryPart::kMutex) {
-      candidate->mutex = std::make_unique<PortMutex>(path);
-    } else if (PartOf(file.name) == MemoryPart::kLock) {
-      FileDescriptor lock(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
-      if (!lock.IsOpen() || ::flock(lock.Get(), LOCK_EX | LOCK_NB) != 0) {
-        candidate->left = "its lock was taken meanwhile";
-        return;
+Removal Unlink(const fs::path& folder, const MemoryFile& file) {
+  const fs::path path = folder / file.name;
+  return {path.string(), ::unlink(path.c_str()) == 0 ? "" : std::strerror(errno)};
+}
+
+class Removing {
+ public:
+  Removing(const fs::path& folder, std::uint32_t user, std::vector<Removal>* removals)
+      : folder_(folder), user_(user), removals_(*removals) {}
+
+  void Group(const MemoryGroup& group) {
+    const auto mutex = std::ranges::find(group.files, MemoryPart::kMutex,
+                                         [](const MemoryFile& file) { return PartOf(file.name); });
+    std::vector<MemoryFile> others = group.files;
+    std::erase_if(others,
+                  [](const MemoryFile& file) { return PartOf(file.name) == MemoryPart::kMutex; });
+    std::string why = WhyNotOurs(group);
+    {
+      std::optional<PortMutex> held;
+      if (why.empty() && mutex != group.files.end()) held.emplace(folder_ / mutex->name);
+      Files(others, &why);
+    }
+    // It guards the others, and goes last and by itself: our own use of it counts as a use.
+    if (mutex != group.files.end()) Files({*mutex}, &why);
+  }
+
+ private:
+  std::string WhyNotOurs(const MemoryGroup& group) const {
+    if (group.state == MemoryState::kNotKnown) {
+      return "whether somebody uses it only its owner and root may ask";
+    }
+    for (const MemoryFile& file : group.files) {
+      if (user_ != 0 && file.user != user_) {
+        return fmt::format("belongs to user {}; only root may remove it", file.user);
       }
-      candidate->locks.push_back(std::move(lock));
+    }
+    return {};
+  }
+  // All or none of them; `why` they must stay, before or after.
+  void Files(const std::vector<MemoryFile>& files, std::string* why) {
+    std::vector<FileLease> leases;
+    for (const MemoryFile& file : files) {
+      if (why->empty()) *why = Take(folder_, file, &leases);
+    }
+    for (const MemoryFile& file : files) {
+      removals_.push_back(why->empty() ? Unlink(folder_, file)
+                                       : Removal{(folder_ / file.name).string(), *why});
     }
   }
-}
 
-// Behind the locks: the same files, and still nobody who uses them.
-void LookAgain(const SharedMemory& memory, const fs::path& proc,
-               std::vector<Candidate>* candidates) {
-  SharedMemory now;
-  for (const Candidate& candidate : *candidates) {
-    if (!candidate.left.empty()) continue;
-    for (const MemoryFile& was : candidate.group.files) {
-      auto file = ReadMemoryFile(fs::path(memory.folder) / was.name);
-      if (file && file->identity == was.identity) now.files.push_back(std::move(*file));
-    }
-  }
-  now.unseen = ReadUsers(proc, &now.files);
-  std::vector<MemoryGroup> groups = GroupsOf(now);
-  for (Candidate& candidate : *candidates) {
-    if (!candidate.left.empty()) continue;
-    const auto found = std::ranges::find(groups, candidate.group.body, &MemoryGroup::body);
-    if (found == groups.end() || found->files.size() != candidate.group.files.size()) {
-      candidate.left = "was replaced meanwhile";
-    } else if (!found->IsGone()) {
-      candidate.left = "is used again";
-    }
-  }
-}
-
-// The body first, so that nobody finds one without a lock; the mutex last, as it guards the others.
-void Remove(const fs::path& folder, Candidate* candidate, std::vector<Removal>* removals) {
-  std::ranges::stable_sort(candidate->group.files, {},
-                           [](const MemoryFile& file) { return PartOf(file.name); });
-  for (const MemoryFile& file : candidate->group.files) {
-    const fs::path path = folder / file.name;
-    const bool gone = candidate->left.empty() && ::unlink(path.c_str()) == 0;
-    const std::string why = candidate->left.empty() ? std::strerror(errno) : candidate->left;
-    removals->push_back({path.string(), gone ? "" : why});
-  }
-}
-
-std::string Unseen(const SharedMemory& memory) {
-  const UnseenProcess& first = memory.unseen.front();
-  return fmt::format(
-      "{} process{} may not be looked into and could use it, as pid {} of user {}; "
-      "examine as root",
-      memory.unseen.size(), memory.unseen.size() == 1 ? "" : "es", first.pid, first.user);
-}
+  const fs::path folder_;
+  const std::uint32_t user_;
+  std::vector<Removal>& removals_;
+};
 
 }  // namespace
 
-std::vector<Removal> RemoveGone(const SharedMemory& memory, const fs::path& proc,
-                                std::uint32_t user) {
-  std::vector<Candidate> candidates;
+std::vector<Removal> RemoveGone(const SharedMemory& memory, std::uint32_t user) {
   std::vector<Removal> removals;
-  const auto remove = [&] {
-    LookAgain(memory, proc, &candidates);
-    for (Candidate& candidate : candidates) Remove(memory.folder, &candidate, &removals);
-    candidates.clear();
-  };
-  for (MemoryGroup& group : GroupsOf(memory)) {
-    if (group.state == MemoryState::kInUse) continue;
-    Candidate candidate;
-    candidate.left =
-        group.state == MemoryState::kNotKnown ? Unseen(memory) : WhyNotOurs(group, user);
-    candidate.group = std::move(group);
-    if (candidate.left.empty()) TakeLocks(memory.folder, &candidate);
-    candidates.push_back(std::move(candidate));
-    if (candidates.size() == kAtOnce) remove();
+  Removing removing(memory.folder, user, &removals);
+  for (const MemoryGroup& group : GroupsOf(memory)) {
+    if (group.state != MemoryState::kInUse) removing.Group(group);
   }
-  remove();
   return removals;
 }
 

@@ -1,9 +1,9 @@
 // Removes the files of segments and ports that nobody uses any more. What was examined may have
-// changed since: before anything is removed the locks are taken that the library would take, and
-// every process is looked at once more.
+// changed since: nothing is removed that the kernel does not grant us alone, and a port only behind
+// the lock that participants take to open it.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,7 +20,6 @@ struct Removal {
 
 // `memory` as read from `memory.folder`. Only what IsGone(), and of those only what `user` owns,
 // unless `user` is 0. Those left for another reason than being in use are told of, too.
-std::vector<Removal> RemoveGone(const SharedMemory& memory, const std::filesystem::path& proc,
-                                std::uint32_t user);
+std::vector<Removal> RemoveGone(const SharedMemory& memory, std::uint32_t user);
 
 }  // namespace giveway::fleetctl

@@ -16,13 +16,17 @@ bool IsOfFastDds(std::string_view body) {
   return body.starts_with("fastrtps_") || body.starts_with("fast_datasharing_");
 }
 
+bool IsUsed(const MemoryFile& file) {
+  return file.held.value_or(file.locked) || !file.users.empty();
+}
+
 MemoryState StateOf(const MemoryGroup& group, const std::vector<UnseenProcess>& unseen) {
   const auto any = [&](auto&& is) { return std::ranges::any_of(group.files, is); };
-  if (any([](const MemoryFile& file) { return file.locked || !file.users.empty(); })) {
-    return MemoryState::kInUse;
-  }
-  const bool hidden = std::ranges::any_of(unseen, [&](const UnseenProcess& process) {
-    return any([&](const MemoryFile& file) { return MayUse(process.user, file); });
+  if (any(IsUsed)) return MemoryState::kInUse;
+  const bool hidden = any([&](const MemoryFile& file) {
+    return !file.held && std::ranges::any_of(unseen, [&](const UnseenProcess& process) {
+      return MayUse(process.user, file);
+    });
   });
   if (hidden) return MemoryState::kNotKnown;
   const auto has = [&](MemoryPart part) {

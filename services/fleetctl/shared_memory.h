@@ -7,10 +7,11 @@
 //   fast_datasharing_...       a writer's samples; without a lock
 //
 // A lock is an flock, so it ends with its process, however that ends. A port is also mapped by
-// those who send to it, who lock nothing.
+// those who send to it; they lock their own segment.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,15 +25,17 @@ enum class MemoryPart : std::uint8_t { kBody, kLock, kMutex };
 struct MemoryFile {
   std::string name;
   FileIdentity identity;
-  std::uint64_t bytes = 0;  // taken, not merely promised
-  std::uint32_t user = 0;   // who owns it
-  std::uint32_t mode = 0;   // permission bits
-  std::int64_t age_s = 0;   // since it was last written to or made
-  bool locked = false;      // somebody holds its lock
-  std::vector<int> users;   // processes that map it or hold it open
+  std::uint64_t bytes = 0;   // taken, not merely promised
+  std::uint32_t user = 0;    // who owns it
+  std::uint32_t mode = 0;    // permission bits
+  std::int64_t age_s = 0;    // since it was last written to or made
+  std::optional<bool> held;  // somebody has it open or mapped, as the kernel says; it does not
+                             // tell everybody
+  bool locked = false;       // somebody holds its lock; looked at where `held` is not known
+  std::vector<int> users;    // those seen to have it open or mapped
 };
 
-// A process that may map or hold open what it likes, unseen: it may not be looked into.
+// A process that may not be looked into, and may have open what it likes.
 struct UnseenProcess {
   int pid = 0;
   std::uint32_t user = 0;
@@ -53,7 +56,7 @@ MemoryPart PartOf(std::string_view name);
 
 enum class MemoryState : std::uint8_t {
   kInUse,     // locked, mapped or held open
-  kNotKnown,  // a process that may not be looked into could use it
+  kNotKnown,  // the kernel does not say, and a process that may not be looked into could use it
   kStale,     // its owner is gone: its lock is free
   kOrphaned,  // nobody uses it, and a part is missing: a body without lock, a lock without body
 };

@@ -95,6 +95,7 @@ TEST(Doctor, FindsSharedMemoryWithoutRoom) {
 TEST(Doctor, FindsSharedMemoryWithoutRoomForAll) {
   HostFacts host = HealthyHost();
   host.vehicles = 90;
+  host.memory.free_bytes = 50'000'000;
   EXPECT_EQ(Only(host).rule, "memory_small");
   EXPECT_THAT(Only(host).consequence, HasSubstr("of 90 more participants"));
   host.memory.free_bytes = 100'000'000;
