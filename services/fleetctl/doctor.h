@@ -9,7 +9,7 @@
 namespace giveway::fleetctl {
 
 struct DoctorOptions {
-  std::optional<std::uint32_t> domain;  // without it those of living processes, else the first
+  std::optional<std::uint32_t> domain;  // its processes alone; without it all, else the first
   std::uint32_t vehicles = 2;           // that are to run
   std::string qos;                      // a file, or a shipped set; empty: the default
   std::string interface = "127.0.0.1";

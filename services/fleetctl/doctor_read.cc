@@ -95,8 +95,9 @@ void ReadNetwork(const fs::path& proc, HostFacts* host) {
   host->ports.emplace(ports.begin(), ports.end());
 }
 
-void ReadProcesses(const fs::path& proc, HostFacts* host) {
+void ReadProcesses(const fs::path& proc, std::optional<std::uint32_t> domain, HostFacts* host) {
   for (const FleetMember& member : FindFleet(proc)) {
+    if (domain && member.domain != *domain) continue;
     auto process = ReadSituation(proc, member.pid);
     if (!process) continue;  // it has ended meanwhile
     for (const std::string& fact : process->not_known) {
@@ -145,7 +146,7 @@ HostFacts ReadHost(const DoctorOptions& options, const HostFolders& folders) {
   host.planned = Planned(options);
   host.vehicles = options.vehicles;
   host.user = ::geteuid();
-  ReadProcesses(folders.proc, &host);
+  ReadProcesses(folders.proc, options.domain, &host);
   host.domains = DomainsOf(options, host);
   host.memory = ReadSharedMemory(folders.memory, folders.proc);
   if (host.memory.total_bytes == 0) {

@@ -36,7 +36,7 @@ void AddDoctorVerb(CLI::App* fleetctl, int* exit_code) {
       fleetctl->add_subcommand("doctor", "Examine this host, and clean up after fleets");
   verb->footer(kFooter);
   verb->add_option("--domain", options->domain,
-                   "DDS domain; without it those of the fleets that run, else 1")
+                   "DDS domain, and its processes; without it all that run, else 1")
       ->check(CLI::Range(kFirstDomain, kLastDomain))
       ->envname("GIVEWAY_DOMAIN");
   verb->add_option("--vehicles", options->vehicles, "How many are to run here")
