@@ -167,20 +167,22 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
   if (each == 0) {
     if (memory.free_bytes > 0) return;
     add(Severity::kWarning, "memory_full", 1,
-        "The planned set does not use it; programs that do cannot start, or die of SIGBUS.");
+        "The planned set does not use it; programs that do die of SIGBUS.");
   } else if (memory.free_bytes < each) {
     add(Severity::kError, "memory_full", each,
-        "Not one more participant finds room for its segment: it does not start, or comes up deaf "
-        "to its own host.");
+        "Not one more participant finds room for its segment: it dies of SIGBUS as soon as it "
+        "writes "
+        "there.");
   } else {
     // The world and an observer come to the vehicles; those that run have theirs.
     const std::uint64_t all = host.vehicles + 2ULL;
     const std::uint64_t others = all - std::min<std::uint64_t>(all, host.processes.size());
     if (memory.free_bytes >= others * each) return;
     add(Severity::kError, "memory_small", others * each,
-        fmt::format("There is room for {} of {} more participants; the others do not start, or "
-                    "come up deaf to their own host.",
-                    memory.free_bytes / each, others));
+        fmt::format(
+            "There is room for {} of {} more participants; the next dies of SIGBUS as soon as it "
+            "writes where there is none, and so may any other.",
+            memory.free_bytes / each, others));
   }
 }
 

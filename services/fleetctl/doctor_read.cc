@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstring>
 #include <ctime>
+#include <iterator>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -85,14 +86,17 @@ void ReadNetwork(const fs::path& proc, HostFacts* host) {
   if (const auto text = ReadFact(proc / "sys/net/ipv4/ip_local_reserved_ports", host)) {
     host->reserved = ParseRanges(*text, '-');
   }
+}
+
+std::optional<std::set<std::uint16_t>> ReadPorts(const fs::path& proc, HostFacts* host) {
   const auto udp = ReadFact(proc / "net/udp", host);
-  if (!udp) return;
+  if (!udp) return std::nullopt;
   std::set<std::uint16_t> ports;
   // A host without IPv6 has no such file.
   for (const std::string& text : {*udp, ReadText(proc / "net/udp6").value_or("")}) {
     for (const auto& [inode, port] : ParseUdp(text)) ports.insert(port);
   }
-  host->ports.emplace(ports.begin(), ports.end());
+  return ports;
 }
 
 void ReadProcesses(const fs::path& proc, std::optional<std::uint32_t> domain, HostFacts* host) {
@@ -105,6 +109,18 @@ void ReadProcesses(const fs::path& proc, std::optional<std::uint32_t> domain, Ho
     }
     host->processes.push_back(std::move(*process));
   }
+}
+
+// The processes, and the ports that are taken: those before and after, for a process that begins or
+// ends meanwhile must not seem to be a stranger's.
+void ReadProcessesAndPorts(const fs::path& proc, std::optional<std::uint32_t> domain,
+                           HostFacts* host) {
+  const auto before = ReadPorts(proc, host);
+  ReadProcesses(proc, domain, host);
+  if (!before) return;
+  host->ports.emplace();
+  std::ranges::set_intersection(*before, ReadPorts(proc, host).value_or(*before),
+                                std::back_inserter(*host->ports));
 }
 
 // Where each runs, the processes of one folder with one environment once.
@@ -146,7 +162,7 @@ HostFacts ReadHost(const DoctorOptions& options, const HostFolders& folders) {
   host.planned = Planned(options);
   host.vehicles = options.vehicles;
   host.user = ::geteuid();
-  ReadProcesses(folders.proc, options.domain, &host);
+  ReadProcessesAndPorts(folders.proc, options.domain, &host);
   host.domains = DomainsOf(options, host);
   host.memory = ReadSharedMemory(folders.memory, folders.proc);
   if (host.memory.total_bytes == 0) {

@@ -13,7 +13,8 @@ constexpr std::string_view kMutexEnd = "_mutex";
 constexpr std::string_view kLockEnds[] = {"_el", "_sl"};
 
 bool IsOfFastDds(std::string_view body) {
-  return body.starts_with("fastrtps_") || body.starts_with("fast_datasharing_");
+  return body.starts_with("fastrtps_") || body.starts_with("fastdds_") ||
+         body.starts_with("fast_datasharing_");
 }
 
 bool IsUsed(const MemoryFile& file) {

@@ -6,6 +6,7 @@
 //   sem.fastrtps_port<N>_mutex held while a port is opened
 //   fast_datasharing_...       a writer's samples; without a lock
 //
+// Fast DDS 3 says fastdds_ where 2 says fastrtps_.
 // A lock is an flock, so it ends with its process, however that ends. A port is also mapped by
 // those who send to it; they lock their own segment.
 #pragma once

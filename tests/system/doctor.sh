@@ -50,7 +50,7 @@ segment_of() {
   local file
   for file in /proc/"${PID[$1]}"/fd/*; do
     file=$(readlink "$file" || true)
-    [[ $file == /dev/shm/fastrtps_????????????????_el ]] && basename "$file" _el
+    [[ $file == /dev/shm/fast@(rtps|dds)_????????????????_el ]] && basename "$file" _el
   done
   return 0
 }

@@ -44,6 +44,7 @@ TEST(SharedMemory, KnowsWhichFilesBelongTogether) {
   EXPECT_EQ(BodyOf("fastrtps_port7410_el"), "fastrtps_port7410");
   EXPECT_EQ(BodyOf("fastrtps_port7410_sl"), "fastrtps_port7410");
   EXPECT_EQ(BodyOf("sem.fastrtps_port7410_mutex"), "fastrtps_port7410");
+  EXPECT_EQ(BodyOf("sem.fastdds_port7410_mutex"), "fastdds_port7410");
   EXPECT_EQ(BodyOf("fast_datasharing_01.0f_0.0.1.3"), "fast_datasharing_01.0f_0.0.1.3");
   for (const char* other : {"sem.other_mutex", "pulse-shm-1", "fastrtps", "sem.", ""}) {
     EXPECT_EQ(BodyOf(other), "") << other;
