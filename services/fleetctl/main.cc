@@ -19,11 +19,16 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
   if (argc < 2 || argv[1][0] == '-' || !fleetctl.get_subcommands().empty()) {
     return error;
   }
+<<<<<<< HEAD
   std::string verbs;
   for (const CLI::App* verb : fleetctl.get_subcommands({})) {
     verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
   }
   return "there is no verb '" + std::string(argv[1]) + "'; verbs: " + verbs;
+=======
+  return "there is no verb '" + std::string(argv[1]) +
+         "'; verbs: doctor, listen, qos, replay, run, shrink, stopwatch, top, virtual, why";
+>>>>>>> w7c
 }
 
 }  // namespace
@@ -34,6 +39,7 @@ int main(int argc, char** argv) {
   fleetctl.set_version_flag("--version", "fleetctl " GIVEWAY_VERSION);
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = giveway::fleetctl::kCouldNotRun;
+  giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddPlanVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
