@@ -19,16 +19,11 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
   if (argc < 2 || argv[1][0] == '-' || !fleetctl.get_subcommands().empty()) {
     return error;
   }
-<<<<<<< HEAD
   std::string verbs;
   for (const CLI::App* verb : fleetctl.get_subcommands({})) {
     verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
   }
   return "there is no verb '" + std::string(argv[1]) + "'; verbs: " + verbs;
-=======
-  return "there is no verb '" + std::string(argv[1]) +
-         "'; verbs: doctor, listen, qos, replay, run, shrink, stopwatch, top, virtual, why";
->>>>>>> w7c
 }
 
 }  // namespace
