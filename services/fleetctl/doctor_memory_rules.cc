@@ -114,8 +114,8 @@ void ForPairs(const HostFacts& host, Check&& check) {
 void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings) {
   AddGroups(
       host, MemoryState::kStale, "memory_stale",
-      "Their owners are gone: they take memory until somebody removes them, and whoever opens "
-      "such a port again waits a second to find it dead.",
+      "Their owners are gone: they take memory until somebody removes them, and every participant "
+      "that is killed adds its segment; once there is no room, the next dies of SIGBUS.",
       "fleetctl doctor --fix", findings);
   AddGroups(host, MemoryState::kOrphaned, "memory_orphaned",
             "Parts without their lock or body that nobody uses: they take memory until somebody "

@@ -69,13 +69,14 @@ void CheckTaken(const HostFacts& host, const DomainPorts& ports, std::uint32_t d
     if (ports.Contains(port)) strange.insert(port);
   }
   for (const ProcessSituation& process : host.processes) {
+    if (process.told.domain == domain && !process.ports) return;  // they may be its
     for (const std::uint16_t port : process.ports.value_or(std::vector<std::uint16_t>{})) {
       strange.erase(port);
     }
   }
   if (strange.empty()) return;
   Add(Severity::kWarning, "ports_taken",
-      fmt::format("domain {}: no process of a fleet that could be read holds {} of it: {}", domain,
+      fmt::format("domain {}: no process of a fleet holds {} of it: {}", domain,
                   Counted(strange.size(), "UDP port"), Listed(strange)),
       "Another DDS program in the domain hears the fleet and is heard; any other takes the place "
       "of "

@@ -104,8 +104,9 @@ void ReadProcesses(const fs::path& proc, std::optional<std::uint32_t> domain, Ho
     if (domain && member.domain != *domain) continue;
     auto process = ReadSituation(proc, member.pid);
     if (!process) continue;  // it has ended meanwhile
-    for (const std::string& fact : process->not_known) {
-      host->not_known.push_back(NameOf(*process) + ": " + fact);
+    if (!process->not_known.empty()) {
+      host->not_known.push_back(
+          fmt::format("{}: {}", NameOf(*process), fmt::join(process->not_known, "; ")));
     }
     host->processes.push_back(std::move(*process));
   }

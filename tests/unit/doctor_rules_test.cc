@@ -186,6 +186,9 @@ TEST(Doctor, FindsPortsThatSomebodyElseHolds) {
   EXPECT_THAT(Only(host).values, HasSubstr("1 UDP port of it: 9170"));
   host.domains = {8};
   EXPECT_THAT(RulesOf(host), IsEmpty());
+  host.domains = {7};
+  host.processes[1].ports.reset();
+  EXPECT_THAT(RulesOf(host), IsEmpty()) << "they may be those of the second vehicle";
 }
 
 TEST(Doctor, FindsTooFewParticipantIds) {
