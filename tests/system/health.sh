@@ -155,10 +155,12 @@ fi
 [[ $(metric "$A" giveway_vehicle_liveliness_lost_total) == "$lost" ]] || fail "a counted a loss"
 
 # --- kill -9 is a loss, and leaves neither id nor port taken.
+line=$(lines_of a)
 start c giveway-vehicle --health-port "$C" --id "$id_b" # which is free again
 await_health "c drives" 10 "$C" ready 0 '^ready$'
 [[ $(metric "$C" "giveway_vehicle_info{vehicle=\"$id_b\",version=\".*\"}") == 1 ]] ||
   fail "c is not vehicle $id_b"
+await "a hears c" 5 a "beacon_heard: vehicle $id_b" "$line"
 line=$(lines_of a)
 kill_now c
 await "a loses c" 3 a "(stale|lost).*vehicle $id_b" "$line"
@@ -171,9 +173,19 @@ await_health "a taken id" 5 "$B" ready 1 "not joined: the world lets it wait: .*
 await_health "a taken id, alive" 1 "$B" live 0 '^live$'
 stops twin
 
-# --- At any moment of joining.
-for moment in 0.05 0.1 0.15 0.2 0.3; do
+# --- At any moment of joining, from when it handles the signal: before, it is not yet itself.
+handles_term() { # NAME
+  local caught
+  for _ in $(seq 200); do
+    caught=$(awk '/^SigCgt:/ {print $2}' "/proc/${PID[$1]}/status")
+    [[ $(readlink "/proc/${PID[$1]}/exe") == */giveway-* ]] && (((0x$caught >> 14) & 1)) && return
+    sleep 0.005
+  done
+  fail "$1 never handled SIGTERM"
+}
+for moment in 0 0.05 0.1 0.15 0.2 0.3; do
   start "joins_$moment" giveway-vehicle --health-port "$B"
+  handles_term "joins_$moment"
   sleep "$moment"
   stops "joins_$moment"
 done
