@@ -175,11 +175,12 @@ stops twin
 
 # --- At any moment of joining, from when it handles the signal: before, it is not yet itself.
 handles_term() { # NAME
-  local caught
-  for _ in $(seq 200); do
-    caught=$(awk '/^SigCgt:/ {print $2}' "/proc/${PID[$1]}/status")
-    [[ $(readlink "/proc/${PID[$1]}/exe") == */giveway-* ]] && (((0x$caught >> 14) & 1)) && return
+  local caught of="/proc/${PID[$1]}"
+  for _ in $(seq 400); do
     sleep 0.005
+    [[ $(readlink "$of/exe") == */giveway-* ]] || continue # before the signals: those of the shell
+    caught=$(awk '/^SigCgt:/ {print $2}' "$of/status")
+    (((0x$caught >> 14) & 1)) && return
   done
   fail "$1 never handled SIGTERM"
 }
