@@ -193,6 +193,8 @@ class Loop {
       switch (event.kind) {
         case QosEventKind::kDeadlineMissed:
         case QosEventKind::kLivelinessLost:
+          if (HasLeft(event.vehicle)) break;  // its writer is gone a moment after its good-bye
+          [[fallthrough]];
         case QosEventKind::kIncompatibleQos:
           app::LogWarning(Describe(event), event.at);
           break;
@@ -203,6 +205,12 @@ class Loop {
           app::LogInfo(Describe(event), event.at);
       }
     }
+  }
+
+  bool HasLeft(VehicleId peer) const {
+    const auto peers = vehicle_.State().peers.Peers();
+    const auto found = std::ranges::find(peers, peer, &Peer::id);
+    return found != peers.end() && found->left;
   }
 
   // Whose beacons can be decided by, and whose no more. `now` is what the brain takes for the time.

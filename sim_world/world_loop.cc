@@ -15,6 +15,7 @@ using std::chrono::seconds;
 
 constexpr Nanoseconds kLockstepPatience = seconds(1);
 constexpr Nanoseconds kFlushTimeout = milliseconds(500);
+constexpr Nanoseconds kFlushWhenStopped = milliseconds(300);  // all is to be over in a second
 constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
 // For the vehicles of a world that was restarted to find it: those that do not are silent then.
 constexpr Nanoseconds kResumePatience = seconds(10);
@@ -96,7 +97,7 @@ bool WorldLoop::Drive(const app::StopSignal& stop) {
     TellHealth(app::HealthStage::kUnderWay);
   }
   TellHealth(app::HealthStage::kLeaving);
-  return TellTheEnd();
+  return TellTheEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
 }
 
 void WorldLoop::Tick() {
@@ -281,7 +282,7 @@ void WorldLoop::KeepCheckpoint() {
   longest_checkpoint_ = std::max(longest_checkpoint_, app::SteadyNow() - begun);
 }
 
-bool WorldLoop::TellTheEnd() {
+bool WorldLoop::TellTheEnd(Nanoseconds patience) {
   RunFigures figures = fleet_->run.Figures();
   figures.tick_overruns = overruns_;
   const sim::ReactionFigures reactions = reactions_.Figures();
@@ -292,7 +293,7 @@ bool WorldLoop::TellTheEnd() {
   link_.SendFigures(figures);
   const std::string& reason = fleet_->run.EndReason();
   for (const RosterEntry& entry : fleet_->admission.TellAll(reason)) link_.SendRoster(entry);
-  link_.Flush(kFlushTimeout);
+  link_.Flush(patience);
   if (!options_.checkpoint_file.empty()) {
     app::RemoveStateFile(options_.checkpoint_file);  // what has ended does not go on
     app::LogInfo("the longest checkpoint took " +

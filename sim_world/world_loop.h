@@ -69,7 +69,7 @@ class WorldLoop {
   void AwaitAnswers();
   bool Unanswered() const;
   void KeepCheckpoint();
-  bool TellTheEnd();
+  bool TellTheEnd(Nanoseconds patience);
   void TellHealth(app::HealthStage stage);
 
   const Scenario& scenario_;

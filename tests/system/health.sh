@@ -104,11 +104,14 @@ get() { printf '%s %s HTTP/1.1\r\nHost: a\r\n%s\r\n' "$1" "$2" "${3:-}"; }
 [[ $(get POST /livez $'Content-Length: 5\r\n' | first_line) == 'HTTP/1.1 405 '* ]] || fail "POST"
 [[ $(get DELETE /livez | first_line) == 'HTTP/1.1 405 '* ]] || fail "DELETE"
 get GET '/readyz?format=json' | said_to "$A" | grep -q '^{"ready":true,"reasons":\[\]}' || fail "JSON"
-printf '\0\377\r\n\r\n' | first_line >/dev/null
-{ printf 'GET /%07000d HTTP/1.1\r\n\r\n' 0; } | first_line >/dev/null
-get GET /metrics "Range: bytes=$(printf '0-1,%.0s' $(seq 1500))0-1"$'\r\n' | first_line >/dev/null
-{ printf 'GET /livez HTTP/1.1\r\nX: ' && head -c 1000000 /dev/zero | tr '\0' x; } | first_line \
-  >/dev/null
+printf '\0\377\r\n\r\n' | first_line >/dev/null || true
+{ printf 'GET /%07000d HTTP/1.1\r\n\r\n' 0; } | first_line >/dev/null || true
+get GET /metrics "Range: bytes=$(printf '0-1,%.0s' $(seq 1500))0-1"$'\r\n' | first_line >/dev/null || true
+peak_kb() { awk '/^VmHWM:/ {print $2}' "/proc/${PID[a]}/status"; }
+peak=$(peak_kb)
+{ printf 'GET /livez HTTP/1.1\r\nX: ' && head -c 50000000 /dev/zero | tr '\0' x; } | first_line \
+  >/dev/null || true
+(($(peak_kb) - peak < 8000)) || fail "a keeps a header of 50 MB: $peak, then $(peak_kb) kB"
 sockets=()
 for _ in $(seq 12); do # half open; more than there are threads and waiting places
   exec {socket}<>"/dev/tcp/127.0.0.1/$A"
@@ -152,10 +155,12 @@ fi
 [[ $(metric "$A" giveway_vehicle_liveliness_lost_total) == "$lost" ]] || fail "a counted a loss"
 
 # --- kill -9 is a loss, and leaves neither id nor port taken.
+line=$(lines_of a)
 start c giveway-vehicle --health-port "$C" --id "$id_b" # which is free again
 await_health "c drives" 10 "$C" ready 0 '^ready$'
 [[ $(metric "$C" "giveway_vehicle_info{vehicle=\"$id_b\",version=\".*\"}") == 1 ]] ||
   fail "c is not vehicle $id_b"
+await "a hears c" 5 a "beacon_heard: vehicle $id_b" "$line"
 line=$(lines_of a)
 kill_now c
 await "a loses c" 3 a "(stale|lost).*vehicle $id_b" "$line"
@@ -168,9 +173,20 @@ await_health "a taken id" 5 "$B" ready 1 "not joined: the world lets it wait: .*
 await_health "a taken id, alive" 1 "$B" live 0 '^live$'
 stops twin
 
-# --- At any moment of joining.
-for moment in 0.05 0.1 0.15 0.2 0.3; do
+# --- At any moment of joining, from when it handles the signal: before, it is not yet itself.
+handles_term() { # NAME
+  local caught of="/proc/${PID[$1]}"
+  for _ in $(seq 400); do
+    sleep 0.005
+    [[ $(readlink "$of/exe") == */giveway-* ]] || continue # before the signals: those of the shell
+    caught=$(awk '/^SigCgt:/ {print $2}' "$of/status")
+    (((0x$caught >> 14) & 1)) && return
+  done
+  fail "$1 never handled SIGTERM"
+}
+for moment in 0 0.05 0.1 0.15 0.2 0.3; do
   start "joins_$moment" giveway-vehicle --health-port "$B"
+  handles_term "joins_$moment"
   sleep "$moment"
   stops "joins_$moment"
 done
@@ -188,7 +204,7 @@ if unshare --pid --fork --mount-proc true 2>/dev/null; then
   [[ -n $orphan ]] || fail "process 1 was given no orphan"
   for _ in $(seq 100); do
     state=$(awk '/^State:/ {print $2}' "/proc/$orphan/status" 2>/dev/null) || state=gone
-    [[ $state == S ]] || break
+    [[ $state == Z || $state == gone ]] && break
     sleep 0.02
   done
   [[ $state == Z ]] || fail "process 1 was to leave a stranger's child as it is, which is $state"
