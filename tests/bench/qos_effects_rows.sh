@@ -11,16 +11,15 @@ row 'intraprocess_delivery OFF -> FULL' default "$cost" '' \
   -u '//d:intraprocess_delivery' -v FULL
 row 'receiveBufferSize 1 MiB -> none' default overflows,beacons_lost,peers_heard 'stop_vehicle=3' \
   -d '//d:receiveBufferSize'
-row 'TTL 1 -> 16' default multicast_ttl,unicast_ttl,all_matched_ms '' -u '//d:TTL' -v 16
-row 'useBuiltinTransports false -> true' default \
-  "$cost,sockets,shared_maps,shm_files,shm_kB,shm_left" '' -u '//d:useBuiltinTransports' -v true
+row 'TTL 1 -> 16' default multicast_ttl,unicast_ttl 'capture=yes seconds=1' -u '//d:TTL' -v 16
+row 'useBuiltinTransports false -> true' default "$cost" '' -u '//d:useBuiltinTransports' -v true
 row 'leaseDuration 10 -> 20 s, of lossy_radio' lossy_radio unmatched_ms,unmatched_alive \
   'vehicles=4 seconds=1 silence=23' -u "//d:discovery_config/d:leaseDuration/d:sec" -v 10
 row 'leaseAnnouncement 1 -> 3 s' default multicasts_s,packets_s,all_matched_ms '' \
   -u '//d:leaseAnnouncement/d:sec' -v 3
 row 'leaseAnnouncement 1 -> 3 s, 30 % lost' default all_matched_ms,matched \
   'impair=loss=0.3 seconds=1 wait=30' -u '//d:leaseAnnouncement/d:sec' -v 3
-row 'mutation_tries 400 -> 10' default refused,matched 'vehicles=12 seconds=1' \
+row 'mutation_tries 400 -> 10' default speaking,matched 'vehicles=12 seconds=1' \
   -u '//d:mutation_tries' -v 10
 row 'initialAnnouncements 20 -> 5, 30 % lost' lossy_radio all_matched_ms,matched \
   'impair=loss=0.3 seconds=1 wait=30' -d '//d:initialAnnouncements'
@@ -28,7 +27,7 @@ row 'initialAnnouncements 20 -> 5, 30 % lost' lossy_radio all_matched_ms,matched
 # Limits, on every endpoint.
 row 'max_instances 0 -> default, 12 vehicles' default matched,peers_heard,beacons_taken_s \
   'vehicles=12 seconds=3' -d "$(profile fleet_beacon_reader max_instances)"
-row 'max_instances 0 -> default, of the world' default matched,refused,peers_heard \
+row 'max_instances 0 -> default, of the world' default matched,driving \
   'vehicles=12 seconds=3' -d "$(profile fleet_motor_command_reader max_instances)"
 row 'max_samples, _per_instance 0 -> default' default beacons_taken_s,beacons_lost,rss_MB \
   '' -d '//d:max_samples' -d '//d:max_samples_per_instance'

@@ -14,10 +14,11 @@ declare -A asked=(
   [wait]=15          # for the matches, seconds at most
   [stop_vehicle]=0   # vehicle 1 stands still so long in the time measured, seconds
   [stop_observers]=0 # and those who listen from outside
-  [late]=            # yes: a vehicle comes when the others drive
-  [listen]=          # what else is listened to beside fleet/status: world/truth,world/event
+  [late]=""          # yes: a vehicle comes when the others drive
+  [listen]=""        # what else is listened to beside fleet/status: world/truth,world/event
   [silence]=0        # after a kill -9 the others are watched for so long, seconds
-  [server_after]=    # a discovery server is started so long after the fleet, seconds
+  [capture]=""       # yes: look at the packets for their time to live
+  [server_after]=""  # a discovery server is started so long after the fleet, seconds
 )
 for option in "$@"; do
   [[ -v asked[${option%%=*}] ]] || { echo "no option ${option%%=*}" >&2 && exit 2; }
@@ -45,7 +46,7 @@ scenario() {
   echo 'expect { any_halted: true any_arrived: true }'
 }
 
-now_ns() { awk '{ printf "%d", $1 * 1e9 }' /proc/uptime; } # the clock of the logs' steady_ns
+now_ns() { awk '{ printf "%.0f", $1 * 1e9 }' /proc/uptime; } # the clock of the logs' steady_ns
 texts() { jq -c --arg start "$1" 'select(.text | startswith($start))' logs/*.log 2>/dev/null || true; }
 matched() { texts 'matched: vehicle ' | jq -s 'unique_by([.process, .text]) | length'; }
 # field PATTERN NAME FILE: a counter of /proc/net, whose names stand a line above its numbers.
@@ -80,11 +81,11 @@ snapshot() {
     "$(field Udp: RcvbufErrors /proc/net/snmp)" \
     "$(cpu_ticks "${cars[@]}")" "$(cpu_ticks "$world")" "$(now_ns)"
 }
-# What leaves by multicast and to one: the greatest TTL in two seconds, as "1 64".
+# What leaves by multicast and to one: the greatest TTL in some two seconds, as "1 64".
 ttl_seen() {
+  # shellcheck disable=SC2016  # perl's
   timeout 10 perl -e 'use Socket; socket(S, 17, 2, 0x0008) or die; my ($m, $u) = (0, 0);
-    my $end = time + 2; while (time < $end) { my $from = recv(S, my $p, 2048, 0) // last;
-      next if ord(substr($from, 10, 1)) != 4 || length $p < 20;  # PACKET_OUTGOING
+    my $end = time + 3; while (time < $end) { recv(S, my $p, 2048, 0) // last;
       my $ttl = ord substr $p, 8, 1;
       if ((ord(substr $p, 16, 1) & 0xf0) == 0xe0) { $m = $ttl if $ttl > $m }
       else { $u = $ttl if $ttl > $u } }
@@ -92,7 +93,7 @@ ttl_seen() {
 }
 
 members=()
-end_all() {
+end_all() { # without bash saying so
   [[ ${#members[@]} -eq 0 ]] || kill -9 "${members[@]}" 2>/dev/null || true
 }
 trap end_all EXIT
@@ -121,6 +122,7 @@ domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
 mapfile -t cars < <(pgrep -P "$fleet" -f giveway-vehicle)
 world=$(pgrep -P "$fleet" -f giveway-world || echo 0)
 observers=()
+[[ -n $domain && ${#cars[@]} -gt 0 ]] || { cat run.err >&2 && exit 2; }
 if [[ ${#cars[@]} -gt 0 ]]; then
   for topic in fleet/status ${asked[listen]//,/ }; do listen "$topic" "${topic#*/}.json"; done
   sleep 2 # for the listeners to be matched
@@ -143,7 +145,8 @@ if [[ ${#cars[@]} -gt 0 ]]; then
   fi
   sleep "${asked[seconds]}"
   snapshot >after.json
-  read -r multicast_ttl unicast_ttl < <(ttl_seen)
+  multicast_ttl=null unicast_ttl=null
+  [[ -z ${asked[capture]} ]] || read -r multicast_ttl unicast_ttl < <(ttl_seen)
   {
     printf '{"threads":%s,"rss_kb":%s,"sockets":%s,' "$(of_status Threads)" "$(of_status VmRSS)" \
       "$(sockets)"
@@ -161,7 +164,7 @@ for _ in $(seq 50); do
   sleep 0.1
 done
 end_all
-wait 2>/dev/null || true
+wait "${members[@]}" 2>/dev/null || true
 
 # link NAME: the sum of a counter that vehicles log at their end.
 link() { texts 'link: ' | jq -r .text | grep -o "$1=[0-9]*" | awk -F= '{ s += $2 } END { print s + 0 }'; }
@@ -173,17 +176,18 @@ lines() { if [[ -f $1 ]]; then wc -l <"$1"; else echo 0; fi; }
 touch status.json truth.json roster.json
 jq -n --slurpfile shots snapshots.json --slurpfile status status.json --slurpfile truth truth.json \
   --slurpfile roster roster.json \
-  --argjson hz "$(getconf CLK_TCK)" --argjson vehicles "$vehicles" --argjson begun "$begun" --argjson late "${late_begun:-0}" \
-  --argjson killed "${killed_at:-0}" \
+  --argjson hz "$(getconf CLK_TCK)" --argjson vehicles "$vehicles" --argjson begun "$begun" \
+  --argjson late "${late_begun:-0}" --argjson killed "${killed_at:-0}" \
   --slurpfile matches <(texts 'matched: vehicle ') --slurpfile gone <(texts 'unmatched: vehicle ') \
   --slurpfile driving <(jq -c 'select(.text | startswith("cruise"))' logs/late.log 2>/dev/null || true) \
-  --argjson refused "$(cat logs/*.log 2>/dev/null | grep -c '"level":"error"' || true)" \
   --argjson events "$(lines event.json)" --argjson signals "$(lines signal.json)" \
   --argjson left "$(count_shm)" \
   --argjson ranges_missed "$(link ranges_deadline_missed)" --argjson skipped "$(link ranges_skipped)" \
   --argjson sensors_missed "$(link sensors_deadline_missed)" \
   --argjson signals_missed "$(link signals_deadline_missed)" '
-  def round1: . * 10 | round / 10;
+  def over(n): if . then . / n else null end;
+  def round1: if . then . * 10 | round / 10 else null end;
+  def round2: if . then . * 100 | round / 100 else null end;
   def ms: . / 1e6 | round;
   ($shots[0][0] // {}) as $a | ($shots[0][1] // {}) as $b | ($shots[0][2] // {}) as $held
   | ((($b.at // 1) - ($a.at // 0)) / 1e9) as $s
@@ -192,25 +196,30 @@ jq -n --slurpfile shots snapshots.json --slurpfile status status.json --slurpfil
   | ([$pairs[] | (.[1].tick - .[0].tick) * 0.05] | add // 0) as $vehicle_s
   | def counted(f): [$pairs[] | (.[1] | f) - (.[0] | f)] | add // 0;
     def hourly(f): if $vehicle_s > 0 then counted(f) / $vehicle_s * 3600 | round else null end;
+    def grown(name): if $b.at then $b[name] - $a[name] else null end;
+    def rate(name): grown(name) | over($s * $vehicles);
+    def cpu(name): grown(name) | over($hz * $s / 60) | round2;
     def whole_hourly: if $b.at then . / ($vehicles * ($b.at - $begun) / 1e9) * 3600 | round else null end;
-  ($matches | unique_by([.process, .text])) as $met
+  def id: ltrimstr("matched: ") | ltrimstr("vehicle ") | tonumber? // ($vehicles + 1);
+  ($matches | map(select((.process | id) <= $vehicles and (.text | id) <= $vehicles))
+    | unique_by([.process, .text])) as $met
   | {
-      packets_s: (($b.packets - $a.packets) / $s / $vehicles | round1),
-      kB_s: (($b.bytes - $a.bytes) / $s / $vehicles / 1000 | round1),
-      multicasts_s: (($b.multicasts - $a.multicasts) / $s / $vehicles | round1),
-      overflows: ($b.overflows - $a.overflows),
-      cpu_s_min: (($b.cpu - $a.cpu) / $hz / $s * 60 / $vehicles * 100 | round / 100),
-      world_cpu_s_min: (($b.world_cpu - $a.world_cpu) / $hz / $s * 60 * 100 | round / 100),
-      threads: $held.threads, rss_MB: (($held.rss_kb // 0) / 1000 | round1), sockets: $held.sockets,
+      packets_s: (rate("packets") | round1), kB_s: (rate("bytes") | over(1000) | round1),
+      multicasts_s: (rate("multicasts") | round1), overflows: grown("overflows"),
+      cpu_s_min: (cpu("cpu") | over($vehicles) | round2),
+      world_cpu_s_min: cpu("world_cpu"),
+      threads: $held.threads, rss_MB: ($held.rss_kb | over(1000) | round1), sockets: $held.sockets,
       shared_maps: $held.shared_maps, shm_files: $held.shm_files, shm_kB: $held.shm_kb,
       shm_left: $left, multicast_ttl: $held.multicast_ttl, unicast_ttl: $held.unicast_ttl,
-      refused: $refused, matched: ($met | length),
+      speaking: ($pairs | length),
+      driving: ([$pairs[] | select(.[1].rule != "not_running")] | length), matched: ($met | length),
       all_matched_ms: (if ($met | length) == $vehicles * ($vehicles - 1)
                        then [$met[].steady_ns] | max - $begun | ms else null end),
       unmatched_ms: ([$gone[] | select(.steady_ns > $killed)] |
                      if length > 0 then (map(.steady_ns) | max) - $killed | ms else null end),
       unmatched_alive: ([$gone[] | select(.steady_ns < $killed)] | length),
-      peers_heard: ([$pairs[][1].peers_heard] | if length > 0 then add / length | round1 else 0 end),
+      peers_heard: ([$status | group_by(.vehicle)[] | map(.peers_heard) | max]
+                    | if length > 0 then add / length | round1 else 0 end),
       statuses: ($status | length),
       beacons_taken_s: (if $vehicle_s > 0 then counted(.beacons.taken) / $vehicle_s | round1 else 0 end),
       beacons_lost: counted(.beacons.lost), beacons_superseded: counted(.beacons_superseded),
