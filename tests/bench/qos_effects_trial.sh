@@ -123,44 +123,43 @@ mapfile -t cars < <(pgrep -P "$fleet" -f giveway-vehicle)
 world=$(pgrep -P "$fleet" -f giveway-world || echo 0)
 observers=()
 [[ -n $domain && ${#cars[@]} -gt 0 ]] || { cat run.err >&2 && exit 2; }
-if [[ ${#cars[@]} -gt 0 ]]; then
-  for topic in fleet/status ${asked[listen]//,/ }; do listen "$topic" "${topic#*/}.json"; done
-  sleep 2 # for the listeners to be matched
-  snapshot >before.json
-  if [[ ${asked[stop_vehicle]} != 0 ]]; then
-    kill -STOP "${cars[0]}"
-    sleep "${asked[stop_vehicle]}"
-    kill -CONT "${cars[0]}"
-  fi
-  if [[ ${asked[stop_observers]} != 0 ]]; then
-    kill -STOP "${observers[@]}"
-    sleep "${asked[stop_observers]}"
-    kill -CONT "${observers[@]}"
-  fi
-  if [[ -n ${asked[late]} ]]; then
-    late_begun=$(now_ns)
-    "$bin/giveway-vehicle" --scenario scenario.textproto --domain "$domain" --qos "$set_file" \
-      --log-format json 2>logs/late.log &
-    members+=($!)
-  fi
-  sleep "${asked[seconds]}"
-  snapshot >after.json
-  multicast_ttl=null unicast_ttl=null
-  [[ -z ${asked[capture]} ]] || read -r multicast_ttl unicast_ttl < <(ttl_seen)
-  {
-    printf '{"threads":%s,"rss_kb":%s,"sockets":%s,' "$(of_status Threads)" "$(of_status VmRSS)" \
-      "$(sockets)"
-    printf '"shared_maps":%s,"shm_files":%s,"shm_kb":%s,"multicast_ttl":%s,"unicast_ttl":%s}\n' \
-      "$(shared_maps)" "$(count_shm)" "$(du -sk --apparent-size /dev/shm | cut -f1)" "$multicast_ttl" \
-      "$unicast_ttl"
-  } >held.json
-  killed_at=$(now_ns)
-  kill -9 "${cars[-1]}"
-  sleep "${asked[silence]}"
+for topic in fleet/status ${asked[listen]//,/ }; do listen "$topic" "${topic#*/}.json"; done
+sleep 2 # for the listeners to be matched
+snapshot >before.json
+if [[ ${asked[stop_vehicle]} != 0 ]]; then
+  kill -STOP "${cars[0]}"
+  sleep "${asked[stop_vehicle]}"
+  kill -CONT "${cars[0]}"
 fi
-kill -INT "$fleet" 2>/dev/null || true
+if [[ ${asked[stop_observers]} != 0 ]]; then
+  kill -STOP "${observers[@]}"
+  sleep "${asked[stop_observers]}"
+  kill -CONT "${observers[@]}"
+fi
+if [[ -n ${asked[late]} ]]; then
+  late_begun=$(now_ns)
+  "$bin/giveway-vehicle" --scenario scenario.textproto --domain "$domain" --qos "$set_file" \
+    --log-format json 2>logs/late.log &
+  members+=($!)
+fi
+sleep "${asked[seconds]}"
+snapshot >after.json
+multicast_ttl=null unicast_ttl=null
+[[ -z ${asked[capture]} ]] || read -r multicast_ttl unicast_ttl < <(ttl_seen)
+{
+  printf '{"threads":%s,"rss_kb":%s,"sockets":%s,' "$(of_status Threads)" "$(of_status VmRSS)" \
+    "$(sockets)"
+  printf '"shared_maps":%s,"shm_files":%s,"shm_kb":%s,"multicast_ttl":%s,"unicast_ttl":%s}\n' \
+    "$(shared_maps)" "$(count_shm)" "$(du -sk --apparent-size /dev/shm | cut -f1)" "$multicast_ttl" \
+    "$unicast_ttl"
+} >held.json
+killed_at=$(now_ns)
+kill -9 "${cars[-1]}"
+sleep "${asked[silence]}"
+# In good order, so that what stays in /dev/shm is the killed one's.
+kill -INT "$fleet" "${observers[@]}" 2>/dev/null || true
 for _ in $(seq 50); do
-  kill -0 "$fleet" 2>/dev/null || break
+  kill -0 "$fleet" "${observers[@]}" 2>/dev/null || break
   sleep 0.1
 done
 end_all
@@ -169,12 +168,8 @@ wait "${members[@]}" 2>/dev/null || true
 # link NAME: the sum of a counter that vehicles log at their end.
 link() { texts 'link: ' | jq -r .text | grep -o "$1=[0-9]*" | awk -F= '{ s += $2 } END { print s + 0 }'; }
 lines() { if [[ -f $1 ]]; then wc -l <"$1"; else echo 0; fi; }
-{
-  cat before.json after.json held.json 2>/dev/null || true
-  echo '{}'
-} | jq -s '.' >snapshots.json
 touch status.json truth.json roster.json
-jq -n --slurpfile shots snapshots.json --slurpfile status status.json --slurpfile truth truth.json \
+jq -n --slurpfile shots <(cat before.json after.json held.json) --slurpfile status status.json --slurpfile truth truth.json \
   --slurpfile roster roster.json \
   --argjson hz "$(getconf CLK_TCK)" --argjson vehicles "$vehicles" --argjson begun "$begun" \
   --argjson late "${late_begun:-0}" --argjson killed "${killed_at:-0}" \
@@ -185,38 +180,38 @@ jq -n --slurpfile shots snapshots.json --slurpfile status status.json --slurpfil
   --argjson ranges_missed "$(link ranges_deadline_missed)" --argjson skipped "$(link ranges_skipped)" \
   --argjson sensors_missed "$(link sensors_deadline_missed)" \
   --argjson signals_missed "$(link signals_deadline_missed)" '
-  def over(n): if . then . / n else null end;
-  def round1: if . then . * 10 | round / 10 else null end;
-  def round2: if . then . * 100 | round / 100 else null end;
+  def round1: . * 10 | round / 10;
+  def round2: . * 100 | round / 100;
   def ms: . / 1e6 | round;
-  ($shots[0][0] // {}) as $a | ($shots[0][1] // {}) as $b | ($shots[0][2] // {}) as $held
-  | ((($b.at // 1) - ($a.at // 0)) / 1e9) as $s
+  $shots as [$a, $b, $held]
+  | (($b.at - $a.at) / 1e9) as $s
   # Of each vehicle its first and its last report; what it counted between them.
   | [$status | group_by(.vehicle)[] | [.[0], .[-1]]] as $pairs
   | ([$pairs[] | (.[1].tick - .[0].tick) * 0.05] | add // 0) as $vehicle_s
   | def counted(f): [$pairs[] | (.[1] | f) - (.[0] | f)] | add // 0;
     def hourly(f): if $vehicle_s > 0 then counted(f) / $vehicle_s * 3600 | round else null end;
-    def grown(name): if $b.at then $b[name] - $a[name] else null end;
-    def rate(name): grown(name) | over($s * $vehicles);
-    def cpu(name): grown(name) | over($hz * $s / 60) | round2;
-    def whole_hourly: if $b.at then . / ($vehicles * ($b.at - $begun) / 1e9) * 3600 | round else null end;
+    def grown(name): $b[name] - $a[name];
+    def rate(name): grown(name) / ($s * $vehicles);
+    def cpu(name): grown(name) / ($hz * $s / 60) | round2;
+    def whole_hourly: . / ($vehicles * ($b.at - $begun) / 1e9) * 3600 | round;
   def id: ltrimstr("matched: ") | ltrimstr("vehicle ") | tonumber? // ($vehicles + 1);
   ($matches | map(select((.process | id) <= $vehicles and (.text | id) <= $vehicles))
     | unique_by([.process, .text])) as $met
   | {
-      packets_s: (rate("packets") | round1), kB_s: (rate("bytes") | over(1000) | round1),
+      packets_s: (rate("packets") | round1), kB_s: (rate("bytes") / 1000 | round1),
       multicasts_s: (rate("multicasts") | round1), overflows: grown("overflows"),
-      cpu_s_min: (cpu("cpu") | over($vehicles) | round2),
+      cpu_s_min: (cpu("cpu") / $vehicles | round2),
       world_cpu_s_min: cpu("world_cpu"),
-      threads: $held.threads, rss_MB: ($held.rss_kb | over(1000) | round1), sockets: $held.sockets,
+      threads: $held.threads, rss_MB: ($held.rss_kb / 1000 | round1), sockets: $held.sockets,
       shared_maps: $held.shared_maps, shm_files: $held.shm_files, shm_kB: $held.shm_kb,
       shm_left: $left, multicast_ttl: $held.multicast_ttl, unicast_ttl: $held.unicast_ttl,
       speaking: ($pairs | length),
-      driving: ([$pairs[] | select(.[1].rule != "not_running")] | length), matched: ($met | length),
+      driving: ([$status | group_by(.vehicle)[] | select(any(.rule != "not_running"))] | length), matched: ($met | length),
       all_matched_ms: (if ($met | length) == $vehicles * ($vehicles - 1)
                        then [$met[].steady_ns] | max - $begun | ms else null end),
-      unmatched_ms: ([$gone[] | select(.steady_ns > $killed)] |
-                     if length > 0 then (map(.steady_ns) | max) - $killed | ms else null end),
+      # Of the killed one alone: at the end all leave.
+      unmatched_ms: ([$gone[] | select(.text == "unmatched: vehicle \($vehicles)") | .steady_ns]
+                     | if length > 0 then max - $killed | ms else null end),
       unmatched_alive: ([$gone[] | select(.steady_ns < $killed)] | length),
       peers_heard: ([$status | group_by(.vehicle)[] | map(.peers_heard) | max]
                     | if length > 0 then add / length | round1 else 0 end),
