@@ -12,7 +12,8 @@
 #
 # A line: name, figure, with the shipped value, with the other, verdict. Figures are those of
 # qos_effects_trial.sh; packets, bytes and CPU are a vehicle's share, of eight. `none`: they differ by
-# a tenth at most, counts of packets, bytes and threads by a fiftieth. What stderr says of a fleet that was refused stands in place of its figures.
+# a tenth at most, counts of packets, bytes and threads by a fiftieth. Of a fleet that was refused its
+# own words stand in place of figures.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source services/setup.sh

@@ -17,8 +17,10 @@ row 'leaseDuration 10 -> 20 s, of lossy_radio' lossy_radio unmatched_ms,unmatche
   'vehicles=4 seconds=1 silence=23' -u "//d:discovery_config/d:leaseDuration/d:sec" -v 10
 row 'leaseAnnouncement 1 -> 3 s' default multicasts_s,packets_s,all_matched_ms '' \
   -u '//d:leaseAnnouncement/d:sec' -v 3
-row 'leaseAnnouncement 1 -> 3 s, 30 % lost' default all_matched_ms,matched \
-  'impair=loss=0.3 seconds=1 wait=30' -u '//d:leaseAnnouncement/d:sec' -v 3
+for lost in 30 60; do
+  row "leaseAnnouncement 1 -> 3 s, $lost % lost" default all_matched_ms,matched \
+    "impair=loss=0.$lost seconds=1 wait=40" -u '//d:leaseAnnouncement/d:sec' -v 3
+done
 row 'mutation_tries 400 -> 10' default speaking,matched 'vehicles=12 seconds=1' \
   -u '//d:mutation_tries' -v 10
 row 'initialAnnouncements 20 -> 5, 30 % lost' lossy_radio all_matched_ms,matched \
@@ -56,6 +58,8 @@ row 'depth of world_event 256 -> 1' default late_events 'listen=world/event seco
   -u "//*[starts-with(@profile_name, 'world_event')]//d:depth" -v 1
 row 'depth of world_roster_reader 4 -> 1' default all_matched_ms,late_entries \
   'listen=world/roster seconds=1' -u "$(profile world_roster_reader depth)" -v 1
+row 'depth of fleet_admin_reader 8 -> 1' default answered 'ask=4 seconds=0' \
+  -u "$(profile fleet_admin_reader depth)" -v 1
 row 'historyMemoryPolicy DYNAMIC -> default' default "$cost" '' -d '//d:historyMemoryPolicy'
 
 # Reliability and durability. durability NAME VALUE: of both sides.
@@ -80,18 +84,23 @@ row 'durability of fleet_join, world_roster -> VOLATILE' default \
   -u "$(durability fleet_join)" -v VOLATILE -u "$(durability world_roster)" -v VOLATILE
 row 'durability of world_event -> VOLATILE' default late_events 'listen=world/event seconds=1' \
   -u "$(durability world_event)" -v VOLATILE
+row 'durability of world_figures -> VOLATILE' default figures_heard 'listen=world/figures seconds=0' \
+  -u "$(durability world_figures)" -v VOLATILE
+row 'durability of fleet_answer -> VOLATILE' default answered 'ask=4 seconds=0' \
+  -u "$(durability fleet_answer)" -v VOLATILE
 
 # Deadlines and liveliness. Twice: nothing lost, and one packet in ten.
 deadline() { echo "//*[@profile_name='$1']//d:deadline//d:nanosec"; }
 for impair in none loss=0.1; do
+  options="impair=$impair seconds=$([[ $impair == none ]] && echo 5 || echo 25)"
   sensors="$(deadline world_radar_reader)|$(deadline world_lidar_reader)"
   sensors+="|$(deadline world_camera_reader)|$(deadline world_ranges_reader)"
   row "deadline of sensors' readers 150 -> 200 ms, $impair" default \
-    ranges_misses_hour,sensors_misses_hour "impair=$impair" -u "$sensors" -v 200000000
+    ranges_misses_hour,sensors_misses_hour "$options" -u "$sensors" -v 200000000
   row "deadline of world_signal_reader 300 -> 200 ms, $impair" default signals_misses_hour \
-    "impair=$impair" -u "$(deadline world_signal_reader)" -v 200000000
+    "$options" -u "$(deadline world_signal_reader)" -v 200000000
   row "deadline of lossy fleet_beacon_reader 200 -> 150 ms, $impair" lossy_radio misses_hour \
-    "impair=$impair" -u "$(deadline fleet_beacon_reader)" -v 150000000
+    "$options" -u "$(deadline fleet_beacon_reader)" -v 150000000
 done
 row "lease of lossy fleet_beacon 500 -> 250 ms, 30 % lost" lossy_radio liveliness_lost_hour \
   'impair=loss=0.3' -u "//*[starts-with(@profile_name, 'fleet_beacon')]//d:liveliness//d:nanosec" \

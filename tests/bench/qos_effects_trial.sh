@@ -16,6 +16,7 @@ declare -A asked=(
   [stop_observers]=0 # and those who listen from outside
   [late]=""          # yes: a vehicle comes when the others drive
   [listen]=""        # what else is listened to beside fleet/status: world/truth,world/event
+  [ask]=0            # so many operators ask vehicle 1 at once what it runs with
   [silence]=0        # after a kill -9 the others are watched for so long, seconds
   [capture]=""       # yes: look at the packets for their time to live
   [server_after]=""  # a discovery server is started so long after the fleet, seconds
@@ -136,6 +137,13 @@ if [[ ${asked[stop_observers]} != 0 ]]; then
   sleep "${asked[stop_observers]}"
   kill -CONT "${observers[@]}"
 fi
+operators=()
+for ((i = 0; i < asked[ask]; ++i)); do
+  "$bin/fleetctl" qos show --live 1 --domain "$domain" --qos "$set_file" >answer$i.txt 2>&1 &
+  operators+=($!)
+done
+answered=0
+for operator in "${operators[@]}"; do wait "$operator" && answered=$((answered + 1)); done
 if [[ -n ${asked[late]} ]]; then
   late_begun=$(now_ns)
   "$bin/giveway-vehicle" --scenario scenario.textproto --domain "$domain" --qos "$set_file" \
@@ -169,14 +177,16 @@ wait "${members[@]}" 2>/dev/null || true
 link() { texts 'link: ' | jq -r .text | grep -o "$1=[0-9]*" | awk -F= '{ s += $2 } END { print s + 0 }'; }
 lines() { if [[ -f $1 ]]; then wc -l <"$1"; else echo 0; fi; }
 touch status.json truth.json roster.json
-jq -n --slurpfile shots <(cat before.json after.json held.json) --slurpfile status status.json --slurpfile truth truth.json \
+jq -n --slurpfile shots <(cat before.json after.json held.json) \
+  --slurpfile status status.json --slurpfile truth truth.json \
   --slurpfile roster roster.json \
   --argjson hz "$(getconf CLK_TCK)" --argjson vehicles "$vehicles" --argjson begun "$begun" \
   --argjson late "${late_begun:-0}" --argjson killed "${killed_at:-0}" \
   --slurpfile matches <(texts 'matched: vehicle ') --slurpfile gone <(texts 'unmatched: vehicle ') \
   --slurpfile driving <(jq -c 'select(.text | startswith("cruise"))' logs/late.log 2>/dev/null || true) \
   --argjson events "$(lines event.json)" --argjson signals "$(lines signal.json)" \
-  --argjson left "$(count_shm)" \
+  --argjson left "$(count_shm)" --argjson answered "$answered" \
+  --argjson figures "$(lines figures.json)" \
   --argjson ranges_missed "$(link ranges_deadline_missed)" --argjson skipped "$(link ranges_skipped)" \
   --argjson sensors_missed "$(link sensors_deadline_missed)" \
   --argjson signals_missed "$(link signals_deadline_missed)" '
@@ -206,7 +216,8 @@ jq -n --slurpfile shots <(cat before.json after.json held.json) --slurpfile stat
       shared_maps: $held.shared_maps, shm_files: $held.shm_files, shm_kB: $held.shm_kb,
       shm_left: $left, multicast_ttl: $held.multicast_ttl, unicast_ttl: $held.unicast_ttl,
       speaking: ($pairs | length),
-      driving: ([$status | group_by(.vehicle)[] | select(any(.rule != "not_running"))] | length), matched: ($met | length),
+      driving: ([$status | group_by(.vehicle)[] | select(any(.rule != "not_running"))] | length),
+      matched: ($met | length),
       all_matched_ms: (if ($met | length) == $vehicles * ($vehicles - 1)
                        then [$met[].steady_ns] | max - $begun | ms else null end),
       # Of the killed one alone: at the end all leave.
@@ -223,7 +234,8 @@ jq -n --slurpfile shots <(cat before.json after.json held.json) --slurpfile stat
       sensors_misses_hour: ($sensors_missed | whole_hourly),
       signals_misses_hour: ($signals_missed | whole_hourly),
       ranges_skipped: $skipped,
-      late_events: $events, late_entries: ($roster | map(.session) | unique | length),
+      answered: $answered, figures_heard: $figures, late_events: $events,
+      late_entries: ($roster | map(.session) | unique | length),
       signals_heard: $signals, truths_heard: ($truth | length),
       truths_missing: ([$truth | group_by(.vehicle)[] | map(.tick) | unique
                         | (.[-1] - .[0] + 1 - length)] | add // 0),
