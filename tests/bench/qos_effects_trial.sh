@@ -164,12 +164,16 @@ multicast_ttl=null unicast_ttl=null
 killed_at=$(now_ns)
 kill -9 "${cars[-1]}"
 sleep "${asked[silence]}"
-# In good order, so that what stays in /dev/shm is the killed one's.
-kill -INT "$fleet" "${observers[@]}" 2>/dev/null || true
-for _ in $(seq 50); do
-  kill -0 "$fleet" "${observers[@]}" 2>/dev/null || break
-  sleep 0.1
-done
+# In good order, the fleet first, so that what stays in /dev/shm is the killed one's.
+leave() {
+  kill -INT "$@" 2>/dev/null || true
+  for _ in $(seq 50); do
+    kill -0 "$@" 2>/dev/null || break
+    sleep 0.1
+  done
+}
+leave "$fleet"
+leave "${observers[@]}"
 end_all
 wait "${members[@]}" 2>/dev/null || true
 
