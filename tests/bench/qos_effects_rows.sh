@@ -91,14 +91,13 @@ row 'durability of fleet_answer -> VOLATILE' default answered 'ask=4 seconds=0' 
 
 # Deadlines and liveliness. Twice: nothing lost, and one packet in ten.
 deadline() { echo "//*[@profile_name='$1']//d:deadline//d:nanosec"; }
+sensors="$(deadline world_radar_reader)|$(deadline world_lidar_reader)"
+sensors+="|$(deadline world_camera_reader)|$(deadline world_ranges_reader)"
 for impair in none loss=0.1; do
-  options="impair=$impair seconds=$([[ $impair == none ]] && echo 5 || echo 25)"
-  sensors="$(deadline world_radar_reader)|$(deadline world_lidar_reader)"
-  sensors+="|$(deadline world_camera_reader)|$(deadline world_ranges_reader)"
-  row "deadline of sensors' readers 150 -> 200 ms, $impair" default \
-    ranges_misses_hour,sensors_misses_hour "$options" -u "$sensors" -v 200000000
-  row "deadline of world_signal_reader 300 -> 200 ms, $impair" default signals_misses_hour \
-    "$options" -u "$(deadline world_signal_reader)" -v 200000000
+  options="impair=$impair seconds=$([[ $impair == none ]] && echo 5 || echo 20)"
+  row "deadline of sensors 150 -> 200, of signals 300 -> 200 ms, $impair" default \
+    ranges_misses_hour,sensors_misses_hour,signals_misses_hour "$options" -u "$sensors" -v 200000000 \
+    -u "$(deadline world_signal_reader)" -v 200000000
   row "deadline of lossy fleet_beacon_reader 200 -> 150 ms, $impair" lossy_radio misses_hour \
     "$options" -u "$(deadline fleet_beacon_reader)" -v 150000000
 done

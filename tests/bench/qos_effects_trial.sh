@@ -10,7 +10,7 @@ shift 2
 declare -A asked=(
   [vehicles]=8       # in lanes of their own, all in earshot, with every sensor, beside two signals
   [impair]=none      # what every vehicle hears through
-  [seconds]=5        # measured, once everybody is matched or the wait is over
+  [seconds]=4        # measured, once everybody is matched or the wait is over
   [wait]=15          # for the matches, seconds at most
   [stop_vehicle]=0   # vehicle 1 stands still so long in the time measured, seconds
   [stop_observers]=0 # and those who listen from outside
