@@ -50,7 +50,7 @@ printf '<dds><profiles>' >cut.xml
 # With one beacon in ten lost, a deadline of little more than a period is missed again and again.
 "$FLEETCTL" run rounds.textproto --impair loss=0.1 --json --logs logs >run.json 2>run.err &
 fleet=$!
-trap 'kill -INT "$fleet" 2>/dev/null; wait "$fleet" 2>/dev/null; rm -rf "$SCRATCH"' EXIT
+trap 'kill -INT "$fleet" 2>/dev/null || true; wait "$fleet" 2>/dev/null || true; rm -rf "$SCRATCH"' EXIT
 for _ in $(seq 200); do
   domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
   [[ -n $domain ]] && grep -q running run.err && break
