@@ -4,7 +4,7 @@
 # The comments of the sets are from here. A measurement, not a test: exit code 0 however it comes out,
 # 2 if a fleet could not be run. Needs root, as namespaces do.
 #
-#   bash tests/bench/qos_effects.sh                     all rows, some twelve minutes on two cores
+#   bash tests/bench/qos_effects.sh                     all rows, some ten minutes on two cores
 #   bash tests/bench/qos_effects.sh --list              their names
 #   bash tests/bench/qos_effects.sh --only 'depth'      those whose name matches
 #   bash tests/bench/qos_effects.sh --rounds 3          each three times: the medians
