@@ -42,6 +42,9 @@ test_packages() {
 # What the world is measured against. Only tests/bench/run.sh asks for them.
 bench_packages() { printf '%s\n' libbox2d-dev libembree-dev; }
 
+# What the values of the profile sets are tried with. Only tests/bench/qos_effects.sh asks for them.
+effect_packages() { printf '%s\n' jq xmlstarlet fastdds-tools; }
+
 as_root() {
   if [[ $(id -u) -eq 0 ]]; then
     "$@"

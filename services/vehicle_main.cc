@@ -311,6 +311,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   Loop loop(&link, &admin, &health, scenario, *entry, flags.lockstep,
             recorder ? &*recorder : nullptr);
   const DriveEnd end = loop.Drive(stop);
+  app::LogInfo(Describe(link.Counters()));
   if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));
   if (end == DriveEnd::kRefused) *exit_code = 2;
   if (end != DriveEnd::kRestarts) return {};

@@ -1,11 +1,24 @@
 #include "services/vehicle_report.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace giveway {
 namespace {
 
 constexpr std::size_t kKeptSteps = 1000;
+
+struct Counted {
+  const char* name;
+  std::uint64_t number;
+};
+
+std::string Listed(std::string text, std::initializer_list<Counted> all) {
+  for (const Counted& counted : all) {
+    text += std::string(" ") + counted.name + '=' + std::to_string(counted.number);
+  }
+  return text;
+}
 
 }  // namespace
 
@@ -23,25 +36,33 @@ std::string Describe(const QosEvent& event) {
 }
 
 std::string Describe(const ImpairmentCounters& counters) {
-  std::string text = "impairment:";
-  const auto add = [&text](const char* name, std::uint64_t number) {
-    text += std::string(" ") + name + '=' + std::to_string(number);
-  };
-  add("packets", counters.packets);
-  add("bytes", counters.bytes);
-  add("passed", counters.passed);
-  add("passed_bytes", counters.passed_bytes);
-  add("dropped_blackout", counters.dropped_blackout);
-  add("dropped_rate", counters.dropped_rate);
-  add("dropped_loss", counters.dropped_loss);
-  add("dropped_burst", counters.dropped_burst);
-  add("delayed", counters.delayed);
-  add("held_back", counters.held_back);
-  add("reordered", counters.reordered);
-  add("duplicated", counters.duplicated);
-  add("corrupted", counters.corrupted);
-  add("abandoned", counters.abandoned);
-  return text;
+  return Listed("impairment:", {{"packets", counters.packets},
+                                {"bytes", counters.bytes},
+                                {"passed", counters.passed},
+                                {"passed_bytes", counters.passed_bytes},
+                                {"dropped_blackout", counters.dropped_blackout},
+                                {"dropped_rate", counters.dropped_rate},
+                                {"dropped_loss", counters.dropped_loss},
+                                {"dropped_burst", counters.dropped_burst},
+                                {"delayed", counters.delayed},
+                                {"held_back", counters.held_back},
+                                {"reordered", counters.reordered},
+                                {"duplicated", counters.duplicated},
+                                {"corrupted", counters.corrupted},
+                                {"abandoned", counters.abandoned}});
+}
+
+std::string Describe(const link::VehicleLinkCounters& counters) {
+  return Listed("link:", {{"ranges_skipped", counters.ranges_skipped},
+                          {"ranges_deadline_missed", counters.ranges_deadline_missed},
+                          {"sensors_deadline_missed", counters.sensors_deadline_missed},
+                          {"signals_deadline_missed", counters.signals_deadline_missed},
+                          {"unbound_samples", counters.unbound_samples},
+                          {"unreadable_samples", counters.unreadable_samples},
+                          {"wrong_name_scans", counters.wrong_name_scans},
+                          {"old_world_entries", counters.old_world_entries},
+                          {"events_dropped", counters.events_dropped},
+                          {"write_failures", counters.write_failures}});
 }
 
 void VehicleReport::NoteStep(Nanoseconds step, Nanoseconds turn) {

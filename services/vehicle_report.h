@@ -20,6 +20,9 @@ std::string Describe(const QosEvent& event);
 // What was injected into what a vehicle heard, one line of name=number.
 std::string Describe(const ImpairmentCounters& counters);
 
+// What the link counted and fleet/status has no room for, one line of name=number.
+std::string Describe(const link::VehicleLinkCounters& counters);
+
 class VehicleReport {
  public:
   // `step` is what Vehicle::Step took, `turn` the time from waking on a scan to the command sent.

@@ -14,6 +14,10 @@ std::string Name(qos::Severity severity) {
   return severity == qos::Severity::kError ? "error" : "warning";
 }
 
+std::size_t Count(const qos::Findings& findings, qos::Severity severity) {
+  return static_cast<std::size_t>(std::ranges::count(findings, severity, &qos::Finding::severity));
+}
+
 }  // namespace
 
 std::string Shown(std::string text) {
@@ -40,6 +44,23 @@ std::string ToJson(const qos::Finding& finding) {
       Name(finding.severity), finding.rule, app::JsonString(finding.place.file), finding.place.line,
       app::JsonString(finding.subject), app::JsonString(finding.values),
       app::JsonString(finding.consequence), app::JsonString(finding.remedy));
+}
+
+std::string Counted(std::size_t count, std::string_view one, std::string_view many) {
+  if (count != 1 && !many.empty()) return fmt::format("{} {}", count, many);
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string Tally(const qos::Findings& findings) {
+  return Counted(Count(findings, qos::Severity::kError), "error") + ", " +
+         Counted(Count(findings, qos::Severity::kWarning), "warning");
+}
+
+void AddFindings(const qos::Findings& findings, JsonObject* to) {
+  to->Add("errors", Count(findings, qos::Severity::kError));
+  to->Add("warnings", Count(findings, qos::Severity::kWarning));
+  to->AddRaw("findings",
+             JsonArray(findings, [](const qos::Finding& finding) { return ToJson(finding); }));
 }
 
 }  // namespace giveway::fleetctl

@@ -1,8 +1,11 @@
 // A finding for people and as JSON.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
+#include "services/fleetctl/json_object.h"
 #include "services/qos/finding.h"
 
 namespace giveway::fleetctl {
@@ -15,5 +18,12 @@ std::string Shown(std::string text);
 std::string ToText(const qos::Finding& finding, const std::string& nowhere = "environment");
 // One JSON object.
 std::string ToJson(const qos::Finding& finding);
+
+// "1 file", "2 files"; the second word if `one` takes no s.
+std::string Counted(std::size_t count, std::string_view one, std::string_view many = "");
+// "1 error, 0 warnings".
+std::string Tally(const qos::Findings& findings);
+// The fields errors, warnings and findings.
+void AddFindings(const qos::Findings& findings, JsonObject* to);
 
 }  // namespace giveway::fleetctl

@@ -8,13 +8,22 @@
 
 namespace {
 
+// The verb that was named, as far as it was: "fleetctl qos check".
+std::string VerbOf(const CLI::App& app) {
+  const auto named = app.get_subcommands();
+  return app.get_name() + (named.empty() ? "" : " " + VerbOf(*named.front()));
+}
+
 // What was wrong, in words: the parser does not name a verb it does not know.
 std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::string& error) {
   if (argc < 2 || argv[1][0] == '-' || !fleetctl.get_subcommands().empty()) {
     return error;
   }
-  return "there is no verb '" + std::string(argv[1]) +
-         "'; verbs: listen, qos, replay, run, shrink, stopwatch, top, virtual, why";
+  std::string verbs;
+  for (const CLI::App* verb : fleetctl.get_subcommands({})) {
+    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
+  }
+  return "there is no verb '" + std::string(argv[1]) + "'; verbs: " + verbs;
 }
 
 }  // namespace
@@ -25,7 +34,9 @@ int main(int argc, char** argv) {
   fleetctl.set_version_flag("--version", "fleetctl " GIVEWAY_VERSION);
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = giveway::fleetctl::kCouldNotRun;
+  giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddPlanVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);
@@ -39,8 +50,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return fleetctl.exit(help);
   } catch (const CLI::ParseError& error) {
-    std::fprintf(stderr, "fleetctl: %s\nTry: fleetctl run --help\n",
-                 Explain(fleetctl, argc, argv, error.what()).c_str());
+    std::fprintf(stderr, "fleetctl: %s\nTry: %s --help\n",
+                 Explain(fleetctl, argc, argv, error.what()).c_str(), VerbOf(fleetctl).c_str());
     return giveway::fleetctl::kCouldNotRun;
   } catch (const std::exception& error) {  // a verb's LinkError, InputError, OutputError ...
     std::fprintf(stderr, "%s\n", error.what());

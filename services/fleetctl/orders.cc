@@ -1,9 +1,11 @@
 #include "services/fleetctl/orders.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <thread>
 
 #include "services/app/process.h"
+#include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 
 namespace giveway::fleetctl {
@@ -55,6 +57,25 @@ std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseco
     return last.has_value();
   });
   return last;
+}
+
+int SayNotReached(VehicleId vehicle, std::uint32_t domain) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(stderr,
+               interrupted ? "interrupted before vehicle %u was heard in domain %u\n"
+                           : "vehicle %u is not heard in domain %u; give the domain and the "
+                             "interface that its fleet was started with\n",
+               Number(vehicle), domain);
+  return interrupted ? 1 : kCouldNotRun;
+}
+
+int SayNoAnswer(VehicleId vehicle) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(
+      stderr,
+      interrupted ? "interrupted before vehicle %u answered\n" : "vehicle %u does not answer\n",
+      Number(vehicle));
+  return interrupted ? 1 : kCouldNotRun;
 }
 
 AdminOrder TellOrder(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,6 +31,11 @@ class Orders {
   link::OperatorLink link_;
   std::set<VehicleId> sought_;
 };
+
+// Say on stderr why there is no answer of the vehicle: it is not reached or does not speak, or the
+// operator did not wait. The exit code.
+int SayNotReached(VehicleId vehicle, std::uint32_t domain);
+int SayNoAnswer(VehicleId vehicle);
 
 // An order that asks what the vehicle runs with.
 AdminOrder TellOrder(VehicleId vehicle);

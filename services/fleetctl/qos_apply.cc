@@ -77,8 +77,8 @@ class Applying {
     report_.profile = wanted_.name;
   }
 
-  // Asks every vehicle what it runs with. False if one does not answer.
-  bool Ask();
+  // Asks every vehicle what it runs with. 0, or the exit code if one does not answer.
+  int Ask();
   ApplyReport Run();
 
  private:
@@ -102,24 +102,17 @@ class Applying {
   ApplyReport report_;
 };
 
-bool Applying::Ask() {
+int Applying::Ask() {
   std::vector<VehicleId> targets;
   for (const std::uint32_t id : options_.to) targets.push_back(VehicleId{id});
   const std::vector<VehicleId> missing = orders_.Seek(targets, kFindPatience);
-  for (const VehicleId vehicle : missing) {
-    std::fprintf(stderr,
-                 "vehicle %u is not heard in domain %u; give the domain and the interface that its "
-                 "fleet was started with\n",
-                 Number(vehicle), options_.where.domain);
-  }
-  if (!missing.empty()) return false;
+  int code = 0;
+  for (const VehicleId vehicle : missing) code = SayNotReached(vehicle, options_.where.domain);
+  if (code != 0) return code;
   const qos::XmlElement wanted = RootOf(wanted_);
   for (const VehicleId vehicle : targets) {
     auto answer = orders_.Give(TellOrder(vehicle), kTellPatience);
-    if (!answer) {
-      std::fprintf(stderr, "vehicle %u does not answer\n", Number(vehicle));
-      return false;
-    }
+    if (!answer) return SayNoAnswer(vehicle);
     AppliedTo applied;
     applied.vehicle = vehicle;
     applied.before = answer->profiles.name;
@@ -131,7 +124,7 @@ bool Applying::Ask() {
   std::ranges::stable_partition(report_.vehicles, [&](const AppliedTo& applied) {
     return applied.vehicle == VehicleId{options_.canary};
   });
-  return true;
+  return 0;
 }
 
 // While some run with the old profiles and some with the new, and wherever the world keeps the old,
@@ -261,7 +254,7 @@ int RunQosApply(const QosApplyOptions& options) {
   ResolveQosApart(tried);
   const Interrupts interrupts;
   Applying applying(options, link, std::move(wanted));
-  if (!applying.Ask()) return kCouldNotRun;
+  if (const int code = applying.Ask(); code != 0) return code;
   const ApplyReport report = applying.Run();
   const std::string last = options.json ? ToJson(report) : LineOf(report);
   const Told told = Tell(last);

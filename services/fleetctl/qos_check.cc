@@ -1,18 +1,15 @@
 #include "services/fleetctl/qos_check.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <optional>
 
-#include "services/app/json_line.h"
 #include "services/app/scenario_file.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/finding_text.h"
+#include "services/fleetctl/json_object.h"
 #include "services/fleetctl/qos_files.h"
 
 namespace giveway::fleetctl {
@@ -20,27 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string Counted(std::size_t count, const char* thing) {
-  return fmt::format("{} {}{}", count, thing, count == 1 ? "" : "s");
-}
-
-std::size_t Count(const qos::Findings& findings, qos::Severity severity) {
-  return static_cast<std::size_t>(std::ranges::count(findings, severity, &qos::Finding::severity));
-}
-
 void Print(const qos::Findings& findings, std::size_t files, bool json) {
-  const std::size_t errors = Count(findings, qos::Severity::kError);
-  const std::size_t warnings = Count(findings, qos::Severity::kWarning);
   std::string text;
-  for (const qos::Finding& finding : findings) {
-    if (json && !text.empty()) text += ",";
-    text += json ? ToJson(finding) : ToText(finding);
-  }
   if (json) {
-    text = fmt::format(R"({{"errors":{},"warnings":{},"findings":[{}]}})", errors, warnings, text);
+    JsonObject object;
+    AddFindings(findings, &object);
+    text = object.Text();
   } else {
-    text += fmt::format("{}, {}, {}", Counted(files, "file"), Counted(errors, "error"),
-                        Counted(warnings, "warning"));
+    for (const qos::Finding& finding : findings) text += ToText(finding);
+    text += Counted(files, "file") + ", " + Tally(findings);
   }
   std::puts(text.c_str());
 }
@@ -56,13 +41,8 @@ qos::Deployment DeploymentOf(const QosCheckOptions& options) {
     deployment.tick_ns = scenario.tick_period.count();
   }
   if (options.vehicles) deployment.vehicles = *options.vehicles;
-  for (char** variable = environ; *variable != nullptr; ++variable) {
-    deployment.environment.emplace_back(*variable);
-  }
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(".", error)) {
-    deployment.folder_files.push_back(entry.path().filename());
-  }
+  deployment.environment = OwnEnvironment();
+  deployment.folder_files = NamesIn(".");
   return deployment;
 }
 

@@ -1,5 +1,7 @@
 #include "services/fleetctl/qos_files.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -49,6 +51,21 @@ std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path
   file.bytes.resize(static_cast<std::size_t>(stream.gcount()));
   if (stream.bad()) return Unreadable(path, "cannot be read to its end");
   return file;
+}
+
+std::vector<std::string> OwnEnvironment() {
+  std::vector<std::string> variables;
+  for (char** at = environ; *at != nullptr; ++at) variables.emplace_back(*at);
+  return variables;
+}
+
+std::vector<std::string> NamesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    names.push_back(at->path().filename().string());
+  }
+  return names;
 }
 
 }  // namespace giveway::fleetctl

@@ -1,8 +1,10 @@
 // Profile files by path or by name, read as bytes.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "services/qos/check.h"
 
@@ -15,5 +17,9 @@ std::string ResolveQosFile(const std::string& argument);
 // The file, or the finding that says why it cannot be read. A file over the limit is not read
 // whole.
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path);
+
+// What the library finds by itself: NAME=value of this shell, and the names of files in a folder.
+std::vector<std::string> OwnEnvironment();
+std::vector<std::string> NamesIn(const std::filesystem::path& folder);
 
 }  // namespace giveway::fleetctl

@@ -31,7 +31,9 @@ struct LiveRow {
   bool AsExpected() const { return !expected || expected->value == live.value; }
 };
 
-std::optional<AdminAnswer> AnswerOf(const QosLiveOptions& options, const std::string& file) {
+// Nothing if there is none: then it is said why, and *exit_code set.
+std::optional<AdminAnswer> AnswerOf(const QosLiveOptions& options, const std::string& file,
+                                    int* exit_code) {
   link::LinkOptions link_options;
   link_options.domain = options.domain;
   link_options.interface = options.set.interface;
@@ -40,8 +42,13 @@ std::optional<AdminAnswer> AnswerOf(const QosLiveOptions& options, const std::st
   const Interrupts interrupts;
   Orders orders(link_options);
   const VehicleId vehicle{options.vehicle};
-  if (!orders.Seek({vehicle}, kPatience).empty()) return std::nullopt;
-  return orders.Give(TellOrder(vehicle), kPatience);
+  if (!orders.Seek({vehicle}, kPatience).empty()) {
+    *exit_code = SayNotReached(vehicle, options.domain);
+    return std::nullopt;
+  }
+  auto answer = orders.Give(TellOrder(vehicle), kPatience);
+  if (!answer) *exit_code = SayNoAnswer(vehicle);
+  return answer;
 }
 
 // The live endpoints, with the origin of each value in the file that the vehicle has.
@@ -128,14 +135,9 @@ int RunQosLive(const QosLiveOptions& options) {
   if (!HasStdout()) return kCouldNotRun;
   const EffectiveSet set =
       EffectiveQosOfFile(options.set.qos_file, options.set.interface, options.set.vehicles);
-  const auto answer = AnswerOf(options, set.file);
-  if (!answer) {
-    std::fprintf(stderr,
-                 "vehicle %u is not heard in domain %u; give the domain and the interface "
-                 "that its fleet was started with\n",
-                 options.vehicle, options.domain);
-    return kCouldNotRun;
-  }
+  int exit_code = 0;
+  const auto answer = AnswerOf(options, set.file, &exit_code);
+  if (!answer) return exit_code;
   const std::vector<LiveRow> all = HoldAgainst(set, *answer, options.set.wanted);
   Print(options, set.file, *answer, all);
   if (std::fflush(stdout) != 0) return kCouldNotRun;

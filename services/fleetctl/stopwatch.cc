@@ -127,7 +127,8 @@ class Session {
       const std::size_t fleets = std::min<std::size_t>(options_.fleets, tasks_.size());
       for (std::size_t i = 0; i < fleets; ++i) threads.emplace_back([this] { Work(); });
     }
-    if (error_) std::rethrow_exception(error_);
+    // What was measured before it is shown all the same.
+    if (error_ && trials_.empty()) std::rethrow_exception(error_);
     if (next_ < tasks_.size() && report_.problems.empty()) report_.problems = {"interrupted"};
     report_.vehicles = options_.vehicles;
     report_.fleets = options_.fleets;
@@ -158,9 +159,10 @@ class Session {
         }
         Gather(task, result);
       }
-    } catch (const std::exception&) {
+    } catch (const std::exception& error) {
       const std::scoped_lock lock(mutex_);
       if (!error_) error_ = std::current_exception();
+      report_.problems.emplace_back(error.what());
     }
   }
 

@@ -23,7 +23,6 @@ struct Sighting {
 // One fault of one vehicle.
 struct Trial {
   Fault fault = Fault::kKill;
-  VehicleId victim = kNobody;
   std::uint32_t watchers = 0;       // peers that were well all the while
   std::vector<Sighting> sightings;  // at most one a watcher and mechanism
 };

@@ -225,7 +225,7 @@ class Conductor {
   }
 
   Trial TrialOf(const Struck& struck) const {
-    Trial trial{task_.fault, struck.victim, static_cast<std::uint32_t>(struck.at.size()), {}};
+    Trial trial{task_.fault, static_cast<std::uint32_t>(struck.at.size()), {}};
     for (const auto& [watcher, at] : struck.at) {
       for (std::size_t i = 0; i < kMechanisms; ++i) {
         const auto mechanism = static_cast<Mechanism>(i);

@@ -11,18 +11,45 @@ constexpr double kSecondsAnHour = 3600;
 
 double Rate(double count, double hours) { return hours > 0 ? count / hours : 0; }
 
+bool IsSound(const TrialEvidence& trial) { return trial.trouble.empty(); }
+
+double VehicleHours(const TrialEvidence& trial) {
+  return trial.vehicles * trial.alive_s / kSecondsAnHour;
+}
+
+// The standard error of a mean of readings of which those of one trial hang together: its peers
+// lose the same victim after the same last beacon. Liang and Zeger's, Biometrika 73 (1986), or that
+// of independent readings where it is larger: few trials may agree by chance.
+double ErrorOfMean(const std::vector<TrialEvidence>& trials, double mean, double n) {
+  double apart = 0;
+  double together = 0;
+  double sound = 0;
+  for (const TrialEvidence& trial : trials) {
+    if (!IsSound(trial) || trial.detections.empty()) continue;
+    double off = 0;
+    for (const DetectionReading& reading : trial.detections) {
+      const double residual = reading.from_last_beacon_ms - mean;
+      apart += residual * residual;
+      off += residual;
+    }
+    together += off * off;
+    ++sound;
+  }
+  const double alone = n > 1 ? apart / (n * (n - 1)) : 0;
+  const double clustered = sound > 1 ? together / (n * n) * sound / (sound - 1) : 0;
+  return std::sqrt(std::max(alone, clustered));
+}
+
 // Mean and largest of the detections, and how sure the mean is.
 void FoldDetections(const std::vector<TrialEvidence>& trials, TuneFigures* figures) {
   double sum = 0;
-  double squares = 0;
   double from_kill = 0;
   for (const TrialEvidence& trial : trials) {
-    if (!trial.trouble.empty()) continue;
+    if (!IsSound(trial)) continue;
     for (const DetectionReading& reading : trial.detections) {
       ++figures->detections;
       figures->detected_by.Add(reading.cause);
       sum += reading.from_last_beacon_ms;
-      squares += reading.from_last_beacon_ms * reading.from_last_beacon_ms;
       from_kill += reading.from_kill_ms;
       figures->detection_max_ms = std::max(figures->detection_max_ms, reading.from_last_beacon_ms);
     }
@@ -31,9 +58,7 @@ void FoldDetections(const std::vector<TrialEvidence>& trials, TuneFigures* figur
   const double n = figures->detections;
   figures->detection_ms = sum / n;
   figures->detection_from_kill_ms = from_kill / n;
-  if (n < 2) return;
-  const double variance = std::max(0.0, (squares - sum * sum / n) / (n - 1));
-  figures->detection_error_ms = std::sqrt(variance / n);
+  figures->detection_error_ms = ErrorOfMean(trials, figures->detection_ms, n);
 }
 
 // What every second of a trial weighs alike.
@@ -42,7 +67,7 @@ void FoldShares(const std::vector<TrialEvidence>& trials, TuneFigures* figures) 
   double bytes = 0;
   double bytes_seconds = 0;
   for (const TrialEvidence& trial : trials) {
-    if (!trial.trouble.empty()) continue;
+    if (!IsSound(trial)) continue;
     seconds += trial.alive_s;
     figures->age_mean_ms += trial.age_mean_ms * trial.alive_s;
     figures->cpu_share += trial.cpu_share * trial.alive_s;
@@ -77,13 +102,13 @@ AlarmCounts& AlarmCounts::operator+=(const AlarmCounts& more) {
   return *this;
 }
 
-std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials) {
+std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials, double dispersion) {
   TuneFigures figures;
   std::uint32_t told = 0;
   for (const TrialEvidence& trial : trials) {
-    if (!trial.trouble.empty()) continue;
+    if (!IsSound(trial)) continue;
     ++figures.trials;
-    figures.vehicle_hours += trial.vehicles * trial.alive_s / kSecondsAnHour;
+    figures.vehicle_hours += VehicleHours(trial);
     figures.alarms += trial.alarms;
     told += trial.told_deadline + trial.told_liveliness;
     figures.undetected += trial.undetected;
@@ -91,7 +116,9 @@ std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials) {
     figures.longest_pause_ms = std::max(figures.longest_pause_ms, trial.longest_pause_ms);
   }
   if (figures.trials == 0) return std::nullopt;
-  const CountInterval interval = PoissonInterval(figures.alarms.Total(), kZ99);
+  figures.dispersion = dispersion;
+  const CountInterval interval =
+      PoissonInterval(figures.alarms.Total(), kZ99 * std::sqrt(dispersion));
   figures.alarms_per_hour = Rate(figures.alarms.Total(), figures.vehicle_hours);
   figures.alarms_low = Rate(interval.low, figures.vehicle_hours);
   figures.alarms_high = Rate(interval.high, figures.vehicle_hours);
@@ -99,6 +126,23 @@ std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials) {
   FoldDetections(trials, &figures);
   FoldShares(trials, &figures);
   return figures;
+}
+
+double Dispersion(const std::vector<std::vector<TrialEvidence>>& candidates) {
+  double chi_squared = 0;
+  double degrees = 0;
+  for (const std::vector<TrialEvidence>& trials : candidates) {
+    const auto figures = FiguresOf(trials);
+    if (!figures || figures->trials < 2 || figures->alarms.Total() == 0) continue;
+    for (const TrialEvidence& trial : trials) {
+      if (!IsSound(trial)) continue;
+      const double expected = figures->alarms_per_hour * VehicleHours(trial);
+      const double off = trial.alarms.Total() - expected;
+      chi_squared += off * off / expected;
+    }
+    degrees += figures->trials - 1;
+  }
+  return degrees > 0 ? std::max(1.0, chi_squared / degrees) : 1;
 }
 
 // Byar's approximation of the exact interval (Breslow and Day, Statistical Methods in Cancer

@@ -59,13 +59,15 @@ struct TuneFigures {
   double vehicle_hours = 0;
   AlarmCounts alarms;
   double alarms_per_hour = 0;
-  double alarms_low = 0;  // 99 % interval of the count, as a rate
+  double dispersion = 1;  // see Dispersion
+  double alarms_low = 0;  // 99 % interval of the rate
   double alarms_high = 0;
   double told_per_hour = 0;  // deadline and liveliness events
   std::uint32_t detections = 0;
   std::uint32_t undetected = 0;
   double detection_ms = 0;  // mean, from the victim's last beacon
-  double detection_error_ms = 0;
+  double detection_error_ms =
+      0;  // standard error of the mean; the readings of a trial hang together
   double detection_max_ms = 0;
   double detection_from_kill_ms = 0;  // mean
   AlarmCounts detected_by;
@@ -77,7 +79,14 @@ struct TuneFigures {
 };
 
 // Trials with trouble are left out; nothing if no other is there.
-std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials);
+std::optional<TuneFigures> FiguresOf(const std::vector<TrialEvidence>& trials,
+                                     double dispersion = 1);
+
+// How many times the variance of a trial's count of alarms is that of independent alarms: a vehicle
+// that loses a scan of its own doubts several peers at once. Estimated over the trials of all
+// candidates together, each set apart, for one has few; never below 1. Pearson's chi-squared over
+// its degrees of freedom (McCullagh and Nelder, Generalized Linear Models, 1989, 6.2.3).
+double Dispersion(const std::vector<std::vector<TrialEvidence>>& candidates);
 
 // The interval that covers the mean of a Poisson count with the two-sided confidence of `z`
 // standard deviations of a normal distribution.

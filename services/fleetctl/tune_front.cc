@@ -77,7 +77,7 @@ bool HasFewerAlarms(const TuneFigures& one, const TuneFigures& than) {
   // Of a count of none the error is that of one.
   const auto variance = [](const TuneFigures& figures) {
     const double count = std::max<double>(1, figures.alarms.Total());
-    return count / (figures.vehicle_hours * figures.vehicle_hours);
+    return figures.dispersion * count / (figures.vehicle_hours * figures.vehicle_hours);
   };
   return than.alarms_per_hour - one.alarms_per_hour > 2 * std::sqrt(variance(one) + variance(than));
 }

@@ -36,7 +36,7 @@ struct VehicleReading {
   std::uint32_t told_deadline = 0;
   std::uint32_t told_liveliness = 0;
   std::vector<std::uint64_t> ages;  // beacons at a decision, by how many ticks old; in the window
-  Nanoseconds longest_pause{0};     // between two steps in the window
+  Nanoseconds longest_pause{0};     // between two steps, from the window on
   std::map<VehicleId, std::optional<Silenced>> peers;  // nothing: believed to the end
 };
 

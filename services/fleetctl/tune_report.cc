@@ -50,6 +50,7 @@ JsonObject FiguresJson(const TuneFigures& f) {
   json.Add("alarms_by_liveliness", f.alarms.liveliness);
   json.Add("alarms_by_beacon_age", f.alarms.beacon_age);
   json.Add("alarms_per_vehicle_hour", f.alarms_per_hour);
+  json.Add("alarms_dispersion", f.dispersion);
   json.Add("alarms_low", f.alarms_low);
   json.Add("alarms_high", f.alarms_high);
   json.Add("told_per_vehicle_hour", f.told_per_hour);

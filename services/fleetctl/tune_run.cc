@@ -168,10 +168,16 @@ std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
 
 // Of the first so many trials: a search that goes on sees what it saw when it was cut off.
 void Tuning::TakeFigures(const TuneSearch& search, std::uint32_t most) {
-  for (TunedCandidate& tuned : result_.candidates) {
-    auto trials = search.TrialsOf(tuned.candidate.name, false);
-    if (trials.size() > most) trials.resize(most);
-    tuned.figures = FiguresOf(trials);
+  std::vector<std::vector<TrialEvidence>> taken;
+  for (const TunedCandidate& tuned : result_.candidates) {
+    taken.push_back(search.TrialsOf(tuned.candidate.name, false));
+    if (taken.back().size() > most) taken.back().resize(most);
+  }
+  const double dispersion = Dispersion(taken);
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    TunedCandidate& tuned = result_.candidates[i];
+    const std::vector<TrialEvidence>& trials = taken[i];
+    tuned.figures = FiguresOf(trials, dispersion);
     if (!tuned.figures && !trials.empty()) tuned.trouble = trials.front().trouble;
     if (tuned.figures && tuned.predicted) {
       tuned.disagreement = Disagreement(*tuned.figures, *tuned.predicted);
@@ -210,8 +216,11 @@ void Tuning::Verify(TuneSearch* search) {
   const TuneCandidate& base = result_.candidates.front().candidate;
   const TuneCandidate& chosen = result_.candidates[result_.recommended].candidate;
   search->Measure({base, chosen}, true, options_.verify_trials);
-  const auto of_base = FiguresOf(search->TrialsOf(base.name, true));
-  const auto of_chosen = FiguresOf(search->TrialsOf(chosen.name, true));
+  const auto base_trials = search->TrialsOf(base.name, true);
+  const auto chosen_trials = search->TrialsOf(chosen.name, true);
+  const double dispersion = Dispersion({base_trials, chosen_trials});
+  const auto of_base = FiguresOf(base_trials, dispersion);
+  const auto of_chosen = FiguresOf(chosen_trials, dispersion);
   if (!of_base || !of_chosen) return;
   result_.verified = Verification{*of_base, *of_chosen, HasFewerAlarms(*of_chosen, *of_base),
                                   NoticesNoLater(*of_chosen, *of_base)};

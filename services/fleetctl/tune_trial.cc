@@ -23,6 +23,7 @@ constexpr Nanoseconds kStartLimit = seconds(40);
 constexpr Nanoseconds kSettle = milliseconds(500);
 // Between two killings: longer than any limit that is searched.
 constexpr Nanoseconds kBetweenKillings = milliseconds(700);
+constexpr Nanoseconds kFirstKilling = milliseconds(20);
 constexpr std::size_t kMostKillings = 3;
 constexpr Nanoseconds kLeaveGrace = seconds(3);
 
@@ -140,12 +141,13 @@ void TuneTrial::BeginAlive(SteadyTime now) {
 void TuneTrial::EndAlive(SteadyTime now) {
   window_.to = now;
   cpu_used_s_ = CpuSeconds() - cpu_before_s_;
-  PlanKillings(now);
-  Enter(Phase::kKilling, planned_.back().at + kBetweenKillings);
+  PlanKillings();
+  Enter(Phase::kKilling, now + planned_.front().after);
 }
 
-// Who dies when, in the tick too, is the seed's: alike for all candidates.
-void TuneTrial::PlanKillings(SteadyTime now) {
+// Who dies, and how long after the last one, is the seed's; where in the victim's own tick that
+// falls is chance.
+void TuneTrial::PlanKillings() {
   std::vector<VehicleId> vehicles;
   for (const VehicleOptions& vehicle : ground_.scenario->vehicles) vehicles.push_back(vehicle.id);
   for (std::size_t i = vehicles.size(); i > 1; --i) {
@@ -155,16 +157,19 @@ void TuneTrial::PlanKillings(SteadyTime now) {
   for (std::size_t i = 0; i < killings; ++i) {
     const double share = random_.Uniform(0, 1);
     const Nanoseconds in_tick = FromSeconds(share * Seconds(ground_.scenario->tick_period));
-    planned_.push_back(
-        {vehicles[i], now + milliseconds(20) + static_cast<int>(i) * kBetweenKillings + in_tick});
+    planned_.push_back({vehicles[i], (i == 0 ? kFirstKilling : kBetweenKillings) + in_tick});
   }
 }
 
+// Counted from when the last one was, not from when it should have been: after a pause of this
+// process two would follow each other at once.
 void TuneTrial::KillIfDue(SteadyTime now) {
-  if (killed_.size() == planned_.size() || now < planned_[killed_.size()].at) return;
+  if (killed_.size() == planned_.size() || now < until_) return;
   const VehicleId victim = planned_[killed_.size()].victim;
   killed_.push_back({victim, app::SteadyNow()});
   ChildOf(victim).Signal(SIGKILL);
+  const bool last = killed_.size() == planned_.size();
+  until_ = killed_.back().at + (last ? kBetweenKillings : planned_[killed_.size()].after);
 }
 
 void TuneTrial::Stop(SteadyTime now) {
@@ -183,7 +188,7 @@ void TuneTrial::StopFurther(SteadyTime now) {
 }
 
 void TuneTrial::Turn(SteadyTime now) {
-  KillIfDue(now);
+  if (phase_ == Phase::kKilling) KillIfDue(now);
   for (ChildProcess& child : children_) child.Poll();
   if (observer_) Hear();
   if (phase_ < Phase::kStopping) CheckAlive();

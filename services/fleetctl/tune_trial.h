@@ -66,7 +66,7 @@ class TuneTrial {
   void CheckAlive();
   void BeginAlive(SteadyTime now);
   void EndAlive(SteadyTime now);
-  void PlanKillings(SteadyTime now);
+  void PlanKillings();
   void KillIfDue(SteadyTime now);
   void Stop(SteadyTime now);
   void StopFurther(SteadyTime now);
@@ -87,7 +87,11 @@ class TuneTrial {
   AliveWindow window_;
   double cpu_before_s_ = 0;
   double cpu_used_s_ = 0;
-  std::vector<Killing> planned_;
+  struct PlannedKilling {
+    VehicleId victim = kNobody;
+    Nanoseconds after{0};  // the last one
+  };
+  std::vector<PlannedKilling> planned_;
   std::vector<Killing> killed_;
   SteadyTime stopped_{0};
   std::string trouble_;

@@ -22,12 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::optional<std::string> ReadText(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
-
 std::optional<std::string> ReadLink(const fs::path& link) {
   std::error_code error;
   const fs::path to = fs::read_symlink(link, error);
@@ -215,22 +209,35 @@ void Reading::ReadProfiles() {
 
 }  // namespace
 
-std::vector<FleetMember> FindFleet(const fs::path& proc) {
-  std::vector<FleetMember> members;
+std::optional<std::string> ReadText(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+std::vector<int> ProcessIds(const fs::path& proc) {
+  std::vector<int> pids;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(proc, error)) {
     const std::string name = entry.path().filename().string();
     int pid = 0;
     const char* const end = name.data() + name.size();
     const auto [stop, bad] = std::from_chars(name.data(), end, pid);
-    if (bad != std::errc{} || stop != end) continue;
-    const auto started = ReadStarted(entry.path());
+    if (bad == std::errc{} && stop == end) pids.push_back(pid);
+  }
+  std::ranges::sort(pids);
+  return pids;
+}
+
+std::vector<FleetMember> FindFleet(const fs::path& proc) {
+  std::vector<FleetMember> members;
+  for (const int pid : ProcessIds(proc)) {
+    const auto started = ReadStarted(proc / std::to_string(pid));
     if (!started) continue;
     std::vector<std::string> ignored;
     const Instructions told = ReadTold(*started, &ignored);
     members.push_back({pid, told.is_world, told.id, told.domain});
   }
-  std::ranges::sort(members, {}, &FleetMember::pid);
   return members;
 }
 

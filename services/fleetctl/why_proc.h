@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "services/fleetctl/why_situation.h"
@@ -16,6 +18,12 @@ struct FleetMember {
   VehicleId id = kNobody;  // of a vehicle that asked for one, or was heard to have one
   std::uint32_t domain = 0;
 };
+
+// A whole file; nothing, and errno, if it cannot be opened.
+std::optional<std::string> ReadText(const std::filesystem::path& file);
+
+// Of all processes, ascending.
+std::vector<int> ProcessIds(const std::filesystem::path& proc);
 
 // By process id. Those of other users count too, as far as they can be seen.
 std::vector<FleetMember> FindFleet(const std::filesystem::path& proc);

@@ -1,5 +1,7 @@
 #include "services/fleetctl/why_proc_text.h"
 
+#include <sys/sysmacros.h>
+
 #include <algorithm>
 #include <bit>
 #include <charconv>
@@ -142,6 +144,19 @@ std::optional<std::uint64_t> ParseBracketed(std::string_view link, std::string_v
   const std::string before = std::string(kind) + ":[";
   if (!link.starts_with(before) || !link.ends_with(']')) return std::nullopt;
   return Parse<std::uint64_t>(link.substr(before.size(), link.size() - before.size() - 1));
+}
+
+std::optional<FileIdentity> ParseMapped(std::string_view line) {
+  const auto words = Words(line);  // addresses, permissions, offset, device, inode, path
+  if (words.size() < 5) return std::nullopt;
+  const std::string_view device = words[3];
+  const std::size_t colon = device.find(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  const auto major = Parse<unsigned>(device.substr(0, colon), 16);
+  const auto minor = Parse<unsigned>(device.substr(colon + 1), 16);
+  const auto inode = Parse<std::uint64_t>(words[4]);
+  if (!major || !minor || !inode || *inode == 0) return std::nullopt;
+  return FileIdentity{gnu_dev_makedev(*major, *minor), *inode};
 }
 
 std::map<std::uint64_t, std::uint16_t> ParseUdp(std::string_view text) {

@@ -29,7 +29,9 @@ std::optional<int> ParseInnerPid(std::string_view status);
 std::optional<std::uint64_t> ParseOpenFilesLimit(std::string_view limits);
 // Of a link in ns/ or fd/: "net:[4026531840]", "socket:[12345]".
 std::optional<std::uint64_t> ParseBracketed(std::string_view link, std::string_view kind);
-// The local port of each UDP socket, by inode, of net/udp.
+// The file behind a line of maps; absent for memory of no file.
+std::optional<FileIdentity> ParseMapped(std::string_view line);
+// The local port of each UDP socket, by inode, of net/udp or net/udp6.
 std::map<std::uint64_t, std::uint16_t> ParseUdp(std::string_view text);
 // Of net/fib_trie (which addresses are local), net/route (which network is at which interface) and
 // net/dev (their order). Addresses come in the order of interfaces, as the library finds them.

@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <ifaddrs.h>
+#include <net/if.h>
 #include <netinet/in.h>
 
 #include <cerrno>
@@ -11,12 +12,6 @@
 #include "services/link/link_options.h"
 
 namespace giveway::link {
-namespace {
-
-struct Interface {
-  std::string name;
-  std::string address;
-};
 
 std::vector<Interface> Ipv4Interfaces() {
   ifaddrs* first = nullptr;
@@ -31,12 +26,11 @@ std::vector<Interface> Ipv4Interfaces() {
     std::memcpy(&address, at->ifa_addr, sizeof(address));
     char text[INET_ADDRSTRLEN];
     if (inet_ntop(AF_INET, &address.sin_addr, text, sizeof(text)) == nullptr) continue;
-    found.push_back({at->ifa_name, text});
+    const auto says = [at](unsigned flag) { return (at->ifa_flags & flag) != 0; };
+    found.push_back({at->ifa_name, text, says(IFF_UP), says(IFF_LOOPBACK), says(IFF_MULTICAST)});
   }
   return found;
 }
-
-}  // namespace
 
 std::vector<std::string> ResolveInterface(const std::string& interface) {
   if (interface == "any") return {};

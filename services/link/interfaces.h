@@ -7,6 +7,18 @@
 
 namespace giveway::link {
 
+// One IPv4 address of one interface of this network namespace.
+struct Interface {
+  std::string name;
+  std::string address;
+  bool up = true;
+  bool loopback = false;
+  bool says_multicast = true;  // its flag; a loopback has none and carries multicast all the same
+};
+
+// Throws LinkError.
+std::vector<Interface> Ipv4Interfaces();
+
 // IPv4 addresses to allow; empty means all. `interface` is an address of this machine, an
 // interface's name, or "any". Throws LinkError naming the interfaces there are.
 std::vector<std::string> ResolveInterface(const std::string& interface);

@@ -87,6 +87,7 @@ struct OwnEndpoints {
     counters.beacons_superseded = beacons.Superseded();
     counters.unbound_samples += beacons.Unbound();
     counters.unreadable_samples += beacons.Unreadable();
+    counters.ranges_skipped = ranges.Counters().skipped;
     counters.ranges_deadline_missed = ranges.Counters().deadline_missed;
     const auto add = [&counters](const ScanCounters& scans) {
       counters.unbound_samples += scans.unbound;

@@ -34,7 +34,8 @@ struct VehicleLinkCounters {
   std::uint32_t old_world_entries = 0;   // roster of a world after another had taken over
   std::uint32_t events_dropped = 0;      // the event queue was full
   std::uint32_t write_failures = 0;
-  std::uint32_t matched_peers = 0;  // beacon writers matched now, own excluded
+  std::uint32_t matched_peers = 0;   // beacon writers matched now, own excluded
+  std::uint32_t ranges_skipped = 0;  // overwritten by a newer scan in the same drain
   // Edges: once until the next scan; of signals, once a head until it is heard again.
   std::uint32_t ranges_deadline_missed = 0;
   std::uint32_t sensors_deadline_missed = 0;  // radar, lidar, camera

@@ -12,6 +12,9 @@
 
 namespace giveway::qos {
 
+// What the kernel charges a receive buffer for a small datagram.
+inline constexpr std::int64_t kDatagramBytes = 1024;
+
 // What the samples of a topic are told apart by; says how many instances an endpoint holds.
 enum class Keyed : std::uint8_t { kNot, kByVehicle, kByVehicleReaderOne, kBySignal };
 
@@ -32,8 +35,13 @@ std::span<const Topic> FleetTopics();
 // Null if the fleet has no such topic.
 const Topic* TopicOfProfile(std::string_view profile);
 
+// Above so many vehicles code announces participants every 5 s, whatever the profile says.
+inline constexpr std::int64_t kLargeFleet = 32;
+inline constexpr std::int64_t kLargeFleetAnnouncementNs = 5'000'000'000;
+
 struct Deployment {
   std::int64_t vehicles = 2;
+  std::int64_t vehicles_a_host = 0;  // that share ports; 0: all of them
   std::int64_t signals = 0;
   std::int64_t tick_ns = 50'000'000;
   std::int64_t beacon_age_limit_ns = 200'000'000;

@@ -9,10 +9,9 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kLongestLease = 60 * kSecond;
+constexpr std::int64_t kOthers = 2;  // the world and an observer
 constexpr std::int64_t kLastDomain = 99;
 constexpr std::int64_t kLastPort = 65'535;
-// Above so many vehicles code announces every 5 s, whatever the profile says.
-constexpr std::int64_t kLargeFleet = 32;
 // Announcements a second in the whole fleet; 21 760 were half of what two cores can receive.
 constexpr std::int64_t kMostAnnouncements = 20'000;
 
@@ -22,7 +21,9 @@ class ParticipantRules {
                    const Deployment& deployment, Findings* findings)
       : profile_(profile),
         participation_(participation),
-        participants_(deployment.vehicles + 2),  // the world and an observer
+        participants_(deployment.vehicles + kOthers),
+        on_host_(deployment.vehicles_a_host == 0 ? participants_
+                                                 : deployment.vehicles_a_host + kOthers),
         findings_(*findings) {}
 
   void CheckLease();
@@ -46,10 +47,12 @@ class ParticipantRules {
                          std::move(consequence), std::move(remedy)});
   }
   std::string There() const { return "; " + std::to_string(participants_) + " participants"; }
+  std::string ThereOnHost() const { return "; " + std::to_string(on_host_) + " participants"; }
 
   const Profile& profile_;
   const Participation& participation_;
   std::int64_t participants_;
+  std::int64_t on_host_;  // of them
   Findings& findings_;
 };
 
@@ -131,9 +134,9 @@ void ParticipantRules::CheckPorts() {
   const std::int64_t domain = Number(Policy::kDomainGain);
   const std::int64_t each = Number(Policy::kParticipantGain);
   const std::int64_t offset = std::max(Number(Policy::kOffset1), Number(Policy::kOffset3));
-  const std::int64_t highest = offset + each * (participants_ - 1);
-  if (Number(Policy::kMutationTries) < participants_) {
-    Add(Severity::kError, "participant_limit", Policy::kMutationTries, There(),
+  const std::int64_t highest = offset + each * (on_host_ - 1);
+  if (Number(Policy::kMutationTries) < on_host_) {
+    Add(Severity::kError, "participant_limit", Policy::kMutationTries, ThereOnHost(),
         "On one host the later ones find no free port, and do not start.",
         "at least one for each participant on a host");
   }
@@ -149,16 +152,16 @@ void ParticipantRules::CheckPorts() {
         "the default: 7400 and 250");
   }
   if (highest >= domain) {
-    Add(Severity::kWarning, "port_overlap", Policy::kDomainGain, There(),
+    Add(Severity::kWarning, "port_overlap", Policy::kDomainGain, ThereOnHost(),
         "The ports of the last participants on one host are those of the next domain.",
         "use every second domain, or fewer vehicles on a host");
   }
 }
 
 void ParticipantRules::CheckReach() {
-  if (participation_.peers_without_port > 0 && participants_ > 4) {
+  if (participation_.peers_without_port > 0 && on_host_ > 4) {
     AddAt(participation_.peers_place, Severity::kWarning, "initial_peers_range",
-          "initial peers without a port" + There(),
+          "initial peers without a port" + ThereOnHost(),
           "Only the first four participants of such a host are asked.",
           "maxInitialPeersRange of the transport, or multicast");
   }

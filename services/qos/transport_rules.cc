@@ -7,7 +7,6 @@
 namespace giveway::qos {
 namespace {
 
-constexpr std::int64_t kSampleBytes = 1024;    // what the kernel charges for a small datagram
 constexpr std::int64_t kLargestSample = 4096;  // a lidar scan with room to spare
 constexpr std::int64_t kUdpMessage = 65'500;   // the library's default maxMessageSize
 constexpr std::int64_t kShmQueue = 512;        // its default port_queue_capacity
@@ -103,7 +102,7 @@ void TransportRules::CheckOne(const Transport& transport) {
         "Multicast discovery leaves the network, and reaches fleets that are none of ours.", "1");
   }
   if (const Value* size = said("receiveBufferSize"); size != nullptr && size->number > 0) {
-    AddBelow(transport, "receiveBufferSize", 0, vehicles_ * kSampleBytes, "receive_buffer_small",
+    AddBelow(transport, "receiveBufferSize", 0, vehicles_ * kDatagramBytes, "receive_buffer_small",
              "The fleet speaks on common ticks: what comes beyond the buffer is dropped unseen.");
   }
   AddBelow(

@@ -50,7 +50,7 @@ printf '<dds><profiles>' >cut.xml
 # With one beacon in ten lost, a deadline of little more than a period is missed again and again.
 "$FLEETCTL" run rounds.textproto --impair loss=0.1 --json --logs logs >run.json 2>run.err &
 fleet=$!
-trap 'kill -INT "$fleet" 2>/dev/null; wait "$fleet" 2>/dev/null; rm -rf "$SCRATCH"' EXIT
+trap 'kill -INT "$fleet" 2>/dev/null || true; wait "$fleet" 2>/dev/null || true; rm -rf "$SCRATCH"' EXIT
 for _ in $(seq 200); do
   domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
   [[ -n $domain ]] && grep -q running run.err && break
@@ -94,6 +94,11 @@ says "a canary that serves worse" '.verdict == "rolled_back" and (.trial.worse |
 
 apply 2 "nobody of that id" deadline.xml --to 9 --domain "$domain"
 grep -q 'vehicle 9 is not heard' err || fail "nobody of that id: $(cat err)"
+code=0
+timeout --foreground --preserve-status --signal INT 1 \
+  "$FLEETCTL" qos apply deadline.xml --to 9 --domain "$domain" >out 2>err || code=$?
+[[ $code -eq 1 ]] || fail "not waited for: exit code $code: $(cat err)"
+grep -q 'interrupted before vehicle 9' err || fail "not waited for: $(cat err)"
 for bad in "cut.xml --to 1" "/no/such.xml --to 1" "deadline.xml --to 0" "deadline.xml --to 1,1" \
   "deadline.xml" "deadline.xml --to 1 --canary 2" "deadline.xml --to 1 --watch 3"; do
   # shellcheck disable=SC2086  # words of a command line

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "services/fleetctl/stopwatch_show.h"
+#include "tests/unit/stopwatch_limits.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -16,17 +17,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-Limits Shipped() {
-  return {.beacon_period = milliseconds(50),
-          .beacon_age = milliseconds(200),
-          .deadline = milliseconds(150),
-          .liveliness = milliseconds(250),
-          .lease = seconds(10)};
-}
-
 // One trial, one watcher; everything that must see it does, at its promise.
 Trial PerfectTrial(Fault fault, const Limits& limits) {
-  Trial trial{fault, VehicleId{3}, 1, {}};
+  Trial trial{fault, 1, {}};
   for (std::size_t i = 0; i < kMechanisms; ++i) {
     const auto mechanism = static_cast<Mechanism>(i);
     if (DutyOf(fault, mechanism, limits) != Duty::kMust) continue;

@@ -3,21 +3,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/unit/stopwatch_limits.h"
+
 namespace giveway::fleetctl {
 namespace {
 
 using std::chrono::milliseconds;
-using std::chrono::seconds;
 using testing::HasSubstr;
 using testing::IsEmpty;
-
-Limits Shipped() {
-  return {.beacon_period = milliseconds(50),
-          .beacon_age = milliseconds(200),
-          .deadline = milliseconds(150),
-          .liveliness = milliseconds(250),
-          .lease = seconds(10)};
-}
 
 TEST(StopwatchTable, AKilledVehicleMustBeSeenByAllButAGoodBye) {
   for (const Mechanism mechanism :

@@ -53,6 +53,37 @@ TEST(TuneEvidence, ATrialWithTroubleCountsForNothing) {
   EXPECT_EQ(figures->detections, 1U);
 }
 
+TEST(TuneEvidence, AlarmsThatComeTogetherWidenTheInterval) {
+  // 4 and 16 alarms where 10 were to be expected twice: (36 + 36) / 10 over one degree of freedom.
+  const std::vector<TrialEvidence> scattered = {Trial(1, 200), Trial(13, 200)};
+  EXPECT_DOUBLE_EQ(Dispersion({scattered}), 7.2);
+  // Another candidate's even trials count too, one trial alone and one with trouble do not.
+  TrialEvidence bad = Trial(1000, 900);
+  bad.trouble = "the world ended";
+  const std::vector<TrialEvidence> even = {Trial(7, 200), Trial(7, 200), bad};
+  EXPECT_DOUBLE_EQ(Dispersion({scattered, even, {Trial(99, 200)}}), 3.6);
+  EXPECT_EQ(Dispersion({even}), 1);
+  EXPECT_EQ(Dispersion({}), 1);
+
+  const auto alone = FiguresOf(scattered);
+  const auto together = FiguresOf(scattered, 4);
+  EXPECT_EQ(together->alarms_per_hour, alone->alarms_per_hour);
+  EXPECT_NEAR(
+      (together->alarms_high - together->alarms_low) / (alone->alarms_high - alone->alarms_low), 2,
+      0.2);
+}
+
+TEST(TuneEvidence, PeersThatLoseTheSameVictimMakeTheMeanNoSurer) {
+  const auto with_three_peers = [](double detection_ms) {
+    TrialEvidence trial = Trial(7, detection_ms);
+    trial.detections.resize(3, trial.detections.front());
+    return trial;
+  };
+  const auto figures = FiguresOf({with_three_peers(200), with_three_peers(210)});
+  EXPECT_EQ(figures->detections, 6U);
+  EXPECT_DOUBLE_EQ(figures->detection_error_ms, 5);
+}
+
 // Exact intervals of the Poisson distribution, from chi-squared tables.
 TEST(TuneEvidence, TheIntervalOfACountIsThatOfThePoissonDistribution) {
   EXPECT_EQ(PoissonInterval(0, kZ99).low, 0);

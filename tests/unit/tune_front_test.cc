@@ -54,6 +54,9 @@ TEST(TuneFront, FewerIsBeyondChance) {
   EXPECT_FALSE(HasFewerAlarms(Figures(90, 200), Figures(100, 200)));
   EXPECT_FALSE(HasFewerAlarms(Figures(0, 200), Figures(2, 200)));
   EXPECT_FALSE(HasFewerAlarms(Figures(100, 200), Figures(50, 200)));
+  TuneFigures scattered = Figures(50, 200);
+  scattered.dispersion = 16;
+  EXPECT_FALSE(HasFewerAlarms(scattered, Figures(100, 200)));
 }
 
 TEST(TuneFront, LaterIsBeyondChance) {

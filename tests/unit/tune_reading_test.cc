@@ -17,13 +17,15 @@ constexpr std::uint32_t kSteps = 40;
 constexpr SteadyTime AtTick(std::uint32_t tick) { return tick * kTick; }
 
 // A vehicle that hears vehicle 2 in every tick but those of which `silent` is true, and is told the
-// events of `told`.
+// events of `told`; it takes no step in a tick of which `stands` is true.
 std::string Recording(const std::function<bool(std::uint32_t)>& silent,
-                      const std::function<std::vector<QosEvent>(std::uint32_t)>& told = {}) {
+                      const std::function<std::vector<QosEvent>(std::uint32_t)>& told = {},
+                      const std::function<bool(std::uint32_t)>& stands = {}) {
   const VehicleOptions options = test::OptionsWithoutUltrasonics();
   Vehicle brain(options, 42);
   std::vector<app::Record> records{app::RecordedLife{42, options, "test"}};
   for (std::uint32_t tick = 1; tick <= kSteps; ++tick) {
+    if (stands && stands(tick)) continue;
     std::vector<ReceivedBeacon> heard;
     // Sent in the tick before, as beacons are.
     if (tick > 1 && !silent(tick)) {
@@ -57,6 +59,13 @@ TEST(TuneReading, WhoIsAlwaysHeardIsNoAlarm) {
   EXPECT_FALSE(reading.peers.at(VehicleId{2}).has_value());
   ASSERT_EQ(reading.ages.size(), 2U);  // one tick, each time
   EXPECT_EQ(reading.ages[1], kSteps - 1);
+}
+
+TEST(TuneReading, APauseCountsFromTheWindowToTheEnd) {
+  const auto stands = [](std::uint32_t tick) { return tick == 5 || tick == 30 || tick == 31; };
+  const std::string bytes = Recording(Never, {}, stands);
+  EXPECT_EQ(Read(bytes, {AtTick(2), AtTick(20)}).longest_pause, 3 * kTick);
+  EXPECT_EQ(Read(bytes, {AtTick(33), AtTick(35)}).longest_pause, kTick);
 }
 
 TEST(TuneReading, ASilenceBeyondTheAgeLimitIsOneAlarm) {
