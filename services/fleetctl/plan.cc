@@ -54,11 +54,12 @@ class Reckoning {
   }
   double OthersCpu() const {
     const double a_vehicle = costs_.world_cpu_a_vehicle + costs_.observer_cpu_a_vehicle;
-    return pace_ * (costs_.world_cpu + a_vehicle * n_) / 1000;
+    return pace_ * (costs_.world_cpu + costs_.observer_cpu + a_vehicle * n_) / 1000;
   }
   double VehicleMib() const { return costs_.vehicle_mib + costs_.vehicle_mib_a_peer * peers_; }
   double OthersMib() const {
-    return kOthers * (costs_.world_mib + costs_.world_mib_a_vehicle * n_);
+    const double a_vehicle = costs_.world_mib_a_vehicle + costs_.observer_mib_a_vehicle;
+    return costs_.world_mib + costs_.observer_mib + a_vehicle * n_;
   }
   double SamplesHeard() const { return rate_ * (peers_ + 1); }  // beacons, and its ranges
   double DiscoveryPackets() const { return costs_.discovery_packets_a_pair * n_ * peers_; }
@@ -66,7 +67,7 @@ class Reckoning {
     return Participants() * Participants() / AnnouncementSeconds(request_);
   }
   double VehiclePackets() const { return rate_ * peers_ + pace_ * costs_.packets_a_vehicle; }
-  double Packets() const { return n_ * VehiclePackets(); }
+  double Packets() const { return n_ * VehiclePackets() + Announcements(); }
   // What one host sends to others: a beacon goes to each peer by itself, wherever it is.
   double LinkMbit() const {
     if (request_.hosts < 2) return 0;

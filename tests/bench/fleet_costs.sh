@@ -12,8 +12,9 @@ Runs a fleet of each size (2 8 16 32), waits until it drives, watches it for S s
 prints a line a size:
   vehicle_cpu_ms_s    processor time of a vehicle a second, mean
   world_cpu_ms_s      of the world
+  observer_cpu_ms_s   of fleetctl run, which watches
   vehicle_mib         memory of a vehicle that it shares with nobody, mean
-  world_mib           of the world
+  world_mib, observer_mib   of the world, of fleetctl
   threads, sockets, files   of a vehicle; UDP sockets, open descriptors
   packets_s           on the loopback interface, all, while driving
   kbytes_s            of these
@@ -130,30 +131,32 @@ measure() {
       */giveway-vehicle\ *) vehicles+=("$pid") ;;
     esac
   done
-  local cpu_v cpu_w packets bytes packets_end bytes_end span
-  cpu_v=$(ticks_of "${vehicles[@]}") cpu_w=$(ticks_of "$world")
+  local cpu_v cpu_w cpu_o packets bytes packets_end bytes_end span
+  cpu_v=$(ticks_of "${vehicles[@]}") cpu_w=$(ticks_of "$world") cpu_o=$(ticks_of "$fleet")
   read -r packets bytes <<<"$(wire)"
   span=$(date +%s%N)
   sleep "$seconds"
   cpu_v=$(($(ticks_of "${vehicles[@]}") - cpu_v)) cpu_w=$(($(ticks_of "$world") - cpu_w))
+  cpu_o=$(($(ticks_of "$fleet") - cpu_o))
   read -r packets_end bytes_end <<<"$(wire)"
   span=$((($(date +%s%N) - span) / 1000000))
-  awk -v n="$count" -v v="$cpu_v" -v w="$cpu_w" -v ms="$span" -v p=$((packets_end - packets)) \
+  awk -v n="$count" -v v="$cpu_v" -v w="$cpu_w" -v o="$cpu_o" -v ms="$span" -v p=$((packets_end - packets)) \
     -v b=$((bytes_end - bytes)) -v mem="$(mean_of private_kib "${vehicles[@]}")" \
-    -v wmem="$(private_kib "$world")" -v threads="$(mean_of threads_of "${vehicles[@]}")" \
+    -v wmem="$(private_kib "$world")" -v omem="$(private_kib "$fleet")" -v threads="$(mean_of threads_of "${vehicles[@]}")" \
     -v sockets="$(mean_of udp_sockets_of "${vehicles[@]}")" \
     -v files="$(mean_of files_of "${vehicles[@]}")" -v start=$((packets_1 - packets_0)) \
     -v start_ms="$start_ms" 'BEGIN {
       s = ms / 1000
-      printf "%8d %16.1f %14.1f %11.1f %9.1f %7d %7d %5d %9.0f %8.0f %13d %7.1f\n", n,
-        v * 10 / n / s, w * 10 / s, mem / 1024, wmem / 1024, threads, sockets, files, p / s,
-        b / 1024 / s, start, start_ms / 1000
+      printf "%8d %16.1f %14.1f %17.1f %11.1f %9.1f %12.1f %7d %7d %5d %9.0f %8.0f %13d %7.1f\n",
+        n, v * 10 / n / s, w * 10 / s, o * 10 / s, mem / 1024, wmem / 1024, omem / 1024, threads,
+        sockets, files, p / s, b / 1024 / s, start, start_ms / 1000
     }'
   kill -INT "$fleet"
   wait "$fleet" || true
 }
 
-printf '%8s %16s %14s %11s %9s %7s %7s %5s %9s %8s %13s %7s\n' vehicles vehicle_cpu_ms_s \
-  world_cpu_ms_s vehicle_mib world_mib threads sockets files packets_s kbytes_s start_packets start_s
+printf '%8s %16s %14s %17s %11s %9s %12s %7s %7s %5s %9s %8s %13s %7s\n' vehicles \
+  vehicle_cpu_ms_s world_cpu_ms_s observer_cpu_ms_s vehicle_mib world_mib observer_mib threads \
+  sockets files packets_s kbytes_s start_packets start_s
 for size in "${sizes[@]}"; do measure "$size"; done
 exit $((failures > 0))

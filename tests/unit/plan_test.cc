@@ -49,21 +49,25 @@ std::vector<std::string> Rules(const PlanReport& report) {
 struct Measured {
   std::uint32_t vehicles;
   double vehicle_cpu_ms_s;
+  double others_cpu_ms_s;  // world and observer
   double vehicle_mib;
   double packets_s;
   double start_packets;
 };
 
 TEST(Plan, ReckonsWhatWasMeasured) {
-  for (const Measured& m :
-       {Measured{8, 19.7, 19.2, 2152, 3727}, Measured{16, 27.7, 19.6, 6945, 14714}}) {
+  for (const Measured& m : {Measured{8, 12.0, 17.5 + 21.6, 19.4, 2131, 3226},
+                            Measured{16, 16.7, 25.8 + 29.1, 19.7, 6927, 11473},
+                            Measured{32, 24.8, 39.1 + 40.8, 20.5, 24589, 69684}}) {
     const PlanReport report = Plan(Of(m.vehicles));
-    EXPECT_NEAR(*RowOf(report, "processor, cores").vehicle * 1000, m.vehicle_cpu_ms_s,
-                0.15 * m.vehicle_cpu_ms_s);
-    EXPECT_NEAR(*RowOf(report, "memory, MiB").vehicle, m.vehicle_mib, 0.05 * m.vehicle_mib);
-    EXPECT_NEAR(*RowOf(report, "packets/s").fleet, m.packets_s, 0.1 * m.packets_s);
-    EXPECT_NEAR(*RowOf(report, "discovery, packets").fleet, m.start_packets,
-                0.15 * m.start_packets);
+    const PlanRow& cpu = RowOf(report, "processor, cores");
+    EXPECT_NEAR(*cpu.vehicle * 1000, m.vehicle_cpu_ms_s, 0.1 * m.vehicle_cpu_ms_s);
+    EXPECT_NEAR((*cpu.fleet - m.vehicles * *cpu.vehicle) * 1000, m.others_cpu_ms_s,
+                0.1 * m.others_cpu_ms_s);
+    EXPECT_NEAR(*RowOf(report, "memory, MiB").vehicle, m.vehicle_mib, 0.02 * m.vehicle_mib);
+    EXPECT_NEAR(*RowOf(report, "packets/s").fleet, m.packets_s, 0.02 * m.packets_s);
+    // One run differs from the next by a fifth.
+    EXPECT_NEAR(*RowOf(report, "discovery, packets").fleet, m.start_packets, 0.3 * m.start_packets);
   }
 }
 
