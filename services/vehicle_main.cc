@@ -92,6 +92,7 @@ class Loop {
     const bool goes = stop.IsSet() || restarts_;
     for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
     if (restarts_ && !stop.IsSet()) AskForTime();
+    // It may have been told to stop while it asked; then it leaves.
     if (restarts_ && !stop.IsSet()) return DriveEnd::kRestarts;
     report_.SendFinal(vehicle_, link_);
     // Said before the wait: whoever has died without a word delays both, and may do so only once.
