@@ -6,6 +6,8 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr SteadyTime kSettleTime = std::chrono::seconds(1);
+// What was missed of a vehicle's endpoints is said again by the library within three seconds.
+constexpr SteadyTime kStatusTime = std::chrono::seconds(4);
 
 }  // namespace
 
@@ -71,8 +73,11 @@ void HeardFleet::Fold(const link::Observed& observed, SteadyTime now) {
 
 bool HeardFleet::IsSettled(SteadyTime now) const {
   if (!Anybody() || now - newcomer_at_ < kSettleTime) return false;
-  return std::ranges::none_of(
-      vehicles_, [](const auto& entry) { return !entry.second.HeardAt().has_value(); });
+  const bool has_time = now - newcomer_at_ < kStatusTime;
+  return std::ranges::none_of(vehicles_, [has_time](const auto& entry) {
+    const HeardVehicle& vehicle = entry.second;
+    return !vehicle.HeardAt() || (has_time && !vehicle.status);
+  });
 }
 
 }  // namespace giveway::fleetctl

@@ -50,8 +50,8 @@ class HeardFleet {
   const std::map<VehicleId, HeardVehicle>& Vehicles() const { return vehicles_; }
   const HeardWorld& World() const { return world_; }
   bool Anybody() const { return world_.heard_at.has_value() || !vehicles_.empty(); }
-  // True once everyone there is to hear has been heard: nobody new came for a while, and every body
-  // in the world has spoken.
+  // True once everyone there is to hear has been heard: nobody new came for a while, every body in
+  // the world has spoken, and every vehicle told its status or had time to: a foreign one has none.
   bool IsSettled(SteadyTime now) const;
 
  private:

@@ -114,10 +114,21 @@ TEST(HeardFleet, AnotherWorldBeginsAnew) {
 TEST(HeardFleet, SettlesASecondAfterTheLastNewcomer) {
   HeardFleet fleet;
   EXPECT_FALSE(fleet.IsSettled(seconds(100)));
-  fleet.Fold({.beacons = {BeaconOf(kOne)}}, seconds(1));
-  fleet.Fold({.beacons = {BeaconOf(kOne), BeaconOf(kTwo)}}, milliseconds(1900));
+  fleet.Fold({.statuses = {StatusOf(kOne)}, .beacons = {BeaconOf(kOne)}}, seconds(1));
+  fleet.Fold({.statuses = {StatusOf(kTwo)}, .beacons = {BeaconOf(kOne), BeaconOf(kTwo)}},
+             milliseconds(1900));
   EXPECT_FALSE(fleet.IsSettled(milliseconds(2899)));
   EXPECT_TRUE(fleet.IsSettled(milliseconds(2900)));
+}
+
+// Its status is another writer's, and may be found later than its beacons.
+TEST(HeardFleet, DoesNotSettleWhileAVehicleWhoseBeaconsComeMayStillTellItsStatus) {
+  HeardFleet fleet;
+  fleet.Fold({.beacons = {BeaconOf(kOne)}}, seconds(1));
+  EXPECT_FALSE(fleet.IsSettled(milliseconds(4999)));
+  EXPECT_TRUE(fleet.IsSettled(seconds(5)));  // it has none
+  fleet.Fold({.statuses = {StatusOf(kOne)}}, milliseconds(2500));
+  EXPECT_TRUE(fleet.IsSettled(milliseconds(2500)));
 }
 
 TEST(HeardFleet, DoesNotSettleWhileABodyHasNotSpoken) {
