@@ -60,6 +60,8 @@ row 'depth of world_roster_reader 4 -> 1' default all_matched_ms,late_entries \
   'listen=world/roster seconds=1' -u "$(profile world_roster_reader depth)" -v 1
 row 'depth of fleet_admin_reader 8 -> 1' default answered 'ask=4 seconds=0' \
   -u "$(profile fleet_admin_reader depth)" -v 1
+row 'depth of fleet_answer 8 -> 1' default answered 'ask=4 seconds=0' \
+  -u "//*[starts-with(@profile_name, 'fleet_answer')]//d:depth" -v 1
 row 'historyMemoryPolicy DYNAMIC -> default' default "$cost" '' -d '//d:historyMemoryPolicy'
 
 # Reliability and durability. durability NAME VALUE: of both sides.

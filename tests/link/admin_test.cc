@@ -91,6 +91,28 @@ TEST(Admin, AnAnswerTellsWhatTheEndpointsRunWith) {
   EXPECT_THAT(got[0].live, ::testing::Contains(deadline));
 }
 
+TEST(Admin, SeveralOperatorsWhoAskAtOnceEachGetTheAnswerToTheirOrder) {
+  const DomainLock domain;
+  Beaconing vehicle(OptionsIn(domain), VehicleId{3});
+  link::OperatorLink chief(OptionsIn(domain));
+  std::vector<std::uint64_t> got;
+  const auto has_come = [&](std::uint64_t order) {
+    return Eventually([&] {
+      for (const AdminAnswer& answer : chief.Take()) got.push_back(answer.order);
+      return std::ranges::find(got, order) != got.end();
+    });
+  };
+  const auto answer = [&](std::uint64_t order) {
+    vehicle.Link().SendAnswer({.vehicle = VehicleId{3}, .order = order, .profiles = {"x", "x"}});
+  };
+  answer(1);
+  ASSERT_TRUE(has_come(1));
+  // To each operator comes what all were answered, before it looks again.
+  for (const std::uint64_t order : {2, 3, 4, 5}) answer(order);
+  EXPECT_TRUE(has_come(5));
+  EXPECT_THAT(got, ::testing::ElementsAre(1, 2, 3, 4, 5));
+}
+
 TEST(Admin, ADeadlineThatWasChangedIsTheOneThatHolds) {
   const DomainLock domain;
   constexpr milliseconds kLonger(600);
