@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -12,20 +11,13 @@
 #include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/reading_along.h"
+#include "services/fleetctl/whole_number.h"
 #include "services/fleetctl/why_report.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kProc = "/proc";
-
-template <typename Number>
-std::optional<Number> Whole(std::string_view text) {
-  Number number{};
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || stop != text.data() + text.size() || number <= 0) return std::nullopt;
-  return number;
-}
 
 bool Fits(const Named& named, const FleetMember& member) {
   if (named.pid != 0) return member.pid == named.pid;
@@ -159,11 +151,11 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
 std::optional<Named> ParseNamed(const std::string& text) {
   if (text == "world") return Named{.world = true};
   if (text.starts_with("pid:")) {
-    const auto pid = Whole<int>(std::string_view(text).substr(4));
-    return pid ? std::optional(Named{.pid = *pid}) : std::nullopt;
+    const int pid = WholeNumber<int>(std::string_view(text).substr(4)).value_or(0);
+    return pid > 0 ? std::optional(Named{.pid = pid}) : std::nullopt;
   }
-  const auto id = Whole<std::uint32_t>(text);
-  return id ? std::optional(Named{.id = VehicleId{*id}}) : std::nullopt;
+  const std::uint32_t id = WholeNumber<std::uint32_t>(text).value_or(0);
+  return id > 0 ? std::optional(Named{.id = VehicleId{id}}) : std::nullopt;
 }
 
 std::string TextOf(const Named& named) {

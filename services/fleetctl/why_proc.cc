@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -13,6 +12,7 @@
 #include <set>
 
 #include "services/fleetctl/qos_files.h"
+#include "services/fleetctl/whole_number.h"
 #include "services/fleetctl/why_proc_text.h"
 #include "services/fleetctl/why_told.h"
 #include "services/qos/xml_tree.h"
@@ -219,11 +219,7 @@ std::vector<int> ProcessIds(const fs::path& proc) {
   std::vector<int> pids;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(proc, error)) {
-    const std::string name = entry.path().filename().string();
-    int pid = 0;
-    const char* const end = name.data() + name.size();
-    const auto [stop, bad] = std::from_chars(name.data(), end, pid);
-    if (bad == std::errc{} && stop == end) pids.push_back(pid);
+    if (const auto pid = WholeNumber<int>(entry.path().filename().string())) pids.push_back(*pid);
   }
   std::ranges::sort(pids);
   return pids;

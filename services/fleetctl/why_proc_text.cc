@@ -4,21 +4,14 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <sstream>
+
+#include "services/fleetctl/whole_number.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr std::uint32_t kLoopbackMask = 0xff000000U;
-
-template <typename T>
-std::optional<T> Parse(std::string_view text, int base = 10) {
-  T value{};
-  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
-  if (error != std::errc{} || stop != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 std::vector<std::string> Words(std::string_view line) {
   std::istringstream stream{std::string(line)};
@@ -47,7 +40,7 @@ std::optional<std::uint32_t> ParseAddress(std::string_view text) {
   for (int part = 0; part < 4; ++part) {
     const std::size_t end = part < 3 ? text.find('.') : text.size();
     if (end == std::string_view::npos) return std::nullopt;
-    const auto number = Parse<std::uint32_t>(text.substr(0, end));
+    const auto number = WholeNumber<std::uint32_t>(text.substr(0, end));
     if (!number || *number > 255) return std::nullopt;
     address = address << 8U | *number;
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -73,8 +66,8 @@ std::vector<Route> ParseRoutes(std::string_view text) {
   for (const std::string& line : Lines(text)) {
     const auto words = Words(line);
     if (words.size() < 8) continue;
-    const auto network = Parse<std::uint32_t>(words[1], 16);
-    const auto mask = Parse<std::uint32_t>(words[7], 16);
+    const auto network = WholeNumber<std::uint32_t>(words[1], 16);
+    const auto mask = WholeNumber<std::uint32_t>(words[7], 16);
     if (!network || !mask || *mask == 0 || words[2] != "00000000") continue;
     routes.push_back({words[0], FromNetworkOrder(*network), FromNetworkOrder(*mask)});
   }
@@ -120,30 +113,30 @@ std::optional<StatFacts> ParseStat(std::string_view text) {
   if (name_end == std::string_view::npos) return std::nullopt;
   const auto words = Words(text.substr(name_end + 1));
   if (words.size() < 20) return std::nullopt;
-  const auto start = Parse<std::uint64_t>(words[19]);
+  const auto start = WholeNumber<std::uint64_t>(words[19]);
   if (!start) return std::nullopt;
   return StatFacts{words[0].front(), *start};
 }
 
 std::optional<std::uint64_t> ParseBootTime(std::string_view text) {
   const auto words = WordsAfter(text, "btime ");
-  return words.empty() ? std::nullopt : Parse<std::uint64_t>(words.front());
+  return words.empty() ? std::nullopt : WholeNumber<std::uint64_t>(words.front());
 }
 
 std::optional<int> ParseInnerPid(std::string_view status) {
   const auto words = WordsAfter(status, "NSpid:");
-  return words.empty() ? std::nullopt : Parse<int>(words.back());
+  return words.empty() ? std::nullopt : WholeNumber<int>(words.back());
 }
 
 std::optional<std::uint64_t> ParseOpenFilesLimit(std::string_view limits) {
   const auto words = WordsAfter(limits, "Max open files");
-  return words.empty() ? std::nullopt : Parse<std::uint64_t>(words.front());
+  return words.empty() ? std::nullopt : WholeNumber<std::uint64_t>(words.front());
 }
 
 std::optional<std::uint64_t> ParseBracketed(std::string_view link, std::string_view kind) {
   const std::string before = std::string(kind) + ":[";
   if (!link.starts_with(before) || !link.ends_with(']')) return std::nullopt;
-  return Parse<std::uint64_t>(link.substr(before.size(), link.size() - before.size() - 1));
+  return WholeNumber<std::uint64_t>(link.substr(before.size(), link.size() - before.size() - 1));
 }
 
 std::optional<FileIdentity> ParseMapped(std::string_view line) {
@@ -152,9 +145,9 @@ std::optional<FileIdentity> ParseMapped(std::string_view line) {
   const std::string_view device = words[3];
   const std::size_t colon = device.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
-  const auto major = Parse<unsigned>(device.substr(0, colon), 16);
-  const auto minor = Parse<unsigned>(device.substr(colon + 1), 16);
-  const auto inode = Parse<std::uint64_t>(words[4]);
+  const auto major = WholeNumber<unsigned>(device.substr(0, colon), 16);
+  const auto minor = WholeNumber<unsigned>(device.substr(colon + 1), 16);
+  const auto inode = WholeNumber<std::uint64_t>(words[4]);
   if (!major || !minor || !inode || *inode == 0) return std::nullopt;
   return FileIdentity{gnu_dev_makedev(*major, *minor), *inode};
 }
@@ -165,8 +158,8 @@ std::map<std::uint64_t, std::uint16_t> ParseUdp(std::string_view text) {
     const auto words = Words(line);  // sl, local, remote, st, queues, tr, retr, uid, timeout, inode
     if (words.size() < 10 || words[1].find(':') == std::string::npos) continue;
     const auto port =
-        Parse<std::uint16_t>(std::string_view(words[1]).substr(words[1].find(':') + 1), 16);
-    const auto inode = Parse<std::uint64_t>(words[9]);
+        WholeNumber<std::uint16_t>(std::string_view(words[1]).substr(words[1].find(':') + 1), 16);
+    const auto inode = WholeNumber<std::uint64_t>(words[9]);
     if (port && inode) ports[*inode] = *port;
   }
   return ports;

@@ -1,12 +1,12 @@
 #include "services/fleetctl/why_told.h"
 
 #include <algorithm>
-#include <charconv>
 #include <exception>
 
 #include "services/app/flag_values.h"
 #include "services/app/impair_text.h"
 #include "services/app/scenario_file.h"
+#include "services/fleetctl/whole_number.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -16,11 +16,7 @@ std::string ProgramOf(const std::vector<std::string>& words) {
 }
 
 std::uint32_t WholeOr(std::uint32_t otherwise, const std::optional<std::string>& text) {
-  std::uint32_t number = 0;
-  if (!text) return otherwise;
-  const char* const end = text->data() + text->size();
-  const auto [stop, error] = std::from_chars(text->data(), end, number);
-  return error == std::errc{} && stop == end ? number : otherwise;
+  return text ? WholeNumber<std::uint32_t>(*text).value_or(otherwise) : otherwise;
 }
 
 // The vehicle's own options; a newcomer's are those of a place the world chooses, so any fitted
