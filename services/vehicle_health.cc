@@ -22,7 +22,7 @@ void VehicleHealthTeller::Turned(const link::Taken& taken,
                                  const RosterEntry& place, SteadyTime woke) {
   app::VehicleHealth& now = service_.Now();
   if (taken.inputs.scan) now.scanned = woke;
-  now.late_scans += taken.scans_skipped;
+  now.late_scans = counters.ranges_skipped;
   now.run_state = place.run_state;
   now.fleet_size = place.fleet_size;
   now.matched_peers = counters.matched_peers;

@@ -50,7 +50,7 @@ struct VehicleHealth {
   std::uint32_t fleet_size = 0;  // vehicles the run waits for, before it begins
   std::uint32_t matched_peers = 0;
   std::uint32_t placements = 0;  // places it was given in a world: the first, and after restarts
-  std::uint64_t late_scans = 0;  // overwritten by a newer one before the loop came
+  std::uint32_t late_scans = 0;  // overwritten by a newer one before the loop came
   std::uint32_t write_failures = 0;
   std::uint32_t ranges_deadline_missed = 0;
   SteadyTime scanned{0};  // when the last scan came; 0 before the first

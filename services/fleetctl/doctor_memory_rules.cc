@@ -8,6 +8,7 @@
 #include "services/fleetctl/doctor_rules.h"
 #include "services/fleetctl/finding_text.h"
 #include "services/fleetctl/why_rules.h"
+#include "services/qos/deployment.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -175,7 +176,7 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
         "there.");
   } else {
     // The world and an observer come to the vehicles; those that run have theirs.
-    const std::uint64_t all = host.vehicles + 2ULL;
+    const std::uint64_t all = host.vehicles + std::uint64_t{qos::kOtherParticipants};
     const std::uint64_t others = all - std::min<std::uint64_t>(all, host.processes.size());
     if (memory.free_bytes >= others * each) return;
     add(Severity::kError, "memory_small", others * each,

@@ -43,7 +43,7 @@ struct DomainPorts {
 std::int64_t ToCome(const HostFacts& host, std::uint32_t domain) {
   const auto running = std::ranges::count(
       host.processes, domain, [](const ProcessSituation& process) { return process.told.domain; });
-  return std::max<std::int64_t>(host.vehicles + 2 - running, 0);
+  return std::max<std::int64_t>(host.vehicles + qos::kOtherParticipants - running, 0);
 }
 
 std::string Listed(const std::set<std::uint16_t>& ports) {

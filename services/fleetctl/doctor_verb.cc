@@ -16,8 +16,8 @@ namespaces without a common shared memory, host ids, multicast, receive buffers,
 ids, files and variables the library reads by itself, the wall clock, descriptors. Each finding says what
 comes of it and what to do. As root it sees all processes; else it says what it could not see.
 
---fix removes the files in /dev/shm that nobody locks, maps or holds open, one line each, after it has
-taken their locks and looked at all processes once more. It changes nothing else.
+--fix removes the files of Fast DDS in /dev/shm that nobody has open or mapped, one line each: the kernel
+says so once more, by the lease it grants, as each is removed. It changes nothing else.
 
 Examples
   fleetctl doctor                                  # before a fleet is started

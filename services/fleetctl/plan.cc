@@ -16,8 +16,6 @@ namespace {
 // cores had beacons four times as old as one that took 25 %.
 constexpr double kBusy = 0.5;
 constexpr double kFull = 0.9;
-// Beside the vehicles: the world and one who watches.
-constexpr std::uint32_t kOthers = 2;
 
 std::uint32_t CeilShare(std::uint32_t whole, std::uint32_t parts) {
   return (whole + parts - 1) / parts;
@@ -46,8 +44,8 @@ class Reckoning {
         pace_(rate_ / costs_.ticks_per_s) {}
 
   double OnHost() const { return on_host_; }
-  double Participants() const { return n_ + kOthers; }
-  double ParticipantsOnHost() const { return OnHost() + kOthers; }
+  double Participants() const { return n_ + qos::kOtherParticipants; }
+  double ParticipantsOnHost() const { return OnHost() + qos::kOtherParticipants; }
 
   double VehicleCpu() const {
     return pace_ * (costs_.vehicle_cpu + costs_.vehicle_cpu_a_peer * peers_) / 1000;
@@ -63,11 +61,7 @@ class Reckoning {
   }
   double SamplesHeard() const { return rate_ * (peers_ + 1); }  // beacons, and its ranges
   double DiscoveryPackets() const { return costs_.discovery_packets_a_pair * n_ * peers_; }
-  double Announcements() const {
-    return Participants() * Participants() / AnnouncementSeconds(request_);
-  }
   double VehiclePackets() const { return rate_ * peers_ + pace_ * costs_.packets_a_vehicle; }
-  double Packets() const { return n_ * VehiclePackets() + Announcements(); }
   // What one host sends to others: a beacon goes to each peer by itself, wherever it is.
   double LinkMbit() const {
     if (request_.hosts < 2) return 0;
@@ -79,7 +73,8 @@ class Reckoning {
   double HostCpu() const { return OnHost() * VehicleCpu() + OthersCpu(); }
   double HostMib() const { return OnHost() * VehicleMib() + OthersMib(); }
 
-  std::vector<PlanRow> Rows() const;
+  // Of participants that announce themselves once in so many seconds.
+  std::vector<PlanRow> Rows(double announcement_s) const;
 
  private:
   const PlanRequest& request_;
@@ -91,7 +86,8 @@ class Reckoning {
   const double pace_;  // of that at which the costs were measured
 };
 
-std::vector<PlanRow> Reckoning::Rows() const {
+std::vector<PlanRow> Reckoning::Rows(double announcement_s) const {
+  const double announcements = Participants() * Participants() / announcement_s;
   const auto each = [&](std::string name, double one) {
     return PlanRow{std::move(name), one, one * ParticipantsOnHost(), one * Participants(), {}};
   };
@@ -111,8 +107,12 @@ std::vector<PlanRow> Reckoning::Rows() const {
       {"processor, cores", VehicleCpu(), HostCpu(), n_ * VehicleCpu() + OthersCpu(),
        request_.cores},
       {"samples received/s", SamplesHeard(), OnHost() * SamplesHeard(), n_ * SamplesHeard(), {}},
-      {"packets/s", VehiclePackets(), OnHost() * VehiclePackets(), Packets(), {}},
-      {"announcements/s", {}, {}, Announcements(), {}},
+      {"packets/s",
+       VehiclePackets(),
+       OnHost() * VehiclePackets(),
+       n_ * VehiclePackets() + announcements,
+       {}},
+      {"announcements/s", {}, {}, announcements, {}},
       {"discovery, packets", {}, {}, DiscoveryPackets(), {}},
       std::move(link),
   };
@@ -197,7 +197,7 @@ bool PlanReport::Fits() const { return !HasError(findings); }
 PlanReport Plan(const PlanRequest& request) {
   const Reckoning reckoning(request);
   PlanReport report;
-  report.rows = reckoning.Rows();
+  report.rows = reckoning.Rows(AnnouncementSeconds(request));
   report.findings = FindingsOf(request, reckoning);
   if (!report.Fits()) SeekWhatFits(request, &report);
   return report;

@@ -10,6 +10,7 @@
 #include "services/app/json_line.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
+#include "services/fleetctl/json_object.h"
 #include "services/fleetctl/orders.h"
 #include "services/fleetctl/qos_effective.h"
 #include "services/fleetctl/reading_along.h"
@@ -107,26 +108,27 @@ std::string ToJson(const LiveRow& told) {
   return json + "}";
 }
 
-void Print(const QosLiveOptions& options, const std::string& file, const AdminAnswer& answer,
-           const std::vector<LiveRow>& all) {
+std::string Json(const QosLiveOptions& options, const std::string& file, const AdminAnswer& answer,
+                 const std::vector<LiveRow>& all) {
+  JsonObject object;
+  object.Add("vehicle", options.vehicle);
+  object.Add("domain", options.domain);
+  object.Add("runs_with", std::string_view(answer.profiles.name));
+  object.Add("file", std::string_view(file));
+  object.AddRaw("values", JsonArray(all, [](const LiveRow& told) { return ToJson(told); }));
+  return object.Text() + "\n";
+}
+
+std::string Text(const std::string& file, const AdminAnswer& answer,
+                 const std::vector<LiveRow>& all) {
   std::string text;
   std::string profile;
   for (const LiveRow& told : all) {
-    if (options.set.json) {
-      text += (text.empty() ? "" : ",") + ToJson(told);
-      continue;
-    }
     if (told.profile != profile) text += told.profile + "\n";
     profile = told.profile;
     text += ToText(told, answer.profiles.name, file);
   }
-  if (options.set.json) {
-    text = fmt::format(R"({{"vehicle":{},"domain":{},"runs_with":{},"file":{},"values":[{}]}})",
-                       options.vehicle, options.domain, app::JsonString(answer.profiles.name),
-                       app::JsonString(file), text) +
-           "\n";
-  }
-  std::fputs(text.c_str(), stdout);
+  return text;
 }
 
 }  // namespace
@@ -139,7 +141,9 @@ int RunQosLive(const QosLiveOptions& options) {
   const auto answer = AnswerOf(options, set.file, &exit_code);
   if (!answer) return exit_code;
   const std::vector<LiveRow> all = HoldAgainst(set, *answer, options.set.wanted);
-  Print(options, set.file, *answer, all);
+  const std::string text =
+      options.set.json ? Json(options, set.file, *answer, all) : Text(set.file, *answer, all);
+  std::fputs(text.c_str(), stdout);
   if (std::fflush(stdout) != 0) return kCouldNotRun;
   return std::ranges::all_of(all, &LiveRow::AsExpected) ? 0 : 1;
 }

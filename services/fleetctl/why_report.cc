@@ -118,12 +118,11 @@ std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
     object.Add("first_ms", probed.first_ms);
   }
   object.Add("disagree", verdict.disagree);
-  std::string reasons;
+  std::vector<std::string> reasons;
   for (const Cause& cause : topic.causes) {
-    if (cause.weight != Weight::kPrevents) continue;
-    reasons += (reasons.empty() ? "" : ",") + app::JsonString(cause.finding.rule);
+    if (cause.weight == Weight::kPrevents) reasons.push_back(cause.finding.rule);
   }
-  object.AddRaw("reasons", "[" + reasons + "]");
+  object.AddRaw("reasons", JsonArray(reasons, app::JsonString));
   return object.Text();
 }
 

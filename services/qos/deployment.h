@@ -39,6 +39,9 @@ const Topic* TopicOfProfile(std::string_view profile);
 inline constexpr std::int64_t kLargeFleet = 32;
 inline constexpr std::int64_t kLargeFleetAnnouncementNs = 5'000'000'000;
 
+// Participants beside the vehicles: the world and an observer.
+inline constexpr std::int64_t kOtherParticipants = 2;
+
 struct Deployment {
   std::int64_t vehicles = 2;
   std::int64_t vehicles_a_host = 0;  // that share ports; 0: all of them

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kLongestLease = 60 * kSecond;
-constexpr std::int64_t kOthers = 2;  // the world and an observer
 constexpr std::int64_t kLastDomain = 99;
 constexpr std::int64_t kLastPort = 65'535;
 // Announcements a second in the whole fleet; 21 760 were half of what two cores can receive.
@@ -21,9 +20,9 @@ class ParticipantRules {
                    const Deployment& deployment, Findings* findings)
       : profile_(profile),
         participation_(participation),
-        participants_(deployment.vehicles + kOthers),
+        participants_(deployment.vehicles + kOtherParticipants),
         on_host_(deployment.vehicles_a_host == 0 ? participants_
-                                                 : deployment.vehicles_a_host + kOthers),
+                                                 : deployment.vehicles_a_host + kOtherParticipants),
         findings_(*findings) {}
 
   void CheckLease();
