@@ -84,6 +84,8 @@ install_packages() {
   find_missing "$@"
   [[ ${#MISSING[@]} -eq 0 ]] && return
   say "installing ${#MISSING[@]} Debian packages: ${MISSING[*]}"
+  # Slim images are without it, and there the package of Java cannot be set up.
+  [[ -d /usr/share/man/man1 ]] || as_root mkdir -p /usr/share/man/man1
   if ! apt-cache show "${MISSING[@]}" >/dev/null 2>&1; then
     apt update || die "apt-get update failed; apt-get's reason stands above"
   fi

@@ -60,6 +60,8 @@ export GIVEWAY_FUZZ_SECONDS=${GIVEWAY_FUZZ_SECONDS:-$fuzz_seconds}
 configuration=()
 [[ ${CI:-} == true ]] && configuration=(-DGIVEWAY_WERROR=ON "-DCMAKE_CXX_FLAGS_DEBUG=-g1"
   "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG")
+# One cache for every checkout: what was compiled in another folder is not compiled again.
+export CCACHE_BASEDIR=$GIVEWAY_ROOT CCACHE_NOHASHDIR=1
 # The library frees some objects by another size than it made them with.
 export ASAN_OPTIONS=new_delete_type_mismatch=0:${ASAN_OPTIONS:-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
