@@ -22,7 +22,8 @@ inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Sce
       .area = scenario.area,
       .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
       .partition_free = flags.partition_free,
-      .impairment = {}};
+      .impairment = {},
+      .discovery_servers = flags.discovery_servers};
 }
 
 // Runs the service unless the flags asked for help or were wrong.

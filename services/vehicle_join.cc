@@ -50,12 +50,16 @@ std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& 
     const auto entry = link->TakeRoster(asking.Session());
     if (entry && asking.IsFinal(*entry)) return entry;
     asking.AskAgainIfDue();
-    health->Joins(asking.WaitsFor());
+    const std::string& answer = asking.WaitsFor();
+    health->Joins(answer.empty() ? link->WhyNobodyIsFound() : answer);
     app::SleepUntil(app::SteadyNow() + kPoll);
     if (app::SteadyNow() < remind) continue;
     remind += kReminder;
     if (asking.Answered()) continue;
-    app::LogWarning("no answer from a world yet: is giveway-world running in this domain?");
+    const std::string no_servers = link->WhyNobodyIsFound();
+    app::LogWarning(!no_servers.empty()
+                        ? no_servers
+                        : "no answer from a world yet: is giveway-world running in this domain?");
   }
   link->SendLeave(asking.Session());
   return std::nullopt;

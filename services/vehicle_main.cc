@@ -18,6 +18,7 @@
 #include "services/app/text_file.h"
 #include "services/beacon_news.h"
 #include "services/link/vehicle_link.h"
+#include "services/server_wait.h"
 #include "services/service_main.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/vehicle.h"
@@ -290,6 +291,9 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   if (!flags.record.empty()) recorder.emplace(flags.record);
   link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
   link_options.impairment = ImpairmentOf(flags, scenario);
+  if (!AwaitServers(link_options, stop, [&](const std::string& why) { health.Joins(why); })) {
+    return {};
+  }
   link::VehicleLink link(link_options);
   const QosProfiles profiles{app::NameOf(flags.qos), app::ReadBytes(flags.qos)};
   app::LetGo(flags.qos);

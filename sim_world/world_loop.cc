@@ -308,6 +308,7 @@ void WorldLoop::TellHealth(app::HealthStage stage) {
   const link::WorldLinkCounters link = link_.Counters();
   app::WorldHealth& now = health_.Now();
   now.loop.stage = stage;
+  now.waits_for = app::ShortText(link_.WhyNobodyIsFound());
   now.run_state = fleet_->run.State();
   now.time_s = fleet_->run.TimeSeconds();
   now.late_ticks = overruns_;

@@ -13,6 +13,7 @@
 #include "services/app/scenario_file.h"
 #include "services/app/state_file.h"
 #include "services/link/world_link.h"
+#include "services/server_wait.h"
 #include "services/service_main.h"
 #include "services/types/state_hash.h"
 #include "sim_world/world_loop.h"
@@ -66,7 +67,13 @@ int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   if (!flags.checkpoint.empty()) {
     options.checkpoint = ReadCheckpoint(flags.checkpoint, options.scenario_mark);
   }
-  link::WorldLink link(LinkOptionsOf(flags, scenario));
+  const link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
+  const auto tell = [&](const std::string& why) {
+    health.Now().waits_for = app::ShortText(why);
+    health.Tell();
+  };
+  if (!AwaitServers(link_options, stop, tell)) return 0;
+  link::WorldLink link(link_options);
   const bool passed = WorldLoop(scenario, &link, &health, options).Drive(stop);
   return passed || stop.IsSet() ? 0 : 1;  // to stop when asked to is no failure
 }

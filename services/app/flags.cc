@@ -29,6 +29,9 @@ class CommandLine {
     Add("--scenario", "FILE|NAME", "scenario file, or the name of a shipped one (required)");
     Add("--domain", "1..99", "DDS domain (required)");
     Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
+    Add("--discovery-server", "HOST[:PORT],...",
+        "find everyone through these servers, and not by what --qos says;\n"
+        "the first has the id 0, the next 1 (port 11811)");
     Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
     if (service == Service::kVehicle) {
       Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
@@ -150,6 +153,16 @@ void ReadHealth(FlagValues* values, ServiceFlags* flags) {
   }
 }
 
+void ReadDiscoveryServers(FlagValues* values, ServiceFlags* flags) {
+  const auto text = values->Text("--discovery-server");
+  if (!text) return;
+  ParsedDiscoveryServers parsed = ParseDiscoveryServers(*text);
+  flags->discovery_servers = std::move(parsed.servers);
+  if (parsed.fault.empty()) return;
+  values->Complain("--discovery-server", parsed.fault,
+                   "write HOST or HOST:PORT, several with commas between them");
+}
+
 ServiceFlags Read(Service service, FlagValues* values) {
   constexpr double kMaxWhole = 4294967295.0;
   ServiceFlags flags;
@@ -161,6 +174,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
   }
   flags.domain = values->Whole("--domain", {1, 99}).value_or(0);
   flags.interface = values->TextOr(flags.interface, "--interface");
+  ReadDiscoveryServers(values, &flags);
   flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
   if (service == Service::kVehicle) {
     flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);

@@ -7,9 +7,11 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "services/app/restart.h"
 #include "services/types/decision.h"
+#include "services/types/discovery_server.h"
 #include "services/types/impairment.h"
 
 namespace giveway::app {
@@ -17,16 +19,18 @@ namespace giveway::app {
 struct ServiceFlags {
   std::uint32_t domain = 0;             // 1..99
   std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
-  std::string qos;                      // a file; ConfigDir()/qos/default.xml if not given
-  std::string scenario;                 // a file or a shipped scenario's name
-  std::uint32_t id = 0;                 // vehicle only; 0 asks the world for any free id
-  std::uint32_t threads = 1;            // world only; the result does not depend on it
-  std::string checkpoint;               // world only; the file it is kept in; empty: none is
-  std::string record;                   // vehicle only; the file it is written to; empty: none is
-  bool partition_free = false;          // vehicle only; beacons also without a partition
-  std::optional<Resumed> resume;        // vehicle only; it was itself before, see restart.h
-  bool hang_on_signal = false;          // vehicle only; a drill, see HangSignal
-  std::optional<Impairment> impair;     // vehicle only; instead of the scenario's
+  // Instead of the profile set's way of discovery; none: as the set says.
+  std::vector<DiscoveryServer> discovery_servers;
+  std::string qos;                   // a file; ConfigDir()/qos/default.xml if not given
+  std::string scenario;              // a file or a shipped scenario's name
+  std::uint32_t id = 0;              // vehicle only; 0 asks the world for any free id
+  std::uint32_t threads = 1;         // world only; the result does not depend on it
+  std::string checkpoint;            // world only; the file it is kept in; empty: none is
+  std::string record;                // vehicle only; the file it is written to; empty: none is
+  bool partition_free = false;       // vehicle only; beacons also without a partition
+  std::optional<Resumed> resume;     // vehicle only; it was itself before, see restart.h
+  bool hang_on_signal = false;       // vehicle only; a drill, see HangSignal
+  std::optional<Impairment> impair;  // vehicle only; instead of the scenario's
   // Overrides of the scenario's; 0 moves nothing. Without the flag: the scenario's own seed.
   std::optional<std::uint32_t> seed;
   std::optional<Behaviour> behaviour;

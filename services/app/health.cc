@@ -73,7 +73,9 @@ Reasons NotReady(const VehicleHealth& vehicle, SteadyTime now) {
 // A world that waits is ready: vehicles may come, and nobody is to wait for it any longer.
 Reasons NotReady(const WorldHealth& world, SteadyTime now) {
   Reasons reasons = NotLive(world.loop, now);
-  if (world.loop.stage == HealthStage::kStarting) {
+  if (!world.waits_for.View().empty()) {
+    reasons.emplace_back(world.waits_for.View());
+  } else if (world.loop.stage == HealthStage::kStarting) {
     reasons.emplace_back("starting: it has no participant yet");
   } else if (world.loop.stage == HealthStage::kLeaving || world.run_state == RunState::kEnded) {
     reasons.emplace_back("the run has ended");

@@ -59,6 +59,7 @@ struct VehicleHealth {
 
 struct WorldHealth {
   LoopHealth loop;
+  ShortText waits_for;  // what keeps it from the fleet; empty: nothing
   RunState run_state = RunState::kWaiting;
   double time_s = 0;  // since the start signal
   std::uint32_t late_ticks = 0;

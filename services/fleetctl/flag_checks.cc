@@ -2,6 +2,8 @@
 
 #include <exception>
 
+#include "services/types/discovery_server.h"
+
 namespace giveway::fleetctl {
 
 std::string CheckNotEmpty(const std::string& text) {
@@ -17,6 +19,13 @@ std::string CheckSeconds(const std::string& text) {
   } catch (const std::exception&) {
   }
   return "must be a number of seconds above 0 and up to 1000000, not '" + text + "'";
+}
+
+void AddDiscoveryFlag(CLI::App* verb, std::string* servers) {
+  verb->add_option("--discovery-server", *servers,
+                   "Find everyone through HOST[:PORT],..., and not by what --qos says")
+      ->check([](const std::string& text) { return ParseDiscoveryServers(text).fault; })
+      ->envname("GIVEWAY_DISCOVERY_SERVER");
 }
 
 void AddInterfaceFlag(CLI::App* verb, std::string* interface) {

@@ -1,5 +1,5 @@
 // What several verbs ask of the text of a flag: empty if it is right, else what is wrong, for
-// CLI11's check(). And the one flag that all who open a link have alike.
+// CLI11's check(). And the flags that all who open a link have alike.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,5 +12,7 @@ std::string CheckNotEmpty(const std::string& text);
 std::string CheckSeconds(const std::string& text);
 
 void AddInterfaceFlag(CLI::App* verb, std::string* interface);
+// Servers as HOST[:PORT],...
+void AddDiscoveryFlag(CLI::App* verb, std::string* servers);
 
 }  // namespace giveway::fleetctl

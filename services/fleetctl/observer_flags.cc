@@ -10,6 +10,7 @@ void AddObserverFlags(CLI::App* verb, ObserverOptions* options) {
       ->check(CLI::Range(kFirstDomain, kLastDomain))
       ->envname("GIVEWAY_DOMAIN");
   AddInterfaceFlag(verb, &options->interface);
+  AddDiscoveryFlag(verb, &options->discovery_servers);
   verb->add_option("--area", options->area, "Whose beacons; the scenario names it")
       ->check(CheckNotEmpty)
       ->capture_default_str();

@@ -41,7 +41,8 @@ link::LinkOptions ObserverOptions(const RunOptions& options, const Scenario& sce
           scenario.area,
           static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
           false,
-          {}};
+          {},
+          ParseDiscoveryServers(options.discovery_servers).servers};
 }
 
 TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWatch& watch) {

@@ -76,6 +76,7 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
       ->check(CLI::Range(kFirstDomain, kLastDomain))
       ->envname("GIVEWAY_DOMAIN");
   AddInterfaceFlag(verb, &options->interface);
+  AddDiscoveryFlag(verb, &options->discovery_servers);
   verb->add_option(
           "--qos", options->qos_file,
           "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host, ...); without "

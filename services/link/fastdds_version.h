@@ -5,6 +5,7 @@
 
 #include <fastcdr/exceptions/Exception.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <fastdds/dds/core/LoanableSequence.hpp>
@@ -33,6 +34,7 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/utils/IPLocator.h>
 #include <idl/fleetPubSubTypes.h>
 
 namespace giveway::link {
@@ -58,6 +60,14 @@ inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
 }
 using Discovery = rtps::DiscoveryProtocol_t;
 
+// A client of 2.9.1 must know the name of its server, too: `prefix`. 3.1.2 needs the address alone.
+inline void AddDiscoveryServer(rtps::DiscoverySettings& discovery, const rtps::GuidPrefix_t& prefix,
+                               const rtps::Locator_t& address) {
+  auto& server = discovery.m_DiscoveryServers.emplace_back();
+  server.guidPrefix = prefix;
+  server.metatrafficUnicastLocatorList.push_back(address);
+}
+
 }  // namespace giveway::link
 
 #define GIVEWAY_IS_PLAIN_PARAMETERS
@@ -71,6 +81,7 @@ using Discovery = rtps::DiscoveryProtocol_t;
 #include <fastdds/rtps/transport/SenderResource.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
+#include <fastdds/utils/IPLocator.hpp>
 #include <idl/fleetPubSubTypes.hpp>
 
 namespace giveway::link {
@@ -94,6 +105,11 @@ inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
 }
 using Discovery = rtps::DiscoveryProtocol;
 
+inline void AddDiscoveryServer(rtps::DiscoverySettings& discovery, const rtps::GuidPrefix_t&,
+                               const rtps::Locator_t& address) {
+  discovery.m_DiscoveryServers.push_back(address);
+}
+
 }  // namespace giveway::link
 
 #define GIVEWAY_IS_PLAIN_PARAMETERS dds::DataRepresentationId_t
@@ -103,7 +119,8 @@ using Discovery = rtps::DiscoveryProtocol;
 
 namespace giveway::link {
 
-// Tells of every writer in the domain that this participant discovers, its own included.
+// Tells of every writer in the domain that this participant discovers, its own included, and
+// whether it has found any other participant yet.
 class DiscoveryListener : public dds::DomainParticipantListener {
  public:
   enum class Change : std::uint8_t { kFound, kGone };
@@ -112,11 +129,16 @@ class DiscoveryListener : public dds::DomainParticipantListener {
   virtual void OnWriter(Change change, const rtps::GUID_t& writer,
                         const std::vector<std::string>& partitions) = 0;
 
+  bool HasFoundAnybody() const { return has_found_anybody_.load(std::memory_order_relaxed); }
+
 #if __has_include(<fastrtps/config.h>)
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) final {
     const bool gone = found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
     OnWriter(gone ? Change::kGone : Change::kFound, found.info.guid(),
              found.info.m_qos.m_partition.names());
+  }
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&&) final {
+    has_found_anybody_.store(true, std::memory_order_relaxed);
   }
 #else
   void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus status,
@@ -124,7 +146,14 @@ class DiscoveryListener : public dds::DomainParticipantListener {
     const bool gone = status == rtps::WriterDiscoveryStatus::REMOVED_WRITER;
     OnWriter(gone ? Change::kGone : Change::kFound, found.guid, found.partition.names());
   }
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus,
+                                const dds::ParticipantBuiltinTopicData&, bool&) final {
+    has_found_anybody_.store(true, std::memory_order_relaxed);
+  }
 #endif
+
+ private:
+  std::atomic<bool> has_found_anybody_{false};
 };
 
 // A chaining transport that sends as the one below it does.

@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "services/types/discovery_server.h"
 #include "services/types/impairment.h"
 
 namespace giveway::link {
@@ -17,6 +19,8 @@ struct LinkOptions {
   std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
   bool partition_free = false;          // vehicle: a second beacon, for readers without a partition
   Impairment impairment = {};           // of what this process hears; its seed is set
+  // Instead of the profile set's way of discovery; none: as the set says.
+  std::vector<DiscoveryServer> discovery_servers = {};
 };
 
 // An entity could not be made: says which, why, and what to do. Start-up only; main exits with 2.

@@ -1,11 +1,14 @@
 #include "services/link/participant.h"
 
+#include <algorithm>
+#include <array>
 #include <regex>
 
 #include "services/link/impaired_transport.h"
 #include "services/link/interfaces.h"
 #include "services/link/library_log.h"
 #include "services/link/profiles.h"
+#include "services/link/server_addresses.h"
 
 namespace giveway::link {
 namespace {
@@ -58,6 +61,30 @@ void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options,
   }
 }
 
+// That of `fast-discovery-server -i ID`.
+rtps::GuidPrefix_t ServerPrefix(std::size_t id) {
+  rtps::GuidPrefix_t prefix;
+  const std::array<rtps::octet, 12> bytes{
+      0x44, 0x53, static_cast<rtps::octet>(id), 0x5f, 0x45, 0x50, 0x52, 0x4f, 0x53, 0x49,
+      0x4d, 0x41};
+  std::ranges::copy(bytes, prefix.value);
+  return prefix;
+}
+
+// Instead of what the profile says: everyone is found through these servers.
+void SetDiscoveryServers(rtps::DiscoverySettings& discovery,
+                         const std::vector<DiscoveryServer>& servers) {
+  discovery.discoveryProtocol = Discovery::CLIENT;
+  discovery.m_DiscoveryServers.clear();
+  for (const auto& [ipv4, port] : AddressesOf(servers)) {
+    if (ipv4.empty()) throw LinkError(WhyNoAddress(servers));
+    rtps::Locator_t address;
+    rtps::IPLocator::setIPv4(address, ipv4);
+    rtps::IPLocator::setPhysicalPort(address, port);
+    AddDiscoveryServer(discovery, ServerPrefix(discovery.m_DiscoveryServers.size()), address);
+  }
+}
+
 dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name,
                                   const std::shared_ptr<Impairer>& impairer) {
   dds::DomainParticipantQos qos;
@@ -67,12 +94,22 @@ dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string&
   }
   qos.name(name);
   SetTransport(qos, options, impairer);
+  auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  if (!options.discovery_servers.empty()) {
+    SetDiscoveryServers(discovery, options.discovery_servers);
+  }
   if (options.fleet_size > kLargeFleet) {
-    auto& discovery = qos.wire_protocol().builtin.discovery_config;
     discovery.leaseDuration = kLargeFleetLease;
     discovery.leaseDuration_announcementperiod = kLargeFleetAnnouncement;
   }
   return qos;
+}
+
+// As the user named them; empty where everyone is found by multicast.
+std::string ServersOf(const dds::DomainParticipantQos& qos, const LinkOptions& options) {
+  if (!options.discovery_servers.empty()) return ToText(options.discovery_servers);
+  const auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  return discovery.discoveryProtocol == Discovery::CLIENT ? "those of " + options.qos_file : "";
 }
 
 [[noreturn]] void ThrowNotMade(const std::string& what) {
@@ -129,16 +166,27 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
     naming_ = std::make_unique<NamingListener>(impairer_, discovery);
     listener = naming_.get();
   }
+  listener_ = listener;
+  const dds::DomainParticipantQos qos = MakeQos(options, name, impairer_);
+  servers_ = ServersOf(qos, options);
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.
   participant_.reset(dds::DomainParticipantFactory::get_instance()->create_participant(
-      options.domain, MakeQos(options, name, impairer_), listener, dds::StatusMask::none()));
+      options.domain, qos, listener, dds::StatusMask::none()));
   if (participant_ == nullptr) {
     ThrowNotMade("participant in domain " + std::to_string(options.domain) + " on interface " +
                  options.interface +
                  "; are there more than mutation_tries participants on this host?");
   }
   if (impairer_ != nullptr) impairer_->NameOwn(BytesOf(Prefix()));
+}
+
+std::string Participant::WhyNobodyIsFound() const {
+  if (servers_.empty() || listener_->HasFoundAnybody()) return {};
+  return "no discovery server answers: does fast-discovery-server run there, and does UDP pass "
+         "both "
+         "ways? (" +
+         servers_ + ")";
 }
 
 dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& name) {

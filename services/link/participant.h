@@ -52,6 +52,8 @@ class Participant {
   bool SetDeadline(const std::string& profile, const Duration& deadline);
 
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
+  // One sentence while this participant is a client whose servers have not answered; else empty.
+  std::string WhyNobodyIsFound() const;
   // Null where no impairment was asked for.
   Impairer* ImpairerOrNull() const { return impairer_.get(); }
 
@@ -73,6 +75,8 @@ class Participant {
 
   std::shared_ptr<Impairer> impairer_;
   std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
+  const DiscoveryListener* listener_ = nullptr;  // the one that the library tells
+  std::string servers_;                          // of a client, as they were named; else empty
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;

@@ -184,6 +184,8 @@ std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& tol
   return entry;
 }
 
+std::string VehicleLink::WhyNobodyIsFound() const { return impl_->participant.WhyNobodyIsFound(); }
+
 void VehicleLink::SendJoin(const JoinRequest& request) { impl_->SendJoin(request); }
 
 void VehicleLink::FlushJoin(Nanoseconds timeout) { impl_->join_writer.WaitUntilHeard(timeout); }

@@ -57,6 +57,9 @@ class VehicleLink {
   VehicleLink(const VehicleLink&) = delete;
   VehicleLink& operator=(const VehicleLink&) = delete;
 
+  // One sentence while discovery servers are to be used and none has answered; else empty.
+  std::string WhyNobodyIsFound() const;
+
   // Kept for worlds that start later: each of them finds the newest request of a session.
   void SendJoin(const JoinRequest& request);
   // Waits until every matched world has the last request, or `timeout`.

@@ -86,6 +86,8 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
 WorldLink::WorldLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 WorldLink::~WorldLink() = default;
 
+std::string WorldLink::WhyNobodyIsFound() const { return impl_->participant.WhyNobodyIsFound(); }
+
 template <typename Scan>
 void WorldLink::Impl::Send(const Scan& scan) {
   const auto found = writers.find(scan.vehicle);

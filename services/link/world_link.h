@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "services/link/link_options.h"
@@ -30,6 +31,9 @@ class WorldLink {
   ~WorldLink();
   WorldLink(const WorldLink&) = delete;
   WorldLink& operator=(const WorldLink&) = delete;
+
+  // One sentence while discovery servers are to be used and none has answered; else empty.
+  std::string WhyNobodyIsFound() const;
 
   // Makes the writers of the vehicle's ranges and of the sensors its profile is fitted with.
   // Nothing if they are there.

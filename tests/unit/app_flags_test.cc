@@ -254,6 +254,15 @@ TEST(Flags, TheTwinOfAFlagIsSpeltInCapitals) {
   EXPECT_EQ(TwinOf("--log-level"), "GIVEWAY_LOG_LEVEL");
 }
 
+TEST(Flags, DiscoveryServersAreReadFromTheFlagOrItsTwin) {
+  const auto told = Vehicle({"--scenario", "s", "--domain", "3", "--discovery-server", "a,b:7"});
+  const auto& servers = std::get<ServiceFlags>(told).discovery_servers;
+  EXPECT_EQ(ToText(servers), "a:11811,b:7");
+  const Variable twin("GIVEWAY_DISCOVERY_SERVER", "a:x");
+  EXPECT_THAT(Refusal({"--scenario", "s", "--domain", "3"}),
+              HasSubstr("GIVEWAY_DISCOVERY_SERVER = a:x: \"x\" is no port from 1 to 65535"));
+}
+
 TEST(Flags, HealthIsServedOnlyWhereAPortIsNamed) {
   const ParsedFlags none = Vehicle({"--scenario", "wall_only", "--domain", "7"});
   EXPECT_EQ(std::get<ServiceFlags>(none).health_port, 0U);

@@ -106,6 +106,15 @@ TEST(Health, AWorldIsReadyAsSoonAsItTurnsAndUntilItsRunEnds) {
   EXPECT_THAT(NotReady(world, kNow), ElementsAre("the run has ended"));
 }
 
+TEST(Health, AWorldThatNoDiscoveryServerAnswersIsNotReadyAndSaysSo) {
+  WorldHealth world;
+  world.waits_for = ShortText("no discovery server answers");
+  for (const HealthStage stage : {HealthStage::kStarting, HealthStage::kUnderWay}) {
+    world.loop = {.stage = stage, .turned = kNow, .turns = 1};
+    EXPECT_THAT(NotReady(world, kNow), ElementsAre("no discovery server answers"));
+  }
+}
+
 TEST(Health, AReasonIsALineAndAJsonString) {
   EXPECT_EQ(AsText("ready", {}), "ready\n");
   EXPECT_EQ(AsText("ready", {"a", "b"}), "not ready: a\nnot ready: b\n");

@@ -1,0 +1,52 @@
+#include "services/server_wait.h"
+
+#include <chrono>
+#include <future>
+#include <thread>
+#include <utility>
+
+#include "services/link/server_addresses.h"
+
+namespace giveway {
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr Nanoseconds kAskAgain = std::chrono::seconds(1);
+constexpr Nanoseconds kReminder = std::chrono::seconds(30);
+
+// On a thread that nobody joins: a lookup without a name server takes seconds, and a stop takes one
+// at most.
+std::future<std::string> Ask(const std::vector<DiscoveryServer>& servers) {
+  std::packaged_task<std::string()> task([servers] { return link::WhyNoAddress(servers); });
+  auto answer = task.get_future();
+  std::thread(std::move(task)).detach();
+  return answer;
+}
+
+}  // namespace
+
+bool AwaitServers(const link::LinkOptions& options, const app::StopSignal& stop,
+                  const std::function<void(const std::string& why)>& tell) {
+  if (options.discovery_servers.empty()) return true;
+  std::string why = "looks up its discovery servers: " + ToText(options.discovery_servers);
+  SteadyTime remind{0};
+  SteadyTime again{0};
+  std::future<std::string> answer;
+  while (!stop.IsSet()) {
+    tell(why);
+    if (!answer.valid() && app::SteadyNow() >= again) answer = Ask(options.discovery_servers);
+    if (!answer.valid() || answer.wait_for(kPoll) != std::future_status::ready) {
+      app::SleepUntil(app::SteadyNow() + kPoll);
+      continue;
+    }
+    why = answer.get();
+    if (why.empty()) return true;
+    again = app::SteadyNow() + kAskAgain;
+    if (app::SteadyNow() < remind) continue;
+    app::LogWarning(why);
+    remind = app::SteadyNow() + kReminder;
+  }
+  return false;
+}
+
+}  // namespace giveway
