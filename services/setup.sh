@@ -29,6 +29,20 @@ build_packages() {
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 }
 
+# What the built programs need, by the names that each Debian gives its libraries.
+runtime_packages() {
+  if [[ $(debian_version) -ge 13 ]]; then
+    printf '%s\n' libfastdds3.1 libfastcdr2 libprotobuf32t64 libspdlog1.15 libfmt10 libtinyxml2-11 \
+      libyaml-cpp0.8 libcpp-httplib0.18 libprometheus-cpp-core1.0
+  else
+    printf '%s\n' libfastrtps2.9 libfastcdr1 libprotobuf32 libspdlog1.10 libfmt9 libtinyxml2-9 \
+      libyaml-cpp0.7 libcpp-httplib0.11 libprometheus-cpp-core1.0
+  fi
+}
+
+# What the image of fleetctl has beside those: the discovery server.
+tools_packages() { printf '%s\n' fastdds-tools; }
+
 # fastddsgen is a Java program: without a working Java it writes nothing, and says little. Any
 # Java will do.
 java_package() { java -version >/dev/null 2>&1 || echo default-jre-headless; }

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# What a deployment gets wrong: each container says what and what to do, /readyz says why it waits,
+# and the restart policy does not spin.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+engine_up
+use multicast
+docker network create giveway-bad --subnet 172.30.54.0/24 >/dev/null
+made=()
+end_bad_input() {
+  [[ ${#made[@]} -eq 0 ]] || docker rm -f "${made[@]}" >/dev/null
+  docker network rm giveway-bad >/dev/null
+  end_drill
+}
+trap end_bad_input EXIT
+
+# service PROGRAM NAME=VALUE...: a container with these variables over sound ones, in BAD.
+service() {
+  local program=$1 variables=() pair
+  shift
+  for pair in GIVEWAY_SCENARIO=open_fleet GIVEWAY_DOMAIN=1 GIVEWAY_INTERFACE=eth0 "$@"; do
+    variables+=(-e "$pair")
+  done
+  BAD=$(docker run -d --read-only --cap-drop ALL --restart on-failure --network giveway-bad \
+    "${variables[@]}" "giveway-$program")
+  made+=("$BAD")
+}
+
+says() { docker logs "$BAD" 2>&1 | grep -Eq "$1"; }
+ready_says() { ready "$BAD" | grep -Eq "$1"; }
+restarts() { docker inspect -f '{{.RestartCount}}' "$BAD"; }
+restarted() { [[ $(restarts) -ge $1 ]]; }
+exit_code() { docker logs "$BAD" 2>&1 | grep -c .; }
+
+# Ends, is started again, ever more rarely: docker doubles the wait from 0.1 s.
+ends_with() { # WHAT PATTERN
+  await "$1: says so" 10 says "$2"
+  await "$1: tried again" 10 restarted 3
+  local before
+  before=$(restarts)
+  sleep 5
+  [[ $(($(restarts) - before)) -le 4 ]] || fail "$1: $(($(restarts) - before)) restarts in 5 s"
+  docker update --restart no "$BAD" >/dev/null
+  [[ $(timeout 10 docker wait "$BAD") == 2 ]] || fail "$1: the exit code is not 2"
+}
+
+# Stays, waits, and says why.
+waits_with() { # WHAT LOGGED READY
+  await "$1: says so" 15 says "$2"
+  await "$1: /readyz says why" 10 ready_says "$3"
+  [[ $(restarts) -eq 0 ]] || fail "$1: was restarted"
+}
+
+service vehicle GIVEWAY_DOMAIN=1000 GIVEWAY_LOG_LEVEL=loud
+ends_with "wrong values" 'GIVEWAY_DOMAIN = 1000: must be a whole number from 1 to 99'
+says 'GIVEWAY_LOG_LEVEL = loud' || fail "the second wrong value is not named"
+service world GIVEWAY_SCENARIO=/scenarios/missing.textproto
+ends_with "no scenario is mounted" 'missing.textproto: no such file'
+service vehicle GIVEWAY_QOS=/qos/missing.xml
+ends_with "no QoS file is mounted" 'missing.xml: does not exist; give a complete profile set'
+service vehicle GIVEWAY_DISCOVERY_SERVER=nobody:11811
+waits_with "a server without an address" 'discovery server nobody .* has no address yet' \
+  'discovery server nobody .* has no address yet'
+service vehicle GIVEWAY_DISCOVERY_SERVER=172.30.54.200
+waits_with "a server that does not answer" 'no discovery server answers' '172.30.54.200:11811'
+service world GIVEWAY_DISCOVERY_SERVER=172.30.54.200
+waits_with "a world whose server does not answer" 'no discovery server answers' '172.30.54.200:11811'
+service vehicle
+waits_with "no world" 'no answer from a world yet' 'is giveway-world running in this domain'
+
+service world GIVEWAY_DOMAIN=2
+service vehicle GIVEWAY_DOMAIN=2 GIVEWAY_ID=7
+await "the first with its id: joined" 15 ready_says '^not ready: matched|^ready'
+service vehicle GIVEWAY_DOMAIN=2 GIVEWAY_ID=7
+await "two vehicles with one id: /readyz says why" 15 ready_says 'id 7'
+await "two vehicles with one id: says so" 15 says 'refused this vehicle: .*7'
+[[ $failures -eq 0 ]]

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Two and eight containers cross, and the world's verdict is its exit code: by multicast, and by
+# discovery servers with multicast blocked.
+#
+#   bash tests/containers/crossing.sh multicast|servers
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+[[ ${1:-} == multicast || ${1:-} == servers ]] || die "say multicast or servers"
+engine_up
+use "$1"
+
+# crossing VEHICLES SCENARIO
+crossing() {
+  local vehicles=$1 world code vehicle
+  export GIVEWAY_SCENARIO=$2
+  up "$vehicles"
+  world=$(members world)
+  code=$(timeout 200 docker wait "$world") || code="none in 200 s"
+  docker logs "$world" 2>&1 | grep 'ended:' || true
+  [[ $code == 0 ]] || fail "$vehicles vehicles: the world's exit code is $code"
+  for vehicle in $(members vehicle); do
+    code=$(timeout 10 docker wait "$vehicle") || code="none in 10 s"
+    [[ $code == 0 ]] || fail "$vehicles vehicles: exit code $code of $(name_of "$vehicle")"
+  done
+  down
+}
+
+crossing 2 intersection_yield
+crossing 8 /drill/crossing_of_eight.textproto
+[[ $1 == servers ]] && multicasts_were_dropped
+[[ $failures -eq 0 ]]

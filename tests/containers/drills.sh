@@ -1,0 +1,98 @@
+#!/usr/bin/env bash
+# A composed fleet that anything may happen to: kill -9 of a vehicle, the world, one discovery server
+# and both, a pause, a cut network, more and fewer vehicles. Nobody touches anybody, whoever returns
+# drives again within five seconds, and nobody lends a hand.
+#
+#   bash tests/containers/drills.sh multicast|servers
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+[[ ${1:-} == multicast || ${1:-} == servers ]] || die "say multicast or servers"
+LIMIT_S=5
+export GIVEWAY_SCENARIO=/drill/lanes.textproto
+engine_up
+use "$1"
+
+first_of() { running "$1" | head -n 1; }
+
+# restarts CONTAINER BEFORE: whether it has been started more often than BEFORE times.
+restart_count() { docker inspect -f '{{.RestartCount}}' "$1"; }
+was_restarted() { [[ $(restart_count "$1") -gt $2 ]]; }
+
+drill_vehicle_crash() {
+  local vehicle before
+  vehicle=$(first_of vehicle)
+  before=$(restart_count "$vehicle")
+  crash "$vehicle"
+  await "$1: its container is started again" 5 was_restarted "$vehicle" "$before"
+  await "$1: all drive" "$LIMIT_S" all_drive "$VEHICLES"
+}
+
+drill_world_crash() {
+  local world before
+  world=$(first_of world)
+  before=$(restart_count "$world")
+  crash "$world"
+  await "world killed: its container is started again" 5 was_restarted "$world" "$before"
+  await "world killed: all drive" "$LIMIT_S" all_drive "$VEHICLES"
+}
+
+# Whoever knows the others goes on without a server; whoever is new finds them through the other
+# one, and after both were gone through either that is back.
+drill_servers_crash() {
+  local server others
+  for others in discovery-0 discovery-1 "discovery-0 discovery-1"; do
+    for server in $others; do crash "$(first_of "$server")"; done
+    drill_vehicle_crash "vehicle killed with $others"
+    await "$others killed: run again" 10 servers_run
+  done
+}
+servers_run() { [[ -n $(running discovery-0) && -n $(running discovery-1) ]]; }
+
+drill_pause() {
+  local vehicle
+  vehicle=$(first_of vehicle)
+  docker pause "$vehicle" >/dev/null
+  await "paused: the world takes it away" 10 joined $((VEHICLES - 1))
+  docker unpause "$vehicle" >/dev/null
+  await "unpaused: all drive" "$LIMIT_S" all_drive "$VEHICLES"
+}
+joined() { [[ $(metric "$(first_of world)" world_vehicles_joined) -eq $1 ]]; }
+
+in_network_of() { # CONTAINER COMMAND...
+  local pid
+  pid=$(pid_of "$1")
+  shift
+  nsenter -t "$pid" -n "$@"
+}
+
+# Nothing gets in or out; its own loopback stays.
+drill_cut() {
+  local vehicle
+  vehicle=$(first_of vehicle)
+  in_network_of "$vehicle" iptables -A INPUT ! -i lo -j DROP
+  in_network_of "$vehicle" iptables -A OUTPUT ! -o lo -j DROP
+  await "cut: the world takes it away" 10 joined $((VEHICLES - 1))
+  in_network_of "$vehicle" iptables -F
+  await "restored: all drive" "$LIMIT_S" all_drive "$VEHICLES"
+}
+
+drill_scale() {
+  VEHICLES=8
+  up 8
+  await "scaled up: all 8 drive" 10 all_drive 8
+  VEHICLES=3
+  up 3
+  await "scaled down: all 3 drive" "$LIMIT_S" all_drive 3
+  await "scaled down: the world has 3" "$LIMIT_S" joined 3
+}
+
+VEHICLES=2
+up 2
+await "up: all drive" 30 all_drive 2
+drill_vehicle_crash "vehicle killed"
+drill_world_crash
+drill_pause
+drill_cut
+drill_scale
+[[ $1 == servers ]] && drill_servers_crash
+no_contact
+[[ $failures -eq 0 ]]

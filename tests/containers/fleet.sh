@@ -1,0 +1,120 @@
+# shellcheck shell=bash
+# What the container drills share: a composed fleet, looked at from inside each container's own
+# network, and waiting for conditions with deadlines. Sourced, never run.
+source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+
+HERE=$GIVEWAY_ROOT/tests/containers
+PROJECT=giveway-drill
+SCRATCH=$(mktemp -d)
+failures=0
+
+fail() {
+  printf 'FAILED: %s\n' "$*" >&2
+  failures=$((failures + 1))
+}
+
+# use multicast|servers: how the fleet of this test finds itself. With servers a firewall rule drops
+# every multicast between the containers.
+use() {
+  env_file=/dev/null
+  [[ $1 == servers ]] && env_file=$GIVEWAY_ROOT/config/deploy/discovery_server.env
+  [[ $1 == servers ]] && block_multicast
+  return 0
+}
+
+compose() {
+  docker-compose -p "$PROJECT" --env-file "$env_file" \
+    -f "$GIVEWAY_ROOT/config/deploy/compose.yaml" -f "$HERE/drill.yaml" "$@"
+}
+
+# up VEHICLES
+up() {
+  compose up -d --no-build --scale vehicle="$1" >"$SCRATCH/up.log" 2>&1 ||
+    fail "up with $1 vehicles: $(tail -n 5 "$SCRATCH/up.log")"
+}
+
+down() { compose down -v -t 5 >"$SCRATCH/down.log" 2>&1 || fail "down: $(tail -n 3 "$SCRATCH/down.log")"; }
+
+block_multicast() {
+  nft -f - <<'TEXT'
+table bridge giveway_drill {
+  chain forward {
+    type filter hook forward priority 0;
+    ether daddr & 01:00:5e:00:00:00 == 01:00:5e:00:00:00 counter drop
+  }
+}
+TEXT
+}
+# The rule stood where it should: servers are no proof where multicast would have done.
+multicasts_were_dropped() {
+  nft list table bridge giveway_drill | grep -q 'counter packets [1-9]' || fail "no multicast met the firewall"
+}
+pass_multicast() { nft delete table bridge giveway_drill 2>/dev/null || true; }
+
+end_drill() {
+  if [[ $failures -ne 0 ]]; then
+    for container in $(all_containers); do
+      echo "--- $(name_of "$container")" >&2
+      docker logs --tail 12 "$container" >&2 2>&1
+    done
+  fi
+  down
+  pass_multicast
+  engine_down
+  rm -rf "$SCRATCH"
+}
+trap end_drill EXIT
+
+# Containers of a service, running or not; `running` names those that run.
+all_containers() { docker ps -aq --filter "label=com.docker.compose.project=$PROJECT"; }
+members() { # SERVICE [FILTER]
+  docker ps -aq --filter "label=com.docker.compose.project=$PROJECT" \
+    --filter "label=com.docker.compose.service=$1" ${2:+--filter "$2"}
+}
+running() { members "$1" status=running; }
+name_of() { docker inspect -f '{{.Name}}' "$1" | tr -d /; }
+pid_of() { docker inspect -f '{{.State.Pid}}' "$1"; }
+
+# The metrics page, or nothing. From inside: no port is published.
+metrics() { # CONTAINER
+  nsenter -t "$(pid_of "$1")" -n curl -s -m 2 http://127.0.0.1:8080/metrics 2>/dev/null
+}
+ready() { nsenter -t "$(pid_of "$1")" -n curl -s -m 2 http://127.0.0.1:8080/readyz 2>/dev/null; }
+# metric CONTAINER NAME: its value; 0 if the container does not answer.
+metric() { metrics "$1" | awk -v name="giveway_$2" '$1 == name {value = $2} END {print value + 0}'; }
+
+drives() { awk -v v="$(metric "$1" vehicle_speed_meters_per_second)" 'BEGIN {exit !(v > 0.05)}'; }
+all_drive() { # COUNT
+  local container count=0
+  for container in $(running vehicle); do
+    drives "$container" || return 1
+    count=$((count + 1))
+  done
+  [[ $count -eq $1 ]]
+}
+
+# await WHAT SECONDS COMMAND...: true once the command is; else a failure after so many seconds.
+await() {
+  local what=$1 seconds=$2 begun now
+  shift 2
+  begun=$(date +%s%N)
+  while ! "$@"; do
+    now=$(date +%s%N)
+    if ((now - begun > seconds * 1000000000)); then
+      fail "$what: not within $seconds s"
+      return 0
+    fi
+    sleep 0.05
+  done
+  echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms"
+}
+
+# As a crash is: docker itself would take its own kill for the wish that it stays ended.
+crash() { kill -9 "$(pid_of "$1")"; }
+
+no_contact() {
+  local world
+  for world in $(members world); do
+    if docker logs "$world" 2>&1 | grep -m 3 'contact:'; then fail "vehicles touched"; fi
+  done
+}

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# The images as they are: size above their base, user, read-only root, no capabilities, labels, health
+# check, stop signal; and what is in them is found where it is installed.
+source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+engine_up
+trap engine_down EXIT
+failures=0
+BASE=${BASE:-debian:trixie-slim}
+
+fail() {
+  echo "FAILED: $*" >&2
+  failures=$((failures + 1))
+}
+bytes() { docker image inspect -f '{{.Size}}' "$1"; }
+config() { docker image inspect -f "{{$2}}" "giveway-$1"; }
+
+# image TARGET MEGABYTES PROGRAM
+image() {
+  local target=$1 above
+  above=$((($(bytes "giveway-$target") - $(bytes "$BASE")) / 1000000))
+  echo "giveway-$target: $above MB above the base, $2 MB allowed"
+  [[ $above -le $2 ]] || fail "giveway-$target is $above MB above its base"
+  [[ $(config "$target" .Config.User) == 10001:10001 ]] || fail "giveway-$target runs as root"
+  [[ $(config "$target" .Config.StopSignal) == SIGTERM ]] || fail "giveway-$target: stop signal"
+  [[ $(config "$target" 'index .Config.Labels "org.opencontainers.image.revision"') != "" ]] ||
+    fail "giveway-$target has no revision"
+  docker run --rm --read-only --cap-drop ALL --network none --entrypoint "$3" "giveway-$target" \
+    --version || fail "$3 does not start in giveway-$target"
+}
+
+image world 60 giveway-world
+image vehicle 60 giveway-vehicle
+image tools 150 fleetctl
+for target in world vehicle; do
+  [[ $(config "$target" .Config.Healthcheck) == *"--health live"* ]] || fail "$target: no health check"
+  docker run --rm --network none --entrypoint sh "giveway-$target" -c '! command -v gcc cmake java' ||
+    fail "giveway-$target has what only builds need"
+done
+docker run --rm --read-only --network none --entrypoint fleetctl giveway-tools \
+  virtual crossing --vehicles 2 --seeds 1..2 >/dev/null || fail "fleetctl virtual"
+docker run --rm --read-only --network none --entrypoint fleetctl giveway-tools qos check default \
+  >/dev/null || fail "fleetctl does not find its profile sets"
+[[ $failures -eq 0 ]]
