@@ -164,7 +164,7 @@ stage_model() {
 }
 
 stage_link() { prepare release && run_ctest release link 1; }
-stage_system() { prepare release && run_ctest release system 1; }
+stage_system() { prepare release && run_ctest release system 2; }
 
 stage_asan() {
   prepare asan unit_tests link_tests
