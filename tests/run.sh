@@ -20,7 +20,7 @@ Stages, by default all of them:
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
-  asan     unit and link under the address and undefined-behaviour sanitizers
+  asan     unit, golden and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, profiles, beacons, scans and recordings in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
 
@@ -167,8 +167,9 @@ stage_link() { prepare release && run_ctest release link 1; }
 stage_system() { prepare release && run_ctest release system 2; }
 
 stage_asan() {
-  prepare asan unit_tests link_tests
+  prepare asan unit_tests golden_tests link_tests
   run_ctest asan unit "$(nproc)"
+  run_ctest asan golden "$(nproc)"
   run_ctest asan link 1
 }
 

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# The tests on Debian 13: g++ 14 and Fast DDS 3.1.2, in a container without any network but loopback.
+#
+#   bash tests/containers/debian13.sh STAGE ...   stages of tests/run.sh, built there
+#   bash tests/containers/debian13.sh --system SCRIPT[:ARGUMENT] ...   scripts of tests/system with the
+#                                                 programs as they are installed; a line each
+source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+[[ $# -gt 0 ]] || die "name stages of tests/run.sh, or --system and scripts of tests/system"
+engine_up
+trap engine_down EXIT
+base_image trixie
+build_image check
+
+# What the compiler cache holds outlives the container; what is built does not.
+mkdir -p "$GIVEWAY_ROOT/build" # where the volume is mounted
+in_container() {
+  docker run --rm --network none --shm-size 1g --cap-add SYS_PTRACE --cap-add NET_ADMIN \
+    --cap-add SYS_ADMIN --security-opt seccomp=unconfined --security-opt apparmor=unconfined \
+    -e CI="${CI:-}" -e GIVEWAY_FUZZ_SECONDS -e GIVEWAY_REPEATS -e GIVEWAY_KILLS \
+    -v "$GIVEWAY_ROOT:/src:ro" -v /src/build -v giveway-ccache13:/ccache -e CCACHE_DIR=/ccache \
+    giveway-check bash -c 'ip link set lo up; exec "$@"' bash "$@"
+}
+
+# system SCRIPT[:ARGUMENT]...
+system() {
+  local named script argument
+  for named in "$@"; do
+    IFS=: read -r script argument <<<"$named"
+    if in_container env GIVEWAY_BIN_DIR=/usr/bin bash "tests/system/$script.sh" \
+      ${argument:+"$argument"} >"$SCRATCH/log" 2>&1; then
+      echo "ok      $named on Debian 13"
+    else
+      tail -n 15 "$SCRATCH/log" >&2
+      echo "FAILED  $named on Debian 13"
+      failures=1
+    fi
+  done
+}
+
+if [[ $1 == --system ]]; then
+  shift
+  failures=0
+  SCRATCH=$(mktemp -d)
+  trap 'rm -rf "$SCRATCH"; engine_down' EXIT
+  system "$@"
+  exit "$failures"
+fi
+in_container bash tests/run.sh "$@"

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# A mixed fleet: vehicles of Debian 12 (Fast DDS 2.9.1, built here) and of the image (3.1.2) on one
+# loopback, by turns under the world of either. The world's verdict counts.
+source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+BIN=${GIVEWAY_BIN_DIR:-$GIVEWAY_ROOT/build/release/bin}
+SCRATCH=$(mktemp -d)
+CONTAINERS=()
+PIDS=()
+failures=0
+end_mixed() {
+  [[ ${#CONTAINERS[@]} -eq 0 ]] || docker rm -f "${CONTAINERS[@]}" >/dev/null
+  [[ ${#PIDS[@]} -eq 0 ]] || kill -9 "${PIDS[@]}" 2>/dev/null
+  engine_down
+  rm -rf "$SCRATCH"
+}
+trap end_mixed EXIT
+engine_up
+
+# A domain nobody here uses, kept by the lock that fleetctl takes too.
+for DOMAIN in $(seq 60 99); do
+  exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$DOMAIN.lock"
+  flock -n "$lock" && break
+  exec {lock}>&-
+done
+
+native() { # PROGRAM SCENARIO
+  "$BIN/$1" --scenario "$2" --domain "$DOMAIN" 2>>"$SCRATCH/$1.log" &
+  PIDS+=($!)
+}
+contained() { # PROGRAM SCENARIO
+  CONTAINERS+=("$(docker run -d --network host --read-only --cap-drop ALL \
+    -e GIVEWAY_SCENARIO="$2" -e GIVEWAY_DOMAIN="$DOMAIN" -e GIVEWAY_INTERFACE=127.0.0.1 \
+    -e GIVEWAY_HEALTH_PORT=0 "giveway-${1#giveway-}")")
+}
+
+# crossing WORLD_OF SCENARIO NATIVE CONTAINED: so many vehicles of each.
+crossing() {
+  local world code i
+  "$1" giveway-world "$2"
+  [[ $1 == native ]] && world=${PIDS[-1]} || world=${CONTAINERS[-1]}
+  for i in $(seq "$3"); do native giveway-vehicle "$2"; done
+  for i in $(seq "$4"); do contained giveway-vehicle "$2"; done
+  code=0
+  if [[ $1 == native ]]; then wait "$world" || code=$?; else code=$(docker wait "$world"); fi
+  if [[ $code -eq 0 ]]; then
+    echo "ok      $2: $1 world, $3 vehicles of 2.9.1, $4 of 3.1.2"
+  else
+    echo "FAILED  $2: $1 world, $3 vehicles of 2.9.1, $4 of 3.1.2: exit code $code"
+    tail -n 5 "$SCRATCH"/*.log >&2
+    failures=1
+  fi
+}
+
+crossing native intersection_yield 1 1
+crossing contained four_way 2 2
+exit "$failures"
