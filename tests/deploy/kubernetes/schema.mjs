@@ -59,9 +59,3 @@ export function schemas(fleet, require) {
   return fleet.documents.flatMap((document) =>
     complaintsOf(document, require).map((text) => `${document.kind}/${document.metadata?.name}: ${text}`));
 }
-
-// A second object of one name would replace the first when both are applied.
-export function namesAreUnique(fleet) {
-  const names = fleet.documents.map((one) => `${one.kind}/${one.metadata.name}`);
-  return names.filter((name, index) => names.indexOf(name) !== index).map((name) => `${name} is there twice`);
-}
