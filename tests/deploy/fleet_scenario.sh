@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Prints the scenario of a deployed fleet: copies of the crossing of open_fleet, so far apart that
+# nobody of one hears anybody of another. config/scenarios/fleet_N.textproto is what this prints.
+# Usage: fleet_scenario.sh VEHICLES CROSSINGS START_WITH
+set -euo pipefail
+if [[ $# -ne 3 ]]; then
+  echo "usage: fleet_scenario.sh VEHICLES CROSSINGS START_WITH" >&2
+  exit 2
+fi
+vehicles=$1 crossings=$2 start_with=$3
+
+# Farther than a goal lies from its crossing (7 m), twice, plus the emission radius (5 m).
+PITCH_M=24
+# x, y, heading, cruise, goal x, goal y: the front four of a crossing, then those behind them.
+PLACES='-4 -1 0 0.40 7 -1
+1 -4 90 0.30 1 7
+4 1 180 0.45 -7 1
+-1 4 -90 0.35 -1 -7
+-7 -1 0 0.35 5 -1
+1 -7 90 0.40 1 5
+7 1 180 0.30 -5 1
+-1 7 -90 0.45 -1 -5'
+
+cat <<TEXT
+# A fleet of $vehicles as it is deployed (config/deploy). Schema: idl/scenario.proto.
+# Written by tests/deploy/fleet_scenario.sh $vehicles $crossings $start_with
+name: "fleet_$vehicles"
+description: "Places for $vehicles vehicles that join as they come: crossings of two roads, eight places each, $PITCH_M m apart."
+
+# A day, the longest there is: in a cluster a run that ends is only started again.
+duration_s: 86400
+# Images are pulled and nodes are found meanwhile. A place is given anew as soon as its vehicle has
+# driven off, so the fleet is gathered before it starts.
+start_with: $start_with
+start_timeout_s: 600
+
+TEXT
+columns=$(awk -v n="$crossings" 'BEGIN { c = int(sqrt(n)); while (c * c < n) ++c; print c }')
+for ((crossing = 0; crossing < crossings; ++crossing)); do
+  column=$((crossing % columns)) row=$((crossing / columns))
+  east=$((column * PITCH_M)) north=$((row * PITCH_M))
+  while read -r x y heading cruise goal_x goal_y; do
+    printf 'spawn { start { x_m: %d y_m: %d heading_deg: %d } cruise_m_s: %s goal { x_m: %d y_m: %d radius_m: 0.2 } }\n' \
+      $((east + x)) $((north + y)) "$heading" "$cruise" $((east + goal_x)) $((north + goal_y))
+  done <<<"$PLACES"
+done
+cat <<'TEXT'
+
+# Who halts and who arrives is up to whoever comes; that nobody touches is not.
+expect {
+  contacts: 0
+  any_halted: true
+  any_arrived: true
+}
+TEXT
