@@ -17,6 +17,7 @@
 #include "services/app/scenario_file.h"
 #include "services/app/text_file.h"
 #include "services/beacon_news.h"
+#include "services/link/library_release.h"
 #include "services/link/vehicle_link.h"
 #include "services/server_wait.h"
 #include "services/service_main.h"
@@ -342,5 +343,6 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
 }  // namespace giveway
 
 int main(int argc, char** argv) {
-  return giveway::ServiceMain(giveway::app::ParseVehicleFlags(argc, argv), giveway::Run);
+  return giveway::ServiceMain(
+      giveway::app::ParseVehicleFlags(argc, argv, giveway::link::LibraryName()), giveway::Run);
 }

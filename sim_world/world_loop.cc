@@ -92,7 +92,7 @@ bool WorldLoop::Drive(const app::StopSignal& stop) {
     if (fleet_->run.State() == RunState::kRunning) overruns_ += missed;
     if (options_.lockstep) AwaitAnswers();
     if (stop.IsSet()) fleet_->run.End("interrupted");
-    Tick();
+    RunTick();
     KeepCheckpoint();
     TellHealth(app::HealthStage::kUnderWay);
   }
@@ -100,7 +100,7 @@ bool WorldLoop::Drive(const app::StopSignal& stop) {
   return TellTheEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
 }
 
-void WorldLoop::Tick() {
+void WorldLoop::RunTick() {
   sim::Run& run = fleet_->run;
   Admit();
   TakeCommands();

@@ -50,11 +50,11 @@ class WorldLoop {
 
   struct Newcomer {
     SessionId session{};
-    giveway::Tick stands_until = kNoTick;
+    Tick stands_until = kNoTick;
   };
 
   void Resume(const sim::FleetCheckpoint& checkpoint);
-  void Tick();
+  void RunTick();
   void Admit();
   void Welcome(const RosterEntry& entry);
   void Close();

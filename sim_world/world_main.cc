@@ -12,6 +12,7 @@
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
 #include "services/app/state_file.h"
+#include "services/link/library_release.h"
 #include "services/link/world_link.h"
 #include "services/server_wait.h"
 #include "services/service_main.h"
@@ -82,5 +83,6 @@ int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
 }  // namespace giveway
 
 int main(int argc, char** argv) {
-  return giveway::ServiceMain(giveway::app::ParseWorldFlags(argc, argv), giveway::RunWorld);
+  return giveway::ServiceMain(
+      giveway::app::ParseWorldFlags(argc, argv, giveway::link::LibraryName()), giveway::RunWorld);
 }

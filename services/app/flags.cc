@@ -22,9 +22,10 @@ constexpr const char* kFooter =
 // that a flag and its twin are refused with the same words.
 class CommandLine {
  public:
-  CommandLine(Service service, const std::string& name, const std::string& description)
+  CommandLine(Service service, const std::string& name, const std::string& description,
+              std::string_view library)
       : app_(description, name) {
-    app_.set_version_flag("--version", name + " " + GIVEWAY_VERSION);
+    app_.set_version_flag("--version", name + " " + GIVEWAY_VERSION + ", " + std::string(library));
     app_.footer(kFooter);
     Add("--scenario", "FILE|NAME", "scenario file, or the name of a shipped one (required)");
     Add("--domain", "1..99", "DDS domain (required)");
@@ -203,8 +204,8 @@ ServiceFlags Read(Service service, FlagValues* values) {
 }
 
 ParsedFlags ParseFlags(Service service, const std::string& name, const std::string& description,
-                       int argc, const char* const* argv) {
-  CommandLine line(service, name, description);
+                       std::string_view library, int argc, const char* const* argv) {
+  CommandLine line(service, name, description, library);
   try {
     FlagValues values(line.Parse(argc, argv));
     ServiceFlags flags = Read(service, &values);
@@ -218,15 +219,15 @@ ParsedFlags ParseFlags(Service service, const std::string& name, const std::stri
 
 }  // namespace
 
-ParsedFlags ParseVehicleFlags(int argc, const char* const* argv) {
+ParsedFlags ParseVehicleFlags(int argc, const char* const* argv, std::string_view library) {
   return ParseFlags(Service::kVehicle, "giveway-vehicle",
-                    "One vehicle of a fleet: beacons, decides, drives.", argc, argv);
+                    "One vehicle of a fleet: beacons, decides, drives.", library, argc, argv);
 }
 
-ParsedFlags ParseWorldFlags(int argc, const char* const* argv) {
+ParsedFlags ParseWorldFlags(int argc, const char* const* argv, std::string_view library) {
   return ParseFlags(Service::kWorld, "giveway-world",
                     "The simulated world a fleet shares: bodies, walls, ultrasonics, the judge.",
-                    argc, argv);
+                    library, argc, argv);
 }
 
 std::optional<Behaviour> BehaviourNamed(std::string_view name) {

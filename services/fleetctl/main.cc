@@ -5,6 +5,7 @@
 
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/verbs.h"
+#include "services/link/library_release.h"
 
 namespace {
 
@@ -31,7 +32,8 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
 int main(int argc, char** argv) {
   CLI::App fleetctl("Runs and judges fleets of vehicles that talk over DDS.", "fleetctl");
   fleetctl.require_subcommand(1);
-  fleetctl.set_version_flag("--version", "fleetctl " GIVEWAY_VERSION);
+  fleetctl.set_version_flag(
+      "--version", "fleetctl " GIVEWAY_VERSION ", " + std::string(giveway::link::LibraryName()));
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = giveway::fleetctl::kCouldNotRun;
   giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);

@@ -37,6 +37,7 @@ class Reckoning {
  public:
   explicit Reckoning(const PlanRequest& request)
       : request_(request),
+        costs_(CostsWith(request.library_major)),
         n_(request.vehicles),
         on_host_(CeilShare(request.vehicles, request.hosts)),
         peers_(request.vehicles - 1),

@@ -21,7 +21,8 @@ struct PlanRequest {
   double memory_mib = 0;      // a host
   double link_mbit_s = 1000;  // between two hosts
   std::int64_t tick_ns = 50'000'000;
-  qos::ProfileFile set;  // that all are given
+  qos::ProfileFile set;   // that all are given
+  int library_major = 2;  // of the Fast DDS that all are linked with
 };
 
 // One line: of a vehicle, of the busiest host, of the fleet; what the host has. Not all have all.

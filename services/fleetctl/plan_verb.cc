@@ -13,6 +13,7 @@
 #include "services/fleetctl/plan.h"
 #include "services/fleetctl/qos_files.h"
 #include "services/fleetctl/verbs.h"
+#include "services/link/library_release.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -58,6 +59,7 @@ int RunPlan(PlanOptions options) {
     return kCouldNotRun;
   }
   request.set = std::move(std::get<qos::ProfileFile>(read));
+  request.library_major = link::LibraryMajor();
   const PlanReport report = Plan(request);
   std::fputs((options.json ? ToJson(request, report) : ToText(request, report)).c_str(), stdout);
   if (std::fflush(stdout) != 0) throw OutputError("stdout took no report");

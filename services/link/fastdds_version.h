@@ -5,6 +5,7 @@
 
 #include <fastcdr/exceptions/Exception.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -24,7 +25,18 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
+
+namespace giveway::link {
+
+// An element of a profile file, by its name in 2.9 and in the release at hand.
+struct Respelt {
+  std::string_view in_2_9;
+  std::string_view here;
+};
+
+}  // namespace giveway::link
 
 #if __has_include(<fastrtps/config.h>)
 #include <fastdds/rtps/common/Guid.h>
@@ -34,6 +46,7 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
 #include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/config.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <idl/fleetPubSubTypes.h>
 
@@ -44,6 +57,10 @@ namespace rtps = eprosima::fastrtps::rtps;
 namespace transport = eprosima::fastdds::rtps;
 using Duration = eprosima::fastrtps::Duration_t;
 using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+inline constexpr char kLibraryName[] = "Fast DDS " FASTRTPS_VERSION_STR;
+inline constexpr int kLibraryMajor = FASTRTPS_VERSION_MAJOR;
+inline constexpr std::array<Respelt, 0> kRespelt{};
+inline constexpr bool kServersByPrefix = true;  // in discoveryServersList
 
 inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
 // The result of DataWriter::write: true is good in 2.9.1, and 0 is good in 3.1.2.
@@ -68,12 +85,27 @@ inline void AddDiscoveryServer(rtps::DiscoverySettings& discovery, const rtps::G
   server.metatrafficUnicastLocatorList.push_back(address);
 }
 
+// A type support at work, as endpoints use it. The representation is XCDR1.
+inline bool Serialize(dds::TopicDataType& type, void* sample, rtps::SerializedPayload_t& to) {
+  return type.serialize(sample, &to);
+}
+inline bool Deserialize(dds::TopicDataType& type, rtps::SerializedPayload_t& from, void* sample) {
+  return type.deserialize(&from, sample);
+}
+inline std::uint32_t SerializedSize(dds::TopicDataType& type, void* sample) {
+  return type.getSerializedSizeProvider(sample)();
+}
+inline std::uint32_t LargestSize(const dds::TopicDataType& type) { return type.m_typeSize; }
+// Whether a sample that was deserialized is all of it: what ends early is an exception here.
+inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*) { return true; }
+
 }  // namespace giveway::link
 
 #define GIVEWAY_IS_PLAIN_PARAMETERS
 #define GIVEWAY_PAYLOAD rtps::SerializedPayload_t*
 #define GIVEWAY_SENT const rtps::octet*
 #else
+#include <fastdds/config.hpp>
 #include <fastdds/rtps/builtin/data/PublicationBuiltinTopicData.hpp>
 #include <fastdds/rtps/common/Guid.hpp>
 #include <fastdds/rtps/common/InstanceHandle.hpp>
@@ -91,6 +123,18 @@ namespace rtps = eprosima::fastdds::rtps;
 namespace transport = eprosima::fastdds::rtps;
 using Duration = dds::Duration_t;
 using ReturnCode = dds::ReturnCode_t;
+inline constexpr char kLibraryName[] = "Fast DDS " FASTDDS_VERSION_STR;
+inline constexpr int kLibraryMajor = FASTDDS_VERSION_MAJOR;
+inline constexpr std::array kRespelt = {
+    Respelt{"initialHeartbeatDelay", "initial_heartbeat_delay"},
+    Respelt{"heartbeatPeriod", "heartbeat_period"},
+    Respelt{"nackResponseDelay", "nack_response_delay"},
+    Respelt{"nackSupressionDuration", "nack_supression_duration"},
+    Respelt{"initialAcknackDelay", "initial_acknack_delay"},
+    Respelt{"heartbeatResponseDelay", "heartbeat_response_delay"},
+    Respelt{"expectsInlineQos", "expects_inline_qos"},
+};
+inline constexpr bool kServersByPrefix = false;
 
 inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
 
@@ -108,6 +152,24 @@ using Discovery = rtps::DiscoveryProtocol;
 inline void AddDiscoveryServer(rtps::DiscoverySettings& discovery, const rtps::GuidPrefix_t&,
                                const rtps::Locator_t& address) {
   discovery.m_DiscoveryServers.push_back(address);
+}
+
+inline bool Serialize(dds::TopicDataType& type, void* sample, rtps::SerializedPayload_t& to) {
+  return type.serialize(sample, to, dds::XCDR_DATA_REPRESENTATION);
+}
+inline bool Deserialize(dds::TopicDataType& type, rtps::SerializedPayload_t& from, void* sample) {
+  return type.deserialize(from, sample);
+}
+inline std::uint32_t SerializedSize(dds::TopicDataType& type, void* sample) {
+  return type.calculate_serialized_size(sample, dds::XCDR_DATA_REPRESENTATION);
+}
+inline std::uint32_t LargestSize(const dds::TopicDataType& type) {
+  return type.max_serialized_type_size;
+}
+// Fast CDR 2 takes bytes that end where a member does for a sample of an older, shorter type, and
+// leaves the rest as it is.
+inline bool IsWhole(dds::TopicDataType& type, const rtps::SerializedPayload_t& from, void* sample) {
+  return SerializedSize(type, sample) <= from.length;
 }
 
 }  // namespace giveway::link
@@ -176,7 +238,7 @@ class CheckedType final : public Generated {
   bool is_plain(GIVEWAY_IS_PLAIN_PARAMETERS) const override { return false; }
   bool deserialize(GIVEWAY_PAYLOAD payload, void* sample) override {
     try {
-      return Generated::deserialize(payload, sample);
+      return Generated::deserialize(payload, sample) && IsWhole(*this, payload, sample);
     } catch (const eprosima::fastcdr::exception::Exception&) {
       return false;
     }

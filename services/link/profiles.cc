@@ -2,11 +2,14 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 
 #include "services/link/fastdds_version.h"
 #include "services/link/library_log.h"
 #include "services/link/link_options.h"
+#include "services/link/profile_words.h"
 
 namespace giveway::link {
 namespace {
@@ -18,13 +21,14 @@ std::string loaded_file;  // guarded by `loading`
 
 // QoS has two ways in, the file and our flags. These would be a third, silently.
 void ShutOtherWaysIn() {
-  for (const char* name :
-       {"FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE", "ROS_DISCOVERY_SERVER",
-        "FASTDDS_ENVIRONMENT_FILE", "FASTDDS_BUILTIN_TRANSPORTS"}) {
+  for (const char* name : {"FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE",
+                           "ROS_DISCOVERY_SERVER", "FASTDDS_ENVIRONMENT_FILE",
+                           "FASTDDS_BUILTIN_TRANSPORTS", "ROS_SUPER_CLIENT", "ROS2_EASY_MODE"}) {
     unsetenv(name);
   }
-  // Else DEFAULT_FASTRTPS_PROFILES.xml of the current folder is loaded. The documented name of
-  // this variable, SKIP_DEFAULT_XML, is not the one the library reads.
+  // Else DEFAULT_FASTRTPS_PROFILES.xml, or in 3.1 DEFAULT_FASTDDS_PROFILES.xml, of the current
+  // folder is loaded. The name of this variable in the manual of 2.9, SKIP_DEFAULT_XML, is not the
+  // one the library reads.
   setenv("SKIP_DEFAULT_XML_FILE", "1", 1);
 }
 
@@ -43,6 +47,16 @@ void CheckReadable(const std::string& file) {
   }
 }
 
+// The library names the file in what it complains about where it reads the file itself.
+bool Load(const std::string& file) {
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::string own = InOwnWords(text);
+  if (own == text) return Ok(factory->load_XML_profiles_file(file));
+  return Ok(factory->load_XML_profiles_string(own.data(), own.size()));
+}
+
 }  // namespace
 
 void LoadProfiles(const std::string& file) {
@@ -55,7 +69,7 @@ void LoadProfiles(const std::string& file) {
   ShutOtherWaysIn();
   TakeOverLibraryLog();
   CheckReadable(file);
-  if (!Ok(dds::DomainParticipantFactory::get_instance()->load_XML_profiles_file(file))) {
+  if (!Load(file)) {
     throw LinkError("QoS file " + file +
                     ": the library refuses it; one unknown or malformed element fails the whole "
                     "file, compare with config/qos/default.xml" +

@@ -1,11 +1,15 @@
 // One writer or reader, whatever its topic: limits that contradict each other, and what Fast DDS
-// 2.9.1 does with some values.
+// does with some values. One set serves the fleet, which may run 2.9 beside 3.1: a hazard of either
+// is a finding.
 #include "services/qos/rules.h"
 
 namespace giveway::qos {
 namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr char kWithoutService[] =
+    "There is no persistence service: Fast DDS 2.9 refuses the endpoint, and nothing starts; 3.1 "
+    "keeps nothing beyond the writer's life.";
 
 class EndpointRules {
  public:
@@ -68,14 +72,9 @@ void EndpointRules::CheckLimits() {
 
 void EndpointRules::CheckDurability() {
   const std::int64_t kind = Number(Policy::kDurability);
-  if (kind == kPersistent) {
+  if (kind == kPersistent || kind == kTransient) {
     Add(Severity::kError, "durability_unsupported", Policy::kDurability, Named(Policy::kDurability),
-        "The library refuses the endpoint, and nothing starts.",
-        "TRANSIENT_LOCAL keeps samples as long as their writer lives");
-  } else if (kind == kTransient) {
-    Add(Severity::kError, "durability_unsupported", Policy::kDurability, Named(Policy::kDurability),
-        "The library refuses the endpoint, which has no persistence service, and nothing starts.",
-        "TRANSIENT_LOCAL keeps samples as long as their writer lives");
+        kWithoutService, "TRANSIENT_LOCAL keeps samples as long as their writer lives");
   } else if (kind == kTransientLocal && Number(Policy::kReliability) == kBestEffort) {
     Add(Severity::kWarning, "late_joiner_best_effort", Policy::kDurability,
         Named(Policy::kDurability) + " with " + Named(Policy::kReliability),
@@ -119,8 +118,7 @@ void EndpointRules::CheckTimes() {
   }
   if (profile_.owner == Owner::kWriter && profile_[Policy::kHeartbeatPeriod].given) {
     Add(Severity::kWarning, "overridden_by_code", Policy::kHeartbeatPeriod,
-        Named(Policy::kHeartbeatPeriod), "The services set 100 ms on every writer.",
-        "remove it; Fast DDS 2.9 and 3.1 spell it differently");
+        Named(Policy::kHeartbeatPeriod), "The services set 100 ms on every writer.", "remove it");
   }
   if (!profile_.partitions.empty()) {
     findings_.push_back({Severity::kWarning, "overridden_by_code", profile_.partition_place,

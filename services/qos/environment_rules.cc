@@ -1,4 +1,5 @@
-// Variables and files that Fast DDS 2.9.1 reads by itself, and such that only look as if it did.
+// Variables and files that Fast DDS 2.9 or 3.1 reads by itself, and such that only look as if it
+// did. A fleet may run both: what is said holds for either.
 #include <algorithm>
 #include <array>
 
@@ -16,20 +17,22 @@ struct Variable {
 
 constexpr std::array kVariables = {
     Variable{"SKIP_DEFAULT_XML", "misnamed_variable",
-             "Fast DDS 2.9.1 does not read it, though its manual names it.",
+             "Fast DDS does not read it, though the manual of 2.9 names it.",
              "SKIP_DEFAULT_XML_FILE; the services set it themselves"},
     Variable{"FASTDDS_DEFAULT_PROFILES_FILE", "misnamed_variable",
              "Only Fast DDS 3 reads it, and the services shut it out.",
              "--qos FILE or GIVEWAY_QOS"},
     Variable{"FASTDDS_BUILTIN_TRANSPORTS", "misnamed_variable",
-             "Fast DDS 2.9.1 does not read it, and the services shut it out.",
+             "Only Fast DDS 3 reads it, and the services shut it out.",
              "transports of the profile set"},
-    Variable{"ROS_SUPER_CLIENT", "misnamed_variable", "Fast DDS 2.9.1 does not read it.",
+    Variable{"ROS_SUPER_CLIENT", "misnamed_variable",
+             "Only Fast DDS 3 reads it, and the services shut it out.",
              "discoveryProtocol of the profile set"},
-    Variable{"ROS2_EASY_MODE", "misnamed_variable", "Fast DDS 2.9.1 does not read it.",
+    Variable{"ROS2_EASY_MODE", "misnamed_variable",
+             "Neither Fast DDS 2.9 nor 3.1 reads it, and the services shut it out.",
              "discoveryProtocol of the profile set"},
     Variable{"FASTRTPS_DEFAULT_PROFILES_FILE", "ignored_variable",
-             "The services shut it out; other Fast DDS programs of this shell take other QoS.",
+             "The services shut it out; other programs of Fast DDS 2 of this shell take other QoS.",
              "--qos FILE or GIVEWAY_QOS"},
     Variable{"ROS_DISCOVERY_SERVER", "ignored_variable",
              "The services shut it out; other Fast DDS programs of this shell find others.",
@@ -93,15 +96,17 @@ void CheckSurroundings(const Deployment& deployment, Findings* findings) {
                   "is set in the environment", findings);
   }
   for (const std::string& file : deployment.folder_files) {
-    if (file != "DEFAULT_FASTRTPS_PROFILES.xml" && file != "DEFAULT_FASTDDS_PROFILES.xml") continue;
+    const bool of2 = file == "DEFAULT_FASTRTPS_PROFILES.xml";
+    if (!of2 && file != "DEFAULT_FASTDDS_PROFILES.xml") continue;
     findings->push_back(
         {Severity::kWarning,
          "default_profiles_file",
          {file, 0},
          "",
          "lies in the working folder",
-         "Every Fast DDS program started here loads it without a word; the services shut it out, "
-         "other tools then differ from them.",
+         std::string("Every program of Fast DDS ") + (of2 ? "2" : "3") +
+             " started here loads it without a word; the services shut it out, other tools then "
+             "differ from them.",
          "rename it, and name it with --qos"});
   }
 }

@@ -21,7 +21,8 @@ constexpr PolicyInfo Participants(Policy policy, std::string_view name, std::str
   return {policy, name, path, shape, words, 0, 0, value, false, false};
 }
 
-// Defaults are those of Fast DDS 2.9.1; tests/link/qos_resolved_test.cc holds them against it.
+// Defaults are those of Fast DDS 2.9 and 3.1; tests/link/qos_resolved_test.cc holds them against
+// it.
 constexpr std::array<PolicyInfo, kPolicyCount> kPolicies = {
     Both(Policy::kReliability, "reliability", "qos/reliability/kind", Shape::kWord,
          "BEST_EFFORT RELIABLE", kReliable, kBestEffort),

@@ -15,7 +15,7 @@ struct MatchRule {
   Policy policy;          // the values of this one are compared
   std::string_view rule;  // in words
   bool (*holds)(const Profile& writer, const Profile& reader);
-  // Fast DDS 2.9 looks at it when endpoints meet. Others do of those it does not.
+  // Fast DDS looks at it when endpoints meet. Others do of those it does not.
   bool enforced = true;
 };
 
@@ -24,7 +24,8 @@ std::span<const MatchRule> MatchRules();
 // The rules between the two that do not hold, whether the library looks at them or not.
 std::vector<const MatchRule*> Broken(const Profile& writer, const Profile& reader);
 
-// What Fast DDS 2.9 will do. Partitions apart: a profile of an endpoint does not set them.
+// What Fast DDS will do, 2.9 and 3.1 alike. Partitions apart: a profile of an endpoint does not set
+// them.
 bool WillMatch(const Profile& writer, const Profile& reader);
 
 }  // namespace giveway::qos

@@ -1,4 +1,6 @@
-// Which elements a Fast DDS 2.9 profile file may hold, as tables: name, content, what is inside.
+// Which elements a profile file may hold, as tables: name, content, what is inside. They are those
+// of Fast DDS 2.9 in its spelling. With 3.1 the link respells what was renamed, so that one file
+// serves a fleet of both.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +28,7 @@ struct ElementRule {
   std::string_view words{};
   bool repeats = false;    // may stand more than once
   bool must_hold = false;  // empty, it makes the library refuse the file
+  bool gone_in_3 = false;  // Fast DDS 3 refuses the file for it
 };
 
 std::span<const ElementRule> EndpointElements(bool writer);

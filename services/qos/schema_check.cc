@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr char kRefused[] = "The library refuses the whole file, and no process starts.";
+constexpr char kUnknown[] =
+    "Fast DDS refuses the whole file, and no process starts; what 3.1 alone knows stops every "
+    "process with 2.9.";
 constexpr std::size_t kShown = 40;  // characters of a wrong value that are quoted
 
 std::string Quoted(std::string_view text) {
@@ -62,7 +65,7 @@ std::string Names(std::span<const ElementRule> rules) {
 
 void Checker::AddUnknown(const XmlElement& element, const XmlElement& parent, std::string known) {
   Add("unknown_element", element, "is no element of <" + parent.name + ">",
-      "remove it, or write one of: " + std::move(known));
+      "remove it, or write one of: " + std::move(known), Severity::kError, kUnknown);
 }
 
 void Checker::AddWrong(const XmlElement& element, const std::string& must_be) {
@@ -109,8 +112,13 @@ void Checker::CheckText(const XmlElement& element, const ElementRule& rule) {
 
 void Checker::CheckElement(const XmlElement& element, const ElementRule& rule) {
   if (rule.content == Content::kOpaque) return;
+  if (rule.gone_in_3) {
+    Add("removed_element", element, "is an element of Fast DDS 2.9 alone", "remove it",
+        Severity::kError,
+        "Every process with Fast DDS 3 refuses the whole file, and does not start.");
+  }
   if (rule.content == Content::kNoEffect) {
-    Add("no_effect", element, "is accepted by Fast DDS 2.9 and not looked at",
+    Add("no_effect", element, "is accepted by Fast DDS and not looked at",
         "remove it: whoever reads the file believes it holds", Severity::kWarning,
         "Nothing changes; the policy stays what it is without it.");
   } else if (rule.content == Content::kDuration) {

@@ -114,7 +114,7 @@ constexpr ElementRule kWriter[] = {
     {"multicastLocatorList", kOpaque},
     {"remoteLocatorList", kOpaque},
     {"ignore_non_matching_locators", kFlag},
-    Group("throughputController", kThroughput),
+    {"throughputController", kElements, kThroughput, {}, false, false, true},
     Word("historyMemoryPolicy", kMemory),
     {"propertiesPolicy", kOpaque},
     {"userDefinedID", kInteger},

@@ -88,7 +88,7 @@ constexpr ElementRule kRtps[] = {
     Group("builtin", kBuiltin),
     Group("port", kPort),
     {"participantID", kInteger},
-    Group("throughputController", kThroughput),
+    {"throughputController", kElements, kThroughput, {}, false, false, true},
     Group("userTransports", kUserTransports),
     {"useBuiltinTransports", kFlag},
     {"propertiesPolicy", kOpaque},

@@ -100,7 +100,7 @@ void AddMismatch(const Profile& writer, const Profile& reader, const MatchRule& 
        "the writer offers " + Said(writer, rule.policy) + ", the reader requests " +
            Said(reader, rule.policy),
        rule.enforced ? "The two never match, and the reader hears nothing."
-                     : "Fast DDS 2.9 matches them all the same; other DDS implementations do not.",
+                     : "Fast DDS matches them all the same; other DDS implementations do not.",
        "change one of the two: " + std::string(rule.rule)});
 }
 

@@ -15,15 +15,15 @@ using ByteSpan = std::span<const std::uint8_t>;
 
 template <typename Wire>
 std::size_t WireBytes() {
-  static const std::size_t bytes = typename link::TopicOf<Wire>::Type().m_typeSize;
+  static const std::size_t bytes = link::LargestSize(typename link::TopicOf<Wire>::Type());
   return bytes;
 }
 
 template <typename Wire>
 Input Serialized(Wire sample) {
   typename link::TopicOf<Wire>::Type type;
-  link::rtps::SerializedPayload_t payload(type.m_typeSize);
-  GIVEWAY_CHECK(type.serialize(&sample, &payload));
+  link::rtps::SerializedPayload_t payload(link::LargestSize(type));
+  GIVEWAY_CHECK(link::Serialize(type, &sample, payload));
   Input bytes(reinterpret_cast<const char*>(payload.data), payload.length);
   bytes.resize(WireBytes<Wire>());
   return bytes;
@@ -36,7 +36,7 @@ bool Deserialize(ByteSpan bytes, Wire* sample) {
   link::rtps::SerializedPayload_t payload(static_cast<std::uint32_t>(bytes.size()));
   payload.length = static_cast<std::uint32_t>(bytes.size());
   std::copy(bytes.begin(), bytes.end(), payload.data);
-  return type.deserialize(&payload, sample);
+  return link::Deserialize(type, payload, sample);
 }
 
 // One byte that says what happens, and the sample it happens with.

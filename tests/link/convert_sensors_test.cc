@@ -214,14 +214,14 @@ int SpoilAndCountRefusals(const Ours& sound) {
   auto sample = ToWire(sound);
   using Wire = decltype(sample);
   typename link::TopicOf<Wire>::Type type;
-  link::rtps::SerializedPayload_t payload(type.getSerializedSizeProvider(&sample)());
-  EXPECT_TRUE(type.serialize(&sample, &payload));
+  link::rtps::SerializedPayload_t payload(link::SerializedSize(type, &sample));
+  EXPECT_TRUE(link::Serialize(type, &sample, payload));
   const std::uint32_t whole = payload.length;
   std::mt19937 random(1);
   int refused = 0;
   for (int round = 0; round < kRounds; ++round) {
     payload.length = whole;
-    EXPECT_TRUE(type.serialize(&sample, &payload));
+    EXPECT_TRUE(link::Serialize(type, &sample, payload));
     const unsigned bytes = random() % 4 + 1;
     for (unsigned i = 0; i < bytes; ++i) {
       payload.data[4 + random() % (whole - 4)] =
@@ -230,7 +230,7 @@ int SpoilAndCountRefusals(const Ours& sound) {
     if (random() % 8 == 0) payload.length = static_cast<std::uint32_t>(random()) % whole;
     Wire arrived;
     Ours back;
-    if (!type.deserialize(&payload, &arrived) || !FromWire(arrived, back)) {
+    if (!link::Deserialize(type, payload, &arrived) || !FromWire(arrived, back)) {
       ++refused;
       continue;
     }
@@ -248,7 +248,7 @@ TEST(ConvertSensors, SpoiltBytesNeverComeThroughAsAnUnsoundScan) {
 TEST(ConvertSensors, ALidarScanFitsOneDatagramWithRoomToSpare) {
   wire::LidarScan sample = ToWire(FullLidar());
   link::TopicOf<wire::LidarScan>::Type type;
-  EXPECT_EQ(type.getSerializedSizeProvider(&sample)(), 4 + 2184U);  // 4: the representation
+  EXPECT_EQ(link::SerializedSize(type, &sample), 4 + 2184U);  // 4: the representation
 }
 
 }  // namespace

@@ -321,26 +321,26 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
 TEST(Convert, BytesThatAreNoSampleAreRefusedWithoutAnException) {
   TopicOf<wire::Roster>::Type type;
   wire::Roster roster = ToWire(RosterEntry{});
-  rtps::SerializedPayload_t payload(type.m_typeSize);
-  ASSERT_TRUE(type.serialize(&roster, &payload));
+  rtps::SerializedPayload_t payload(LargestSize(type));
+  ASSERT_TRUE(Serialize(type, &roster, payload));
   const std::uint32_t whole = payload.length;
   wire::Roster arrived;
   for (std::uint32_t length = 0; length < whole; ++length) {
     payload.length = length;
-    EXPECT_FALSE(type.deserialize(&payload, &arrived)) << length;
+    EXPECT_FALSE(Deserialize(type, payload, &arrived)) << length;
   }
   payload.length = whole;
-  ASSERT_TRUE(type.deserialize(&payload, &arrived));
+  ASSERT_TRUE(Deserialize(type, payload, &arrived));
   for (std::uint32_t i = 0; i < whole; ++i) {
     const auto kept = payload.data[i];
     for (const int spoilt : {0x02, 0x80, 0xff}) {
       payload.data[i] = static_cast<rtps::octet>(spoilt);
-      EXPECT_NO_THROW(type.deserialize(&payload, &arrived)) << i << " is " << spoilt;
+      EXPECT_NO_THROW(Deserialize(type, payload, &arrived)) << i << " is " << spoilt;
     }
     payload.data[i] = kept;
   }
   payload.data[0] = 1;  // of the representation: there is none with this first byte
-  EXPECT_FALSE(type.deserialize(&payload, &arrived));
+  EXPECT_FALSE(Deserialize(type, payload, &arrived));
 }
 
 }  // namespace

@@ -85,6 +85,12 @@ struct MadePair {
   bool offered_enough = false;
 };
 
+// Some of what 2.9 refuses 3.1 makes.
+bool Refuses(const std::string& consequence) {
+  return consequence.starts_with("The library refuses") ||
+         (link::kLibraryMajor == 2 && consequence.find("2.9 refuses") != std::string::npos);
+}
+
 enum class Seen { kNothing, kMatch, kMismatch };
 
 // Both outcomes show themselves: neither is concluded from silence.
@@ -180,7 +186,7 @@ TEST_F(QosPrediction, OfWhatCannotBeMadeIsWhatTheLibraryRefuses) {
         qos::Check({{"random.xml", text}}, qos::Deployment{.complete = false});
     const auto predicted = [&](const std::string& profile) {
       return std::ranges::none_of(findings, [&](const qos::Finding& finding) {
-        return finding.subject == profile && finding.consequence.starts_with("The library refuses");
+        return finding.subject == profile && Refuses(finding.consequence);
       });
     };
     EXPECT_EQ(endpoints.Writer(name) != nullptr, predicted(name + "_writer")) << text;

@@ -12,10 +12,10 @@ namespace giveway::test {
 template <typename Wire>
 Wire Travelled(Wire sample) {
   typename link::TopicOf<Wire>::Type type;
-  link::rtps::SerializedPayload_t payload(type.getSerializedSizeProvider(&sample)());
-  EXPECT_TRUE(type.serialize(&sample, &payload));
+  link::rtps::SerializedPayload_t payload(link::SerializedSize(type, &sample));
+  EXPECT_TRUE(link::Serialize(type, &sample, payload));
   Wire arrived;
-  EXPECT_TRUE(type.deserialize(&payload, &arrived));
+  EXPECT_TRUE(link::Deserialize(type, payload, &arrived));
   return arrived;
 }
 

@@ -18,12 +18,12 @@ using ::testing::internal::GetCapturedStdout;
 
 ParsedFlags Vehicle(std::vector<const char*> words) {
   words.insert(words.begin(), "giveway-vehicle");
-  return ParseVehicleFlags(static_cast<int>(words.size()), words.data());
+  return ParseVehicleFlags(static_cast<int>(words.size()), words.data(), "Fast DDS 9.8.7");
 }
 
 ParsedFlags World(std::vector<const char*> words) {
   words.insert(words.begin(), "giveway-world");
-  return ParseWorldFlags(static_cast<int>(words.size()), words.data());
+  return ParseWorldFlags(static_cast<int>(words.size()), words.data(), "Fast DDS 9.8.7");
 }
 
 // What stderr says about words that must end with exit code 2.
@@ -247,7 +247,8 @@ TEST(Flags, HelpAndVersionEndWithZero) {
   EXPECT_THAT(GetCapturedStdout(), HasSubstr("--lockstep"));
   CaptureStdout();
   EXPECT_EQ(std::get<int>(Vehicle({"--version"})), 0);
-  EXPECT_THAT(GetCapturedStdout(), ::testing::StartsWith("giveway-vehicle 0."));
+  EXPECT_THAT(GetCapturedStdout(),
+              ::testing::MatchesRegex("giveway-vehicle 0\\.[0-9.]*, Fast DDS 9\\.8\\.7\n"));
 }
 
 TEST(Flags, TheTwinOfAFlagIsSpeltInCapitals) {

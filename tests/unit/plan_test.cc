@@ -87,6 +87,13 @@ TEST(Plan, TheBusiestHostHasTheWorldAndTheOddVehicle) {
   EXPECT_EQ(RowOf(report, "threads").host, 6 * Costs{}.threads);
 }
 
+TEST(Plan, AProcessHasTheThreadsOfItsRelease) {
+  PlanRequest request = Of(4);
+  EXPECT_EQ(RowOf(Plan(request), "threads").vehicle, 7);
+  request.library_major = 3;
+  EXPECT_EQ(RowOf(Plan(request), "threads").vehicle, 10);
+}
+
 TEST(Plan, OnlyHostsThatAreApartSendToEachOther) {
   EXPECT_EQ(RowOf(Plan(Of(10)), "sent to other hosts, Mbit/s").host, 0);
   EXPECT_GT(*RowOf(Plan(Of(10, 2)), "sent to other hosts, Mbit/s").host, 0);
