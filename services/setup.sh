@@ -47,6 +47,9 @@ tools_packages() { printf '%s\n' fastdds-tools; }
 # Java will do.
 java_package() { java -version >/dev/null 2>&1 || echo default-jre-headless; }
 
+# Any Node.js with npm will do, too: for what checks the manifests of Kubernetes.
+node_packages() { command -v npm >/dev/null || printf '%s\n' nodejs npm; }
+
 test_packages() {
   local clang_rt=libclang-rt-14-dev
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && clang_rt=libclang-rt-19-dev

@@ -1,0 +1,48 @@
+#!/usr/bin/env bash
+# The container tests of one stage of tests/run.sh, one engine for all of them: a line "ok NAME" or
+# "FAILED NAME" each, or as many as a line "N passed, N failed" counts.
+#
+#   bash tests/containers/all.sh debian13|containers
+source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
+HERE=$GIVEWAY_ROOT/tests/containers
+
+# case_of NAME SCRIPT ARGUMENTS...
+case_of() {
+  local name=$1 script=$2
+  shift 2
+  if bash "$HERE/$script.sh" "$@" >&2; then echo "ok      $name"; else echo "FAILED  $name"; fi
+}
+
+debian13() {
+  local scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
+    world_restart interrupt health qos)
+  [[ ${GIVEWAY_FULL:-} != true ]] || scripts+=(repeat:intersection_yield repeat:intersection_equal
+    bad_input impaired eyes apply stopwatch why doctor tune replay kill_drill)
+  base_image trixie
+  bash "$HERE/debian13.sh" asan fuzz | tee /dev/stderr | grep -E '^[0-9]+ passed, [0-9]+ failed$' ||
+    echo "FAILED  asan and fuzz on Debian 13"
+  bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
+  build_image vehicle
+  build_image world
+  bash "$HERE/mixed.sh" || true
+}
+
+containers() {
+  local kills=20
+  [[ ${GIVEWAY_FULL:-} != true ]] || kills=200
+  base_image trixie
+  for target in world vehicle tools; do build_image "$target"; done
+  case_of "images" images
+  for discovery in multicast servers; do
+    case_of "crossings of 2 and 8, $discovery" crossing "$discovery"
+    case_of "drills, $discovery" drills "$discovery"
+  done
+  case_of "stops, and $kills kill -9 restarts" stops "$kills"
+  case_of "bad input" bad_input
+}
+
+mapfile -t wanted < <(container_packages)
+install_packages "${wanted[@]}"
+engine_up
+trap engine_down EXIT
+"$1"
