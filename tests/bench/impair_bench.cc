@@ -22,7 +22,8 @@ class Receiver final : public transport::TransportReceiverInterface {
  public:
   void OnDataReceived(const rtps::octet* data, const std::uint32_t size, const rtps::Locator_t&,
                       const rtps::Locator_t&) override {
-    benchmark::DoNotOptimize(data[size - 1]);
+    auto last = data[size - 1];
+    benchmark::DoNotOptimize(last);
   }
 };
 

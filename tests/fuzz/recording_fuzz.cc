@@ -54,7 +54,8 @@ std::vector<Input> Samples() {
   step.signals.resize(2);
   step.roster.emplace().accepted = true;
   step.pose_fix.emplace();
-  records.insert(records.begin() + 8, app::RecordedReseat{test::DefaultOptions()});
+  const app::Record reseat = app::RecordedReseat{test::DefaultOptions()};
+  records.insert(records.begin() + 8, reseat);
   const std::string full = test::FileOf(records);
   return {std::string("\0", 1) + plain, "\1" + plain, "\1" + full};
 }

@@ -33,7 +33,7 @@ PlanRequest Of(std::uint32_t vehicles, std::uint32_t hosts = 1) {
           .set = DefaultSet()};
 }
 
-const PlanRow& RowOf(const PlanReport& report, const std::string& name) {
+const PlanRow& RowOf(const PlanReport& report, std::string_view name) {
   const auto row = std::ranges::find(report.rows, name, &PlanRow::name);
   EXPECT_NE(row, report.rows.end()) << name;
   return *row;
