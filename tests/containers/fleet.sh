@@ -16,7 +16,7 @@ fail() {
 # use multicast|servers: how the fleet of this test finds itself. With servers a firewall rule drops
 # every multicast between the containers.
 use() {
-  env_file=/dev/null
+  env_file=$GIVEWAY_ROOT/config/deploy/multicast.env
   [[ $1 == servers ]] && env_file=$GIVEWAY_ROOT/config/deploy/discovery_server.env
   [[ $1 == servers ]] && block_multicast
   return 0
