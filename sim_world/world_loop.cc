@@ -17,6 +17,7 @@ constexpr Nanoseconds kLockstepPatience = seconds(1);
 constexpr Nanoseconds kFlushTimeout = milliseconds(500);
 constexpr Nanoseconds kFlushWhenStopped = milliseconds(300);  // all is to be over in a second
 constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
+constexpr Nanoseconds kReminder = seconds(5);
 // For the vehicles of a world that was restarted to find it: those that do not are silent then.
 constexpr Nanoseconds kResumePatience = seconds(10);
 // Who joins under way stands until it hears everybody, but not for ever.
@@ -61,7 +62,8 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link,
       options_(options),
       epoch_(NewEpoch(options.checkpoint)),
       fleet_(std::make_unique<Fleet>(scenario, epoch_, options.parallel)),
-      start_by_(app::SteadyNow() + FromSeconds(scenario.start_timeout_s)) {
+      start_by_(app::SteadyNow() + FromSeconds(scenario.start_timeout_s)),
+      say_alone_(app::SteadyNow() + kReminder) {
   if (options_.checkpoint) Resume(*options_.checkpoint);
   if (options_.checkpoint_file.empty()) return;
   const std::string complaint = app::WriteStateFile(
@@ -95,6 +97,7 @@ bool WorldLoop::Drive(const app::StopSignal& stop) {
     RunTick();
     KeepCheckpoint();
     TellHealth(app::HealthStage::kUnderWay);
+    SayIfAlone();
   }
   TellHealth(app::HealthStage::kLeaving);
   return TellTheEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
@@ -302,6 +305,14 @@ bool WorldLoop::TellTheEnd(Nanoseconds patience) {
   app::LogInfo("ended: " + reason + "; " +
                (figures.passed ? "passed" : "failed: " + figures.reason));
   return figures.passed;
+}
+
+// Where discovery servers are to be used, and none answers.
+void WorldLoop::SayIfAlone() {
+  if (app::SteadyNow() < say_alone_) return;
+  say_alone_ = app::SteadyNow() + kReminder;
+  const std::string why = link_.WhyNobodyIsFound();
+  if (!why.empty()) app::LogWarning(why);
 }
 
 void WorldLoop::TellHealth(app::HealthStage stage) {

@@ -71,6 +71,7 @@ class WorldLoop {
   void KeepCheckpoint();
   bool TellTheEnd(Nanoseconds patience);
   void TellHealth(app::HealthStage stage);
+  void SayIfAlone();
 
   const Scenario& scenario_;
   link::WorldLink& link_;
@@ -81,6 +82,7 @@ class WorldLoop {
   std::optional<std::vector<VehicleId>> resumed_with_;  // who must be back before it goes on
   sim::ReactionMeter reactions_;
   SteadyTime start_by_;
+  SteadyTime say_alone_;  // when it is next said that no discovery server answers
   std::map<VehicleId, Hearing> heard_;
   std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
   std::size_t speaking_ = 0;                 // of those that are in

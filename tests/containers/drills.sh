@@ -26,13 +26,26 @@ drill_vehicle_crash() {
   await "$1: all drive" "$LIMIT_S" all_drive "$VEHICLES"
 }
 
+# Places all vehicles were given so far: each is told anew by another world.
+places() {
+  local vehicle sum=0
+  for vehicle in $(running vehicle); do
+    sum=$((sum + $(metric "$vehicle" vehicle_placements_total)))
+  done
+  echo "$sum"
+}
+# drive_again PLACES: so many places were given, and all drive. Without the former a vehicle that has
+# just woken might be seen with the speed and the ranges it fell asleep with.
+drive_again() { [[ $(places) -ge $1 ]] && all_drive "$VEHICLES"; }
+
 drill_world_crash() {
-  local world before
+  local world before told
   world=$(first_of world)
   before=$(restart_count "$world")
+  told=$(places)
   crash "$world"
   await "world killed: its container is started again" 5 was_restarted "$world" "$before"
-  await "world killed: all drive" "$LIMIT_S" all_drive "$VEHICLES"
+  await "world killed: all drive again" "$LIMIT_S" drive_again $((told + VEHICLES))
 }
 
 # Whoever knows the others goes on without a server; whoever is new finds them through the other
@@ -48,12 +61,13 @@ drill_servers_crash() {
 servers_run() { [[ -n $(running discovery-0) && -n $(running discovery-1) ]]; }
 
 drill_pause() {
-  local vehicle
+  local vehicle told
   vehicle=$(first_of vehicle)
+  told=$(places)
   docker pause "$vehicle" >/dev/null
   await "paused: the world takes it away" 10 joined $((VEHICLES - 1))
   docker unpause "$vehicle" >/dev/null
-  await "unpaused: all drive" "$LIMIT_S" all_drive "$VEHICLES"
+  await "unpaused: all drive again" "$LIMIT_S" drive_again $((told + 1))
 }
 joined() { [[ $(metric "$(first_of world)" world_vehicles_joined) -eq $1 ]]; }
 
@@ -66,13 +80,14 @@ in_network_of() { # CONTAINER COMMAND...
 
 # Nothing gets in or out; its own loopback stays.
 drill_cut() {
-  local vehicle
+  local vehicle told
   vehicle=$(first_of vehicle)
+  told=$(places)
   in_network_of "$vehicle" iptables -A INPUT ! -i lo -j DROP
   in_network_of "$vehicle" iptables -A OUTPUT ! -o lo -j DROP
   await "cut: the world takes it away" 10 joined $((VEHICLES - 1))
   in_network_of "$vehicle" iptables -F
-  await "restored: all drive" "$LIMIT_S" all_drive "$VEHICLES"
+  await "restored: all drive again" "$LIMIT_S" drive_again $((told + 1))
 }
 
 drill_scale() {
