@@ -19,6 +19,7 @@
 #include "services/fleetctl/qos_files.h"
 #include "services/fleetctl/stopwatch_show.h"
 #include "services/fleetctl/stopwatch_trials.h"
+#include "services/link/library_release.h"
 #include "services/link/resolved_qos.h"
 #include "services/types/vehicle_options.h"
 
@@ -135,6 +136,7 @@ class Session {
     report_.seed = options_.seed;
     report_.qos_file = command_.qos_file;
     report_.limits = limits_;
+    report_.library_major = link::LibraryMajor();
     report_.cells = Judge(trials_, limits_);
     report_.took_s = Seconds(app::SteadyNow() - begin_);
     return std::move(report_);

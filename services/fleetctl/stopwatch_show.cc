@@ -6,7 +6,6 @@
 
 #include "services/app/json_line.h"
 #include "services/fleetctl/json_object.h"
-#include "services/link/library_release.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -66,14 +65,13 @@ std::string FindingOf(const Cell& cell) {
   return text;
 }
 
-// What is known of this library, where it is the likely reason. The fleets it watched are of the
-// same build, and so of the same release.
+// What is known of this library, where it is the likely reason.
 std::string MaskingHint(const StopwatchReport& report) {
   const bool masked = std::ranges::any_of(report.cells, [](const Cell& cell) {
     return cell.mechanism == Mechanism::kLiveliness && !cell.Kept();
   });
   if (!masked || report.limits.tracked == LivelinessKind::kManualByTopic) return {};
-  if (link::LibraryMajor() >= 3) return {};
+  if (report.library_major >= 3) return {};
   return fmt::format(
       "Readers track liveliness as {}: Fast DDS 2.9.1 lets any living participant refresh a dead "
       "one, until the "

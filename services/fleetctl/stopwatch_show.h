@@ -16,6 +16,7 @@ struct StopwatchReport {
   std::uint32_t seed = 0;
   double took_s = 0;
   Limits limits;
+  int library_major = 2;  // of the Fast DDS that the fleets ran with
   std::vector<Cell> cells;
   std::uint32_t false_alarms = 0;
   std::vector<std::string> problems;  // trials that could not be made

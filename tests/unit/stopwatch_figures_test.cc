@@ -119,6 +119,16 @@ TEST(StopwatchFigures, MaskedLivelinessIsNamed) {
   EXPECT_THAT(findings[1], HasSubstr("Take MANUAL_BY_TOPIC"));
 }
 
+TEST(StopwatchFigures, FastDds3IsNotAccusedOfMasking) {
+  Limits limits = Shipped();
+  limits.asserted = limits.tracked = LivelinessKind::kAutomatic;
+  Trial trial = PerfectTrial(Fault::kKill, limits);
+  Find(&trial, Mechanism::kLiveliness)->after = seconds(10);
+  StopwatchReport report = ReportOf({trial}, limits);
+  report.library_major = 3;
+  EXPECT_EQ(Findings(report).size(), 1U);
+}
+
 TEST(StopwatchFigures, TrialsThatCouldNotBeMadeKeepNoPromise) {
   StopwatchReport report = ReportOf({PerfectTrial(Fault::kKill, Shipped())}, Shipped());
   report.problems.push_back("cut: interrupted");
