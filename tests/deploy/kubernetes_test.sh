@@ -99,7 +99,9 @@ expect variables_known "the world's variable given to all" $B/kustomization.yaml
 expect variables_known "a flag that goes out of use" services/app/flags.cc 's/"--log-format", "text/"--log-shape", "text/'
 expect "variables_agree" "a world in another domain" $B/world.yaml \
   's/^( *)- name: GIVEWAY_CHECKPOINT/\1- {name: GIVEWAY_DOMAIN, value: "9"}\n&/'
-expect "arguments_filled servers_found" "an argument that stays unfilled" $B/discovery.yaml 's/\$\(SERVER_ID\)/$(SERVER)/'
+expect "arguments_filled" "an argument that stays unfilled" $B/discovery.yaml 's/"0.0.0.0"/"$(ADDRESS)"/'
+expect servers_found "a server with a number" $B/discovery.yaml 's/"-l"/"-i", "0", "-l"/'
+expect servers_found "a server with the lease of the library" $B/discovery.yaml 's/server.xml"/server.txt"/'
 
 # Where packets get to.
 expect "servers_found" "servers named in the wrong order" $B/kustomization.yaml \

@@ -80,18 +80,20 @@ export function namesCanBeAsked(fleet) {
   }));
 }
 
-// Server number I of the variable is the pod number I, by an address that stays, on its own port.
+// Server number I of the variable is the pod number I, by an address that stays, on its own port; and
+// a server that is started anew is another one to its clients, whom the old one's lease keeps no longer
+// than the mounted file says.
 export function serversAreFound(fleet) {
   const servers = fleet.workload('discovery-server');
   const [container] = servers.pod.containers;
   const listens = container.args[container.args.indexOf('-p') + 1];
-  const id = container.args[container.args.indexOf('-i') + 1];
-  const variable = container.env.find((one) => `$(${one.name})` === id);
+  const settings = container.args[container.args.indexOf('-x') + 1];
   const addresses = (fleet.environment.GIVEWAY_DISCOVERY_SERVER ?? '').split(',');
   const complaints = [];
-  if (variable?.valueFrom?.fieldRef?.fieldPath !== "metadata.labels['apps.kubernetes.io/pod-index']") {
-    complaints.push(`${servers.name}: the id of a server is not its pod's index`);
+  if (container.args.some((one) => one === '-i' || one === '-b')) {
+    complaints.push(`${servers.name}: a server with a number or a backup is not found again`);
   }
+  if (!settings.endsWith('/discovery_server.xml')) complaints.push(`${servers.name} keeps the library's lease`);
   if (addresses.length !== servers.replicas) complaints.push(`${servers.replicas} servers run, ${addresses.length} are named`);
   if (String(servers.portNamed('discovery')?.containerPort) !== listens) complaints.push(`${servers.name} listens on ${listens}, which is not its port`);
   const word = `:${Number(listens).toString(16).toUpperCase().padStart(4, '0')} `;

@@ -108,7 +108,8 @@ export function filesAreTheProjects(fleet) {
   const complaints = [];
   for (const map of fleet.ofKind('ConfigMap')) {
     for (const [key, value] of Object.entries(map.data ?? {})) {
-      const folder = { '.xml': 'qos', '.textproto': 'scenarios' }[/\.[a-z]+$/.exec(key)?.[0]];
+      // That of the servers is no set of a service's profiles, and lies beside the manifests.
+      const folder = key === 'discovery_server.xml' ? 'deploy' : { '.xml': 'qos', '.textproto': 'scenarios' }[/\.[a-z]+$/.exec(key)?.[0]];
       if (!folder) continue;
       let file = null;
       try {
