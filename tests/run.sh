@@ -5,6 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 ALL_STAGES=(format rules deploy unit golden virtual model link system tsan debian13 containers)
+MORE_STAGES=(asan fuzz) # which debian13 runs in its container
 
 usage() {
   cat <<'TEXT'
@@ -51,8 +52,8 @@ for argument in "$@"; do
       ;;
     all) stages=("${ALL_STAGES[@]}") ;;
     *)
-      [[ " ${ALL_STAGES[*]} " == *" $argument "* ]] ||
-        die "unknown stage '$argument'; known: all ${ALL_STAGES[*]}"
+      [[ " ${ALL_STAGES[*]} ${MORE_STAGES[*]} " == *" $argument "* ]] ||
+        die "unknown stage '$argument'; known: all ${ALL_STAGES[*]} ${MORE_STAGES[*]}"
       stages+=("$argument")
       ;;
   esac
