@@ -2,8 +2,8 @@
 // through its rows: config/qos/default.xml, Fast DDS 2.9.1 over loopback, 20 ticks a second,
 // everybody hears everybody, two cores of a virtual machine, nothing else running. Two runs differ
 // by 10 % in processor time, which is of such a core; another one differs by its speed. Fast DDS
-// 3.1.2 has more threads; memory, sockets, descriptors and packets were within 4 % of these, and its
-// processor time was not measured on a machine that does nothing else.
+// 3.1.2 has more threads; memory, sockets, descriptors and packets were within 4 % of these, and
+// its processor time was not measured on a machine that does nothing else.
 #pragma once
 
 namespace giveway::fleetctl {
