@@ -53,10 +53,10 @@ may_include() {
     fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|qos|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
       [[ $2 == services/@(vehicle|link|qos|app|types)/* ||
-        $2 == services/@(beacon_news|vehicle_admin|vehicle_health|vehicle_join|vehicle_report|service_main).h ]]
+        $2 == services/@(beacon_news|vehicle_admin|vehicle_health|vehicle_join|vehicle_report|service_main|server_wait).h ]]
       ;;
     world_main)
-      [[ $2 == services/@(link|app|types)/* || $2 == sim_world/* || $2 == services/service_main.h ]]
+      [[ $2 == services/@(link|app|types)/* || $2 == sim_world/* || $2 == services/@(service_main|server_wait).h ]]
       ;;
     tests) true ;;
     *) false ;;
