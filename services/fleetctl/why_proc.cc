@@ -64,6 +64,7 @@ class Reading {
   }
   void ReadState();
   void ReadNamespaces();
+  bool IsUnplugged(const NetworkAddress& address) const;
   void ReadNetwork();
   void ReadFiles();
   void ReadScenario();
@@ -113,12 +114,21 @@ void Reading::ReadNamespaces() {
   }
 }
 
+// The library passes over interfaces that are up and do not run, as docker0 does without a
+// container: they have an address, but no carrier. Where that cannot be read, it runs.
+bool Reading::IsUnplugged(const NetworkAddress& address) const {
+  if (address.interface.empty()) return false;
+  const auto carrier = ReadText(process_ / "root/sys/class/net" / address.interface / "carrier");
+  return carrier && carrier->starts_with('0');
+}
+
 void Reading::ReadNetwork() {
   const auto trie = ReadText(process_ / "net/fib_trie");
   const auto route = ReadText(process_ / "net/route");
   const auto dev = ReadText(process_ / "net/dev");
   if (trie && route && dev) {
     to_.addresses = ParseAddresses(*trie, *route, *dev);
+    std::erase_if(*to_.addresses, [this](const NetworkAddress& one) { return IsUnplugged(one); });
   } else {
     NotKnown("addresses");
   }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "services/fleetctl/why_proc_text.h"
@@ -118,6 +119,20 @@ TEST_F(MadeProc, ServicesAreFoundByTheirProgramAndNothingElseIs) {
   EXPECT_FALSE(members[0].is_world);
   EXPECT_EQ(members[1].pid, 44);
   EXPECT_TRUE(members[1].is_world);
+}
+
+// A bridge of a container engine without a container: the library's host id is without it.
+TEST_F(MadeProc, AnInterfaceWithoutCarrierHasNoAddressForTheLibrary) {
+  const auto all = ReadSituation(folder_, 42)->addresses;
+  ASSERT_TRUE(all && all->size() > 1);
+  const NetworkAddress last = all->back();
+  Write("root/sys/class/net/" + last.interface + "/carrier", "1\n");
+  EXPECT_EQ(ReadSituation(folder_, 42)->addresses, all);
+  Write("root/sys/class/net/" + last.interface + "/carrier", "0\n");
+  const auto running = ReadSituation(folder_, 42)->addresses;
+  ASSERT_TRUE(running);
+  EXPECT_EQ(running->size(), all->size() - 1);
+  EXPECT_EQ(std::ranges::find(*running, last), running->end());
 }
 
 TEST_F(MadeProc, WhatItWasToldIsOfTheCommandLineElseOfTheEnvironment) {
