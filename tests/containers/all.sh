@@ -19,7 +19,7 @@ debian13() {
   [[ ${GIVEWAY_FULL:-} != true ]] || scripts+=(repeat:intersection_yield repeat:intersection_equal
     bad_input impaired eyes apply stopwatch why doctor tune replay kill_drill)
   base_image trixie
-  bash "$HERE/debian13.sh" asan fuzz | tee /dev/stderr | grep -E '^[0-9]+ passed, [0-9]+ failed$' ||
+  bash "$HERE/debian13.sh" asan fuzz | tee >(cat >&2) | grep -E '^[0-9]+ passed, [0-9]+ failed$' ||
     echo "FAILED  asan and fuzz on Debian 13"
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
