@@ -150,6 +150,13 @@ TEST(Rejoining, LastWordsOfAWorldAndTheFirstOfTheNextInOneDrainEndWithTheNext) {
   JoinAsSeven(vehicle, *old_world);
   link::WorldLink new_world(OptionsIn(domain));
   ASSERT_TRUE(AwaitJoin(new_world).has_value());
+  // That the world heard the vehicle does not mean the reverse. The writer of ranges is told of
+  // after that of the roster: whoever hears the one knows the other.
+  new_world.OpenVehicle(kSeven, VehicleProfile{});
+  ASSERT_TRUE(Eventually([&] {
+    new_world.SendScan(ScanOf(2));
+    return vehicle.Take(SteadyTime{0}).inputs.scan.has_value();
+  }));
   for (int i = 0; i < 3; ++i) {
     // The new one speaks first: in order of arrival the old one would have the last word.
     new_world.SendRoster(Accepted(kSession, kSeven, 2));
