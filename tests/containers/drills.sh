@@ -13,7 +13,7 @@ use "$1"
 
 first_of() { running "$1" | head -n 1; }
 
-# restarts CONTAINER BEFORE: whether it has been started more often than BEFORE times.
+# was_restarted CONTAINER BEFORE: by its policy, more often than BEFORE times.
 restart_count() { docker inspect -f '{{.RestartCount}}' "$1"; }
 was_restarted() { [[ $(restart_count "$1") -gt $2 ]]; }
 
