@@ -90,6 +90,18 @@ drill_cut() {
   await "restored: all drive again" "$LIMIT_S" drive_again $((told + 1))
 }
 
+# The interface itself goes away, and another one comes. By multicast whoever comes later does not
+# find this vehicle any more, see the README: it goes last there.
+drill_unplug() {
+  local vehicle told
+  vehicle=$(first_of vehicle)
+  told=$(places)
+  docker network disconnect "${PROJECT}_fleet" "$vehicle"
+  await "unplugged: the world takes it away" 10 joined $((VEHICLES - 1))
+  docker network connect "${PROJECT}_fleet" "$vehicle"
+  await "plugged in: all drive again" "$LIMIT_S" drive_again $((told + 1))
+}
+
 drill_scale() {
   VEHICLES=8
   up 8
@@ -108,6 +120,7 @@ drill_world_crash
 drill_pause
 drill_cut
 drill_scale
+drill_unplug
 [[ $1 == servers ]] && drill_servers_crash
 no_contact
 [[ $failures -eq 0 ]]
