@@ -90,15 +90,16 @@ drill_cut() {
   await "restored: all drive again" "$LIMIT_S" drive_again $((told + 1))
 }
 
-# The interface itself goes away, and another one comes. By multicast whoever comes later does not
-# find this vehicle any more, see the README: it goes last there.
+# The interface itself goes away, and another one with the same address comes. By multicast whoever
+# comes later does not find this vehicle any more, see the README: it goes last there.
 drill_unplug() {
-  local vehicle told
+  local vehicle told address
   vehicle=$(first_of vehicle)
+  address=$(docker inspect -f '{{range .NetworkSettings.Networks}}{{.IPAddress}}{{end}}' "$vehicle")
   told=$(places)
   docker network disconnect "${PROJECT}_fleet" "$vehicle"
   await "unplugged: the world takes it away" 10 joined $((VEHICLES - 1))
-  docker network connect "${PROJECT}_fleet" "$vehicle"
+  docker network connect --ip "$address" "${PROJECT}_fleet" "$vehicle"
   await "plugged in: all drive again" "$LIMIT_S" drive_again $((told + 1))
 }
 
