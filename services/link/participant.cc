@@ -183,10 +183,10 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
 
 std::string Participant::WhyNobodyIsFound() const {
   if (servers_.empty() || listener_->HasFoundAnybody()) return {};
-  return "no discovery server answers: does fast-discovery-server run there, and does UDP pass "
-         "both "
-         "ways? (" +
-         servers_ + ")";
+  constexpr const char* kWhy =
+      "no discovery server answers: does fast-discovery-server run there, and does UDP pass both "
+      "ways? (";
+  return kWhy + servers_ + ")";
 }
 
 dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& name) {

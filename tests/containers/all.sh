@@ -36,6 +36,7 @@ containers() {
   for discovery in multicast servers; do
     case_of "crossings of 2 and 8, $discovery" crossing "$discovery"
     case_of "drills, $discovery" drills "$discovery"
+    case_of "eight cross while things happen, $discovery" rough_crossing "$discovery"
   done
   case_of "stops, and $kills kill -9 restarts" stops "$kills"
   case_of "bad input" bad_input

@@ -27,5 +27,6 @@ crossing() {
 }
 
 crossing 2 intersection_yield
-crossing 8 /drill/crossing_of_eight.textproto
+eight 'arrived: [1, 2, 3, 4, 5, 6, 7, 8]'
+crossing 8 /drill/eight.textproto
 [[ $failures -eq 0 ]]

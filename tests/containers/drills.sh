@@ -11,12 +11,6 @@ export GIVEWAY_SCENARIO=/drill/lanes.textproto
 engine_up
 use "$1"
 
-first_of() { running "$1" | head -n 1; }
-
-# was_restarted CONTAINER BEFORE: by its policy, more often than BEFORE times.
-restart_count() { docker inspect -f '{{.RestartCount}}' "$1"; }
-was_restarted() { [[ $(restart_count "$1") -gt $2 ]]; }
-
 drill_vehicle_crash() {
   local vehicle before
   vehicle=$(first_of vehicle)
@@ -58,6 +52,16 @@ drill_servers_crash() {
     await "$others killed: run again" 10 servers_run
   done
 }
+# For longer than anybody's participant lease, which is 10 s.
+drill_servers_away() {
+  docker stop -t 2 "$(first_of discovery-0)" "$(first_of discovery-1)" >/dev/null
+  holds "both servers away: all drive on" 12 all_drive "$VEHICLES"
+  docker start "$(members discovery-0)" "$(members discovery-1)" >/dev/null
+  VEHICLES=$((VEHICLES + 1))
+  up "$VEHICLES"
+  await "servers are back: a newcomer drives, too" "$LIMIT_S" all_drive "$VEHICLES"
+}
+
 servers_run() { [[ -n $(running discovery-0) && -n $(running discovery-1) ]]; }
 
 drill_pause() {
@@ -71,22 +75,13 @@ drill_pause() {
 }
 joined() { [[ $(metric "$(first_of world)" world_vehicles_joined) -eq $1 ]]; }
 
-in_network_of() { # CONTAINER COMMAND...
-  local pid
-  pid=$(pid_of "$1")
-  shift
-  nsenter -t "$pid" -n "$@"
-}
-
-# Nothing gets in or out; its own loopback stays.
 drill_cut() {
   local vehicle told
   vehicle=$(first_of vehicle)
   told=$(places)
-  in_network_of "$vehicle" iptables -A INPUT ! -i lo -j DROP
-  in_network_of "$vehicle" iptables -A OUTPUT ! -o lo -j DROP
+  cut_off "$vehicle"
   await "cut: the world takes it away" 10 joined $((VEHICLES - 1))
-  in_network_of "$vehicle" iptables -F
+  reconnect "$vehicle"
   await "restored: all drive again" "$LIMIT_S" drive_again $((told + 1))
 }
 
@@ -113,15 +108,29 @@ drill_scale() {
   await "scaled down: the world has 3" "$LIMIT_S" joined 3
 }
 
+# What the deployment promises of every container, seen from the host.
+shut_in() { # CONTAINER
+  local status
+  status=/proc/$(pid_of "$1")/status
+  grep -Eq '^Uid:[[:space:]]+10001' "$status" || fail "$(name_of "$1") does not run as 10001"
+  grep -Eq '^CapBnd:[[:space:]]+0+$' "$status" || fail "$(name_of "$1") has capabilities"
+  [[ $(docker inspect -f '{{.HostConfig.ReadonlyRootfs}}' "$1") == true ]] ||
+    fail "$(name_of "$1") may write its root file system"
+}
+
 VEHICLES=2
 up 2
 await "up: all drive" 30 all_drive 2
+for container in $(all_containers); do shut_in "$container"; done
 drill_vehicle_crash "vehicle killed"
 drill_world_crash
 drill_pause
 drill_cut
 drill_scale
 drill_unplug
-[[ $1 == servers ]] && drill_servers_crash
+if [[ $1 == servers ]]; then
+  drill_servers_crash
+  drill_servers_away
+fi
 no_contact
 [[ $failures -eq 0 ]]

@@ -7,8 +7,14 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../services/setup.sh"
 export PATH=/usr/bin:$PATH DOCKER_BUILDKIT=1 COMPOSE_DOCKER_CLI_BUILD=1
 ENGINE_LOG=${TMPDIR:-/tmp}/giveway-dockerd.log
 
+failures=0
+fail() {
+  printf 'FAILED: %s\n' "$*" >&2
+  failures=$((failures + 1))
+}
+
 container_packages() {
-  printf '%s\n' docker.io docker-compose debootstrap iptables nftables curl jq util-linux
+  printf '%s\n' docker.io docker-compose debootstrap iptables nftables curl util-linux
 }
 
 engine_is_up() { docker info >/dev/null 2>&1; }
@@ -65,14 +71,13 @@ base_image() {
   rm -rf "$root" "$root.log"
 }
 
-# build_image TARGET [BUILD_ARGUMENTS]: giveway-TARGET.
+# build_image TARGET: giveway-TARGET.
 build_image() {
   local target=$1 log
-  shift
   log=$(mktemp)
   docker build --network host --progress plain -f "$GIVEWAY_ROOT/config/deploy/Dockerfile" \
     --build-arg REVISION="$(git -C "$GIVEWAY_ROOT" rev-parse --short HEAD 2>/dev/null || true)" \
-    --target "$target" -t "giveway-$target" "$@" "$GIVEWAY_ROOT" >"$log" 2>&1 ||
+    --target "$target" -t "giveway-$target" "$GIVEWAY_ROOT" >"$log" 2>&1 ||
     die "the image $target could not be built: $(tail -n 20 "$log")"
   rm -f "$log"
 }

@@ -6,13 +6,11 @@ source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 HERE=$GIVEWAY_ROOT/tests/containers
 PROJECT=giveway-drill
 SCRATCH=$(mktemp -d)
-failures=0
-
-fail() {
-  printf 'FAILED: %s\n' "$*" >&2
-  failures=$((failures + 1))
-}
-
+# What drill.yaml mounts; the services' user reads it.
+export DRILL_SCENARIOS=$SCRATCH/scenarios
+mkdir "$DRILL_SCENARIOS"
+chmod 755 "$SCRATCH" "$DRILL_SCENARIOS"
+cp "$HERE/lanes.textproto" "$DRILL_SCENARIOS"
 # use multicast|servers: how the fleet of this test finds itself. With servers a firewall rule drops
 # every multicast between the containers.
 use() {
@@ -20,6 +18,13 @@ use() {
   [[ $1 == servers ]] && env_file=$GIVEWAY_ROOT/config/deploy/discovery_server.env
   [[ $1 == servers ]] && block_multicast
   return 0
+}
+
+# eight ARRIVALS: the shipped open fleet, begun by eight at once, with this line on who must arrive.
+eight() {
+  sed -e 's/^start_with: 2$/start_with: 8\nstart_timeout_s: 60/' -e 's/^duration_s: 90$/duration_s: 60/' \
+    -e "s/^  any_arrived: true\$/  $1/" "$GIVEWAY_ROOT/config/scenarios/open_fleet.textproto" \
+    >"$DRILL_SCENARIOS/eight.textproto"
 }
 
 compose() {
@@ -80,6 +85,7 @@ members() { # SERVICE [FILTER]
     --filter "label=com.docker.compose.service=$1" ${2:+--filter "$2"}
 }
 running() { members "$1" status=running; }
+first_of() { running "$1" | head -n 1; }
 name_of() { docker inspect -f '{{.Name}}' "$1" | tr -d /; }
 pid_of() { docker inspect -f '{{.State.Pid}}' "$1"; }
 
@@ -106,6 +112,12 @@ all_drive() { # COUNT
   [[ $count -eq $1 ]]
 }
 
+any_drives() {
+  local container
+  for container in $(running vehicle); do drives "$container" && return; done
+  return 1
+}
+
 # await WHAT SECONDS COMMAND...: true once the command is; else a failure after so many seconds.
 await() {
   local what=$1 seconds=$2 begun now
@@ -122,8 +134,40 @@ await() {
   echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms"
 }
 
+# holds WHAT SECONDS COMMAND...: true at every look for so many seconds.
+holds() {
+  local what=$1 until=$((SECONDS + $2)) looks=0
+  shift 2
+  while ((SECONDS < until)); do
+    "$@" || {
+      fail "$what: not at look $looks"
+      return 0
+    }
+    looks=$((looks + 1))
+    sleep 0.5
+  done
+  echo "$what: at all of $looks looks"
+}
+
 # As a crash is: docker itself would take its own kill for the wish that it stays ended.
 crash() { kill -9 "$(pid_of "$1")"; }
+
+# was_restarted CONTAINER BEFORE: by its policy, more often than BEFORE times.
+restart_count() { docker inspect -f '{{.RestartCount}}' "$1"; }
+was_restarted() { [[ $(restart_count "$1") -gt $2 ]]; }
+
+in_network_of() { # CONTAINER COMMAND...
+  local pid
+  pid=$(pid_of "$1")
+  shift
+  nsenter -t "$pid" -n "$@"
+}
+# Nothing gets in or out of a container; its own loopback stays.
+cut_off() {
+  in_network_of "$1" iptables -A INPUT ! -i lo -j DROP
+  in_network_of "$1" iptables -A OUTPUT ! -o lo -j DROP
+}
+reconnect() { in_network_of "$1" iptables -F; }
 
 no_contact() {
   local world

@@ -4,13 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 engine_up
 trap engine_down EXIT
-failures=0
-BASE=${BASE:-debian:trixie-slim}
-
-fail() {
-  echo "FAILED: $*" >&2
-  failures=$((failures + 1))
-}
+BASE=debian:trixie-slim
 bytes() { docker image inspect -f '{{.Size}}' "$1"; }
 config() { docker image inspect -f "{{$2}}" "giveway-$1"; }
 
@@ -33,8 +27,10 @@ image vehicle 60 giveway-vehicle
 image tools 150 fleetctl
 for target in world vehicle; do
   [[ $(config "$target" .Config.Healthcheck) == *"--health live"* ]] || fail "$target: no health check"
-  docker run --rm --network none --entrypoint sh "giveway-$target" -c '! command -v gcc cmake java' ||
-    fail "giveway-$target has what only builds need"
+  for program in g++ cmake java; do
+    docker run --rm --network none --entrypoint sh "giveway-$target" -c "! command -v $program" ||
+      fail "giveway-$target has $program, which only builds need"
+  done
 done
 docker run --rm --read-only --network none --entrypoint fleetctl giveway-tools \
   virtual crossing --vehicles 2 --seeds 1..2 >/dev/null || fail "fleetctl virtual"

@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
-# A mixed fleet: vehicles of Debian 12 (Fast DDS 2.9.1, built here) and of the image (3.1.2) on one
+# A mixed fleet: vehicles built here (on Debian 12 Fast DDS 2.9.1) and of the image (3.1.2) on one
 # loopback, by turns under the world of either. The world's verdict counts.
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 BIN=${GIVEWAY_BIN_DIR:-$GIVEWAY_ROOT/build/release/bin}
 SCRATCH=$(mktemp -d)
 CONTAINERS=()
 PIDS=()
-failures=0
 end_mixed() {
   [[ ${#CONTAINERS[@]} -eq 0 ]] || docker rm -f "${CONTAINERS[@]}" >/dev/null
   [[ ${#PIDS[@]} -eq 0 ]] || kill -9 "${PIDS[@]}" 2>/dev/null
@@ -15,6 +14,11 @@ end_mixed() {
 }
 trap end_mixed EXIT
 engine_up
+
+# Where both have one library nothing is mixed.
+OURS=$("$BIN/giveway-vehicle" --version)
+THEIRS=$(docker run --rm --network none giveway-vehicle --version)
+[[ $OURS != "$THEIRS" ]] || die "both are $OURS: nothing is mixed"
 
 # A domain nobody here uses, kept by the lock that fleetctl takes too.
 for DOMAIN in $(seq 60 99); do
@@ -43,11 +47,11 @@ crossing() {
   code=0
   if [[ $1 == native ]]; then wait "$world" || code=$?; else code=$(docker wait "$world"); fi
   if [[ $code -eq 0 ]]; then
-    echo "ok      $2: $1 world, $3 vehicles of 2.9.1, $4 of 3.1.2"
+    echo "ok      $2: $1 world, $3 vehicles of ${OURS#*, }, $4 of ${THEIRS#*, }"
   else
-    echo "FAILED  $2: $1 world, $3 vehicles of 2.9.1, $4 of 3.1.2: exit code $code"
+    echo "FAILED  $2: $1 world, $3 vehicles of ${OURS#*, }, $4 of ${THEIRS#*, }: exit code $code"
     tail -n 5 "$SCRATCH"/*.log >&2
-    failures=1
+    failures=$((failures + 1))
   fi
 }
 
