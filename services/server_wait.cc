@@ -17,7 +17,7 @@ constexpr Nanoseconds kReminder = std::chrono::seconds(30);
 // On a thread that nobody joins: a lookup without a name server takes seconds, and a stop takes one
 // at most.
 std::future<std::string> Ask(const std::vector<DiscoveryServer>& servers) {
-  std::packaged_task<std::string()> task([servers] { return link::WhyNoAddress(servers); });
+  std::packaged_task<std::string()> task([servers] { return link::FindServers(servers).fault; });
   auto answer = task.get_future();
   std::thread(std::move(task)).detach();
   return answer;

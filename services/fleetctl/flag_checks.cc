@@ -2,8 +2,6 @@
 
 #include <exception>
 
-#include "services/types/discovery_server.h"
-
 namespace giveway::fleetctl {
 
 std::string CheckNotEmpty(const std::string& text) {
@@ -21,9 +19,13 @@ std::string CheckSeconds(const std::string& text) {
   return "must be a number of seconds above 0 and up to 1000000, not '" + text + "'";
 }
 
-void AddDiscoveryFlag(CLI::App* verb, std::string* servers) {
-  verb->add_option("--discovery-server", *servers,
-                   "Find everyone through HOST[:PORT],..., and not by what --qos says")
+void AddDiscoveryFlag(CLI::App* verb, std::vector<DiscoveryServer>* servers) {
+  const auto take = [servers](const std::string& text) {
+    *servers = ParseDiscoveryServers(text).servers;
+  };
+  verb->add_option_function<std::string>(
+          "--discovery-server", take,
+          "Find everyone through HOST[:PORT],..., and not by what --qos says")
       ->check([](const std::string& text) { return ParseDiscoveryServers(text).fault; })
       ->envname("GIVEWAY_DISCOVERY_SERVER");
 }

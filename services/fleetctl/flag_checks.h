@@ -4,6 +4,9 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
+
+#include "services/types/discovery_server.h"
 
 namespace giveway::fleetctl {
 
@@ -13,6 +16,6 @@ std::string CheckSeconds(const std::string& text);
 
 void AddInterfaceFlag(CLI::App* verb, std::string* interface);
 // Servers as HOST[:PORT],...
-void AddDiscoveryFlag(CLI::App* verb, std::string* servers);
+void AddDiscoveryFlag(CLI::App* verb, std::vector<DiscoveryServer>* servers);
 
 }  // namespace giveway::fleetctl

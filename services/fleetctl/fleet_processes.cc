@@ -17,7 +17,9 @@ std::vector<std::string> SharedFlags(const RunOptions& options, const FleetComma
     flags.emplace_back(flag);
     flags.push_back(std::move(value));
   };
-  if (!options.discovery_servers.empty()) add("--discovery-server", options.discovery_servers);
+  if (!options.discovery_servers.empty()) {
+    add("--discovery-server", ToText(options.discovery_servers));
+  }
   if (options.seed) add("--seed", std::to_string(*options.seed));
   if (options.behaviour) add("--behaviour", std::string(Name(*options.behaviour)));
   if (options.duration_s) add("--duration", fmt::format("{}", *options.duration_s));

@@ -25,9 +25,7 @@ link::LinkOptions LinkOptionsOf(const ObserverOptions& options) {
   link.qos_file = ResolveQosFile(options.qos_file);
   link.area = options.area;
   link.fleet_size = kFleetSize;
-  if (!options.discovery_servers.empty()) {
-    link.discovery_servers = ParseDiscoveryServers(options.discovery_servers).servers;
-  }
+  link.discovery_servers = options.discovery_servers;
   return link;
 }
 

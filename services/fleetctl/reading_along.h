@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "services/link/link_options.h"
 
@@ -13,7 +14,7 @@ namespace giveway::fleetctl {
 struct ObserverOptions {
   std::uint32_t domain = 0;
   std::string interface = "127.0.0.1";
-  std::string discovery_servers;  // HOST[:PORT],...; empty: as the QoS file says
+  std::vector<DiscoveryServer> discovery_servers;  // none: as the QoS file says
   std::string area = "main";
   std::string qos_file;  // empty: the shipped one
 };

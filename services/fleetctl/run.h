@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/types/decision.h"
+#include "services/types/discovery_server.h"
 
 namespace giveway::fleetctl {
 
@@ -21,8 +23,8 @@ struct RunOptions {
   std::optional<std::uint32_t> vehicles;
   std::optional<std::uint32_t> domain;  // absent: the first free one
   std::string interface = "127.0.0.1";
-  std::string discovery_servers;  // HOST[:PORT],...; empty: as the QoS file says
-  std::string qos_file;           // empty: the shipped one
+  std::vector<DiscoveryServer> discovery_servers;  // none: as the QoS file says
+  std::string qos_file;                            // empty: the shipped one
   std::string impair;  // of what the vehicles hear, see app/impair_text.h; empty: the scenario's
   bool lockstep = false;
   std::string log_level = "info";  // of the world and the vehicles

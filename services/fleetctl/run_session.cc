@@ -42,7 +42,7 @@ link::LinkOptions ObserverOptions(const RunOptions& options, const Scenario& sce
           static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
           false,
           {},
-          ParseDiscoveryServers(options.discovery_servers).servers};
+          options.discovery_servers};
 }
 
 TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWatch& watch) {

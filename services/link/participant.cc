@@ -76,8 +76,9 @@ void SetDiscoveryServers(rtps::DiscoverySettings& discovery,
                          const std::vector<DiscoveryServer>& servers) {
   discovery.discoveryProtocol = Discovery::CLIENT;
   discovery.m_DiscoveryServers.clear();
-  for (const auto& [ipv4, port] : AddressesOf(servers)) {
-    if (ipv4.empty()) throw LinkError(WhyNoAddress(servers));
+  const FoundServers found = FindServers(servers);
+  if (!found.fault.empty()) throw LinkError(found.fault);
+  for (const auto& [ipv4, port] : found.addresses) {
     rtps::Locator_t address;
     rtps::IPLocator::setIPv4(address, ipv4);
     rtps::IPLocator::setPhysicalPort(address, port);

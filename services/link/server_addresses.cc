@@ -34,20 +34,20 @@ Lookup LookUp(const std::string& host) {
 
 }  // namespace
 
-std::vector<ServerAddress> AddressesOf(const std::vector<DiscoveryServer>& servers) {
-  std::vector<ServerAddress> addresses;
-  for (const auto& [host, port] : servers) addresses.push_back({LookUp(host).ipv4, port});
-  return addresses;
-}
-
-std::string WhyNoAddress(const std::vector<DiscoveryServer>& servers) {
-  std::string why;
+FoundServers FindServers(const std::vector<DiscoveryServer>& servers) {
+  FoundServers found;
   for (const auto& [host, port] : servers) {
     const Lookup lookup = LookUp(host);
-    if (!lookup.ipv4.empty()) continue;
-    why += (why.empty() ? "discovery server " : ", ") + host + " (" + lookup.fault + ")";
+    if (!lookup.ipv4.empty()) {
+      found.addresses.push_back({lookup.ipv4, port});
+      continue;
+    }
+    found.fault += found.fault.empty() ? "discovery server " : ", ";
+    found.fault += host + " (" + lookup.fault + ")";
   }
-  return why.empty() ? "" : why + " has no address yet: is its name right, and does it run?";
+  if (found.fault.empty()) return found;
+  found.fault += " has no address yet: is its name right, and does it run?";
+  return found;
 }
 
 }  // namespace giveway::link

@@ -14,12 +14,12 @@ struct ServerAddress {
   std::uint16_t port = 0;
 };
 
-// Asks for each name; may take seconds where no name server answers. A name that has no address is
-// left empty.
-std::vector<ServerAddress> AddressesOf(const std::vector<DiscoveryServer>& servers);
+struct FoundServers {
+  std::vector<ServerAddress> addresses;  // of those that have one, in the order of the servers
+  std::string fault;  // one sentence that names those that have none, and why; empty: all have one
+};
 
-// Of those servers whose name has no address, one sentence that says which and why; empty if there
-// are none. May take seconds.
-std::string WhyNoAddress(const std::vector<DiscoveryServer>& servers);
+// Asks for each name; may take seconds where no name server answers.
+FoundServers FindServers(const std::vector<DiscoveryServer>& servers);
 
 }  // namespace giveway::link

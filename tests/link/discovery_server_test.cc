@@ -95,7 +95,8 @@ TEST_F(DiscoveryServerTest, IsNotMissedWhereMulticastFindsEverybody) {
 }
 
 TEST(ServerAddresses, AreThoseOfTheNamesAndOfNumbersAsTheyAre) {
-  const auto addresses = link::AddressesOf({{"localhost", 1}, {"10.1.2.3", 2}});
+  const auto [addresses, fault] = link::FindServers({{"localhost", 1}, {"10.1.2.3", 2}});
+  EXPECT_EQ(fault, "");
   ASSERT_EQ(addresses.size(), 2U);
   EXPECT_EQ(addresses[0].ipv4, "127.0.0.1");
   EXPECT_EQ(addresses[1].ipv4, "10.1.2.3");
@@ -105,8 +106,7 @@ TEST(ServerAddresses, AreThoseOfTheNamesAndOfNumbersAsTheyAre) {
 // A label of more than 63 letters is no name at all: no name server is asked for it.
 TEST(ServerAddresses, OfANameThatHasNoneIsSaid) {
   const std::string nobody(64, 'n');
-  EXPECT_EQ(link::WhyNoAddress({{"localhost", 1}}), "");
-  EXPECT_THAT(link::WhyNoAddress({{"localhost", 1}, {nobody, 1}}),
+  EXPECT_THAT(link::FindServers({{"localhost", 1}, {nobody, 1}}).fault,
               AllOf(HasSubstr("discovery server " + nobody + " ("), HasSubstr("has no address yet"),
                     ::testing::Not(HasSubstr("localhost"))));
 }
