@@ -10,34 +10,99 @@ constexpr double kRoomToStand_m = 0.7;  // between two conflicts: a body and wha
 // Who is farther from where the ways cross is not kept waiting by one that stops there now.
 constexpr double kPeerNear_m = 3;
 constexpr double kOwnNear_m = 8;
+constexpr double kNever_m = 1e6;
 
-struct Stretches {
-  std::array<const Stretch*, 64> of;  // the first `count`
+// The conflicts of a vehicle that concern it now.
+struct Crossings {
+  std::array<const PeerView*, 64> of;  // the first `count`
   std::size_t count = 0;
+
+  std::span<const PeerView* const> All() const { return {of.data(), count}; }
 };
 
-Stretches StretchesAhead(std::span<const PeerView> views) {
-  Stretches stretches;
+Crossings CrossingsAhead(std::span<const PeerView> views) {
+  Crossings crossings;
   for (const PeerView& view : views) {
-    if (!view.crossing || stretches.count == stretches.of.size()) continue;
+    if (!view.crossing || crossings.count == crossings.of.size()) continue;
     const Conflict& crossing = *view.crossing;
     if (crossing.peer.begin_m > kPeerNear_m || crossing.own.begin_m > kOwnNear_m) continue;
-    stretches.of[stretches.count++] = &crossing.own;
+    crossings.of[crossings.count++] = &view;
   }
-  return stretches;
+  return crossings;
 }
 
 // Where the box begins that a point of the own way lies in: back over every stretch that leaves no
 // room to stand before the next.
-double BoxBegin(const Stretches& stretches, double point_m) {
+double BoxBegin(const Crossings& crossings, double point_m) {
   double begin_m = point_m;
   for (bool moved = true; moved;) {
     moved = false;
-    for (std::size_t i = 0; i < stretches.count; ++i) {
-      const Stretch& stretch = *stretches.of[i];
+    for (const PeerView* view : crossings.All()) {
+      const Stretch& stretch = view->crossing->own;
       if (stretch.begin_m >= begin_m || stretch.end_m < begin_m - kRoomToStand_m) continue;
       begin_m = stretch.begin_m;
       moved = true;
+    }
+  }
+  return begin_m;
+}
+
+double AlongOwnWay(const PeerView& view, const Situation& s) {
+  return Dot(view.position_world - s.world_from_body.position_world, s.path.direction_world);
+}
+
+// Room that the own lane needs for the vehicle and all between it and the place `along_m` on, where
+// they stand behind each other.
+double QueueLength(double along_m, const Situation& s) {
+  constexpr double kMoreThanClear_m = 0.01;
+  double length_m = 0;
+  for (const PeerView& view : s.peers) {
+    if (!view.leads || AlongOwnWay(view, s) > along_m) continue;
+    length_m += s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kClearance_m +
+                kMoreThanClear_m;
+  }
+  return length_m;
+}
+
+// Where one that drives ahead and means to go on may stop all the same: before the next crossing.
+double NextStop(double from_m, const Crossings& crossings) {
+  double next_m = kNever_m;
+  for (const PeerView* view : crossings.All()) {
+    const double begin_m = view->crossing->own.begin_m;
+    if (view->leads || !view->crossing->across || begin_m <= from_m) continue;
+    next_m = std::min(next_m, begin_m);
+  }
+  return next_m;
+}
+
+// How far along the own way the leader gets if it is stopped.
+double LeaderStops(const PeerView& leader, const Crossings& crossings, const Situation& s) {
+  const double along_m = AlongOwnWay(leader, s);
+  if (leader.standing) return along_m;
+  const double stops_m =
+      along_m + StoppingDistance(std::max(0.0, leader.speed_m_s), ReactionSeconds(s.options),
+                                 s.options.profile.deceleration_m_s2);
+  const Beacon& beacon = leader.peer->beacon;
+  const bool goes_on = beacon.gives_way_to == kNobody && !IsGiveWay(beacon.rule);
+  return goes_on ? NextStop(stops_m, crossings) : stops_m;
+}
+
+// How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not.
+double StopsBehind(const PeerView& view, const Crossings& crossings, const Situation& s) {
+  if (!view.fresh) return kNever_m;
+  if (!view.leads) return view.standing ? view.free_m : kNever_m;
+  return LeaderStops(view, crossings, s) - QueueLength(AlongOwnWay(view, s), s);
+}
+
+// Where the box begins that a point lies in; huge if it lies in none, or in one entered already.
+// Ways that run along each other, or against, are no crossings.
+double BoxRound(double point_m, const PeerView& but, const Crossings& crossings) {
+  double begin_m = kNever_m;
+  for (const PeerView* view : crossings.All()) {
+    const Conflict& crossing = *view->crossing;
+    if (view == &but || !crossing.across || view->box_begin_m <= 0) continue;
+    if (crossing.own.begin_m < point_m && point_m < crossing.own.end_m) {
+      begin_m = std::min(begin_m, view->box_begin_m);
     }
   }
   return begin_m;
@@ -47,11 +112,25 @@ double BoxBegin(const Stretches& stretches, double point_m) {
 
 void FindBoxes(std::span<PeerView> views, const Situation& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  const Stretches stretches = cooperative ? StretchesAhead(views) : Stretches{};
+  const Crossings crossings = cooperative ? CrossingsAhead(views) : Crossings{};
   for (PeerView& view : views) {
-    if (!view.conflict) continue;
-    view.box_begin_m = BoxBegin(stretches, view.conflict->own.begin_m);
+    if (!view.crossing) continue;
+    view.box_begin_m = BoxBegin(crossings, view.crossing->own.begin_m);
   }
+}
+
+std::optional<BlockedBox> FindBlockedBox(const Situation& s) {
+  const Crossings crossings = CrossingsAhead(s.peers);
+  if (crossings.count == 0) return std::nullopt;
+  BlockedBox nearest{.begin_m = kNever_m};
+  for (const PeerView& view : s.peers) {
+    const double stops_m = StopsBehind(view, crossings, s);
+    if (stops_m > kOwnNear_m) continue;
+    const double begin_m = BoxRound(stops_m, view, crossings);
+    if (begin_m < nearest.begin_m) nearest = {begin_m, &view};
+  }
+  if (nearest.by == nullptr) return std::nullopt;
+  return nearest;
 }
 
 }  // namespace giveway

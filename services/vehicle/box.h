@@ -1,9 +1,11 @@
 // Keeps crossings clear: conflicts that follow each other without room to stand between them are
-// one box, and a vehicle that must hold for a peer in it holds before the whole of it. Whoever
-// stopped inside would stand in somebody else's way, and a few of those make a ring that nobody
-// leaves.
+// one box. A vehicle that must hold for a peer in it holds before the whole of it, and it does not
+// drive into one that it cannot leave, because somebody stands, or will stand, where it would come
+// out. Whoever stopped inside would be in somebody else's way, and a few of those make a ring that
+// nobody leaves.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "services/vehicle/situation.h"
@@ -12,5 +14,14 @@ namespace giveway {
 
 // Sets `box_begin_m` of every view that crosses the own way.
 void FindBoxes(std::span<PeerView> views, const Situation& s);
+
+// A box that would be left too late.
+struct BlockedBox {
+  double begin_m = 0;  // from the own axle centre, along the own way; at least 0
+  const PeerView* by = nullptr;
+};
+
+// The nearest box ahead that the vehicle would come to stand in, as things are now.
+std::optional<BlockedBox> FindBlockedBox(const Situation& s);
 
 }  // namespace giveway

@@ -64,7 +64,9 @@ std::optional<Conflict> FindConflict(const Path& own, const Path& peer, double r
   if (IsEmpty(of_own) || of_own.end_m <= 0) return std::nullopt;
   const Stretch of_peer = StretchNear(peer, own, reach_m);
   if (IsEmpty(of_peer) || of_peer.end_m <= 0) return std::nullopt;
-  return Conflict{of_own, of_peer};
+  constexpr double kAcross = 0.5;  // the sine of 30 degrees
+  const double sine = Cross(own.direction_world, peer.direction_world);
+  return Conflict{of_own, of_peer, Magnitude(sine) > kAcross};
 }
 
 double SpeedToStopWithin(double distance_m, double reaction_s, double deceleration_m_s2) {

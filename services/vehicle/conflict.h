@@ -30,6 +30,7 @@ Stretch StretchNear(const Path& path, const Path& other, double reach_m);
 struct Conflict {
   Stretch own;
   Stretch peer;
+  bool across = false;  // at more than 30 degrees, not along each other or against
 };
 
 // Empty if the paths never come within `reach_m`, or either vehicle has its stretch behind it.

@@ -137,6 +137,22 @@ bool HasLeftBox(const PeerView& view, const Situation& s) {
   return s.speed_m_s < kStandingSpeed_m_s && view.box_begin_m > 0;
 }
 
+// It comes first, but stands before where the ways cross for another one's sake: until that one is
+// gone the crossing is free. This vehicle stops again if the peer sets off; once it cannot any more
+// it drives through (EntersBox) and no longer says that it gives way, and without that word the
+// peer does not drive in. A peer that was sent off by an older word is still rolling up then: from
+// standstill to where it cannot stop takes longer than a beacon may be old.
+bool MayCrossBefore(const PeerView& view, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative) return false;
+  if (!view.believed || !view.standing || !view.conflict || !view.conflict->across) return false;
+  if (view.conflict->peer.begin_m <= 0) return false;
+  const Beacon& beacon = view.peer->beacon;
+  const VehicleId waits_for = beacon.rule == Rule::kKeepClear ? beacon.blocked_by
+                              : IsGiveWay(beacon.rule)        ? beacon.gives_way_to
+                                                              : kNobody;
+  return waits_for != kNobody && waits_for != s.options.id;
+}
+
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
 bool Holds(const PeerView& view, const Situation& s) {
@@ -149,7 +165,7 @@ bool Holds(const PeerView& view, const Situation& s) {
   if (view.peer->encounter.clears) return false;
   if (view.peer->encounter.entered) return false;
   if (view.goes_first) {
-    if (cooperative && IsGoneInTime(view, s)) return false;
+    if (cooperative && (IsGoneInTime(view, s) || MayCrossBefore(view, s))) return false;
     return !MustClear(view, s) && (held || SecondMustStop(view, s));
   }
   if (FirstMayGo(view, s)) return false;

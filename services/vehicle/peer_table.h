@@ -25,7 +25,7 @@ struct Encounter {
   bool clears = false;    // this vehicle was in the peer's way: it drives out instead of holding
   bool lost = false;      // the peer fell silent while the encounter was active
   bool released = false;  // lost, waited out, and the own ranges show the way clear
-  bool entered = false;   // too far to stop, or in the conflict, while a light stopped the peer
+  bool entered = false;   // too far to stop, or in the conflict: it drives through
   SteadyTime lost_at{0};
   double lost_wait_s = 0;  // how long the silent peer may take to pass at its cruise speed
 };

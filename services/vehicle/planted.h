@@ -27,6 +27,7 @@ enum class Defect : std::uint8_t {
   kGrantNotNeeded,
   kLeaderIsConflict,
   kArrivedClaimsWay,
+  kBoxBlocked,
   // What never rests on agreement.
   kClaimIgnored,
   kClaimWithoutWay,

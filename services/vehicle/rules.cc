@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/vehicle/box.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/planted.h"
 
@@ -131,14 +132,29 @@ std::optional<Proposal> KeepClear(const Situation& s) {
   return lowest;
 }
 
+std::optional<Proposal> KeepBoxClear(const Situation& s) {
+  if (Has(Defect::kBoxBlocked)) return std::nullopt;
+  constexpr double kInHand_m = 0.03;
+  const std::optional<BlockedBox> box = FindBlockedBox(s);
+  if (!box) return std::nullopt;
+  const double limit = SpeedToStopWithin(box->begin_m - kInHand_m, ReactionSeconds(s.options),
+                                         s.options.profile.deceleration_m_s2);
+  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  return Proposal{.max_speed_m_s = limit,
+                  .may_turn = true,
+                  .rule = Rule::kKeepClear,
+                  .peer = box->by->peer->id,
+                  .cause_tick = box->by->peer->beacon.tick};
+}
+
 std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
   static constexpr std::array<RuleFunction, 4> kDeadStops = {Leaving, NotRunning, RangesStale,
                                                              Arrived};
   static constexpr std::array<RuleFunction, 8> kLecture = {
       Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle};
-  static constexpr std::array<RuleFunction, 12> kCooperative = {
-      Leaving,    NotRunning, RangesStale, Arrived,   Signal,   GiveWay,
-      NotGranted, PeerLost,   Deaf,        KeepClear, Obstacle, Object};
+  static constexpr std::array<RuleFunction, 13> kCooperative = {
+      Leaving,  NotRunning, RangesStale, Arrived,      Signal,   GiveWay, NotGranted,
+      PeerLost, Deaf,       KeepClear,   KeepBoxClear, Obstacle, Object};
   switch (behaviour) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:

@@ -34,6 +34,10 @@ std::optional<Proposal> PeerLost(const Situation& s);
 // Passive safety: stop before where a peer may be until it stands.
 std::optional<Proposal> KeepClear(const Situation& s);
 
+// Stop before a crossing that somebody stands behind, or will, so that this vehicle would stand in
+// it (box.h). It is named as kKeepClear: what keeps it is where a peer may be.
+std::optional<Proposal> KeepBoxClear(const Situation& s);
+
 // A light ahead says stop: from far on, so that everybody knows, and with the speed to stop before
 // its line.
 std::optional<Proposal> Signal(const Situation& s);

@@ -123,8 +123,6 @@ std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
 
 // Of one that was silent for longer nothing can be said; the ultrasonics and PeerLost see to it.
 constexpr double kClaimLasts_s = 1.0;
-// Kept from a claim on top of what is not known: steering bends the straight way a little.
-constexpr double kClearance_m = 0.05;
 
 // How long a peer may have done as it liked when what this decision moves comes to its end.
 double UnknownSeconds(const Beacon& beacon, const Situation& s) {
@@ -209,7 +207,9 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
 }
 
 double RoomBeside(const PeerView& view, const Situation& s) {
-  constexpr double kRoundMargin_m = 0.15;  // between the two shells
+  // Between the two shells; less than a vehicle keeps that halts before the own way, so that one
+  // drives past it and not round it.
+  constexpr double kRoundMargin_m = 0.12;
   return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
 }
 

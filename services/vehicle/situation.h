@@ -39,7 +39,7 @@ struct PeerView {
   double gate_gap_m;  // the same by the metric of the gates; never above gap_m
   std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
   std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
-  double box_begin_m;  // of `conflict`: how far to drive without standing in anyone's way
+  double box_begin_m;  // of `crossing`: how far to drive without standing in anyone's way
   // Straight on until the own shell is at the peer's claim; huge if never, or so far on that the
   // own cruise speed is not too fast for it.
   double free_m;
@@ -111,6 +111,8 @@ inline constexpr double kNoGoal_m = 1e6;
 inline constexpr double kSigmas = 2;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
+// Kept from a claim on top of what is not known: steering bends the straight way a little.
+inline constexpr double kClearance_m = 0.05;
 
 // From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old, of
 // readings that may be older by the ultrasonics' refresh.

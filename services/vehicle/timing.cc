@@ -22,7 +22,7 @@ Conflict Shrunk(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
     const double half_m = share * (stretch.end_m - stretch.begin_m) / 2;
     return Stretch{middle_m - half_m, middle_m + half_m};
   };
-  return {shrunk(conflict.own), shrunk(conflict.peer)};
+  return {shrunk(conflict.own), shrunk(conflict.peer), conflict.across};
 }
 
 // One that is in the conflict already is counted on to be anywhere in it.

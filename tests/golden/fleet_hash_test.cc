@@ -61,12 +61,12 @@ TEST_P(ScenarioHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioHash,
-                         testing::Values(GoldenScenario{"head_on", 0x206437dd0ce843d5ULL},
-                                         GoldenScenario{"three_way", 0x891096a6c0f17736ULL},
-                                         GoldenScenario{"four_way", 0x2c77eed95b863a08ULL},
+                         testing::Values(GoldenScenario{"head_on", 0xb3f7e31c9a77c750ULL},
+                                         GoldenScenario{"three_way", 0x3554afb5d5b5ca8aULL},
+                                         GoldenScenario{"four_way", 0x102f21bbaf006efbULL},
                                          GoldenScenario{"deaf", 0x5706f9c618f2a242ULL},
                                          GoldenScenario{"parked_nose_to_nose",
-                                                        0x9412cf824114322bULL},
+                                                        0xfacd64aa79785e6aULL},
                                          GoldenScenario{"convoy", 0xedfb2a4d9f56cb07ULL}),
                          [](const auto& test) { return test.param.name; });
 

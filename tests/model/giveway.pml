@@ -9,6 +9,7 @@
  *   Look            LookAt, ConflictWith: conflict, grants, goes_first          situation.cc
  *   IsThroughFirst  IsThroughFirst                                              encounter.cc
  *   UpdateFresh     UpdateEncounter, Begins, IsOver, Holds, SecondMustStop      encounter.cc
+ *   MayCross        MayCrossBefore                                              encounter.cc
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
  *   Claimed         ClaimOf, FreeBefore, KeepClear                              claim.cc, rules.cc
  *   Listen          ListenForMovers, NearestEcho; the rule Deaf                 vehicle.cc, rules.cc
@@ -119,7 +120,8 @@ bool clear, deaf, waits, met, meets_any, held;
 
 /* The safety properties. SPIN names the one that is broken. */
 bool two_in_zone;  /* exclusion: never two bodies in the zone, dead or alive */
-bool out_of_order; /* order: nobody enters before one that it hears near and that comes first */
+bool out_of_order; /* order: nobody enters before one that it hears near and that comes first,
+                    * unless that one waits for a third */
 bool unfrozen;     /* frozen: the order published stands while encounters are under way */
 bool unlatched;    /* latch: a stop for a peer lasts until that has passed or given way */
 
@@ -135,6 +137,16 @@ inline Look(i) {
   through = !conflict || (IsNear(place[i]) && IsThroughFirst(place[i], p, a))
 }
 
+/* It stands and gives way to a third one: so long it is not waited for. */
+#if N == 3
+#define MayCross(i, j_)                               \
+  (Said(j_, heard[j_]).place == GATE &&               \
+   Said(j_, heard[j_]).gives_way_to != NOBODY && \
+   Said(j_, heard[j_]).gives_way_to != i + 1)
+#else
+#define MayCross(i, j_) false
+#endif
+
 inline UpdateFresh(i) {
   Look(i);
   released[AT(i, j)] = false;
@@ -142,12 +154,13 @@ inline UpdateFresh(i) {
   stood[AT(i, j)] = meets[AT(i, j)] && !conflict;
   held = holds[AT(i, j)];
   holds[AT(i, j)] = meets[AT(i, j)] && IsNear(place[i]) &&
-      (goes_first -> Latched(holds[AT(i, j)]) ||
-                         (conflict && SecondMustStop(IsHeardBody(p) || place[i] == LAST))
+      (goes_first -> !MayCross(i, j) &&
+                         (Latched(holds[AT(i, j)]) ||
+                          (conflict && SecondMustStop(IsHeardBody(p) || place[i] == LAST)))
                    : !(grants || through) && (Latched(holds[AT(i, j)]) || place[i] == LAST));
   CheckLatch(i);
   if
-  :: meets[AT(i, j)] && goes_first &&
+  :: meets[AT(i, j)] && goes_first && !(place[i] == LAST && MayCross(i, j)) &&
      (gives_way[i] == NOBODY || p >= Said(gives_way[i] - 1, heard[gives_way[i] - 1]).place) ->
      gives_way[i] = j + 1 /* the nearest */
   :: else
@@ -207,7 +220,7 @@ inline CheckOrder(i) {
   for (j : 0 .. N - 1) {
     if
     :: CHECKS_AGREEMENT && j != i && place[i] == LAST && go[i] && IsFresh(heard[j]) ->
-       out_of_order = IsNear(Said(j, heard[j]).place) &&
+       out_of_order = IsNear(Said(j, heard[j]).place) && !MayCross(i, j) &&
                       ComesFirst(Said(j, heard[j]).waited, j, order[i], i);
        assert(!out_of_order)
     :: else
@@ -217,7 +230,7 @@ inline CheckOrder(i) {
 
 inline CheckLatch(i) {
   unlatched = CHECKS_AGREEMENT && held && !holds[AT(i, j)] && meets[AT(i, j)] && IsNear(place[i]) &&
-              (goes_first -> conflict : !(grants || through));
+              (goes_first -> conflict && !MayCross(i, j) : !(grants || through));
   assert(!unlatched)
 }
 
@@ -284,7 +297,7 @@ inline Forget(i) {
     meets[AT(i, j)] = false;
     holds[AT(i, j)] = false;
     released[AT(i, j)] = false;
-    stood[AT(i, j)] = false
+      stood[AT(i, j)] = false
   }
   waited[i] = 0;
   j = 0

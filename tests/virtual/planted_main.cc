@@ -35,6 +35,7 @@ constexpr NamedDefect kDefects[] = {
     {"grant_not_needed", Defect::kGrantNotNeeded},
     {"leader_is_conflict", Defect::kLeaderIsConflict},
     {"arrived_claims_way", Defect::kArrivedClaimsWay},
+    {"box_blocked", Defect::kBoxBlocked},
     {"claim_ignored", Defect::kClaimIgnored},
     {"claim_without_way", Defect::kClaimWithoutWay},
     {"brakes_too_late", Defect::kBrakesTooLate},

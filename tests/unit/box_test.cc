@@ -1,0 +1,158 @@
+// Crossings that cannot be left are not entered, and who is held up before one is not waited for:
+// one brain on a table, heading east from the origin at 0.3 m/s; the peers cross its way at x = 4.
+#include "services/vehicle/box.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/brain_bench.h"
+
+namespace giveway {
+namespace {
+
+using test::BeaconOf;
+using test::BrainBench;
+using test::ClearScan;
+
+constexpr double kCruise_m_s = 0.3;
+constexpr VehicleId kPeer{2};
+constexpr VehicleId kLeader{3};
+
+WheelSpeeds Rolling(double speed_m_s) { return {speed_m_s / 0.0975, speed_m_s / 0.0975}; }
+
+// Comes from the south and stands before the own way.
+Beacon PeerAt(std::uint32_t tick, double cruise_m_s) {
+  return BeaconOf(2, tick, {.position_world = {4, -1.2}, .heading_rad = kPi / 2}, cruise_m_s);
+}
+// By its cruise speed it comes first.
+Beacon FasterPeer(std::uint32_t tick) { return PeerAt(tick, 0.4); }
+
+// Drives ahead in the own lane.
+Beacon Leader(std::uint32_t tick, double x_m, double speed_m_s) {
+  Beacon beacon = BeaconOf(3, tick, {.position_world = {x_m, 0}}, kCruise_m_s);
+  beacon.wheels = Rolling(speed_m_s);
+  return beacon;
+}
+
+// Drives on while the beacons are as `say` says at a tick, until told to stop, for 20 s at most.
+template <typename Say>
+Outputs DriveUntilStopped(BrainBench* bench, Say say) {
+  Outputs out;
+  for (int i = 0; i < 400; ++i) {
+    RangeScan scan = ClearScan(0);
+    scan.wheels = Rolling(kCruise_m_s);
+    const std::uint32_t heard = bench->NextTick() - 1;
+    out = bench->Step(scan, heard == 0 ? std::vector<Beacon>{} : say(heard));
+    if (out.command.target.left_rad_s <= 0) break;
+  }
+  return out;
+}
+
+double PlaceOf(const Outputs& out) { return out.beacon.world_from_body.position_world.x; }
+
+TEST(HeldUp, OneThatGivesWayToAnotherIsNotWaitedFor) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    Beacon peer = FasterPeer(tick);
+    peer.rule = Rule::kGiveWay;
+    peer.gives_way_to = VehicleId{9};
+    return std::vector{peer};
+  });
+  EXPECT_GT(PlaceOf(out), 5);
+}
+
+TEST(HeldUp, OneThatStandsInAQueueIsNotWaitedFor) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    Beacon peer = FasterPeer(tick);
+    peer.rule = Rule::kKeepClear;
+    peer.blocked_by = VehicleId{9};
+    return std::vector{peer};
+  });
+  EXPECT_GT(PlaceOf(out), 5);
+}
+
+TEST(HeldUp, OneThatGivesWayToThisVehicleAloneIsWaitedForByTheOrder) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    Beacon peer = FasterPeer(tick);
+    peer.rule = Rule::kGiveWay;
+    peer.gives_way_to = VehicleId{1};
+    return std::vector{peer};
+  });
+  EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
+  EXPECT_LT(PlaceOf(out), 3.4);
+}
+
+TEST(HeldUp, OneThatSetsOffIsWaitedForWhileThereIsTimeToStop) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    Beacon peer = FasterPeer(tick);
+    peer.rule = Rule::kGiveWay;
+    peer.gives_way_to = VehicleId{9};
+    peer.wheels = Rolling(tick > 140 ? 0.02 : 0);  // 7 s: 2.1 m of the way
+    return std::vector{peer};
+  });
+  EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
+  EXPECT_LT(PlaceOf(out), 3.4);
+}
+
+// It says that it gives way for as long as it could, and not once it is too far to stop.
+TEST(HeldUp, TheWordToItIsTakenBackOnceItIsTooLateToStop) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  double said_last_m = 0;
+  DriveUntilStopped(&bench, [&](std::uint32_t tick) {
+    if (bench.Brain().State().gives_way_to == kPeer) {
+      said_last_m = bench.Brain().State().odometry.WorldFromBody().position_world.x;
+    }
+    Beacon peer = FasterPeer(tick);
+    peer.rule = Rule::kGiveWay;
+    peer.gives_way_to = VehicleId{9};
+    return std::vector{peer};
+  });
+  EXPECT_GT(said_last_m, 2.5);
+  EXPECT_LT(said_last_m, 3.4);
+}
+
+// The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.
+TEST(Box, IsNotEnteredBehindOneThatStands) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    return std::vector{PeerAt(tick, 0.2), Leader(tick, 5, 0)};
+  });
+  EXPECT_EQ(out.command.decision.rule, Rule::kKeepClear);
+  EXPECT_EQ(out.command.decision.peer, kLeader);
+  EXPECT_LT(PlaceOf(out), 3.4);
+}
+
+TEST(Box, IsEnteredWhereThereIsRoomBehindIt) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    return std::vector{PeerAt(tick, 0.2), Leader(tick, 6, 0)};
+  });
+  EXPECT_EQ(out.command.decision.peer, kLeader);
+  EXPECT_GT(PlaceOf(out), 5);
+}
+
+// Behind one that rolls on through the crossing there will be room.
+TEST(Box, IsEnteredBehindOneThatDrivesOn) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    return std::vector{PeerAt(tick, 0.2), Leader(tick, 2 + 0.2 * 0.05 * tick, 0.2)};
+  });
+  EXPECT_GT(PlaceOf(out), 4);
+}
+
+// It gives way to somebody farther on: it will stop, and this vehicle would in the crossing.
+TEST(Box, IsNotEnteredBehindOneThatWillStop) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+    Beacon leader = Leader(tick, 4.4, 0.02);
+    leader.gives_way_to = VehicleId{9};
+    return std::vector{PeerAt(tick, 0.2), leader};
+  });
+  EXPECT_EQ(out.command.decision.peer, kLeader);
+  EXPECT_LT(PlaceOf(out), 3.4);
+}
+
+}  // namespace
+}  // namespace giveway
