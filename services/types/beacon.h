@@ -14,7 +14,7 @@ namespace giveway {
 // Who may go first. Vehicles that waited beyond a limit come first, the longest wait first; then
 // the higher cruise-speed bucket; then the lower id. A strict total order over distinct ids.
 struct OrderKey {
-  std::uint32_t waited_ticks = 0;  // 0 below the ageing limit
+  std::uint32_t waited_ticks = 0;  // whole ageing limits; 0 below the first
   std::uint32_t speed_bucket = 0;  // round(cruise / 0.05 m/s)
   VehicleId vehicle = kNobody;
 

@@ -210,20 +210,23 @@ void BeginOrEnd(const PeerView& view, const Situation& s) {
 
 }  // namespace
 
-bool UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
-  bool holds = false;
+EncounterNews UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
+  EncounterNews news;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
+    const bool met = encounter.active;
     BeginOrEnd(view, s);
+    news.let_pass = news.let_pass || (met && !encounter.active && view.goes_first);
     encounter.holds = encounter.active && Holds(view, s);
-    holds = holds || encounter.holds;
+    news.holds = news.holds || encounter.holds;
+    news.under_way = news.under_way || encounter.active;
   }
-  if (holds) return true;
+  if (news.holds) return news;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     if (encounter.active && view.conflict && EntersBox(view, s)) encounter.entered = true;
   }
-  return false;
+  return news;
 }
 
 }  // namespace giveway

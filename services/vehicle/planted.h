@@ -14,6 +14,7 @@ enum class Defect : std::uint8_t {
   kTieFreesBoth,
   kMeasuredSpeedInOrder,
   kLendingDropped,
+  kWaitingNeverCounts,
   // Whom to believe, and for how long.
   kOwnBeaconHeard,
   kStaleBeaconTrusted,
@@ -27,7 +28,6 @@ enum class Defect : std::uint8_t {
   kGrantNotNeeded,
   kLeaderIsConflict,
   kArrivedClaimsWay,
-  kBoxBlocked,
   // What never rests on agreement.
   kClaimIgnored,
   kClaimWithoutWay,

@@ -133,7 +133,6 @@ std::optional<Proposal> KeepClear(const Situation& s) {
 }
 
 std::optional<Proposal> KeepBoxClear(const Situation& s) {
-  if (Has(Defect::kBoxBlocked)) return std::nullopt;
   constexpr double kInHand_m = 0.03;
   const std::optional<BlockedBox> box = FindBlockedBox(s);
   if (!box) return std::nullopt;

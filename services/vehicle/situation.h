@@ -100,6 +100,8 @@ struct Situation {
   bool someone_lost = false;     // of all peers
   bool someone_doubted = false;  // of `peers`
   bool holds = false;            // for any of them
+  bool let_pass = false;         // an encounter with one that comes first is over, just now
+  bool meets = false;            // an encounter with any of them is under way
   LastHeard last_heard;          // of lecture_printed alone, which has no peers
 };
 

@@ -77,7 +77,7 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.arrived = false;
   state.order.waited_ticks = 0;
   state.waited_ticks = 0;
-  state.encounters = 0;
+  state.let_pass = false;
   state.deaf = false;
   state.ranges = {};
   state.signals.LeaveWorld();
@@ -211,7 +211,10 @@ void Vehicle::LookAtPeers(Situation* s) {
   const std::span<PeerView> views(views_->data(), count);
   JudgeEchoes(views, *s, &state_->trust);
   FindBoxes(views, *s);
-  s->holds = UpdateEncounters(views, *s);
+  const EncounterNews news = UpdateEncounters(views, *s);
+  s->holds = news.holds;
+  s->let_pass = news.let_pass;
+  s->meets = news.under_way;
   s->peers = views;
 }
 
@@ -246,23 +249,39 @@ void Vehicle::ListenForMovers(Situation* s) {
   s->deaf_sensor = state.deaf ? state.deaf_sensor : -1;
 }
 
-// What the next step must know: how long it has waited, and its place in the order, which is
-// sampled when the first of the encounters begins and then stands until the last is over.
+// How long it has waited, by which it comes first: whole ageing limits only, so that this seldom
+// changes, and two that wait for each other need not hear of every tick.
+std::uint32_t Vehicle::AgedTicks() const {
+  const auto limit = static_cast<std::uint32_t>(options_.ageing_limit / options_.tick_period);
+  return limit == 0 ? state_->waited_ticks : state_->waited_ticks / limit * limit;
+}
+
+// Its place in the order stands while encounters are under way. But once it has let somebody pass
+// it rises all the same while it waits: in a stream of vehicles that come first they always are.
+// What it waited is forgotten when it is through: away from where it stood, and meeting nobody.
+void Vehicle::KeepOrder(const Situation& s, bool waits) {
+  constexpr double kThrough_m = 2.5;
+  VehicleState& state = *state_;
+  const Vec2 position_world = s.world_from_body.position_world;
+  state.let_pass = state.let_pass || s.let_pass;
+  if (waits) {
+    ++state.waited_ticks;
+    state.waited_world = position_world;
+  } else if (!s.meets &&
+             SquaredNorm(position_world - state.waited_world) > kThrough_m * kThrough_m) {
+    state.waited_ticks = 0;
+    state.let_pass = false;
+  }
+  if (Has(Defect::kWaitingNeverCounts)) return;
+  if ((waits && state.let_pass) || !s.meets) state.order.waited_ticks = AgedTicks();
+}
+
+// What the next step must know.
 void Vehicle::Remember(const Situation& s, const Action& action) {
   const Decision& decision = action.decision;
   VehicleState& state = *state_;
-  const auto under_way = static_cast<std::uint32_t>(
-      std::count_if(s.peers.begin(), s.peers.end(),
-                    [](const PeerView& view) { return view.peer->encounter.active; }));
-  const auto limit = static_cast<std::uint32_t>(options_.ageing_limit / options_.tick_period);
-  const bool waits = IsGiveWay(decision.rule) && s.speed_m_s < kStandingSpeed_m_s;
-  if (waits) ++state.waited_ticks;
-  if (under_way == 0 || state.encounters == 0) {
-    state.order.waited_ticks = state.waited_ticks > limit ? state.waited_ticks : 0;
-  }
+  KeepOrder(s, IsGiveWay(decision.rule) && s.speed_m_s < kStandingSpeed_m_s);
   if (Has(Defect::kMeasuredSpeedInOrder)) state.order.speed_bucket = SpeedBucket(s.speed_m_s);
-  if (under_way == 0 && !waits) state.waited_ticks = 0;
-  state.encounters = under_way;
   state.decision = decision;
   state.steer_side = action.steer_side;
   if (action.away_rad) {

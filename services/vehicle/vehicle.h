@@ -34,8 +34,9 @@ struct VehicleState {
   std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
   OrderKey order;
-  std::uint32_t waited_ticks = 0;  // halted to give way, in the encounters under way
-  std::uint32_t encounters = 0;    // under way in the step before
+  std::uint32_t waited_ticks = 0;  // halted to give way, on the way to where it is through
+  Vec2 waited_world;               // where it halted last
+  bool let_pass = false;           // somebody that comes first has passed since it waits
   SteadyTime deaf_since{0};        // last time something near moved unexplained
   Tick turned_tick = kNoTick;      // when it last turned sharply
   bool deaf = false;
@@ -97,6 +98,8 @@ class Vehicle {
   void NoteTurning(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
+  std::uint32_t AgedTicks() const;
+  void KeepOrder(const Situation& situation, bool waits);
   void Remember(const Situation& situation, const Action& action);
   void KeepBlocked(VehicleId blocked_by, const Situation& situation);
   Beacon Say(const Situation& situation);

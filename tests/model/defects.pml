@@ -35,17 +35,15 @@
 #endif
 
 #ifdef ORDER_NOT_FROZEN
-#define IsFrozen(under_way) false
-#elif defined(RISES_WAITING)
-#define IsFrozen(under_way) ((under_way) && !(waits && !go[i]))
+#define Rises(i) true
 #else
-#define IsFrozen(under_way) (under_way)
+#define Rises(i) (!under_way[i] || (let_pass[i] && place[i] == GATE))
 #endif
 
-#ifdef REMEMBERS_WAITING
-#define ForgetsWaiting(rests_) false
-#else
+#ifdef WAITING_FORGOTTEN
 #define ForgetsWaiting(rests_) (rests_)
+#else
+#define ForgetsWaiting(rests_) false
 #endif
 
 #ifdef THROUGH_FIRST_GUESSED

@@ -13,7 +13,7 @@
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
  *   Claimed         ClaimOf, FreeBefore, KeepClear                              claim.cc, rules.cc
  *   Listen          ListenForMovers, NearestEcho; the rule Deaf                 vehicle.cc, rules.cc
- *   Remember, Say   Remember, GivesWayTo, CanGiveWay, Say                       vehicle.cc, decide.cc
+ *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, Say            vehicle.cc, decide.cc
  *   Move            World::Step; of the dead: watchdog, removal of the body     sim_world
  *
  * Time is ticks, all vehicles step in each. In tick k a brain knows beacons of ticks k-1 .. k-AGE, at
@@ -47,6 +47,7 @@
 #define AGED_AT_MOST 2 /* ticks of waiting that are counted; 0: no ageing */
 #endif
 #define AGEING_LIMIT 1 /* ticks of waiting beyond which they count */
+#define AgedTicks(i) (waited[i] > AGEING_LIMIT -> waited[i] : 0)
 #ifndef CRASHES
 #define CRASHES 0
 #endif
@@ -106,10 +107,10 @@ bool holds[N * N];    /* Encounter::holds */
 bool released[N * N]; /* Encounter::released */
 bool stood[N * N];    /* last heard standing and second: no conflict */
 byte waited[N];       /* ticks */
+bool let_pass[N];     /* one that comes first has passed since it waits */
 byte order[N];        /* the waited part of the own key, as published */
 byte gives_way[N];    /* said at the end of this tick */
 bool under_way[N];    /* this tick: encounters are under way, and were in the tick before */
-bool frozen[N];       /* this tick: and so the order stands */
 bool rests[N];        /* this tick: no encounter, no waiting: what it waited is forgotten */
 
 /* Scratch: heard lives from Hear to the end of Decide, the rest within one step; 0 between. */
@@ -122,7 +123,8 @@ bool clear, deaf, waits, met, meets_any, held;
 bool two_in_zone;  /* exclusion: never two bodies in the zone, dead or alive */
 bool out_of_order; /* order: nobody enters before one that it hears near and that comes first,
                     * unless that one waits for a third */
-bool unfrozen;     /* frozen: the order published stands while encounters are under way */
+bool unfrozen;     /* frozen: while encounters are under way the order published changes only once its
+                    * vehicle has let somebody pass, and stands before the zone */
 bool unlatched;    /* latch: a stop for a peer lasts until that has passed or given way */
 
 #include "defects.pml"
@@ -150,6 +152,7 @@ inline Look(i) {
 inline UpdateFresh(i) {
   Look(i);
   released[AT(i, j)] = false;
+  let_pass[i] = let_pass[i] || (AGED_AT_MOST > 0 && meets[AT(i, j)] && goes_first && p == FAR);
   meets[AT(i, j)] = (meets[AT(i, j)] -> p != FAR : conflict && !through);
   stood[AT(i, j)] = meets[AT(i, j)] && !conflict;
   held = holds[AT(i, j)];
@@ -211,7 +214,6 @@ inline Remember(i) {
   :: else
   fi;
   under_way[i] = AGED_AT_MOST > 0 && met && meets_any;
-  frozen[i] = IsFrozen(under_way[i]);
   rests[i] = AGED_AT_MOST > 0 && ForgetsWaiting(!meets_any && !waits)
 }
 
@@ -300,6 +302,7 @@ inline Forget(i) {
       stood[AT(i, j)] = false
   }
   waited[i] = 0;
+  let_pass[i] = false;
   j = 0
 }
 
@@ -316,10 +319,10 @@ inline Say(i) {
      Said(i, 1).gives_way_to = gives_way[i];
      Said(i, 1).waited = order[i];
      if
-     :: !frozen[i] && !InZone(place[i]) ->
-        unfrozen = under_way[i] && order[i] != (waited[i] > AGEING_LIMIT -> waited[i] : 0);
+     :: !InZone(place[i]) && Rises(i) ->
+        unfrozen = under_way[i] && !(let_pass[i] && place[i] == GATE) && order[i] != AgedTicks(i);
         assert(!unfrozen);
-        order[i] = (waited[i] > AGEING_LIMIT -> waited[i] : 0)
+        order[i] = AgedTicks(i)
      :: else
      fi
   :: else ->
@@ -333,7 +336,6 @@ inline Say(i) {
   fi;
   gives_way[i] = NOBODY;
   under_way[i] = false;
-  frozen[i] = false;
   rests[i] = false
 }
 
