@@ -18,7 +18,6 @@ declare -A taken_away=(
   [all]=""
   [agreement]="claim_ignored,obstacle_ignored"
   [claims]="second_drives_on,through_first_guessed"
-  [young]="waiting_never_counts"
 )
 for program in fleetctl fleetctl_planted; do
   [[ -x $bin/$program ]] || { echo "defects.sh: $bin/$program is not built" >&2 && exit 2; }
