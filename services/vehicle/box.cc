@@ -53,10 +53,10 @@ double AlongOwnWay(const PeerView& view, const Situation& s) {
 
 // Room that the own lane needs for the vehicle and all between it and the place `along_m` on, where
 // they stand behind each other.
-double QueueLength(double along_m, const Situation& s) {
+double QueueLength(double along_m, std::span<const PeerView> views, const Situation& s) {
   constexpr double kMoreThanClear_m = 0.01;
   double length_m = 0;
-  for (const PeerView& view : s.peers) {
+  for (const PeerView& view : views) {
     if (!view.leads || AlongOwnWay(view, s) > along_m) continue;
     length_m += s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kClearance_m +
                 kMoreThanClear_m;
@@ -88,10 +88,11 @@ double LeaderStops(const PeerView& leader, const Crossings& crossings, const Sit
 }
 
 // How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not.
-double StopsBehind(const PeerView& view, const Crossings& crossings, const Situation& s) {
+double StopsBehind(const PeerView& view, std::span<const PeerView> views,
+                   const Crossings& crossings, const Situation& s) {
   if (!view.fresh) return kNever_m;
   if (!view.leads) return view.standing ? view.free_m : kNever_m;
-  return LeaderStops(view, crossings, s) - QueueLength(AlongOwnWay(view, s), s);
+  return LeaderStops(view, crossings, s) - QueueLength(AlongOwnWay(view, s), views, s);
 }
 
 // Where the box begins that a point lies in; huge if it lies in none, or in one entered already.
@@ -108,29 +109,30 @@ double BoxRound(double point_m, const PeerView& but, const Crossings& crossings)
   return begin_m;
 }
 
+std::optional<BlockedBox> NearestBlocked(std::span<const PeerView> views,
+                                         const Crossings& crossings, const Situation& s) {
+  if (crossings.count == 0) return std::nullopt;
+  std::optional<BlockedBox> nearest;
+  for (const PeerView& view : views) {
+    const double stops_m = StopsBehind(view, views, crossings, s);
+    if (stops_m > kOwnNear_m) continue;
+    const double begin_m = BoxRound(stops_m, view, crossings);
+    if (begin_m >= (nearest ? nearest->begin_m : kNever_m)) continue;
+    nearest = {begin_m, view.peer->id, view.peer->beacon.tick};
+  }
+  return nearest;
+}
+
 }  // namespace
 
-void FindBoxes(std::span<PeerView> views, const Situation& s) {
+std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const Situation& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   const Crossings crossings = cooperative ? CrossingsAhead(views) : Crossings{};
   for (PeerView& view : views) {
     if (!view.crossing) continue;
     view.box_begin_m = BoxBegin(crossings, view.crossing->own.begin_m);
   }
-}
-
-std::optional<BlockedBox> FindBlockedBox(const Situation& s) {
-  const Crossings crossings = CrossingsAhead(s.peers);
-  if (crossings.count == 0) return std::nullopt;
-  BlockedBox nearest{.begin_m = kNever_m};
-  for (const PeerView& view : s.peers) {
-    const double stops_m = StopsBehind(view, crossings, s);
-    if (stops_m > kOwnNear_m) continue;
-    const double begin_m = BoxRound(stops_m, view, crossings);
-    if (begin_m < nearest.begin_m) nearest = {begin_m, &view};
-  }
-  if (nearest.by == nullptr) return std::nullopt;
-  return nearest;
+  return NearestBlocked(views, crossings, s);
 }
 
 }  // namespace giveway

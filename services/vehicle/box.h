@@ -12,16 +12,8 @@
 
 namespace giveway {
 
-// Sets `box_begin_m` of every view that crosses the own way.
-void FindBoxes(std::span<PeerView> views, const Situation& s);
-
-// A box that would be left too late.
-struct BlockedBox {
-  double begin_m = 0;  // from the own axle centre, along the own way; at least 0
-  const PeerView* by = nullptr;
-};
-
-// The nearest box ahead that the vehicle would come to stand in, as things are now.
-std::optional<BlockedBox> FindBlockedBox(const Situation& s);
+// Sets `box_begin_m` of every view that crosses the own way. The nearest box ahead that the vehicle
+// would come to stand in, as things are now.
+std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const Situation& s);
 
 }  // namespace giveway

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "services/vehicle/box.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/planted.h"
 
@@ -133,17 +132,16 @@ std::optional<Proposal> KeepClear(const Situation& s) {
 }
 
 std::optional<Proposal> KeepBoxClear(const Situation& s) {
-  constexpr double kInHand_m = 0.03;
-  const std::optional<BlockedBox> box = FindBlockedBox(s);
-  if (!box) return std::nullopt;
-  const double limit = SpeedToStopWithin(box->begin_m - kInHand_m, ReactionSeconds(s.options),
-                                         s.options.profile.deceleration_m_s2);
+  if (!s.blocked_box) return std::nullopt;
+  const double limit =
+      SpeedToStopWithin(s.blocked_box->begin_m - kInHand_m, ReactionSeconds(s.options),
+                        s.options.profile.deceleration_m_s2);
   if (limit >= s.options.cruise_m_s) return std::nullopt;
   return Proposal{.max_speed_m_s = limit,
                   .may_turn = true,
                   .rule = Rule::kKeepClear,
-                  .peer = box->by->peer->id,
-                  .cause_tick = box->by->peer->beacon.tick};
+                  .peer = s.blocked_box->by,
+                  .cause_tick = s.blocked_box->told};
 }
 
 std::span<const RuleFunction> RulesOf(Behaviour behaviour) {

@@ -183,7 +183,6 @@ double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
 
 double OwnStoppingDistance(const Situation& s) {
   const double speed = std::max(0.0, s.speed_m_s);
-  constexpr double kInHand_m = 0.03;
   return StoppingDistance(speed, ReactionSeconds(s.options) + Seconds(s.options.tick_period),
                           s.options.profile.deceleration_m_s2) +
          kInHand_m;

@@ -58,6 +58,13 @@ struct HeardEchoes {
   std::array<std::size_t, kSensorCount> sensor;
 };
 
+// A box that would be left too late: see box.h.
+struct BlockedBox {
+  double begin_m = 0;  // from the own axle centre, along the own way; above 0
+  VehicleId by = kNobody;
+  Tick told = kNoTick;  // of the beacon that shows it
+};
+
 struct Situation {
   const VehicleOptions& options;
   SteadyTime now{0};
@@ -102,7 +109,8 @@ struct Situation {
   bool holds = false;            // for any of them
   bool let_pass = false;         // an encounter with one that comes first is over, just now
   bool meets = false;            // an encounter with any of them is under way
-  LastHeard last_heard;          // of lecture_printed alone, which has no peers
+  std::optional<BlockedBox> blocked_box;
+  LastHeard last_heard;  // of lecture_printed alone, which has no peers
 };
 
 // Below this a vehicle stands still, as the verdict defines it.
@@ -115,6 +123,8 @@ inline constexpr double kSigmas = 2;
 inline constexpr double kPassingMargin_m = 0.2;
 // Kept from a claim on top of what is not known: steering bends the straight way a little.
 inline constexpr double kClearance_m = 0.05;
+// Left between where the vehicle stops and where it must have stopped.
+inline constexpr double kInHand_m = 0.03;
 
 // From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old, of
 // readings that may be older by the ultrasonics' refresh.

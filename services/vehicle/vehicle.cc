@@ -210,7 +210,7 @@ void Vehicle::LookAtPeers(Situation* s) {
   }
   const std::span<PeerView> views(views_->data(), count);
   JudgeEchoes(views, *s, &state_->trust);
-  FindBoxes(views, *s);
+  s->blocked_box = FindBoxes(views, *s);
   const EncounterNews news = UpdateEncounters(views, *s);
   s->holds = news.holds;
   s->let_pass = news.let_pass;

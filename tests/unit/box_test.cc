@@ -16,6 +16,7 @@ using test::ClearScan;
 constexpr double kCruise_m_s = 0.3;
 constexpr VehicleId kPeer{2};
 constexpr VehicleId kLeader{3};
+constexpr VehicleId kThird{9};
 
 WheelSpeeds Rolling(double speed_m_s) { return {speed_m_s / 0.0975, speed_m_s / 0.0975}; }
 
@@ -23,8 +24,13 @@ WheelSpeeds Rolling(double speed_m_s) { return {speed_m_s / 0.0975, speed_m_s / 
 Beacon PeerAt(std::uint32_t tick, double cruise_m_s) {
   return BeaconOf(2, tick, {.position_world = {4, -1.2}, .heading_rad = kPi / 2}, cruise_m_s);
 }
-// By its cruise speed it comes first.
-Beacon FasterPeer(std::uint32_t tick) { return PeerAt(tick, 0.4); }
+// By its cruise speed it comes first, but says that it gives way to `to`.
+Beacon PeerGivingWayTo(VehicleId to, std::uint32_t tick) {
+  Beacon peer = PeerAt(tick, 0.4);
+  peer.rule = Rule::kGiveWay;
+  peer.gives_way_to = to;
+  return peer;
+}
 
 // Drives ahead in the own lane.
 Beacon Leader(std::uint32_t tick, double x_m, double speed_m_s) {
@@ -49,46 +55,57 @@ Outputs DriveUntilStopped(BrainBench* bench, Say say) {
 
 double PlaceOf(const Outputs& out) { return out.beacon.world_from_body.position_world.x; }
 
-TEST(HeldUp, OneThatGivesWayToAnotherIsNotWaitedFor) {
+// Drives towards the peer, which says the same all the time.
+Outputs DriveUpTo(Beacon peer) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
-    Beacon peer = FasterPeer(tick);
-    peer.rule = Rule::kGiveWay;
-    peer.gives_way_to = VehicleId{9};
+  return DriveUntilStopped(&bench, [&peer](std::uint32_t tick) {
+    peer.tick = Tick{tick};
+    peer.seq = tick;
     return std::vector{peer};
   });
-  EXPECT_GT(PlaceOf(out), 5);
+}
+
+TEST(HeldUp, OneThatGivesWayToAnotherIsNotWaitedFor) {
+  EXPECT_GT(PlaceOf(DriveUpTo(PeerGivingWayTo(kThird, 1))), 5);
 }
 
 TEST(HeldUp, OneThatStandsInAQueueIsNotWaitedFor) {
-  BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
-    Beacon peer = FasterPeer(tick);
-    peer.rule = Rule::kKeepClear;
-    peer.blocked_by = VehicleId{9};
-    return std::vector{peer};
-  });
-  EXPECT_GT(PlaceOf(out), 5);
+  Beacon peer = PeerAt(1, 0.4);
+  peer.rule = Rule::kKeepClear;
+  peer.blocked_by = kThird;
+  EXPECT_GT(PlaceOf(DriveUpTo(peer)), 5);
 }
 
 TEST(HeldUp, OneThatGivesWayToThisVehicleAloneIsWaitedForByTheOrder) {
-  BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
-    Beacon peer = FasterPeer(tick);
-    peer.rule = Rule::kGiveWay;
-    peer.gives_way_to = VehicleId{1};
-    return std::vector{peer};
-  });
+  const Outputs out = DriveUpTo(PeerGivingWayTo(VehicleId{1}, 1));
   EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
   EXPECT_LT(PlaceOf(out), 3.4);
+}
+
+// Its shell is in the way already.
+TEST(HeldUp, OneThatStandsInTheCrossingIsWaitedFor) {
+  Beacon peer = PeerGivingWayTo(kThird, 1);
+  peer.world_from_body.position_world.y = -0.55;
+  const Outputs out = DriveUpTo(peer);
+  EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
+  EXPECT_LT(PlaceOf(out), 3.5);
+}
+
+// What it waits for may be gone before the lane is free. Its way comes down to this one at 17
+// degrees; it stands just beside it.
+TEST(HeldUp, OneThatComesTheOtherWayIsWaitedFor) {
+  Beacon peer = PeerGivingWayTo(kThird, 1);
+  peer.world_from_body = {.position_world = {4, 0.62}, .heading_rad = -kPi + 0.3};
+  peer.toward_world = {-4, -1.9};
+  const Outputs out = DriveUpTo(peer);
+  EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
+  EXPECT_LT(PlaceOf(out), 3);
 }
 
 TEST(HeldUp, OneThatSetsOffIsWaitedForWhileThereIsTimeToStop) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
-    Beacon peer = FasterPeer(tick);
-    peer.rule = Rule::kGiveWay;
-    peer.gives_way_to = VehicleId{9};
+    Beacon peer = PeerGivingWayTo(kThird, tick);
     peer.wheels = Rolling(tick > 140 ? 0.02 : 0);  // 7 s: 2.1 m of the way
     return std::vector{peer};
   });
@@ -104,10 +121,7 @@ TEST(HeldUp, TheWordToItIsTakenBackOnceItIsTooLateToStop) {
     if (bench.Brain().State().gives_way_to == kPeer) {
       said_last_m = bench.Brain().State().odometry.WorldFromBody().position_world.x;
     }
-    Beacon peer = FasterPeer(tick);
-    peer.rule = Rule::kGiveWay;
-    peer.gives_way_to = VehicleId{9};
-    return std::vector{peer};
+    return std::vector{PeerGivingWayTo(kThird, tick)};
   });
   EXPECT_GT(said_last_m, 2.5);
   EXPECT_LT(said_last_m, 3.4);
@@ -147,7 +161,7 @@ TEST(Box, IsNotEnteredBehindOneThatWillStop) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
     Beacon leader = Leader(tick, 4.4, 0.02);
-    leader.gives_way_to = VehicleId{9};
+    leader.gives_way_to = kThird;
     return std::vector{PeerAt(tick, 0.2), leader};
   });
   EXPECT_EQ(out.command.decision.peer, kLeader);
