@@ -150,13 +150,14 @@ bool IsClaimFar(const Beacon& beacon, double sigma_m, double unknown_s, const Si
 
 // The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
 // have done since is unknown up to the end of the tick that this decision moves.
-double FreeOf(const PeerView& view, Vec2 told_forward_world, const Situation& s) {
+double FreeOf(const PeerView& view, const Situation& s) {
   const Beacon& beacon = view.peer->beacon;
   if (view.peer->out_of_reach || view.peer->left) return kFarAway_m;
   const double unknown_s = UnknownSeconds(beacon, s);
   if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.sigma_m, unknown_s, s))
     return kFarAway_m;
-  const Claim claim = ClaimOf(beacon, told_forward_world, unknown_s, ReactionSeconds(s.options));
+  const Claim claim =
+      ClaimOf(beacon, view.told_forward_world, unknown_s, ReactionSeconds(s.options));
   return FreeBefore(claim, {s.world_from_body.position_world, s.forward_world},
                     ApartFrom(view.sigma_m, s));
 }
@@ -255,19 +256,27 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
          !IsClaimFar(beacon, sigma_m, UnknownSeconds(beacon, s), s);
 }
 
-PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
-  PeerView view;
-  const Beacon& beacon = peer->beacon;
+void CarryForward(std::span<PeerView> views, const Situation& s) {
+  for (PeerView& view : views) {
+    view.told_forward_world = Forward(view.peer->beacon.world_from_body);
+  }
+  for (PeerView& view : views) {
+    const Beacon& beacon = view.peer->beacon;
+    const Facing told = {beacon.world_from_body.position_world, view.told_forward_world};
+    const Facing now = AdvanceFacing(told, TwistFromWheels(beacon.drive, beacon.wheels),
+                                     CarriedSeconds(beacon, view.fresh, s));
+    view.position_world = now.position_world;
+    view.forward_world = now.forward_world;
+  }
+}
+
+void LookAt(PeerView* looked_at, const Situation& s) {
+  PeerView& view = *looked_at;
+  const Beacon& beacon = view.peer->beacon;
   const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
-  view.peer = peer;
-  view.fresh = fresh;
-  view.believed = fresh && !IsDoubted(peer->trust, s.now);
-  view.lost = IsLost(*peer, fresh);
-  const Facing told = {beacon.world_from_body.position_world, Forward(beacon.world_from_body)};
-  const Facing now = AdvanceFacing(told, twist, CarriedSeconds(beacon, fresh, s));
-  view.position_world = now.position_world;
-  view.forward_world = now.forward_world;
-  view.apart = Apart(beacon, now.position_world - told.position_world, s);
+  view.believed = view.fresh && !IsDoubted(view.peer->trust, s.now);
+  view.lost = IsLost(*view.peer, view.fresh);
+  view.apart = Apart(beacon, view.position_world - beacon.world_from_body.position_world, s);
   view.sigma_m = SigmaPosition(view.apart);
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
@@ -283,16 +292,15 @@ PeerView LookAt(Peer* peer, bool fresh, const Situation& s) {
   view.leads = Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
   view.crossing = CrossingWith(view, s);
   // One that stands and comes later in the order is a body to steer round.
-  const bool stands = view.standing && (view.believed || !fresh);
+  const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.goes_first;
   if (!steered_round) view.conflict = view.crossing;
   view.box_begin_m = 0;
-  view.free_m = FreeOf(view, told.forward_world, s);
+  view.free_m = FreeOf(view, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
                                   halted || WaitsAtSignal(view, s));
-  view.explains = fresh ? EchoesOf(view, s) : 0;
-  return view;
+  view.explains = view.fresh ? EchoesOf(view, s) : 0;
 }
 
 }  // namespace giveway

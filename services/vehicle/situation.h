@@ -18,16 +18,18 @@
 
 namespace giveway {
 
-// A peer within reach of an encounter, carried forward by its wheel speeds to this tick. LookAt
-// fills in everything.
+// A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
+// CarryForward fills in the places and headings, LookAt everything below them.
 struct PeerView {
   Peer* peer;
+  bool fresh;
+  Vec2 told_forward_world;  // unit vector of the heading in its beacon
   Vec2 position_world;
-  Vec2 forward_world;    // unit vector of its heading
+  Vec2 forward_world;  // unit vector of its heading
+
   PoseCovariance apart;  // of where the peer is to this vehicle
   double sigma_m;        // the same along its worst axis
   double speed_m_s;      // forward, as measured by the peer
-  bool fresh;
   bool lost;
   bool standing;      // below kStandingSpeed
   bool goes_first;    // before this vehicle, by both keys as published
@@ -168,7 +170,11 @@ double ClosingSpeed(const PeerView& view, const Situation& s);
 // it. It costs a fraction of LookAt, and most of a large fleet is far away.
 bool CanMatter(const Peer& peer, bool fresh, const Situation& s);
 
-// Carries `peer` forward to now and relates it to the own path.
-PeerView LookAt(Peer* peer, bool fresh, const Situation& s);
+// Carries the peers of all views forward to now. For all before LookAt at any: a sine is a chain of
+// operations of which each waits for the one before, and those of several peers run side by side.
+void CarryForward(std::span<PeerView> views, const Situation& s);
+
+// Relates the peer of `view` to the own path.
+void LookAt(PeerView* view, const Situation& s);
 
 }  // namespace giveway

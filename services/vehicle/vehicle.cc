@@ -191,7 +191,8 @@ void Vehicle::LookAtSignals(Situation* s) {
   s->at_signal = state_->decision.rule == Rule::kSignal;
 }
 
-void Vehicle::LookAtPeers(Situation* s) {
+// Views are made where they stay: copying one costs as much as making it.
+std::span<PeerView> Vehicle::ThoseThatMatter(Situation* s) {
   std::uint32_t count = 0;
   peers_heard_ = 0;
   for (Peer& peer : state_->peers.Peers()) {
@@ -200,15 +201,24 @@ void Vehicle::LookAtPeers(Situation* s) {
     peers_heard_ += fresh ? 1 : 0;
     s->someone_lost = s->someone_lost || IsLost(peer, fresh);
     if (!CanMatter(peer, fresh, *s)) continue;
-    // Made where it stays: copying a view costs as much as making it.
-    const auto* view = new (&(*views_)[count++]) PeerView(LookAt(&peer, fresh, *s));
-    s->someone_doubted = s->someone_doubted || (fresh && !view->believed);
+    auto* view = new (&(*views_)[count++]) PeerView;
+    view->peer = &peer;
+    view->fresh = fresh;
+  }
+  return {views_->data(), count};
+}
+
+void Vehicle::LookAtPeers(Situation* s) {
+  const std::span<PeerView> views = ThoseThatMatter(s);
+  CarryForward(views, *s);
+  for (PeerView& view : views) {
+    LookAt(&view, *s);
+    s->someone_doubted = s->someone_doubted || (view.fresh && !view.believed);
     // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
     // lecture's behaviours a known body is kept from no less than an unknown one.
-    const bool explains = view->believed || options_.behaviour != Behaviour::kCooperative;
-    s->explained |= explains ? view->explains : 0;
+    const bool explains = view.believed || options_.behaviour != Behaviour::kCooperative;
+    s->explained |= explains ? view.explains : 0;
   }
-  const std::span<PeerView> views(views_->data(), count);
   JudgeEchoes(views, *s, &state_->trust);
   s->blocked_box = FindBoxes(views, *s);
   const EncounterNews news = UpdateEncounters(views, *s);

@@ -94,6 +94,7 @@ class Vehicle {
   void LookAhead(Situation* situation);
   void LookAtSignals(Situation* situation);
   void LookAround(Situation* situation);
+  std::span<PeerView> ThoseThatMatter(Situation* situation);
   void LookAtPeers(Situation* situation);
   void NoteTurning(Situation* situation);
   void ListenForMovers(Situation* situation);

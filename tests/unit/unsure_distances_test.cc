@@ -41,7 +41,10 @@ class Onlooker {
     peer_.beacon = test::BeaconOf(2, 1, pose);
     peer_.beacon.covariance = covariance;
     peer_.beacon.wheels = wheels;
-    return LookAt(&peer_, true, *situation_);
+    PeerView view{.peer = &peer_, .fresh = true};
+    CarryForward({&view, 1}, *situation_);
+    LookAt(&view, *situation_);
+    return view;
   }
   bool CanMatter(const Pose& pose, const PoseCovariance& covariance) {
     At(pose, covariance);
