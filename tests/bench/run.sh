@@ -3,7 +3,7 @@
 # exit code is 0 however they come out, and 2 if one could not be taken.
 #
 #   bash tests/bench/run.sh            every figure
-#   bash tests/bench/run.sh step       one group: step, link, world, peers, right_of_way,
+#   bash tests/bench/run.sh step       one group: step, virtual, link, world, peers, right_of_way,
 #                                      reaction or rss
 #
 # The group peers installs Box2D and Embree, which nothing else needs. A bound of - is none.
@@ -62,6 +62,21 @@ if wanted step; then
   figure step_10_peers_us "$(microbench VehicleStep/10 real_time)" 0.5
   figure step_100_peers_us "$(microbench VehicleStep/100 real_time)" 5
   figure step_1000_peers_us "$(microbench VehicleStep/1000 real_time)" 50
+fi
+
+# Vehicle-hours a minute in virtual time on two cores, 50 vehicles a run with 10 or all 49 in reach;
+# and what a vehicle and tick take of one core, in all and of that the parts beside Vehicle::Step.
+if wanted virtual; then
+  fleet=VirtualFleetAdvance
+  figure_at_least virtual_hours_per_min \
+    "$(microbench $fleet/5/real_time/threads:2 vehicle_hours_per_minute)" 1000
+  figure_alone virtual_hours_per_min_49 \
+    "$(microbench $fleet/100/real_time/threads:2 vehicle_hours_per_minute)"
+  for part in all=$fleet/5/real_time/threads:1 world=VirtualWorld radio=VirtualRadio/5 \
+    invariants=VirtualInvariants; do
+    figure_alone "virtual_${part%%=*}_us" \
+      "$(microbench "${part#*=}" real_time | awk '{ printf "%.2f", $1 / 50 }')"
+  done
 fi
 
 # Our link against bare Fast DDS calls in the same loop; medians of the ratios of neighbours.
