@@ -69,7 +69,7 @@ double NextStop(double from_m, const Crossings& crossings) {
   double next_m = kNever_m;
   for (const PeerView* view : crossings.All()) {
     const double begin_m = view->crossing->own.begin_m;
-    if (view->leads || !view->crossing->across || begin_m <= from_m) continue;
+    if (!view->crossing->across || begin_m <= from_m) continue;
     next_m = std::min(next_m, begin_m);
   }
   return next_m;
@@ -79,15 +79,15 @@ double NextStop(double from_m, const Crossings& crossings) {
 double LeaderStops(const PeerView& leader, const Crossings& crossings, const Situation& s) {
   const double along_m = AlongOwnWay(leader, s);
   if (leader.standing) return along_m;
-  const double stops_m =
-      along_m + StoppingDistance(std::max(0.0, leader.speed_m_s), ReactionSeconds(s.options),
-                                 s.options.profile.deceleration_m_s2);
+  const double stops_m = along_m + StoppingDistanceOf(leader, s);
   const Beacon& beacon = leader.peer->beacon;
   const bool goes_on = beacon.gives_way_to == kNobody && !IsGiveWay(beacon.rule);
   return goes_on ? NextStop(stops_m, crossings) : stops_m;
 }
 
-// How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not.
+// How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not. Up
+// to a claim it is measured along the heading, which is the way unless the vehicle steers round
+// something.
 double StopsBehind(const PeerView& view, std::span<const PeerView> views,
                    const Crossings& crossings, const Situation& s) {
   if (!view.fresh) return kNever_m;

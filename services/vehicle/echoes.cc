@@ -88,10 +88,7 @@ bool IsBefore(double range_m, double radius_m, double unsure_m, Vec2 to_centre, 
 
 // Where a peer comes to stand if it brakes as soon as this vehicle does.
 Vec2 WhereItStops(const PeerView& peer, const Situation& s) {
-  const double braking_m =
-      StoppingDistance(std::max(0.0, peer.speed_m_s), ReactionSeconds(s.options),
-                       s.options.profile.deceleration_m_s2);
-  const double on_m = ClosingSpeed(peer, s) > 0 ? braking_m : 0;
+  const double on_m = ClosingSpeed(peer, s) > 0 ? StoppingDistanceOf(peer, s) : 0;
   return peer.position_world + on_m * peer.forward_world;
 }
 

@@ -127,8 +127,7 @@ bool EntersOnSignal(const PeerView& view, const Situation& s) {
 // order meanwhile. The others hold because it does not say that it gives way.
 bool EntersBox(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || view.lost) return false;
-  return !view.peer->encounter.holds && s.speed_m_s >= kStandingSpeed_m_s &&
-         HoldsBefore(view) <= OwnStoppingDistance(s);
+  return s.speed_m_s >= kStandingSpeed_m_s && HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 
 // Standing before the box again, the vehicle has not entered it.

@@ -12,7 +12,7 @@ struct EncounterNews {
   bool under_way = false;  // it meets somebody
 };
 
-// Moves every peer's encounter on by one tick, and says for which of them this vehicle holds.
+// Moves every peer's encounter on by one tick.
 EncounterNews UpdateEncounters(std::span<const PeerView> views, const Situation& s);
 
 // True if this vehicle is the one to wait in the encounter, and can: it stands, or will before

@@ -1,4 +1,5 @@
-// All that a brain remembers, as one number: two that ever differed tell by it.
+// What a brain knows of its world and its peers, as one number. What it remembers beside that, such
+// as detours or where it waited, shows here as soon as it drives by it.
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {

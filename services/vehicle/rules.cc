@@ -8,8 +8,6 @@
 namespace giveway {
 namespace {
 
-constexpr double kLookAhead_m = 10;
-
 Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
 
 // A dead stop for the nearest peer that this vehicle holds for and `applies` to.
@@ -117,7 +115,7 @@ std::optional<Proposal> KeepClear(const Situation& s) {
   if (Has(Defect::kClaimIgnored)) return std::nullopt;
   std::optional<Proposal> lowest;
   for (const PeerView& view : s.peers) {
-    if (view.peer->left || view.free_m > kLookAhead_m) continue;
+    if (view.free_m >= s.slows_m) continue;
     if (Has(Defect::kBrakesTooLate) && view.free_m > 0) continue;
     const double limit = SpeedToStopWithin(view.free_m, ReactionSeconds(s.options),
                                            s.options.profile.deceleration_m_s2);

@@ -19,7 +19,8 @@
 namespace giveway {
 
 // A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
-// CarryForward fills in the places and headings, LookAt everything below them.
+// CarryForward fills in the places and headings, LookAt everything below them, FindBoxes
+// `box_begin_m`.
 struct PeerView {
   Peer* peer;
   bool fresh;
@@ -71,6 +72,7 @@ struct Situation {
   const VehicleOptions& options;
   SteadyTime now{0};
   Tick tick = kNoTick;
+  bool new_tick = false;  // a scan came since the last step
   RunState run_state = RunState::kWaiting;
   bool leaving = false;
   bool arrived = false;
@@ -84,8 +86,7 @@ struct Situation {
   Path path;                  // towards the goal, or straight on
   double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
   bool stops_there = false;          // at the goal; a waypoint is driven through
-  OrderKey order;                    // as last published
-  VehicleId blocked_by = kNobody;    // as last published
+  OrderKey order;                    // as it publishes it with this step
   bool very_aimless = false;         // for so long that it does not stay in line any more
   bool aimless = false;              // has driven about for seconds without coming nearer
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
@@ -137,6 +138,9 @@ inline double ReactionSeconds(const VehicleOptions& options) {
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
 double OwnStoppingDistance(const Situation& s);
 
+// Distance the peer needs to stand still from its present speed, by what it says of its brakes.
+double StoppingDistanceOf(const PeerView& view, const Situation& s);
+
 // The distance, shell to shell, at which two closing vehicles must begin to stop: both stopping
 // distances, margin and uncertainty; never below the gate.
 double CriticalDistance(const Situation& s, const PeerView& view);
@@ -165,16 +169,5 @@ Vec2 VelocityOf(const PeerView& view);
 
 // How fast the gap to a peer shrinks.
 double ClosingSpeed(const PeerView& view, const Situation& s);
-
-// False if the peer is so far away, and so is all of its way, that no rule has anything to say of
-// it. It costs a fraction of LookAt, and most of a large fleet is far away.
-bool CanMatter(const Peer& peer, bool fresh, const Situation& s);
-
-// Carries the peers of all views forward to now. For all before LookAt at any: a sine is a chain of
-// operations of which each waits for the one before, and those of several peers run side by side.
-void CarryForward(std::span<PeerView> views, const Situation& s);
-
-// Relates the peer of `view` to the own path.
-void LookAt(PeerView* view, const Situation& s);
 
 }  // namespace giveway

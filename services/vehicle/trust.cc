@@ -165,7 +165,7 @@ void JudgeBeacon(const Beacon& before, const ReceivedBeacon& received,
 }
 
 void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCounters* counters) {
-  if (s.run_state != RunState::kRunning) return;
+  if (s.run_state != RunState::kRunning || !s.new_tick) return;
   const std::uint32_t stands = TicksOf(kStands_s, s.options);
   const std::uint32_t closes = TicksOf(kCloses_s + 2 * Seconds(s.options.sonar_refresh), s.options);
   // Ultrasonics that miss what is there, by its slant or by chance, or take a neighbour's ping for

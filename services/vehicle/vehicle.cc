@@ -13,6 +13,7 @@
 #include "services/vehicle/decide.h"
 #include "services/vehicle/echoes.h"
 #include "services/vehicle/encounter.h"
+#include "services/vehicle/look.h"
 #include "services/vehicle/lost_ticks.h"
 #include "services/vehicle/planted.h"
 #include "services/vehicle/scan_check.h"
@@ -23,15 +24,6 @@ namespace {
 static_assert(std::is_trivially_copyable_v<VehicleState>);
 
 constexpr std::uint32_t kBlockedTicks = 20;  // what was in the way is still, for so long
-// Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
-constexpr double kSharpTurn_rad_s = 0.25;
-constexpr std::uint32_t kTurnEchoTicks = 6;
-// How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do
-// not start as one.
-constexpr double kDeafHold_s = 1.0;
-constexpr double kDeafStagger_s = 0.5;
-constexpr std::uint32_t kDeafStaggerSteps = 8;
-
 // What the wheels do and what the encoders say of it are wrong independently of each other.
 double WheelError(const VehicleProfile& profile) {
   return Sqrt(profile.wheel_slip * profile.wheel_slip +
@@ -74,6 +66,8 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.detour_tick = kNoTick;
   state.away_tick = kNoTick;
   state.blocked_tick = kNoTick;
+  state.turned_tick = kNoTick;
+  state.decided_tick = kNoTick;
   state.arrived = false;
   state.order.waited_ticks = 0;
   state.waited_ticks = 0;
@@ -82,6 +76,7 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.ranges = {};
   state.signals.LeaveWorld();
   state.objects = {};
+  state.last_heard = {};
   state.peers.LeaveWorld();
 }
 
@@ -159,6 +154,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
               .objects = state.objects};
   s.now = inputs.now;
   s.tick = state.tick;
+  s.new_tick = state.tick != state.decided_tick;
   s.run_state = state.run_state;
   s.leaving = inputs.leaving;
   s.world_from_body = state.odometry.WorldFromBody();
@@ -228,37 +224,6 @@ void Vehicle::LookAtPeers(Situation* s) {
   s->peers = views;
 }
 
-// A cone that swings along a wall makes its echo come nearer faster than any of the formulas say.
-void Vehicle::NoteTurning(Situation* s) {
-  VehicleState& state = *state_;
-  if (s->turn_rad_s > kSharpTurn_rad_s || s->turn_rad_s < -kSharpTurn_rad_s) {
-    state.turned_tick = s->tick;
-  }
-  s->turns =
-      state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
-}
-
-// Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
-void Vehicle::ListenForMovers(Situation* s) {
-  VehicleState& state = *state_;
-  bool moving = false;
-  const double near_m = state.deaf ? options_.gate_exit_m : options_.gate_enter_m;
-  for (const std::size_t i : BitsOf(s->turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
-    if (s->ranges[i].range_m >= near_m || !MovesByItself(i, *s)) continue;
-    moving = true;
-    state.deaf_sensor = static_cast<int>(i);
-  }
-  if (moving) {
-    state.trust.echo_without_beacon += state.deaf ? 0 : 1;
-    state.deaf = true;
-    state.deaf_since = s->now;
-  }
-  const double hold_s = kDeafHold_s + kDeafStagger_s * (Number(options_.id) % kDeafStaggerSteps);
-  if (state.deaf && Seconds(s->now - state.deaf_since) > hold_s) state.deaf = false;
-  s->deaf = state.deaf;
-  s->deaf_sensor = state.deaf ? state.deaf_sensor : -1;
-}
-
 // What the next step must know.
 void Vehicle::Remember(const Situation& s, const Action& action) {
   const Decision& decision = action.decision;
@@ -266,6 +231,7 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   KeepOrder(s, IsGiveWay(decision.rule) && s.speed_m_s < kStandingSpeed_m_s);
   if (Has(Defect::kMeasuredSpeedInOrder)) state.order.speed_bucket = SpeedBucket(s.speed_m_s);
   state.decision = decision;
+  state.decided_tick = s.tick;
   state.steer_side = action.steer_side;
   if (action.away_rad) {
     state.away_rad = *action.away_rad;

@@ -39,6 +39,7 @@ struct VehicleState {
   bool let_pass = false;           // somebody that comes first has passed since it waits
   SteadyTime deaf_since{0};        // last time something near moved unexplained
   Tick turned_tick = kNoTick;      // when it last turned sharply
+  Tick decided_tick = kNoTick;     // of the last step
   bool deaf = false;
   int deaf_sensor = -1;
   Decision decision;

@@ -20,7 +20,7 @@ void Vehicle::KeepOrder(const Situation& s, bool waits) {
   const Vec2 position_world = s.world_from_body.position_world;
   state.let_pass = state.let_pass || s.let_pass;
   if (waits) {
-    ++state.waited_ticks;
+    state.waited_ticks += s.new_tick ? 1 : 0;
     state.waited_world = position_world;
   } else if (!s.meets &&
              SquaredNorm(position_world - state.waited_world) > kThrough_m * kThrough_m) {

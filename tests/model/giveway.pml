@@ -6,14 +6,14 @@
  *   here            there
  *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
  *   ComesFirst      ComesFirst, GoesFirst: by both keys as published            beacon.h
- *   Look            LookAt, ConflictWith: conflict, grants, goes_first          situation.cc
+ *   Look            LookAt, CrossingWith: conflict, grants, goes_first          look.cc
  *   IsThroughFirst  IsThroughFirst                                              encounter.cc
- *   UpdateFresh     UpdateEncounter, Begins, IsOver, Holds, SecondMustStop      encounter.cc
+ *   UpdateFresh     UpdateEncounters, Begins, IsOver, Holds, SecondMustStop     encounter.cc
  *   MayCross        MayCrossBefore                                              encounter.cc
  *   UpdateLost      UpdateLost, Holds of a lost peer                            encounter.cc
  *   Claimed         ClaimOf, FreeBefore, KeepClear                              claim.cc, rules.cc
- *   Listen          ListenForMovers, NearestEcho; the rule Deaf                 vehicle.cc, rules.cc
- *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, Say            vehicle.cc, decide.cc
+ *   Listen          ListenForMovers, NearestEcho; the rule Deaf                 listen.cc, rules.cc
+ *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, Say            waiting.cc, vehicle.cc, decide.cc
  *   Move            World::Step; of the dead: watchdog, removal of the body     sim_world
  *
  * Time is ticks, all vehicles step in each. In tick k a brain knows beacons of ticks k-1 .. k-AGE, at

@@ -235,6 +235,23 @@ TEST(SignalsOfOthers, APeerThatCouldNotStopAnyMoreIsNotCountedOn) {
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
 }
 
+// Its light says stop, and it rolls up slowly; but it stops by its own brakes, not by this
+// vehicle's.
+TEST(SignalsOfOthers, APeerWithWeakBrakesIsNotCountedOn) {
+  for (const double deceleration_m_s2 : {0.6, 0.05}) {
+    BrainBench bench(test::OptionsWithoutUltrasonics());
+    Outputs out;
+    for (std::uint32_t tick = 1; tick < 54; ++tick) {
+      Beacon beacon = Southern(tick - 1, Rule::kSignal, 0.9);
+      beacon.wheels = {0.2 / 0.0975, 0.2 / 0.0975};
+      beacon.deceleration_m_s2 = deceleration_m_s2;
+      out = bench.Step(Driving(0.3), tick == 1 ? std::vector<Beacon>{} : std::vector{beacon});
+    }
+    EXPECT_EQ(out.command.decision.rule,
+              deceleration_m_s2 < 0.1 ? Rule::kNotGranted : Rule::kCruise);
+  }
+}
+
 // Both stood at red, and both lights fail at once: what the other said of its light a tick ago is
 // no reason to go now.
 TEST(SignalsOfOthers, OfTwoThatLightsStoppedNeitherCountsOnTheOthersLight) {

@@ -5,7 +5,7 @@
 
 #include "services/types/math.h"
 #include "services/vehicle/echoes.h"
-#include "services/vehicle/situation.h"
+#include "services/vehicle/look.h"
 #include "tests/support/brain_bench.h"
 
 namespace giveway {
@@ -30,7 +30,8 @@ class Onlooker {
 
   // To a standing peer 3 m east and 3 m north of it.
   double CriticalDistanceWith(const PoseCovariance& apart) const {
-    PeerView view{};
+    Peer peer{.id = VehicleId{2}};
+    PeerView view{.peer = &peer};
     view.position_world = {3, 3};
     view.apart = apart;
     view.sigma_m = SigmaPosition(apart);

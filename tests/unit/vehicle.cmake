@@ -5,7 +5,7 @@ giveway_test(unit vehicle
           lecture_test.cc objects_test.cc odometry_test.cc peer_table_test.cc range_view_test.cc
           signals_obeyed_test.cc steering_test.cc trust_test.cc unsure_distances_test.cc
           vehicle_rejoin_test.cc
-          vehicle_test.cc
+          vehicle_test.cc waiting_test.cc
   LINK giveway::vehicle)
 
 # Brains in a world, with what the virtual fleet does not carry yet.

@@ -139,6 +139,42 @@ TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   EXPECT_EQ(brain.PeersHeard(), 0U);
 }
 
+// At 1.1 m/s with weak brakes 12.2 m are not too far to see to it.
+TEST(Vehicle, KeepsClearOfWhomItNeedsLongToStopFor) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  options.cruise_m_s = 1.1;
+  options.profile.deceleration_m_s2 = 0.05;
+  options.emission_radius_m = 30;
+  options.goal.at_world = {100, 0};
+  BrainBench bench(options);
+  RangeScan scan = ClearScan(0);
+  scan.wheels = {1.1 / 0.0975, 1.1 / 0.0975};
+  bench.Step(scan);
+  Beacon standing = BeaconOf(2, 1, {{11.7, 0}, kPi});
+  standing.rule = Rule::kArrived;
+  const Outputs out = bench.Step(scan, {standing});
+  EXPECT_EQ(out.command.decision.rule, Rule::kKeepClear);
+}
+
+// A tick of the old world in which it turned is none of the new one's, where echoes tell motion.
+TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
+  BrainBench bench(test::DefaultOptions());
+  for (int i = 0; i < 100; ++i) bench.Step(ClearScan(0));
+  RangeScan turning = ClearScan(0);
+  turning.wheels = {-1, 1};
+  for (int i = 0; i < 3; ++i) bench.Step(turning);
+  Vehicle brain(test::DefaultOptions(), 42);
+  brain.Restore(bench.Brain().State());
+  Outputs out;
+  for (std::uint32_t tick = 1; tick <= 12; ++tick) {
+    RangeScan scan = ClearScan(tick);
+    scan.epoch = WorldEpoch{8};
+    test::SetEcho(&scan, 0, 0.95 - 0.02 * tick);  // something comes nearer
+    out = brain.Step({.now = bench.Now() + tick * std::chrono::milliseconds(50), .scan = scan});
+  }
+  EXPECT_EQ(out.command.decision.rule, Rule::kDeaf);
+}
+
 // One number that is none, once in the pose, would never leave it again.
 TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

@@ -1,0 +1,22 @@
+// How each peer stands to this vehicle: where it is by now, where its way crosses the own one, how
+// far its claim leaves the own way free, who comes first, whether it lets this vehicle go. Every
+// view stands on its beacon and the own state alone; what follows from all of them together is
+// found in box.h and encounter.h.
+#pragma once
+
+#include "services/vehicle/situation.h"
+
+namespace giveway {
+
+// False if the peer is so far away, and so is all of its way, that no rule has anything to say of
+// it. It costs a fraction of LookAt, and most of a large fleet is far away.
+bool CanMatter(const Peer& peer, bool fresh, const Situation& s);
+
+// Carries the peers of all views forward to now. For all before LookAt at any: a sine is a chain of
+// operations of which each waits for the one before, and those of several peers run side by side.
+void CarryForward(std::span<PeerView> views, const Situation& s);
+
+// Relates the peer of `view` to the own path.
+void LookAt(PeerView* view, const Situation& s);
+
+}  // namespace giveway

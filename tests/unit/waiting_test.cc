@@ -1,0 +1,112 @@
+// How waiting moves a vehicle up in the order: one brain on a table, heading east at 0.3 m/s.
+// Faster ones, which come first, cross its way 4 m on, one behind the other. An ageing limit is ten
+// ticks.
+#include <gtest/gtest.h>
+
+#include "tests/support/brain_bench.h"
+
+namespace giveway {
+namespace {
+
+using test::BeaconOf;
+using test::BrainBench;
+using test::ClearScan;
+
+constexpr std::uint32_t kLimit_ticks = 10;
+
+class Waiting {
+ public:
+  Waiting() : bench_(Options()) {}
+
+  // The wheels do what they are told to. `peers` say it of the tick before.
+  void Step(std::vector<Beacon> peers) {
+    for (Beacon& peer : peers) peer.tick = Tick{peer.seq = bench_.NextTick() - 1};
+    RangeScan scan = ClearScan(0);
+    scan.wheels = out_.command.target;
+    out_ = bench_.Step(scan, bench_.NextTick() == 1 ? std::vector<Beacon>{} : peers);
+  }
+  void Steps(std::uint32_t count, const std::vector<Beacon>& peers) {
+    for (std::uint32_t i = 0; i < count; ++i) Step(peers);
+  }
+  void StepBlind() { out_ = bench_.StepBlind(); }
+  // Drives up to where it waits for the peers, and begins to.
+  void DriveUpTo(const std::vector<Beacon>& peers) {
+    for (int i = 0; i < 600 && WaitedTicks() == 0; ++i) Step(peers);
+    ASSERT_EQ(WaitedTicks(), 1U);
+  }
+
+  std::uint32_t WaitedTicks() const { return bench_.Brain().State().waited_ticks; }
+  std::uint32_t PlaceInOrder() const { return out_.beacon.order.waited_ticks; }
+  double X() const { return out_.beacon.world_from_body.position_world.x; }
+
+ private:
+  static VehicleOptions Options() {
+    VehicleOptions options = test::OptionsWithoutUltrasonics();
+    options.ageing_limit = kLimit_ticks * options.tick_period;
+    return options;
+  }
+
+  BrainBench bench_;
+  Outputs out_;
+};
+
+// Creeps towards the own way, so that it is a path and no body.
+Beacon Coming(std::uint32_t id) {
+  Beacon beacon = BeaconOf(id, 1, {.position_world = {4, -1.5}, .heading_rad = kPi / 2}, 0.4);
+  beacon.wheels = {0.2, 0.2};
+  return beacon;
+}
+Beacon Gone(std::uint32_t id) {
+  return BeaconOf(id, 1, {.position_world = {4, 3}, .heading_rad = kPi / 2}, 0.4);
+}
+
+TEST(KeepOrder, ThePlaceStandsWhileTheFirstToBeMetIsThere) {
+  Waiting vehicle;
+  vehicle.DriveUpTo({Coming(2)});
+  vehicle.Steps(3 * kLimit_ticks, {Coming(2)});
+  EXPECT_GT(vehicle.WaitedTicks(), 2 * kLimit_ticks);
+  EXPECT_EQ(vehicle.PlaceInOrder(), 0U);
+}
+
+TEST(KeepOrder, ItRisesByWholeLimitsOnceSomebodyHasPassedThoughTheNextIsThere) {
+  Waiting vehicle;
+  vehicle.DriveUpTo({Coming(2), Coming(3)});
+  vehicle.Steps(kLimit_ticks / 2, {Coming(2), Coming(3)});
+  std::uint32_t highest = 0;
+  for (std::uint32_t i = 0; i < 3 * kLimit_ticks && vehicle.X() < 3.5; ++i) {
+    vehicle.Step({Gone(2), Coming(3)});
+    highest = std::max(highest, vehicle.PlaceInOrder());
+    EXPECT_EQ(vehicle.PlaceInOrder() % kLimit_ticks, 0U);
+  }
+  EXPECT_GE(highest, kLimit_ticks);
+}
+
+TEST(KeepOrder, WhatItWaitedIsForgottenOnceItIsThrough) {
+  Waiting vehicle;
+  vehicle.DriveUpTo({Coming(2)});
+  vehicle.Steps(2 * kLimit_ticks, {Coming(2)});
+  vehicle.Steps(2, {Gone(2)});
+  EXPECT_EQ(vehicle.PlaceInOrder(), 2 * kLimit_ticks);
+  const double waited_m = vehicle.X();
+  while (vehicle.X() < waited_m + 2.4) vehicle.Step({Gone(2)});
+  EXPECT_EQ(vehicle.PlaceInOrder(), 2 * kLimit_ticks);
+  while (vehicle.X() < waited_m + 2.6) vehicle.Step({Gone(2)});
+  EXPECT_EQ(vehicle.PlaceInOrder(), 0U);
+  EXPECT_EQ(vehicle.WaitedTicks(), 0U);
+}
+
+// In a world at half speed steps come twice a tick: a wait longer than the world's time would be
+// refused by every peer.
+TEST(KeepOrder, StepsWithoutANewTickAreNoWaiting) {
+  Waiting vehicle;
+  vehicle.DriveUpTo({Coming(2)});
+  const std::uint32_t before = vehicle.WaitedTicks();
+  for (int i = 0; i < 5; ++i) {
+    vehicle.Step({Coming(2)});
+    vehicle.StepBlind();
+  }
+  EXPECT_EQ(vehicle.WaitedTicks(), before + 5);
+}
+
+}  // namespace
+}  // namespace giveway
