@@ -29,6 +29,7 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   message.set_failed_runs(report.failed_runs);
   message.set_contacts(report.contacts);
   SetViolations(report.violations, message.mutable_violations());
+  if (!report.unmet.empty()) message.set_unmet(WellFormed(report.unmet));
   message.set_vehicle_hours(Rounded(report.vehicle_hours));
   message.set_vehicle_hours_per_minute(Rounded(report.vehicle_hours_per_minute));
   if (report.delay_p50_s) message.mutable_delay_s()->set_p50(Rounded(*report.delay_p50_s));
@@ -67,6 +68,7 @@ std::string ToText(const VirtualReport& report) {
   for (const BrokenInvariant& broken : report.violations) {
     if (broken.count > 0) text += fmt::format("  {} broken {} times\n", broken.name, broken.count);
   }
+  if (!report.unmet.empty()) text += fmt::format("  {}\n", report.unmet);
   text += fmt::format("  {:.2f} vehicle-hours, {:.1f} a minute\n", report.vehicle_hours,
                       report.vehicle_hours_per_minute);
   if (report.delay_p50_s && report.delay_p99_s && report.delay_mean_s) {

@@ -20,6 +20,7 @@ struct VirtualReport {
   std::uint32_t failed_runs = 0;
   std::uint32_t contacts = 0;
   std::vector<BrokenInvariant> violations;  // by their names in the schema
+  std::string unmet;
   double vehicle_hours = 0;
   double vehicle_hours_per_minute = 0;
   std::optional<double> delay_p50_s;

@@ -9,12 +9,14 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kFooter = R"(
-Takes the flags of `fleetctl virtual` with which the seed failed.
+Takes the flags of `fleetctl virtual` with which the seed failed. Leaves out vehicles, faults, walls
+and what goes wrong on the radio, one after the other, as long as the same invariant breaks.
 
 Example
-  fleetctl shrink swarm --vehicles 12 --loss 5 --seed 17
+  fleetctl shrink crossing --vehicles 4 --behaviour lecture_printed --seed 1
 
-Exit code: 1 the run fails and the file is written, 0 it does not fail, 2 could not run.
+Exit code: 1 the run breaks an invariant and the file is written, 0 it breaks none, 2 could not run,
+or it only misses what its scenario expects.
 )";
 
 }  // namespace

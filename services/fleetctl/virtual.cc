@@ -45,6 +45,9 @@ app::VirtualReport ReportOf(const BatchTotals& totals, double wall_s) {
     report.violations.push_back({std::string(name), totals.violations[i]});
   }
   report.violations.push_back({"expectation", totals.unmet});
+  if (totals.unmet > 0) {
+    report.unmet = fmt::format("seed {}: {}", totals.first_unmet_seed, totals.first_unmet);
+  }
   report.vehicle_hours = totals.vehicle_seconds / 3600;
   if (wall_s > 0) report.vehicle_hours_per_minute = totals.vehicle_seconds / 60 / wall_s;
   if (!totals.delays_s.empty()) {
@@ -104,6 +107,7 @@ int RunAll(const VirtualOptions& options) {
     if (!file.empty()) CheckWritable(file);
   }
   const CaseMaker maker(options.made_by);
+  std::fputs(maker.Remark().c_str(), stderr);
   const Interrupts interrupts;
   const SteadyTime start = app::SteadyNow();
   BatchTotals totals;

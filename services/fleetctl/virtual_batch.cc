@@ -58,7 +58,11 @@ void BatchTotals::Add(std::uint32_t seed, const sim::VirtualOutcome& outcome,
   ++runs;
   contacts += outcome.contacts;
   for (std::size_t i = 0; i < sim::kInvariantCount; ++i) violations[i] += outcome.violations[i];
-  const bool missed = judge_expectations && !outcome.met;
+  const bool missed = judge_expectations && !outcome.unmet.empty();
+  if (missed && (unmet == 0 || seed < first_unmet_seed)) {
+    first_unmet_seed = seed;
+    first_unmet = outcome.unmet;
+  }
   if (missed) ++unmet;
   vehicle_seconds += outcome.vehicle_seconds;
   delays_s.insert(delays_s.end(), outcome.delays_s.begin(), outcome.delays_s.end());

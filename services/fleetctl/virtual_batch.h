@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "services/fleetctl/virtual_case.h"
@@ -18,6 +19,9 @@ struct BatchTotals {
   std::uint32_t contacts = 0;
   std::array<std::uint32_t, sim::kInvariantCount> violations{};
   std::uint32_t unmet = 0;  // runs that missed what their scenario expects
+  // What the first of them missed.
+  std::uint32_t first_unmet_seed = 0;
+  std::string first_unmet;
   double vehicle_seconds = 0;
   std::vector<double> delays_s;
   std::optional<double> separation_m;

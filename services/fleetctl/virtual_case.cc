@@ -1,6 +1,7 @@
 #include "services/fleetctl/virtual_case.h"
 
 #include <algorithm>
+#include <set>
 
 #include "services/app/scenario_file.h"
 
@@ -34,6 +35,22 @@ sim::RadioSettings RadioOf(const CaseOptions& options, Random* dice) {
   radio.duplicate = options.duplicate_percent / 100;
   radio.loops_back = options.loops_back;
   return radio;
+}
+
+// An open fleet as it stands when it starts: who joins first gets the first place.
+void FillPlaces(std::uint32_t count, Scenario* scenario) {
+  std::set<VehicleId> taken;
+  for (const VehicleOptions& vehicle : scenario->vehicles) taken.insert(vehicle.id);
+  std::uint32_t id = 0;
+  for (const VehicleOptions& place : scenario->spawns) {
+    if (scenario->vehicles.size() >= count) break;
+    do ++id;
+    while (taken.contains(VehicleId{id}));
+    scenario->vehicles.push_back(place);
+    scenario->vehicles.back().id = VehicleId{id};
+  }
+  std::ranges::sort(scenario->vehicles, {}, &VehicleOptions::id);
+  scenario->spawns.clear();
 }
 
 void AddFaults(sim::ProcessFaultKind kind, std::uint32_t count, const Scenario& scenario,
@@ -71,12 +88,34 @@ CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
   overrides.seed = 0;
   loaded_ = app::LoadScenario(options.scenario, overrides);
   name_ = loaded_->name;
+  CheckVehicles();
+}
+
+void CaseMaker::CheckVehicles() const {
+  if (!options_.vehicles) return;
+  const std::size_t most = loaded_->vehicles.size() + loaded_->spawns.size();
+  const bool open = !loaded_->spawns.empty();
+  if (open && options_.vehicles->high <= most) return;
+  throw app::InputError(
+      {{.file = name_,
+        .field = "--vehicles",
+        .value = std::to_string(options_.vehicles->high),
+        .message = open ? "it has places for " + std::to_string(most) : "it names its vehicles",
+        .remedy = open ? "ask for no more" : "leave the flag out"}});
+}
+
+std::string CaseMaker::Remark() const {
+  if (!loaded_ || loaded_->impairment.rules.empty()) return {};
+  return name_ +
+         ": its `impair` is not carried out, that is for real links; the virtual radio is told by "
+         "--loss, --burst, --delay, --jitter, --reorder and --duplicate\n";
 }
 
 Scenario CaseMaker::MakeScenario(std::uint32_t seed, Random* dice) const {
   const std::uint32_t vehicles = Draw(options_.vehicles.value_or(kDefaultVehicles), dice);
   Scenario scenario = loaded_ ? *loaded_ : generator_->make({vehicles, seed});
   if (loaded_) {
+    FillPlaces(options_.vehicles ? vehicles : std::max(1U, scenario.start_with), &scenario);
     scenario.seed = seed;
     app::PerturbBySeed(&scenario);
   }

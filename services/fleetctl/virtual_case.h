@@ -26,7 +26,7 @@ struct NumberRange {
 // What the operator asked for. Where a range is given, each seed draws its own value from it.
 struct CaseOptions {
   std::string scenario;                // a file, a shipped one, or a generator
-  std::optional<WholeRange> vehicles;  // of a generator
+  std::optional<WholeRange> vehicles;  // of a generator, or of an open fleet
   std::optional<Behaviour> behaviour;
   NumberRange loss_percent;
   bool burst = false;  // the loss comes in bursts, the mean is the same
@@ -49,15 +49,19 @@ struct VirtualCase {
 
 class CaseMaker {
  public:
-  // Throws app::InputError where the scenario is neither a file nor a generator.
+  // Throws app::InputError where the scenario is neither a file nor a generator, or has no place
+  // for so many vehicles.
   explicit CaseMaker(const CaseOptions& options);
 
   VirtualCase Make(std::uint32_t seed) const;
   const std::string& Name() const { return name_; }
   // True if the scenario states what it expects of a run: a file's does.
   bool HasExpectations() const { return loaded_.has_value(); }
+  // A line about what of the scenario is not carried out; empty if all of it is.
+  std::string Remark() const;
 
  private:
+  void CheckVehicles() const;
   Scenario MakeScenario(std::uint32_t seed, Random* dice) const;
 
   CaseOptions options_;

@@ -116,7 +116,8 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
       [made_by](const std::string& text) {
         made_by->vehicles = WholesOf("--vehicles", text, 2, 1000);
       },
-      "Of a generator, or LO..HI; default 6");
+      "Of a generator, 2 to 1000, default 6; or of a scenario with spawn places, default its "
+      "start_with; or LO..HI");
   verb->add_option_function<std::string>(
       "--behaviour",
       [made_by](const std::string& name) {

@@ -44,7 +44,7 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
   const RunFigures figures = fleet.World().Figures();
   outcome->ticks = figures.ticks;
   outcome->contacts = figures.contacts;
-  outcome->met = figures.passed;
+  if (!figures.passed) outcome->unmet = figures.reason;
   outcome->clear_s = figures.time_to_clear_s;
   outcome->separation_m = figures.min_separation_m;
   outcome->delays_s = DelaysOf(fleet);

@@ -22,7 +22,7 @@ struct VirtualOutcome {
   std::uint32_t contacts = 0;
   std::array<std::uint32_t, kInvariantCount> violations{};
   bool held = false;                   // every invariant
-  bool met = false;                    // the scenario's own expectations
+  std::string unmet;                   // of the scenario's own expectations; empty: none
   std::vector<Violation> first;        // violations, in order of time
   std::vector<double> delays_s;        // of those who arrived: beyond the free-flow time
   std::optional<double> clear_s;       // the last arrival, if everyone living arrived

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "services/app/scenario_file.h"
+#include "tests/unit/app_files.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -61,10 +62,15 @@ TEST(VirtualBatch, NamesTheSeedsThatFailed) {
   bad.violations[0] = 2;
   totals.Add(1, good, false);
   totals.Add(2, bad, false);
-  totals.Add(3, good, true);  // did not meet its expectations
-  EXPECT_EQ(totals.failing_seeds, (std::vector<std::uint32_t>{2, 3}));
+  good.unmet = "arrived: expected 1 2, got 1";
+  totals.Add(5, good, true);
+  good.unmet = "contacts: expected 0, got 1";
+  totals.Add(3, good, true);
+  EXPECT_EQ(totals.failing_seeds, (std::vector<std::uint32_t>{2, 5, 3}));
   EXPECT_EQ(totals.violations[0], 2U);
-  EXPECT_EQ(totals.unmet, 1U);
+  EXPECT_EQ(totals.unmet, 2U);
+  EXPECT_EQ(totals.first_unmet_seed, 3U);
+  EXPECT_EQ(totals.first_unmet, "contacts: expected 0, got 1");
 }
 
 TEST(VirtualCaseOfASeed, DrawsFromTheWholeRange) {
@@ -94,6 +100,42 @@ TEST(VirtualCaseOfASeed, IsTheSameWhateverElseWasMade) {
   EXPECT_EQ(once.plan.radio.loss, again.plan.radio.loss);
   EXPECT_EQ(once.plan.faults[0].at_s, again.plan.faults[0].at_s);
   EXPECT_EQ(once.scenario.vehicles[1].start_world, again.scenario.vehicles[1].start_world);
+}
+
+std::vector<std::uint32_t> IdsOf(const CaseOptions& options) {
+  std::vector<std::uint32_t> ids;
+  for (const VehicleOptions& vehicle : CaseMaker(options).Make(1).scenario.vehicles) {
+    ids.push_back(Number(vehicle.id));
+  }
+  return ids;
+}
+
+// They drove nobody, and passed; with faults they divided by none.
+TEST(VirtualCaseOfASeed, AnOpenFleetStandsOnItsPlaces) {
+  using Ids = std::vector<std::uint32_t>;
+  EXPECT_EQ(IdsOf({.scenario = "open_fleet"}), (Ids{1, 2}));
+  EXPECT_EQ(IdsOf({.scenario = "open_fleet", .vehicles = WholeRange{5, 5}, .pauses = 2}),
+            (Ids{1, 2, 3, 4, 5}));
+  EXPECT_EQ(IdsOf({.scenario = "fleet_20"}).size(), 20U);
+  const VirtualCase made = CaseMaker({.scenario = "open_fleet"}).Make(1);
+  EXPECT_TRUE(made.scenario.spawns.empty());
+  EXPECT_GT(RunBatch(CaseMaker({.scenario = "open_fleet"}), {1, 1}, 1, kGoOn).vehicle_seconds, 30);
+}
+
+TEST(VirtualCaseOfASeed, RefusesMoreVehiclesThanThereArePlaces) {
+  EXPECT_NO_THROW(CaseMaker({.scenario = "open_fleet", .vehicles = WholeRange{2, 8}}));
+  EXPECT_THROW(CaseMaker({.scenario = "open_fleet", .vehicles = WholeRange{2, 9}}),
+               app::InputError);
+  EXPECT_THROW(CaseMaker({.scenario = "four_way", .vehicles = WholeRange{4, 4}}), app::InputError);
+}
+
+TEST(VirtualCaseOfASeed, SaysThatLinksAreNotImpaired) {
+  const app::TempFolder folder;
+  const std::string file =
+      folder.Write("impaired.textproto", app::kGoodScenario + "impair { loss: 1 }\n");
+  EXPECT_EQ(CaseMaker({.scenario = "four_way"}).Remark(), "");
+  EXPECT_EQ(CaseMaker({.scenario = "crossing"}).Remark(), "");
+  EXPECT_NE(CaseMaker({.scenario = file}).Remark().find("not carried out"), std::string::npos);
 }
 
 TEST(VirtualCaseOfASeed, RefusesWhatIsNeitherFileNorGenerator) {
