@@ -1,5 +1,7 @@
 #include "services/fleetctl/virtual_flags.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <regex>
@@ -31,9 +33,8 @@ std::optional<NumberRange> ParseRange(const std::string& text) {
 NumberRange NumbersOf(const std::string& flag, const std::string& text, double least, double most) {
   const auto range = ParseRange(text);
   if (range && range->low >= least && range->high <= most) return *range;
-  throw CLI::ValidationError(flag, CLI::detail::to_string(least) + " to " +
-                                       CLI::detail::to_string(most) +
-                                       ", a number or LO..HI, not '" + text + "'");
+  throw CLI::ValidationError(
+      flag, fmt::format("{} to {}, a number or LO..HI, not '{}'", least, most, text));
 }
 
 // CLI11's own range check lets "nan" pass.
@@ -41,8 +42,7 @@ auto Between(double least, double most) {
   return [=](const std::string& text) -> std::string {
     const auto range = ParseRange(text);
     if (range && range->low == range->high && range->low >= least && range->high <= most) return {};
-    return "must be a number from " + CLI::detail::to_string(least) + " to " +
-           CLI::detail::to_string(most) + ", not '" + text + "'";
+    return fmt::format("must be a number from {} to {}, not '{}'", least, most, text);
   };
 }
 
@@ -96,7 +96,9 @@ void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
       [made_by](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) made_by->faults.push_back(FaultOf(text));
       },
-      "crash, pause or restart of one vehicle: KIND:ID@AT+FOR, seconds; may be repeated");
+      "crash, pause or restart of one vehicle: KIND:ID@AT+FOR, seconds, as in pause:3@12.5+0.4; "
+      "FOR "
+      "is 0.5 if left out, and from 1 s on the world takes it for dead; may be repeated");
 }
 
 }  // namespace

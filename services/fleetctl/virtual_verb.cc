@@ -38,11 +38,13 @@ void AddVirtualVerb(CLI::App* fleetctl, int* exit_code) {
       "--seed",
       [options](const std::string& text) {
         options->seeds = WholesOf("--seed", text, 0, 4294967295.0);
-        options->seeds.high = options->seeds.low;
+        if (options->seeds.low == options->seeds.high) return;
+        throw CLI::ValidationError("--seed", "must be one number; --seeds takes LO..HI");
       },
       "This one alone");
   seed->excludes(seeds);
-  verb->add_option("--jobs", options->jobs, "Runs at a time")->check(CLI::Range(1U, 1024U));
+  verb->add_option("--jobs", options->jobs, "Runs at a time; default 1")
+      ->check(CLI::Range(1U, 1024U));
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_option("--picture", options->picture_file, "Draw the run of --seed as SVG")
       ->needs(seed);

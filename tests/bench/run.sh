@@ -11,13 +11,17 @@ set -euo pipefail
 cd "$(dirname "$0")/../.."
 source services/setup.sh
 only="${1:-}"
+case $only in
+  "" | step | virtual | link | world | peers | right_of_way | reaction | rss) ;;
+  *) sed -n '2,9s/^# \{0,1\}//p' "$0" >&2 && exit 2 ;;
+esac
 bin=build/release/bin
 [[ -x $bin/giveway-bench ]] || bash services/run.sh --setup-only
 [[ -x $bin/giveway-bench ]] || cmake --build build/release --target giveway-bench
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-wanted() { [[ $1 == "$only"* ]]; }
+wanted() { [[ -z $only || $1 == "$only" ]]; }
 
 print_figure() { printf '%-32s %10s %10s %s\n' "$@"; }
 
@@ -170,9 +174,9 @@ if wanted rss; then
   sleep 14  # starting and matching takes up to 4 s
   largest=0
   for process in $(pgrep -P "$fleet" -f giveway-vehicle); do
-    rss_kb=$(awk '/^VmRSS/ { print $2 }' "/proc/$process/status")
-    largest=$((rss_kb > largest ? rss_kb : largest))
+    rss_kib=$(awk '/^VmRSS/ { print $2 }' "/proc/$process/status")
+    largest=$((rss_kib > largest ? rss_kib : largest))
   done
   wait "$fleet" || { cat "$scratch/err" >&2; exit 2; }
-  figure rss_8_peers_mb "$(awk -v kb="$largest" 'BEGIN { printf "%.1f", kb / 1000 }')" 25
+  figure rss_8_peers_mb "$(awk -v kib="$largest" 'BEGIN { printf "%.1f", kib * 1.024 / 1000 }')" 25
 fi

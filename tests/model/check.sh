@@ -18,6 +18,7 @@ read -r _ _ property expected switches < <(grep "^$name " "$here/runs.txt") ||
   die "no run of the name '$name' in runs.txt"
 folder=${2:-$(mktemp -d)}
 mkdir -p "$folder"
+folder=$(realpath "$folder")
 [[ $# -ge 2 ]] || trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 cp "$here"/*.pml .
@@ -40,6 +41,7 @@ case $property in
   *) die "$name: unknown property '$property'" ;;
 esac
 
+printf '%s\n' "${flags[@]}" >switches
 spin -a "${flags[@]}" giveway.pml >spin.log || die "spin refuses the model: $(cat spin.log)"
 gcc "${compile[@]}" -o pan pan.c || die "the verifier does not compile"
 started=$SECONDS
@@ -73,6 +75,6 @@ printf '%s: %s; %s states, %s MB, %d s\n' "$name" "$found" "${states:-?}" "${mem
 printf 'expected: %s\n' "$expected"
 [[ $found == unfinished ]] && cat pan.log
 if [[ -f giveway.pml.trail ]]; then
-  bash "$here/trail.sh" "$folder" "${flags[@]}"
+  bash "$here/trail.sh" "$folder"
 fi
 exit 1

@@ -8,9 +8,7 @@ folder=$1
 # old_grant_kept needs a restart, grant_not_awaited a death and losses.
 for run in old_grant_kept grant_not_awaited; do
   bash "$here/check.sh" "$run" "$folder/$run"
-  read -r _ _ _ _ switches < <(grep "^$run " "$here/runs.txt")
-  # shellcheck disable=SC2086  # switches are words
-  printed=$(bash "$here/trail.sh" "$folder/$run" $switches)
+  printed=$(bash "$here/trail.sh" "$folder/$run")
   printf '%s\n' "$printed"
   read -ra command < <(grep 'fleetctl virtual' <<<"$printed")
   command[0]="$GIVEWAY_BIN_DIR/fleetctl"
