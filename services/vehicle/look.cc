@@ -228,7 +228,8 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   view.gap_m = Norm(offset) - radius_m - beacon.body_radius_m;
   view.gate_gap_m =
       GateDistance(s.options.distance_metric, offset) - radius_m - beacon.body_radius_m;
-  view.leads = Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
+  // One that has arrived goes nowhere, however it is turned: nobody queues behind it.
+  view.leads = !StaysPut(beacon) && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
   view.crossing = CrossingWith(view, s);
   // One that stands and comes later in the order is a body to steer round.
   const bool stands = view.standing && (view.believed || !view.fresh);

@@ -204,13 +204,18 @@ void Invariants::JudgeCircles(Tick tick, std::span<const Observed> vehicles) {
   }
 }
 
-// A way is free where nobody has another reason to stand than to let someone else go.
+// A way is free where nobody has another reason to stand than to let someone else go. Who has
+// arrived stands in nobody's way by right, but while it still rolls there is somebody to let go.
 void Invariants::JudgeAllHalted(Tick tick, std::span<const Observed> vehicles) {
   bool anyone = false;
   bool all = true;
   VehicleId first = kNobody;
   for (const Observed& vehicle : vehicles) {
-    if (!vehicle.present || !vehicle.lives || vehicle.arrived) continue;
+    if (!vehicle.present || !vehicle.lives) continue;
+    if (vehicle.arrived) {
+      all = all && Stands(vehicle);
+      continue;
+    }
     const bool lets_go =
         vehicle.decision.rule == Rule::kGiveWay || vehicle.decision.rule == Rule::kNotGranted;
     all = all && lets_go && Stands(vehicle);

@@ -175,9 +175,23 @@ TEST_F(InvariantsTest, AllMayHaltForTwoPeriodsAndNoLonger) {
   Halt(1, Rule::kNotGranted, 2);
   Halt(2, Rule::kGiveWay, 1);
   Vehicle(3).arrived = true;
+  Vehicle(3).forward_m_s = 0;
   Observe(2);
   EXPECT_EQ(Count(Invariant::kAllHalted), 0U);
   Observe();
+  EXPECT_EQ(Count(Invariant::kAllHalted), 1U);
+}
+
+// At 0.5 m/s it takes nine ticks to stand, and is let roll out.
+TEST_F(InvariantsTest, WhileOneThatHasArrivedStillRollsThereIsSomebodyToLetGo) {
+  Halt(1, Rule::kGiveWay, 3);
+  Halt(2, Rule::kGiveWay, 3);
+  Vehicle(3).arrived = true;
+  Vehicle(3).forward_m_s = 0.2;
+  Observe(10);
+  EXPECT_EQ(Count(Invariant::kAllHalted), 0U);
+  Vehicle(3).forward_m_s = 0;
+  Observe(10);
   EXPECT_EQ(Count(Invariant::kAllHalted), 1U);
 }
 
