@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -80,9 +81,14 @@ std::string ReadBytes(const std::string& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) Refuse(path, std::strerror(errno), "check its permissions");
-  std::string text(kMaxFileBytes, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  // By parts: room for the largest file there may be would stay with the text for its life.
+  std::string text;
+  std::array<char, 16384> part;
+  while (text.size() < kMaxFileBytes) {
+    stream.read(part.data(), part.size());
+    if (stream.gcount() == 0) break;
+    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) Refuse(path, "cannot be read to its end", "check the file");
   return text;
 }
