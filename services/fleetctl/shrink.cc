@@ -40,8 +40,9 @@ std::string Comment(const CaseMaker& maker, const ShrinkOptions& options, const 
 // An expectation speaks of vehicles by name: a smaller run that misses it too would show nothing.
 int TellThatNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const VirtualCase& made) {
   fmt::print("{} with seed {} breaks no invariant\n", maker.Name(), seed);
+  if (!maker.HasExpectations()) return 0;
   const std::string unmet = sim::RunVirtually(made.scenario, made.plan).unmet;
-  if (!maker.HasExpectations() || unmet.empty()) return 0;
+  if (unmet.empty()) return 0;
   fmt::print(stderr, "it misses what it expects, which is not shrunk: {}\n", unmet);
   return kCouldNotRun;
 }

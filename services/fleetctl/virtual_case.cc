@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "services/app/plan_read.h"
 #include "services/app/scenario_file.h"
 
 namespace giveway::fleetctl {
@@ -39,15 +40,12 @@ sim::RadioSettings RadioOf(const CaseOptions& options, Random* dice) {
 
 // An open fleet as it stands when it starts: who joins first gets the first place.
 void FillPlaces(std::uint32_t count, Scenario* scenario) {
-  std::set<VehicleId> taken;
-  for (const VehicleOptions& vehicle : scenario->vehicles) taken.insert(vehicle.id);
-  std::uint32_t id = 0;
+  const std::set<VehicleId> ids = app::IdsOf(*scenario).joining;
+  auto id = ids.begin();
   for (const VehicleOptions& place : scenario->spawns) {
     if (scenario->vehicles.size() >= count) break;
-    do ++id;
-    while (taken.contains(VehicleId{id}));
     scenario->vehicles.push_back(place);
-    scenario->vehicles.back().id = VehicleId{id};
+    scenario->vehicles.back().id = *id++;
   }
   std::ranges::sort(scenario->vehicles, {}, &VehicleOptions::id);
   scenario->spawns.clear();

@@ -96,9 +96,8 @@ void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
       [made_by](const std::vector<std::string>& texts) {
         for (const std::string& text : texts) made_by->faults.push_back(FaultOf(text));
       },
-      "crash, pause or restart of one vehicle: KIND:ID@AT+FOR, seconds, as in pause:3@12.5+0.4; "
-      "FOR "
-      "is 0.5 if left out, and from 1 s on the world takes it for dead; may be repeated");
+      "crash, pause or restart of one vehicle: KIND:ID@AT+FOR, seconds, as in pause:3@12.5+0.4. "
+      "FOR is 0.5 if left out; from 1 s on the world takes it for dead. May be repeated");
 }
 
 }  // namespace

@@ -26,7 +26,6 @@ void Vehicle::NoteTurning(Situation* s) {
       state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
 }
 
-// Critical but deaf: something near moves by itself, and no fresh beacon says who it is.
 void Vehicle::ListenForMovers(Situation* s) {
   VehicleState& state = *state_;
   bool moving = false;

@@ -102,13 +102,18 @@ TEST(HeldUp, OneThatComesTheOtherWayIsWaitedFor) {
   EXPECT_LT(PlaceOf(out), 3);
 }
 
-TEST(HeldUp, OneThatSetsOffIsWaitedForWhileThereIsTimeToStop) {
+// One that is held up and sets off after that many ticks of this vehicle's way.
+Outputs DriveUpToOneThatSetsOffAt(std::uint32_t when) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
+  return DriveUntilStopped(&bench, [when](std::uint32_t tick) {
     Beacon peer = PeerGivingWayTo(kThird, tick);
-    peer.wheels = Rolling(tick > 140 ? 0.02 : 0);  // 7 s: 2.1 m of the way
+    peer.wheels = Rolling(tick > when ? 0.02 : 0);
     return std::vector{peer};
   });
+}
+
+TEST(HeldUp, OneThatSetsOffIsWaitedForWhileThereIsTimeToStop) {
+  const Outputs out = DriveUpToOneThatSetsOffAt(140);  // 7 s: 2.1 m of the way
   EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
   EXPECT_LT(PlaceOf(out), 3.4);
 }
@@ -129,13 +134,7 @@ TEST(HeldUp, TheWordToItIsTakenBackOnceItIsTooLateToStop) {
 
 // It has no right to, but cannot stop any more; the peer, which has not moved for so long, can.
 TEST(HeldUp, OneThatSetsOffTooLateToStopForIsDrivenPast) {
-  BrainBench bench(test::OptionsWithoutUltrasonics());
-  const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
-    Beacon peer = PeerGivingWayTo(kThird, tick);
-    peer.wheels = Rolling(tick > 222 ? 0.02 : 0);  // 11.1 s: 3.33 m of the way
-    return std::vector{peer};
-  });
-  EXPECT_GT(PlaceOf(out), 5);
+  EXPECT_GT(PlaceOf(DriveUpToOneThatSetsOffAt(222)), 5);  // 11.1 s: 3.33 m of the way
 }
 
 // The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.
