@@ -33,9 +33,8 @@ OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_
   OrderKey acting = own;
   if (Has(Defect::kLendingDropped)) return acting;
   for (const Peer& peer : peers.Peers()) {
-    if (peer.known && peer.beacon.blocked_by == own_id && GoesFirst(peer.beacon.order, acting)) {
-      acting = peer.beacon.order;
-    }
+    const bool blocked = peer.known && peer.beacon.blocked_by == own_id && !IsGone(peer);
+    if (blocked && GoesFirst(peer.beacon.order, acting)) acting = peer.beacon.order;
   }
   return acting;
 }

@@ -184,7 +184,7 @@ namespace {
 
 void BeginOrEnd(const PeerView& view, const Situation& s) {
   Encounter& encounter = view.peer->encounter;
-  if (view.peer->left || view.peer->out_of_reach) {
+  if (IsGone(*view.peer)) {
     encounter = {};
     return;
   }

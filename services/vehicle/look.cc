@@ -97,9 +97,8 @@ constexpr double kThere_m = 0.05;
 // is there.
 constexpr double kWellAway_m = 2 * kThere_m + 0.001;
 
-// Both vehicles' ways to where they drive next. A peer that stays put has none.
+// Both vehicles' ways to where they drive next.
 std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
-  if (StaysPut(view.peer->beacon)) return std::nullopt;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   const Vec2 from_world = view.position_world;
   const Vec2 to_world = view.peer->beacon.toward_world;
@@ -149,7 +148,7 @@ bool IsClaimFar(const Beacon& beacon, double sigma_m, double unknown_s, const Si
 // have done since is unknown up to the end of the tick that this decision moves.
 double FreeOf(const PeerView& view, const Situation& s) {
   const Beacon& beacon = view.peer->beacon;
-  if (view.peer->out_of_reach || view.peer->left) return kFarAway_m;
+  if (IsGone(*view.peer)) return kFarAway_m;
   const double unknown_s = UnknownSeconds(beacon, s);
   if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.sigma_m, unknown_s, s))
     return kFarAway_m;
@@ -228,9 +227,11 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   view.gap_m = Norm(offset) - radius_m - beacon.body_radius_m;
   view.gate_gap_m =
       GateDistance(s.options.distance_metric, offset) - radius_m - beacon.body_radius_m;
-  // One that has arrived goes nowhere, however it is turned: nobody queues behind it.
-  view.leads = !StaysPut(beacon) && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
-  view.crossing = CrossingWith(view, s);
+  // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
+  // one that is gone, which has no way to cross either.
+  const bool stays = StaysPut(beacon) || IsGone(*view.peer);
+  view.leads = !stays && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
+  if (!stays) view.crossing = CrossingWith(view, s);
   // One that stands and comes later in the order is a body to steer round.
   const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.goes_first;

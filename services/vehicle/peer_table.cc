@@ -13,7 +13,7 @@ namespace {
 
 // The newest believed to be of this world and life, and in reach; null if there is none.
 const Beacon* LastBeaconOf(const Peer& peer) {
-  if (peer.left || peer.out_of_reach) return nullptr;
+  if (IsGone(peer)) return nullptr;
   if (peer.waiting_count > 0) return &peer.waiting[peer.waiting_count - 1];
   return peer.known ? &peer.beacon : nullptr;
 }
@@ -225,9 +225,11 @@ bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& 
          Age(peer, now, tick, options.tick_period) <= options.beacon_age_limit;
 }
 
+bool IsGone(const Peer& peer) { return peer.left || peer.out_of_reach; }
+
 bool IsLost(const Peer& peer, bool fresh) {
   if (Has(Defect::kLostPeerForgotten)) return false;
-  return peer.known && !fresh && !peer.left && !peer.out_of_reach;
+  return peer.known && !fresh && !IsGone(peer);
 }
 
 void PeerTable::AddTo(StateHash* hash) const {

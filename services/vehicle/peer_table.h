@@ -120,7 +120,11 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 // True if what the peer says may be used to decide: young enough, alive, and spoken by one voice.
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options);
 
-// True if the peer should be heard and is not: it neither left nor went out of reach.
+// True if it said good-bye or drove out of reach: where it is by now nobody knows, and it is no
+// loss.
+bool IsGone(const Peer& peer);
+
+// True if the peer should be heard and is not: it is not gone.
 // `fresh` is whether it is.
 bool IsLost(const Peer& peer, bool fresh);
 

@@ -18,7 +18,7 @@ void Vehicle::KeepOrder(const Situation& s, bool waits) {
   constexpr double kThrough_m = 2.5;
   VehicleState& state = *state_;
   const Vec2 position_world = s.world_from_body.position_world;
-  state.let_pass = state.let_pass || s.let_pass;
+  state.let_pass = state.waited_ticks > 0 && (state.let_pass || s.let_pass);
   if (waits) {
     state.waited_ticks += s.new_tick ? 1 : 0;
     state.waited_world = position_world;

@@ -152,7 +152,7 @@ inline Look(i) {
 inline UpdateFresh(i) {
   Look(i);
   released[AT(i, j)] = false;
-  let_pass[i] = let_pass[i] || (AGED_AT_MOST > 0 && meets[AT(i, j)] && goes_first && p == FAR);
+  let_pass[i] = let_pass[i] || (waited[i] > 0 && meets[AT(i, j)] && goes_first && p == FAR);
   meets[AT(i, j)] = (meets[AT(i, j)] -> p != FAR : conflict && !through);
   stood[AT(i, j)] = meets[AT(i, j)] && !conflict;
   held = holds[AT(i, j)];
@@ -331,7 +331,7 @@ inline Say(i) {
      Said(i, 1).waited = 0
   fi;
   if
-  :: rests[i] -> waited[i] = 0
+  :: rests[i] -> waited[i] = 0; let_pass[i] = false
   :: else
   fi;
   gives_way[i] = NOBODY;

@@ -8,8 +8,8 @@
 namespace giveway {
 namespace {
 
-// Of a peer that stands 2 m ahead in the own lane, turned as the vehicle is.
-bool Leads(Rule rule) {
+// A view of the peer, which must outlive it.
+PeerView Look(Peer* peer) {
   const VehicleOptions options = test::DefaultOptions();
   const RangeView ranges;
   const HeardEchoes echoes{};
@@ -21,13 +21,27 @@ bool Leads(Rule rule) {
   s.forward_world = {1, 0};
   s.path = {{0, 0}, {1, 0}};
   s.distance_to_goal_m = 10;
-  Peer peer{.id = VehicleId{2}, .known = true};
-  peer.beacon = test::BeaconOf(2, 1, {{2, 0.1}, 0.1});
-  peer.beacon.rule = rule;
-  PeerView view{.peer = &peer, .fresh = true};
+  PeerView view{.peer = peer, .fresh = IsFresh(*peer, {}, s.tick, options)};
   CarryForward({&view, 1}, s);
   LookAt(&view, s);
-  return view.leads;
+  return view;
+}
+
+Peer PeerAt(const Pose& pose) {
+  Peer peer{.id = VehicleId{2}, .known = true};
+  peer.beacon = test::BeaconOf(2, 1, pose);
+  return peer;
+}
+
+// Stands ahead in the own lane, turned as the vehicle is.
+Peer Ahead() { return PeerAt({{2, 0.1}, 0.1}); }
+// Comes across the own way from the right.
+Peer Across() { return PeerAt({{3, -2}, kPi / 2}); }
+
+bool Leads(Rule rule) {
+  Peer peer = Ahead();
+  peer.beacon.rule = rule;
+  return Look(&peer).leads;
 }
 
 // Vehicles queued for good behind one that had arrived and happened to be turned their way.
@@ -35,6 +49,28 @@ TEST(LookAt, OneThatHasArrivedIsNoLeaderHoweverItIsTurned) {
   EXPECT_TRUE(Leads(Rule::kGiveWay));
   EXPECT_TRUE(Leads(Rule::kSignal));
   EXPECT_FALSE(Leads(Rule::kArrived));
+}
+
+TEST(LookAt, OneThatIsGoneIsNoLeaderAndHasNoWay) {
+  for (bool Peer::*gone : {&Peer::left, &Peer::out_of_reach}) {
+    Peer ahead = Ahead();
+    EXPECT_TRUE(Look(&ahead).leads);
+    ahead.*gone = true;
+    EXPECT_FALSE(Look(&ahead).leads);
+    Peer across = Across();
+    EXPECT_TRUE(Look(&across).crossing);
+    across.*gone = true;
+    EXPECT_FALSE(Look(&across).crossing);
+  }
+}
+
+// One that fell silent may still be there.
+TEST(LookAt, OneThatIsLostKeepsItsWay) {
+  Peer across = Across();
+  across.deadline_missed = true;
+  const PeerView view = Look(&across);
+  EXPECT_TRUE(view.lost);
+  EXPECT_TRUE(view.crossing);
 }
 
 }  // namespace

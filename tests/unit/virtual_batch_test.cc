@@ -23,6 +23,15 @@ CaseOptions Lossy(const std::string& generator) {
   return options;
 }
 
+// What tests/virtual/campaign.sh draws from.
+CaseOptions AsInTheCampaign(const std::string& generator) {
+  CaseOptions options;
+  options.scenario = generator;
+  options.vehicles = WholeRange{2, 50};
+  options.loss_percent = {0, 20};
+  return options;
+}
+
 TEST(VirtualBatch, ComesToTheSameWithAnyNumberOfThreads) {
   const CaseMaker maker(Lossy("swarm"));
   const BatchTotals one = RunBatch(maker, {1, 12}, 1, kGoOn);
@@ -50,14 +59,17 @@ TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
 // Of ten thousand swarms nine did not hold: four vehicles queued for good behind one that had
 // arrived, and five times all but one that still rolled to its goal halted.
 TEST(VirtualBatch, SwarmsThatBrokeHold) {
-  CaseOptions options;
-  options.scenario = "swarm";
-  options.vehicles = WholeRange{2, 50};
-  options.loss_percent = {0, 20};
-  const CaseMaker maker(options);
+  const CaseMaker maker(AsInTheCampaign("swarm"));
   for (const std::uint32_t seed : {1210U, 1730U, 1822U, 5464U, 7746U, 8151U, 8236U, 8547U, 8795U}) {
     EXPECT_TRUE(RunBatch(maker, {seed, seed}, 1, kGoOn).failing_seeds.empty()) << "seed " << seed;
   }
+}
+
+// Of 4 650 corridors this one did not hold: stopped by the wall's echo behind one that stood, a
+// vehicle turned away in one tick of eight and back in the others, and 25 waited for it for good.
+TEST(VirtualBatch, TheCorridorThatBrokeHolds) {
+  const CaseMaker maker(AsInTheCampaign("corridor"));
+  EXPECT_TRUE(RunBatch(maker, {2833, 2833}, 1, kGoOn).failing_seeds.empty());
 }
 
 TEST(VirtualBatch, StopsWhenItIsToldTo) {

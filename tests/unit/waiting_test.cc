@@ -3,6 +3,8 @@
 // ticks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/support/brain_bench.h"
 
 namespace giveway {
@@ -35,6 +37,13 @@ class Waiting {
     ASSERT_EQ(WaitedTicks(), 1U);
   }
 
+  // True if an encounter with that peer is under way.
+  bool Meets(std::uint32_t id) const {
+    const auto peers = bench_.Brain().State().peers.Peers();
+    return std::ranges::any_of(peers, [id](const Peer& peer) {
+      return peer.id == VehicleId{id} && peer.encounter.active;
+    });
+  }
   std::uint32_t WaitedTicks() const { return bench_.Brain().State().waited_ticks; }
   std::uint32_t PlaceInOrder() const { return out_.beacon.order.waited_ticks; }
   double X() const { return out_.beacon.world_from_body.position_world.x; }
@@ -93,6 +102,17 @@ TEST(KeepOrder, WhatItWaitedIsForgottenOnceItIsThrough) {
   while (vehicle.X() < waited_m + 2.6) vehicle.Step({Gone(2)});
   EXPECT_EQ(vehicle.PlaceInOrder(), 0U);
   EXPECT_EQ(vehicle.WaitedTicks(), 0U);
+}
+
+// The first is through before the vehicle has to wait for the second at all.
+TEST(KeepOrder, WhoPassedBeforeItWaitedHasNotBeenLetPass) {
+  Waiting vehicle;
+  while (!vehicle.Meets(2)) vehicle.Step({Coming(2), Coming(3)});
+  ASSERT_EQ(vehicle.WaitedTicks(), 0U);
+  vehicle.DriveUpTo({Gone(2), Coming(3)});
+  vehicle.Steps(3 * kLimit_ticks, {Gone(2), Coming(3)});
+  EXPECT_GT(vehicle.WaitedTicks(), 2 * kLimit_ticks);
+  EXPECT_EQ(vehicle.PlaceInOrder(), 0U);
 }
 
 // In a world at half speed steps come twice a tick: a wait longer than the world's time would be
