@@ -85,12 +85,18 @@ bool IsAhead(const PeerView& view, const Situation& s) {
   return Dot(offset, s.path.direction_world) < 0 && Dot(offset, peer_way) < 0;
 }
 
+// Stands because its ultrasonics hear something that nobody has said is there.
+bool IsStuck(const PeerView& view) {
+  return view.believed && view.standing && view.peer->beacon.rule == Rule::kObstacle;
+}
+
 // Whoever is in the middle of the conflict clears it instead of standing in the way: if the other
-// is not in it yet, or behind, or it can be out before the other comes.
+// is not in it yet, or behind, or stuck there, or it can be out before the other comes.
 bool MustClear(const PeerView& view, const Situation& s) {
   if (!view.conflict || view.conflict->own.begin_m > 0 || IsBeingPassed(view, s)) return false;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s))) return true;
+  if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s) || IsStuck(view)))
+    return true;
   return IsThroughFirst(view, s);
 }
 

@@ -66,10 +66,9 @@ void Vehicle::Detour(Situation* s) {
   if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
   const bool queues = std::ranges::any_of(
       s->peers, [](const PeerView& view) { return view.leads && view.gap_m < kQueued_m; });
-  // Who has lost it has lost it in every tick: turning away in one and back in seven gets nobody
-  // out.
-  const bool counts = s->new_tick && (!queues || Number(s->tick) % kQueuePatience == 0);
-  state.aimless_ticks += counts ? 1 : 0;
+  // Nor does it look about there more often, or it would end up across the lane.
+  if (queues && Number(s->tick) % kQueuePatience != 0) return;
+  state.aimless_ticks += s->new_tick ? 1 : 0;
   if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
   if (Has(Defect::kPatienceDropped)) state.aimless_ticks += 1000;
   const std::uint32_t away_ticks =

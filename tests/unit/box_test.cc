@@ -137,6 +137,18 @@ TEST(HeldUp, OneThatSetsOffTooLateToStopForIsDrivenPast) {
   EXPECT_GT(PlaceOf(DriveUpToOneThatSetsOffAt(222)), 5);  // 11.1 s: 3.33 m of the way
 }
 
+// Comes the other way in a lane so near that each is in the other's way from the start. Of a wall
+// beside it that stopped it for good two queues stood for good.
+TEST(HeldUp, OneThatIsStuckBesideTheOwnLaneIsPassed) {
+  Beacon peer =
+      BeaconOf(2, 1, {.position_world = {2, 0.58}, .heading_rad = kPi}, kCruise_m_s + 0.1);
+  const Outputs waits = DriveUpTo(peer);
+  EXPECT_EQ(waits.command.decision.rule, Rule::kGiveWay);
+  EXPECT_LT(PlaceOf(waits), 0.5);
+  peer.rule = Rule::kObstacle;
+  EXPECT_GT(PlaceOf(DriveUpTo(peer)), 3);
+}
+
 // The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.
 TEST(Box, IsNotEnteredBehindOneThatStands) {
   BrainBench bench(test::OptionsWithoutUltrasonics());

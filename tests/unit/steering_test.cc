@@ -79,25 +79,6 @@ TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
   EXPECT_NEAR(TwistFromWheels(p3dx.drive, wheels).forward_m_s, 0.8, 1e-9);
 }
 
-// The same behind one that stands in the lane and means to go on: patience lasts eight times as
-// long there, but once it is lost the vehicle turns away in every tick.
-TEST(Steering, WhatStopsAnAimlessVehicleInAQueueIsTurnedAwayFromForGood) {
-  test::BrainBench bench(test::DefaultOptions());
-  RangeScan scan = test::ClearScan(0);
-  test::SetEcho(&scan, 1, 0.12);
-  for (const int sensor : {3, 4}) test::SetEcho(&scan, sensor, 0.74);  // the leader's shell
-  const auto turn = [&] {
-    const std::uint32_t heard = bench.NextTick() - 1;
-    const Pose ahead{.position_world = {1.2, 0}};
-    const Outputs out = bench.Step(
-        scan, heard == 0 ? std::vector<Beacon>{} : std::vector{test::BeaconOf(2, heard, ahead)});
-    return TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s;
-  };
-  for (int tick = 0; tick < 900; ++tick) ASSERT_EQ(turn(), 0) << tick;
-  for (int tick = 0; tick < 100; ++tick) turn();
-  for (int tick = 0; tick < 16; ++tick) EXPECT_LT(turn(), 0);
-}
-
 // A wall near the left shoulder, as far as a cone tells; the goal is straight ahead. Where the
 // wall is does not change while the vehicle turns: what the sensors hear is set once.
 TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {

@@ -65,11 +65,15 @@ TEST(VirtualBatch, SwarmsThatBrokeHold) {
   }
 }
 
-// Of 4 650 corridors this one did not hold: stopped by the wall's echo behind one that stood, a
-// vehicle turned away in one tick of eight and back in the others, and 25 waited for it for good.
-TEST(VirtualBatch, TheCorridorThatBrokeHolds) {
+// In the first of these a vehicle that the echo of a wall had stopped came first, and for its sake
+// one stood for good, and 25 behind the two. Turning away from such an echo in a queue, too, as in
+// ticks in which nobody queues, freed it, and in the second turned a queue across the lane for
+// good.
+TEST(VirtualBatch, CorridorsThatBrokeHold) {
   const CaseMaker maker(AsInTheCampaign("corridor"));
-  EXPECT_TRUE(RunBatch(maker, {2833, 2833}, 1, kGoOn).failing_seeds.empty());
+  for (const std::uint32_t seed : {2833U, 645U}) {
+    EXPECT_TRUE(RunBatch(maker, {seed, seed}, 1, kGoOn).failing_seeds.empty()) << "seed " << seed;
+  }
 }
 
 TEST(VirtualBatch, StopsWhenItIsToldTo) {
