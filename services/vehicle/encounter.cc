@@ -85,24 +85,33 @@ bool IsAhead(const PeerView& view, const Situation& s) {
   return Dot(offset, s.path.direction_world) < 0 && Dot(offset, peer_way) < 0;
 }
 
-// Stands because its ultrasonics hear something that nobody has said is there.
-bool IsStuck(const PeerView& view) {
-  return view.believed && view.standing && view.peer->beacon.rule == Rule::kObstacle;
-}
-
 // Whoever is in the middle of the conflict clears it instead of standing in the way: if the other
-// is not in it yet, or behind, or stuck there, or it can be out before the other comes.
+// is not in it yet, or behind, or it can be out before the other comes.
 bool MustClear(const PeerView& view, const Situation& s) {
   if (!view.conflict || view.conflict->own.begin_m > 0 || IsBeingPassed(view, s)) return false;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s) || IsStuck(view)))
-    return true;
+  if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s))) return true;
   return IsThroughFirst(view, s);
 }
 
-// Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going.
-bool IsInTheWay(const PeerView& view, const Situation& s) {
-  return view.peer->beacon.blocked_by == s.options.id || IsOnGoalOf(view, s);
+// Whom that vehicle says is in its way; nobody if it is not among those that matter.
+VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
+  for (const PeerView& view : views) {
+    if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNobody;
+  }
+  return kNobody;
+}
+
+// Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going:
+// also at the far end of a queue of those that are in each other's way.
+bool IsInTheWay(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
+  constexpr int kLongestQueue = 8;
+  VehicleId by = view.peer->beacon.blocked_by;
+  for (int i = 0; i < kLongestQueue && by != kNobody; ++i) {
+    if (by == s.options.id) return true;
+    by = WhoBlocks(by, views);
+  }
+  return IsOnGoalOf(view, s);
 }
 
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
@@ -188,7 +197,7 @@ bool CanGiveWay(const PeerView& view, const Situation& s) {
 
 namespace {
 
-void BeginOrEnd(const PeerView& view, const Situation& s) {
+void BeginOrEnd(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
   Encounter& encounter = view.peer->encounter;
   if (IsGone(*view.peer)) {
     encounter = {};
@@ -206,7 +215,8 @@ void BeginOrEnd(const PeerView& view, const Situation& s) {
     }
   }
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (cooperative && encounter.active && !view.lost && view.goes_first && IsInTheWay(view, s)) {
+  if (cooperative && encounter.active && !view.lost && view.goes_first &&
+      IsInTheWay(view, views, s)) {
     encounter.clears = true;
   }
   if (!encounter.active || HasLeftBox(view, s)) encounter.entered = false;
@@ -220,7 +230,7 @@ EncounterNews UpdateEncounters(std::span<const PeerView> views, const Situation&
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     const bool met = encounter.active;
-    BeginOrEnd(view, s);
+    BeginOrEnd(view, views, s);
     news.let_pass = news.let_pass || (met && !encounter.active && view.goes_first);
     encounter.holds = encounter.active && Holds(view, s);
     news.holds = news.holds || encounter.holds;

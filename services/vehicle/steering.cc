@@ -136,16 +136,18 @@ VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
 }
 
 // The free heading nearest to the wanted one, along an edge of something; the side of the last
-// turn is kept unless the other is much nearer. The wanted one itself where none is free.
-double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side) {
-  double best = wanted_rad;
+// turn is kept unless the other is much nearer. Empty where none is free.
+std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side,
+                                  bool vehicles_alone) {
+  std::optional<double> best;
   double best_cost = 1e9;
   for (std::size_t i = 0; i < headings.count; ++i) {
     const Blocked& blocked = headings.of[i];
+    if (vehicles_alone && blocked.peer == kNobody) continue;
     for (const int end : {1, -1}) {
       const double edge = blocked.middle_rad + end * blocked.half_rad;
-      if (BlockedAt(headings, edge) != nullptr) continue;
-      if (BlockedAt(headings, edge + end * kNarrow_rad) != nullptr) continue;
+      if (BlockedAt(headings, edge, vehicles_alone) != nullptr) continue;
+      if (BlockedAt(headings, edge + end * kNarrow_rad, vehicles_alone) != nullptr) continue;
       const double turn = WrapAngle(edge - wanted_rad);
       if (Magnitude(turn) > kNoWayBack_rad) continue;
       // Passing on the right, with the obstacle to the left, where both sides are alike.
@@ -157,6 +159,14 @@ double FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side)
     }
   }
   return best;
+}
+
+// Where vehicles and echoes leave no heading, one past the vehicles: an echo takes more than what
+// it is of, and the rules still stop before that. The wanted one where they leave none either.
+double NearestFree(const BlockedHeadings& headings, double wanted_rad, int side) {
+  if (const auto free_rad = FreeHeading(headings, wanted_rad, side, false)) return *free_rad;
+  if (BlockedAt(headings, wanted_rad, true) == nullptr) return wanted_rad;
+  return FreeHeading(headings, wanted_rad, side, true).value_or(wanted_rad);
 }
 
 // Among others it leaves to them to make room: turning away in front of them it would only be in
@@ -203,7 +213,7 @@ Steering SteerToGoal(const Situation& s) {
     return steering;
   }
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {
-    heading = FreeHeading(headings, wanted, s.steer_side);
+    heading = NearestFree(headings, wanted, s.steer_side);
     steering.round = blocked->peer;
     const double turn = WrapAngle(heading - wanted);
     steering.side = turn > 0 ? 1 : -1;

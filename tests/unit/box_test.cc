@@ -137,16 +137,27 @@ TEST(HeldUp, OneThatSetsOffTooLateToStopForIsDrivenPast) {
   EXPECT_GT(PlaceOf(DriveUpToOneThatSetsOffAt(222)), 5);  // 11.1 s: 3.33 m of the way
 }
 
-// Comes the other way in a lane so near that each is in the other's way from the start. Of a wall
-// beside it that stopped it for good two queues stood for good.
-TEST(HeldUp, OneThatIsStuckBesideTheOwnLaneIsPassed) {
-  Beacon peer =
-      BeaconOf(2, 1, {.position_world = {2, 0.58}, .heading_rad = kPi}, kCruise_m_s + 0.1);
-  const Outputs waits = DriveUpTo(peer);
+// Comes first, the other way and in a lane so near that each is in the other's way from the start.
+// It stands behind another one, which stands for whoever `blocks_it`.
+Outputs DriveUpToAQueueBehindOneBlockedBy(VehicleId blocks_it) {
+  BrainBench bench(test::OptionsWithoutUltrasonics());
+  return DriveUntilStopped(&bench, [blocks_it](std::uint32_t tick) {
+    const auto peer = [tick](std::uint32_t id, double x_m, VehicleId blocked_by) {
+      Beacon beacon = BeaconOf(id, tick, {{x_m, 0.58}, kPi}, kCruise_m_s + 0.1);
+      beacon.rule = Rule::kKeepClear;
+      beacon.blocked_by = blocked_by;
+      return beacon;
+    };
+    return std::vector{peer(2, 2, VehicleId{3}), peer(3, 1.2, blocks_it)};
+  });
+}
+
+// Two queues stood for good: each waited for one that stood behind what the other one kept.
+TEST(HeldUp, OneThatIsHeldUpByThisVehicleOverAnotherIsNotWaitedFor) {
+  const Outputs waits = DriveUpToAQueueBehindOneBlockedBy(kThird);
   EXPECT_EQ(waits.command.decision.rule, Rule::kGiveWay);
   EXPECT_LT(PlaceOf(waits), 0.5);
-  peer.rule = Rule::kObstacle;
-  EXPECT_GT(PlaceOf(DriveUpTo(peer)), 3);
+  EXPECT_GT(PlaceOf(DriveUpToAQueueBehindOneBlockedBy(VehicleId{1})), 3);
 }
 
 // The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.

@@ -95,5 +95,39 @@ TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {
   EXPECT_LT(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0);
 }
 
+// What a sensor hears of a wall along y = wall_y_m, south of it: the nearest that its cone holds.
+double RangeToWall(const VehicleProfile& profile, std::size_t sensor, const Pose& world_from_body,
+                   double wall_y_m) {
+  const SensorMount& mount = profile.sonar[sensor];
+  const double off_rad = WrapAngle(world_from_body.heading_rad + mount.bearing_rad + kPi / 2);
+  const double half_rad = profile.sonar_half_angle_rad;
+  const double slant_rad = off_rad - std::clamp(off_rad, -half_rad, half_rad);
+  const double above_m = ToWorld(world_from_body, mount.position_body).y - wall_y_m;
+  return Magnitude(slant_rad) < 1.5 ? above_m / Cos(slant_rad) : 1e9;
+}
+
+// Of corridor 474. One whose shell touches the own is in the way; it has no ears on that side. On
+// the other it hears the wall in so many directions that no heading past the other one is free.
+TEST(Steering, PastAVehicleItTurnsAlsoWhereEchoesLeaveNoHeading) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  for (std::size_t i = 3; i < 8; ++i) options.profile.sonar[i].enabled = true;
+  options.start_world.heading_rad = -kPi / 4;
+  test::BrainBench bench(options);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 400; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = out.command.target;
+    for (std::size_t i = 3; i < 8; ++i) {
+      const double range_m = RangeToWall(options.profile, i, out.beacon.world_from_body, -0.54);
+      if (range_m < 3) test::SetEcho(&scan, static_cast<int>(i), range_m);
+    }
+    Beacon beside = test::BeaconOf(2, tick, {{0.427, 0.348}, 3 * kPi / 4});
+    beside.toward_world = {-10, 0.6};
+    beside.rule = Rule::kKeepClear;  // held up as well
+    out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
+  }
+  EXPECT_GT(out.beacon.world_from_body.position_world.x, 0.1);
+}
+
 }  // namespace
 }  // namespace giveway
