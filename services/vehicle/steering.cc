@@ -20,7 +20,7 @@ constexpr double kKeepSide_rad = 0.6;
 // Past something, but not back: whoever turns round in a lane meets those that follow.
 constexpr double kNoWayBack_rad = 1.8;
 // A gap no wider than this is none.
-constexpr double kNarrow_rad = 0.05;
+constexpr double kNarrow_rad = 0.02;
 
 // What stands in the way, as seen from the axle centre: no heading between `middle` - `half` and
 // `middle` + `half` gets past it.

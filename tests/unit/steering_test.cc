@@ -129,5 +129,30 @@ TEST(Steering, PastAVehicleItTurnsAlsoWhereEchoesLeaveNoHeading) {
   EXPECT_GT(out.beacon.world_from_body.position_world.x, 0.1);
 }
 
+// Of swarm 1130: shell to shell between two that stand. The only way out
+// is square to the line through all three, and no wider than a fortieth of a radian.
+TEST(Steering, ANarrowWayOutBetweenTwoBodiesIsOne) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  options.start_world.heading_rad = 2.857;
+  options.goal.at_world = {-7.4, 2.17};
+  test::BrainBench bench(options);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 400; ++tick) {
+    const auto parked = [tick](std::uint32_t id, Vec2 at_world) {
+      Beacon beacon = test::BeaconOf(id, tick, {at_world});
+      beacon.toward_world = at_world;
+      beacon.rule = Rule::kArrived;
+      return beacon;
+    };
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = out.command.target;
+    if (tick == 0) scan.run_state = RunState::kWaiting;  // it hears the two before it starts
+    out = bench.Step(
+        scan, tick == 0 ? std::vector<Beacon>{}
+                        : std::vector{parked(2, {-0.5104, -0.2316}), parked(3, {0.5014, 0.2385})});
+  }
+  EXPECT_GT(Norm(out.beacon.world_from_body.position_world), 1);
+}
+
 }  // namespace
 }  // namespace giveway
