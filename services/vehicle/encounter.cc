@@ -105,7 +105,7 @@ VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
 // Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going:
 // also at the far end of a queue of those that are in each other's way.
 bool IsInTheWay(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
-  constexpr int kLongestQueue = 8;
+  constexpr int kLongestQueue = 8;  // followed no farther: it may close to a ring
   VehicleId by = view.peer->beacon.blocked_by;
   for (int i = 0; i < kLongestQueue && by != kNobody; ++i) {
     if (by == s.options.id) return true;

@@ -229,9 +229,9 @@ void LookAt(PeerView* looked_at, const Situation& s) {
       GateDistance(s.options.distance_metric, offset) - radius_m - beacon.body_radius_m;
   // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
   // one that is gone, which has no way to cross either.
-  const bool stays = StaysPut(beacon) || IsGone(*view.peer);
-  view.leads = !stays && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
-  if (!stays) view.crossing = CrossingWith(view, s);
+  const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
+  view.leads = goes_on && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
+  if (goes_on) view.crossing = CrossingWith(view, s);
   // One that stands and comes later in the order is a body to steer round.
   const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.goes_first;

@@ -135,10 +135,11 @@ VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
   return vehicle == nullptr ? kNobody : vehicle->peer;
 }
 
-// The free heading nearest to the wanted one, along an edge of something; the side of the last
-// turn is kept unless the other is much nearer. Empty where none is free.
+// The wanted heading if it is free, or the nearest that is, along an edge of something; the side of
+// the last turn is kept unless the other is much nearer. Empty where none is free.
 std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side,
                                   bool vehicles_alone) {
+  if (BlockedAt(headings, wanted_rad, vehicles_alone) == nullptr) return wanted_rad;
   std::optional<double> best;
   double best_cost = 1e9;
   for (std::size_t i = 0; i < headings.count; ++i) {
@@ -165,7 +166,6 @@ std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted
 // it is of, and the rules still stop before that. The wanted one where they leave none either.
 double NearestFree(const BlockedHeadings& headings, double wanted_rad, int side) {
   if (const auto free_rad = FreeHeading(headings, wanted_rad, side, false)) return *free_rad;
-  if (BlockedAt(headings, wanted_rad, true) == nullptr) return wanted_rad;
   return FreeHeading(headings, wanted_rad, side, true).value_or(wanted_rad);
 }
 

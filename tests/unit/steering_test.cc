@@ -129,8 +129,8 @@ TEST(Steering, PastAVehicleItTurnsAlsoWhereEchoesLeaveNoHeading) {
   EXPECT_GT(out.beacon.world_from_body.position_world.x, 0.1);
 }
 
-// Of swarm 1130: shell to shell between two that stand. The only way out
-// is square to the line through all three, and no wider than a fortieth of a radian.
+// Of swarm 1130: shell to shell between two that stand. The only way out is square to the line
+// through all three, and no wider than a twenty-fourth of a radian.
 TEST(Steering, ANarrowWayOutBetweenTwoBodiesIsOne) {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
   options.start_world.heading_rad = 2.857;
@@ -152,6 +152,24 @@ TEST(Steering, ANarrowWayOutBetweenTwoBodiesIsOne) {
                         : std::vector{parked(2, {-0.5104, -0.2316}), parked(3, {0.5014, 0.2385})});
   }
   EXPECT_GT(Norm(out.beacon.world_from_body.position_world), 1);
+}
+
+// Echoes all round, and one that stands beside the vehicle, not in its way: it has no reason to
+// turn along that one's edge.
+TEST(Steering, WhereEchoesAloneCoverTheWayItIsKept) {
+  test::BrainBench bench(test::DefaultOptions());
+  RangeScan scan = test::ClearScan(0);
+  for (int sensor = 0; sensor < 8; ++sensor) test::SetEcho(&scan, sensor, 0.35);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 200; ++tick) {
+    Beacon beside = test::BeaconOf(2, tick, {{-0.1, 0.55}, kPi});
+    beside.toward_world = beside.world_from_body.position_world;
+    beside.rule = Rule::kArrived;
+    scan.wheels = {};  // it is held where it stands
+    out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
+  }
+  EXPECT_GE(bench.Brain().State().aimless_ticks, 120U);
+  EXPECT_NEAR(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0, 0.1);
 }
 
 }  // namespace
