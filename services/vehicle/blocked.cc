@@ -27,6 +27,14 @@ VehicleId NearestThatWaits(const Situation& s) {
   return nearest == nullptr ? kNobody : nearest->peer->id;
 }
 
+// Whom that vehicle says is in its way; nobody if it is not among those that matter.
+VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
+  for (const PeerView& view : views) {
+    if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNobody;
+  }
+  return kNobody;
+}
+
 }  // namespace
 
 OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id) {
@@ -60,6 +68,15 @@ bool IsStillNear(VehicleId peer, const Situation& s) {
   return std::ranges::any_of(s.peers, [peer](const PeerView& view) {
     return view.peer->id == peer && view.fresh && view.gap_m < kQueueWithin_m;
   });
+}
+
+bool IsBehind(VehicleId blocker, VehicleId vehicle, std::span<const PeerView> views) {
+  constexpr int kLongestQueue = 8;  // followed no farther: it may close to a ring
+  for (int i = 0; i < kLongestQueue && blocker != kNobody; ++i) {
+    if (blocker == vehicle) return true;
+    blocker = WhoBlocks(blocker, views);
+  }
+  return false;
 }
 
 }  // namespace giveway

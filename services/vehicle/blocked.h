@@ -18,4 +18,7 @@ VehicleId BlockedBy(const Situation& s, const Action& action);
 // True if that peer is fresh and near enough to be in the way again at once.
 bool IsStillNear(VehicleId peer, const Situation& s);
 
+// True if `blocker`, or whoever is in its way, and so on along the queue, is `vehicle`.
+bool IsBehind(VehicleId blocker, VehicleId vehicle, std::span<const PeerView> views);
+
 }  // namespace giveway

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "services/vehicle/blocked.h"
 #include "services/vehicle/planted.h"
 #include "services/vehicle/timing.h"
 
@@ -94,24 +95,10 @@ bool MustClear(const PeerView& view, const Situation& s) {
   return IsThroughFirst(view, s);
 }
 
-// Whom that vehicle says is in its way; nobody if it is not among those that matter.
-VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
-  for (const PeerView& view : views) {
-    if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNobody;
-  }
-  return kNobody;
-}
-
 // Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going:
 // also at the far end of a queue of those that are in each other's way.
 bool IsInTheWay(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
-  constexpr int kLongestQueue = 8;  // followed no farther: it may close to a ring
-  VehicleId by = view.peer->beacon.blocked_by;
-  for (int i = 0; i < kLongestQueue && by != kNobody; ++i) {
-    if (by == s.options.id) return true;
-    by = WhoBlocks(by, views);
-  }
-  return IsOnGoalOf(view, s);
+  return IsBehind(view.peer->beacon.blocked_by, s.options.id, views) || IsOnGoalOf(view, s);
 }
 
 // Whom the order puts second stops at the gate, or where only braking now is early enough.

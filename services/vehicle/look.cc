@@ -144,20 +144,6 @@ bool IsClaimFar(const Beacon& beacon, double sigma_m, double unknown_s, const Si
   return SquaredNorm(offset) > far_m * far_m;
 }
 
-// The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
-// have done since is unknown up to the end of the tick that this decision moves.
-double FreeOf(const PeerView& view, const Situation& s) {
-  const Beacon& beacon = view.peer->beacon;
-  if (IsGone(*view.peer)) return kFarAway_m;
-  const double unknown_s = UnknownSeconds(beacon, s);
-  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.sigma_m, unknown_s, s))
-    return kFarAway_m;
-  const Claim claim =
-      ClaimOf(beacon, view.told_forward_world, unknown_s, ReactionSeconds(s.options));
-  return FreeBefore(claim, {s.world_from_body.position_world, s.forward_world},
-                    ApartFrom(view.sigma_m, s));
-}
-
 // Beyond this, shell to shell, nothing is looked for but claims and ways: detours and echoes of the
 // ultrasonics are nearer, what radar and lidar show may be this far.
 constexpr double kLooksAround_m = 8;
@@ -177,6 +163,20 @@ double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
 }
 
 }  // namespace
+
+// The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
+// have done since is unknown up to the end of the tick that this decision moves.
+double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s) {
+  const Beacon& beacon = view.peer->beacon;
+  if (IsGone(*view.peer)) return kFarAway_m;
+  const double unknown_s = UnknownSeconds(beacon, s);
+  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.sigma_m, unknown_s, s))
+    return kFarAway_m;
+  const Claim claim =
+      ClaimOf(beacon, view.told_forward_world, unknown_s, ReactionSeconds(s.options));
+  return FreeBefore(claim, {s.world_from_body.position_world, forward_world},
+                    ApartFrom(view.sigma_m, s));
+}
 
 bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || peer.encounter.active) return true;
@@ -237,7 +237,7 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   const bool steered_round = cooperative && stands && !view.goes_first;
   if (!steered_round) view.conflict = view.crossing;
   view.box_begin_m = 0;
-  view.free_m = FreeOf(view, s);
+  view.free_m = FreeAlong(view, s.forward_world, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
                                   halted || WaitsAtSignal(view, s));

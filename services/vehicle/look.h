@@ -16,6 +16,11 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s);
 // operations of which each waits for the one before, and those of several peers run side by side.
 void CarryForward(std::span<PeerView> views, const Situation& s);
 
+// How far this vehicle may go along a unit vector until its shell is at the peer's claim, metres;
+// huge if it never is, or so far on that the own cruise speed is not too fast for it. Of a view
+// that LookAt has filled in as far as `sigma_m`.
+double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s);
+
 // Relates the peer of `view` to the own path.
 void LookAt(PeerView* view, const Situation& s);
 

@@ -5,6 +5,7 @@
 
 #include "services/types/math.h"
 #include "services/vehicle/echoes.h"
+#include "services/vehicle/look.h"
 #include "services/vehicle/planted.h"
 
 namespace giveway {
@@ -19,6 +20,8 @@ constexpr double kLookAhead_m = 3;
 constexpr double kKeepSide_rad = 0.6;
 // Past something, but not back: whoever turns round in a lane meets those that follow.
 constexpr double kNoWayBack_rad = 1.8;
+// Farther off the heading than this it turns before it drives.
+constexpr double kTurnOnTheSpot_rad = 0.3;
 // A gap no wider than this is none.
 constexpr double kNarrow_rad = 0.02;
 
@@ -162,11 +165,38 @@ std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted
   return best;
 }
 
-// Where vehicles and echoes leave no heading, one past the vehicles: an echo takes more than what
-// it is of, and the rules still stop before that. The wanted one where they leave none either.
-double NearestFree(const BlockedHeadings& headings, double wanted_rad, int side) {
-  if (const auto free_rad = FreeHeading(headings, wanted_rad, side, false)) return *free_rad;
-  return FreeHeading(headings, wanted_rad, side, true).value_or(wanted_rad);
+// For one that is caught: a heading along which no claim is near; empty if there is none among
+// those looked at. Each is turned by the golden angle from the one before, so that a few tries look
+// all round, however narrow the way out is, and none is tried twice.
+std::optional<double> WayOut(double wanted_rad, const Situation& s) {
+  constexpr double kGoldenAngle_rad = 2.399963229728653;
+  constexpr int kHeadings = 24;
+  constexpr double kOut_m = 0.1;
+  for (int i = 0; i < kHeadings; ++i) {
+    const double heading_rad = WrapAngle(wanted_rad + (s.tries + i) * kGoldenAngle_rad);
+    const Vec2 forward_world = {Cos(heading_rad), Sin(heading_rad)};
+    const bool leads_out = std::ranges::all_of(
+        s.peers, [&](const PeerView& view) { return FreeAlong(view, forward_world, s) >= kOut_m; });
+    if (leads_out) return heading_rad;
+  }
+  return std::nullopt;
+}
+
+// Where to turn, and whether that is kept to for a while.
+struct Turn {
+  double heading_rad;
+  bool kept;
+};
+
+// Past vehicles and echoes, or past the vehicles where that leaves no heading: an echo takes more
+// than what it is of, and the rules still stop before that. The wanted one where they leave none
+// either. Kept is what echoes decide, for they turn with the vehicle: halfway to a heading another
+// one may look better, and it would turn to and fro for ever.
+Turn TurnPast(const BlockedHeadings& headings, double wanted_rad, int side) {
+  const auto past_all = FreeHeading(headings, wanted_rad, side, false);
+  const auto past_vehicles = FreeHeading(headings, wanted_rad, side, true);
+  if (past_all) return {*past_all, past_all != past_vehicles};
+  return {past_vehicles.value_or(wanted_rad), false};
 }
 
 // Among others it leaves to them to make room: turning away in front of them it would only be in
@@ -179,12 +209,20 @@ bool HasCompany(const Situation& s) {
   });
 }
 
-// Once it has turned the way it took, and something stops it there too, it looks for another.
-bool LeadsAway(const BlockedHeadings& headings, const Situation& s) {
+// The heading it took of late and keeps to. Once it has turned there, and something stops it there
+// too, it looks for another.
+std::optional<double> KeptHeading(const BlockedHeadings& headings, const Situation& s) {
   constexpr double kTurned_rad = 0.1;
-  if (!s.away_rad) return false;
+  if (!s.away_rad) return std::nullopt;
   const double error_rad = WrapAngle(*s.away_rad - s.world_from_body.heading_rad);
-  return !headings.stops || Magnitude(error_rad) > kTurned_rad;
+  const bool stopped_there = headings.stops && Magnitude(error_rad) <= kTurned_rad;
+  return stopped_there ? std::nullopt : s.away_rad;
+}
+
+// True if the vehicle stands, and turns before it drives.
+bool TurnsOnTheSpot(double heading_rad, const Situation& s) {
+  const double error_rad = WrapAngle(heading_rad - s.world_from_body.heading_rad);
+  return s.speed_m_s < kStandingSpeed_m_s && Magnitude(error_rad) > kTurnOnTheSpot_rad;
 }
 
 double Activation(const BraitenbergWeights& weights, const SensorView& view) {
@@ -207,17 +245,21 @@ Steering SteerToGoal(const Situation& s) {
     AddEchoes(s, &headings);
     steering.blocked_by = OnStraightWay(headings, s);
   }
-  if (LeadsAway(headings, s)) {
+  if (s.tries >= 0 && !s.away_rad) steering.away_rad = WayOut(wanted, s);
+  if (const auto kept = steering.away_rad ? steering.away_rad : KeptHeading(headings, s)) {
     steering.side = s.steer_side;
-    steering.heading_error_rad = WrapAngle(*s.away_rad - s.world_from_body.heading_rad);
+    steering.heading_error_rad = WrapAngle(*kept - s.world_from_body.heading_rad);
     return steering;
   }
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {
-    heading = NearestFree(headings, wanted, s.steer_side);
+    const Turn turn = TurnPast(headings, wanted, s.steer_side);
+    heading = turn.heading_rad;
     steering.round = blocked->peer;
-    const double turn = WrapAngle(heading - wanted);
-    steering.side = turn > 0 ? 1 : -1;
-    if (headings.stops && heading != wanted && !HasCompany(s)) steering.away_rad = heading;
+    steering.side = WrapAngle(heading - wanted) > 0 ? 1 : -1;
+    const bool gets_away = headings.stops && !HasCompany(s);
+    if (heading != wanted && (gets_away || (turn.kept && TurnsOnTheSpot(heading, s)))) {
+      steering.away_rad = heading;
+    }
   }
   steering.heading_error_rad = WrapAngle(heading - s.world_from_body.heading_rad);
   return steering;
@@ -258,11 +300,10 @@ WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steerin
                   double speed_m_s, bool may_turn) {
   if (speed_m_s <= 0 && !may_turn) return {};
   constexpr double kGain_per_s = 2.0;
-  constexpr double kTurnOnTheSpot_rad = 0.3;
   const double error = steering.heading_error_rad;
   const double turn =
       std::clamp(kGain_per_s * error, -profile.max_turn_rad_s / 2, profile.max_turn_rad_s / 2);
-  const bool on_the_spot = error > kTurnOnTheSpot_rad || error < -kTurnOnTheSpot_rad;
+  const bool on_the_spot = Magnitude(error) > kTurnOnTheSpot_rad;
   const double forward = SpeedBesideTurn(profile, now, turn, speed_m_s);
   return WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
 }

@@ -65,6 +65,7 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.aimless_ticks = 0;
   state.detour_tick = kNoTick;
   state.away_tick = kNoTick;
+  state.caught_ticks = 0;
   state.blocked_tick = kNoTick;
   state.turned_tick = kNoTick;
   state.decided_tick = kNoTick;

@@ -53,6 +53,8 @@ struct VehicleState {
   Tick detour_tick = kNoTick;        // when it was looked for
   double away_rad = 0;               // the heading taken from what stopped it, if away_tick is set
   Tick away_tick = kNoTick;          // when it was taken
+  Vec2 caught_world;                 // from where it gets no farther
+  std::uint32_t caught_ticks = 0;    // for how long, not counting where it waits or queues
   RangeView ranges;
   PeerTable peers;
   SignalTable signals;
@@ -100,6 +102,7 @@ class Vehicle {
   void NoteTurning(Situation* situation);
   void ListenForMovers(Situation* situation);
   void Detour(Situation* situation);
+  void NoteCaught(Situation* situation, bool queues);
   std::uint32_t AgedTicks() const;
   void KeepOrder(const Situation& situation, bool waits);
   void Remember(const Situation& situation, const Action& action);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "services/vehicle/blocked.h"
 #include "services/vehicle/detour.h"
 #include "services/vehicle/planted.h"
 #include "services/vehicle/vehicle.h"
@@ -20,6 +21,9 @@ constexpr std::uint32_t kQueuePatience = 8;
 constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
 constexpr std::uint32_t kAwayTicks = 60;    // it drives away from what stopped it for so many
 constexpr std::uint32_t kStuckTicks = 200;  // and may be stopped again, along a wall, for so many
+// No farther than this from where it was, for so many ticks, it is caught.
+constexpr double kCaughtWithin_m = 0.1;
+constexpr std::uint32_t kCaughtTicks = 200;
 
 // A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
 bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
@@ -55,6 +59,23 @@ void Vehicle::LookAhead(Situation* s) {
   if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
 }
 
+// Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand
+// in each other's way, or before something that it hears and cannot place. A queue that closes to a
+// circle is none.
+void Vehicle::NoteCaught(Situation* s, bool queues) {
+  VehicleState& state = *state_;
+  const Vec2 moved = s->world_from_body.position_world - state.caught_world;
+  if (!s->aimless || SquaredNorm(moved) > kCaughtWithin_m * kCaughtWithin_m) {
+    state.caught_world = s->world_from_body.position_world;
+    state.caught_ticks = 0;
+    return;
+  }
+  if (queues && !IsBehind(state.blocked_by, options_.id, s->peers)) return;
+  state.caught_ticks += s->new_tick ? 1 : 0;
+  if (state.caught_ticks < kCaughtTicks) return;
+  s->tries = static_cast<int>((state.caught_ticks - kCaughtTicks) / kAwayTicks);
+}
+
 // Where steering round what stands leads nowhere, the way is looked up on a map of it.
 void Vehicle::Detour(Situation* s) {
   VehicleState& state = *state_;
@@ -64,8 +85,10 @@ void Vehicle::Detour(Situation* s) {
     state.detour_tick = kNoTick;
   }
   if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
-  const bool queues = std::ranges::any_of(
-      s->peers, [](const PeerView& view) { return view.leads && view.gap_m < kQueued_m; });
+  const bool queues =
+      state.caught_ticks < kCaughtTicks && std::ranges::any_of(s->peers, [](const PeerView& view) {
+        return view.leads && view.gap_m < kQueued_m;
+      });
   // Nor does it look about there more often, or it would end up across the lane.
   if (queues && Number(s->tick) % kQueuePatience != 0) return;
   state.aimless_ticks += s->new_tick ? 1 : 0;
@@ -76,6 +99,7 @@ void Vehicle::Detour(Situation* s) {
   s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s ||
                away_ticks <= kStuckTicks;
   s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
+  NoteCaught(s, queues);
   if (!s->aimless) return;
   if (away_ticks <= kAwayTicks) s->away_rad = state.away_rad;
   if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {

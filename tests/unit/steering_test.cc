@@ -114,7 +114,7 @@ TEST(Steering, PastAVehicleItTurnsAlsoWhereEchoesLeaveNoHeading) {
   options.start_world.heading_rad = -kPi / 4;
   test::BrainBench bench(options);
   Outputs out;
-  for (std::uint32_t tick = 0; tick < 400; ++tick) {
+  for (std::uint32_t tick = 0; tick < 1200; ++tick) {
     RangeScan scan = test::ClearScan(0);
     scan.wheels = out.command.target;
     for (std::size_t i = 3; i < 8; ++i) {
@@ -152,6 +152,31 @@ TEST(Steering, ANarrowWayOutBetweenTwoBodiesIsOne) {
                         : std::vector{parked(2, {-0.5104, -0.2316}), parked(3, {0.5014, 0.2385})});
   }
   EXPECT_GT(Norm(out.beacon.world_from_body.position_world), 1);
+}
+
+// Of corridor 7354: one that comes the other way stands shell to shell with it, and the way past
+// leads towards a wall. A heading off both lies so far back that a hair decides whether it is one,
+// and with every bit that the vehicle turns the echoes turn as well.
+TEST(Steering, BesideAWallItDoesNotTurnToAndFroForEver) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  for (std::size_t i = 0; i < 8; ++i) options.profile.sonar[i].enabled = true;
+  options.start_world.heading_rad = -2.3;
+  options.goal.at_world = {-10, -0.26};
+  test::BrainBench bench(options);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 320; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    if (tick >= 130) scan.wheels = out.command.target;  // until then it is held where it stands
+    for (std::size_t i = 0; i < 8; ++i) {
+      const double range_m = RangeToWall(options.profile, i, out.beacon.world_from_body, -0.675);
+      if (range_m < 3) test::SetEcho(&scan, static_cast<int>(i), range_m);
+    }
+    Beacon beside = test::BeaconOf(2, tick, {{-0.371, 0.421}, kPi / 4});
+    beside.toward_world = {10, 0.421};
+    beside.rule = Rule::kObstacle;
+    out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
+  }
+  EXPECT_LT(out.beacon.world_from_body.position_world.x, -0.5);
 }
 
 // Echoes all round, and one that stands beside the vehicle, not in its way: it has no reason to
