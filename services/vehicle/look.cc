@@ -1,6 +1,7 @@
 #include "services/vehicle/look.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "services/types/math.h"
 #include "services/vehicle/claim.h"
@@ -162,6 +163,17 @@ double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
   return fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
 }
 
+// By its bits: of -0 and 0 the unit vectors are not the same either.
+Vec2 ToldForward(Peer* peer) {
+  const Pose& told = peer->beacon.world_from_body;
+  ToldHeading& last = peer->told;
+  if (std::bit_cast<std::uint64_t>(told.heading_rad) !=
+      std::bit_cast<std::uint64_t>(last.heading_rad)) {
+    last = {told.heading_rad, Forward(told)};
+  }
+  return last.forward_world;
+}
+
 }  // namespace
 
 // The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
@@ -195,9 +207,7 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
 }
 
 void CarryForward(std::span<PeerView> views, const Situation& s) {
-  for (PeerView& view : views) {
-    view.told_forward_world = Forward(view.peer->beacon.world_from_body);
-  }
+  for (PeerView& view : views) view.told_forward_world = ToldForward(view.peer);
   for (PeerView& view : views) {
     const Beacon& beacon = view.peer->beacon;
     const Facing told = {beacon.world_from_body.position_world, view.told_forward_world};

@@ -30,6 +30,13 @@ struct Encounter {
   double lost_wait_s = 0;  // how long the silent peer may take to pass at its cruise speed
 };
 
+// A heading and its unit vector, kept because a sine is dear and most peers say what they said:
+// they stand, or drive straight on.
+struct ToldHeading {
+  double heading_rad = 0;
+  Vec2 forward_world{1, 0};
+};
+
 // What every step looks at comes first, what waits last: few cache lines a peer are ever touched.
 struct Peer {
   VehicleId id = kNobody;
@@ -49,6 +56,7 @@ struct Peer {
   bool out_of_reach = false;     // last heard of from beyond the emission radius
   Encounter encounter;
   PeerTrust trust;
+  ToldHeading told;                 // of a beacon of late
   Beacon beacon;                    // newest of a tick before this vehicle's
   std::array<Beacon, 2> waiting{};  // of this tick or later, older first
   std::array<SteadyTime, 2> waiting_received{};

@@ -4,6 +4,7 @@
 
 #include "services/types/fleet_limits.h"
 #include "services/types/math.h"
+#include "services/vehicle/bits.h"
 #include "services/vehicle/echoes.h"
 
 namespace giveway {
@@ -78,13 +79,24 @@ bool IsSquarelyIn(std::size_t sensor, const Place& place, const Situation& s) {
   return across * across <= s.cones.half_sine * s.cones.half_sine * SquaredNorm(to);
 }
 
-// True if the sensor fired just now and heard nothing as near as the centre, which lies in its
-// cone: whatever hides a body is nearer still. By the centre, not the shell, for the body need not
-// be round.
+// The sensors that fired just now, and what they heard or did not counts: one bit each.
+std::uint32_t Listening(const Situation& s) {
+  std::uint32_t listening = 0;
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    const SensorView& heard = s.ranges[i];
+    const bool listens = s.options.profile.sonar[i].enabled && heard.kind != Echo::kNoData &&
+                         heard.tick == s.tick && !heard.missed;
+    listening |= (listens ? 1U : 0U) << i;
+  }
+  return listening;
+}
+
+// True if a sensor that listens heard nothing as near as the centre, which lies in its cone:
+// whatever hides a body is nearer still. By the centre, not the shell, for the body need not be
+// round.
 bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
+  if (!IsSquarelyIn(sensor, place, s)) return false;
   const SensorView& heard = s.ranges[sensor];
-  if (!s.options.profile.sonar[sensor].enabled || heard.kind == Echo::kNoData) return false;
-  if (heard.tick != s.tick || heard.missed || !IsSquarelyIn(sensor, place, s)) return false;
   const double free_m =
       heard.kind == Echo::kClear ? s.options.profile.sonar_max_range_m : heard.range_m;
   const double surely_m = free_m * (1 - kNoiseSigmas * s.options.sonar_noise) - place.error_m;
@@ -93,13 +105,13 @@ bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
 }
 
 // True if no echo is where its body should be, and a sensor should have heard one.
-bool IsMissed(const PeerView& view, const Situation& s) {
+bool IsMissed(const PeerView& view, std::uint32_t listening, const Situation& s) {
   if (view.explains != 0) return false;
   const double far_m = s.options.profile.sonar_max_range_m + s.options.profile.body_radius_m;
   const Vec2 offset = view.position_world - s.world_from_body.position_world;
   if (SquaredNorm(offset) > far_m * far_m) return false;
   const Place place = PlaceOf(view, s);
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
+  for (const std::size_t i : BitsOf(listening)) {
     if (MissesBody(i, place, s)) return true;
   }
   return false;
@@ -171,13 +183,14 @@ void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCount
   // Ultrasonics that miss what is there, by its slant or by chance, or take a neighbour's ping for
   // an echo accuse nobody.
   const bool believes_ears = !HasImperfectSonar(s.options);
+  const std::uint32_t listening = Listening(s);
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
     if (!view.fresh) {
       trust.missing_ticks = trust.standing_ticks = trust.closing_ticks = 0;
       continue;
     }
-    trust.missing_ticks = IsMissed(view, s) ? trust.missing_ticks + 1 : 0;
+    trust.missing_ticks = IsMissed(view, listening, s) ? trust.missing_ticks + 1 : 0;
     if (trust.missing_ticks == kMissingTicks) ++counters->beacon_without_echo;
     if (trust.missing_ticks >= kMissingTicks && believes_ears) Doubt(&trust, s.now);
 
