@@ -83,7 +83,7 @@ Scenario MakeCorridor(Size size) {
                             turned(half_m + 2.5, -kExitLane_m), turned(bay_m, -kExitLane_m)};
     layout.Add(turned(-start_m, -row_m), way, turned(bay_m, -kExitLane_m - side_m));
   }
-  return layout.Take();
+  return layout.Take(2 * half_m);
 }
 
 // A ramp comes in from the left at 30 degrees; from the origin on there is one lane, with bays on

@@ -14,7 +14,7 @@ constexpr double kSlowest_m_s = 0.2;
 constexpr double kFastest_m_s = 0.6;
 // Beyond the free-flow time of the slowest: for everyone once in turn through the tightest place.
 constexpr double kSpare_s = 60;
-constexpr double kTurn_s = 12;
+constexpr double kTurn_s = 12;  // where two ways cross; a longer place takes longer
 
 }  // namespace
 
@@ -49,14 +49,15 @@ void Layout::AddBlock(Vec2 low, Vec2 high) {
   AddWall({low.x, high.y}, low);
 }
 
-Scenario Layout::Take() {
+Scenario Layout::Take(double tightest_m) {
   double slowest_s = 0;
+  double turns_s = 0;
   for (const VehicleOptions& options : scenario_.vehicles) {
     slowest_s = std::max(slowest_s, FreeFlowSeconds(options));
+    turns_s += std::max(kTurn_s, tightest_m / options.cruise_m_s);
     scenario_.expect.arrived.push_back(options.id);
   }
-  scenario_.duration_s =
-      slowest_s + kSpare_s + kTurn_s * static_cast<double>(scenario_.vehicles.size());
+  scenario_.duration_s = slowest_s + kSpare_s + turns_s;
   return std::move(scenario_);
 }
 

@@ -23,8 +23,9 @@ class Layout {
   // Four walls round a rectangle along the axes.
   void AddBlock(Vec2 low, Vec2 high);
 
-  // Sets what follows from the whole: duration and expectation.
-  Scenario Take();
+  // Sets what follows from the whole: duration and expectation. `tightest_m` is the length of the
+  // tightest place, which in the worst case they pass one by one.
+  Scenario Take(double tightest_m = 0);
 
  private:
   Random dice_;

@@ -178,6 +178,20 @@ TEST(CorridorGenerator, IsWideEnoughForTwo) {
   }
 }
 
+// The longest of them is passed by the slowest in more than a minute: with twelve seconds each, as
+// where ways cross, a fleet that goes through one by one is not through in time. 6868 was not.
+TEST(CorridorGenerator, LastsUntilEveryoneCanHavePassedItAlone) {
+  for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+    const Scenario corridor = MakeCorridor({20, seed});
+    const double length_m = corridor.walls[0].to_world.x - corridor.walls[0].from_world.x;
+    double through_s = 0;
+    for (const VehicleOptions& options : corridor.vehicles) {
+      through_s += length_m / options.cruise_m_s;
+    }
+    EXPECT_GT(corridor.duration_s, through_s) << "seed " << seed;
+  }
+}
+
 TEST(AnyGenerator, IsFoundByItsName) {
   for (const char* name :
        {"crossing", "roundabout", "corridor", "swarm", "merge", "convoy", "warehouse"}) {

@@ -71,12 +71,12 @@ TEST(VirtualBatch, SwarmsThatBrokeHold) {
 // itself, over a third. The next three are of brains that mended it otherwise: in 645 a queue
 // turned across its lane, in 694 the third was one of a longer queue, and in 474 two that stood
 // shell to shell found no heading between each other and the walls. The last are of ten thousand
-// with the brain that held these: turning to and fro between two headings, or wedged between two
-// others.
+// with the brain that held these: turning to and fro between two headings, wedged between two
+// others; in 6868, of the next, they only took longer than they were given.
 TEST(VirtualBatch, CorridorsThatBrokeHold) {
   const CaseMaker maker(AsInTheCampaign("corridor"));
   for (const std::uint32_t seed :
-       {2833U, 645U, 694U, 474U, 3552U, 5957U, 7085U, 7354U, 9093U, 9507U, 9994U}) {
+       {2833U, 645U, 694U, 474U, 3552U, 5957U, 7085U, 7354U, 9093U, 9507U, 9994U, 6868U}) {
     EXPECT_TRUE(RunBatch(maker, {seed, seed}, 1, kGoOn).failing_seeds.empty()) << "seed " << seed;
   }
 }
