@@ -93,8 +93,7 @@ struct Situation {
   // World frame: taken of late, to get away from echoes that stopped it. They turn with the
   // vehicle: choosing anew with every tick it would turn to and fro for ever.
   std::optional<double> away_rad;
-  int tries =
-      -1;  // caught where it is, it has tried so many headings; negative if it is not caught
+  int tries = -1;      // headings tried since it is caught where it is; negative if it is not
   int steer_side = 0;  // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
   const HeardEchoes& echoes;  // in `ranges`

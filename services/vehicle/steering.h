@@ -11,7 +11,7 @@ struct Steering {
   VehicleId round = kNobody;       // the halted peer that is being passed
   VehicleId blocked_by = kNobody;  // of an aimless one: the nearest on the straight way
   int side = 0;                    // turned away from the wanted heading: 1 left, -1 right
-  std::optional<double> away_rad;  // the heading it takes from what stops it, if chosen just now
+  std::optional<double> away_rad;  // the heading it keeps to from now on, if chosen just now
 };
 
 // Steers to the goal; where a standing peer that gives way blocks the straight path, along the
