@@ -90,7 +90,7 @@ struct Situation {
   bool very_aimless = false;         // for so long that it does not stay in line any more
   bool aimless = false;              // has driven about for seconds without coming nearer
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
-  // World frame: taken of late, to get away from echoes that stopped it. They turn with the
+  // World frame: taken of late, past echoes or out of where it is caught. Echoes turn with the
   // vehicle: choosing anew with every tick it would turn to and fro for ever.
   std::optional<double> away_rad;
   int tries = -1;      // headings tried since it is caught where it is; negative if it is not

@@ -37,7 +37,8 @@ struct Blocked {
 struct BlockedHeadings {
   std::array<Blocked, 64> of;  // the first `count`
   std::size_t count = 0;
-  bool stops = false;  // one of them keeps the vehicle where it stands
+  bool echoes = false;  // some of them are
+  bool stops = false;   // one of these keeps the vehicle where it stands
 };
 
 bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
@@ -110,6 +111,7 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
     const double bearing_rad = profile.sonar[i].bearing_rad;
     const std::optional<double> free_m = FreeAhead(i, s);
     const bool stops = free_m && *free_m <= kStandOff_m + kCreeps_m;
+    headings->echoes = true;
     headings->stops = headings->stops || stops;
     headings->of[headings->count++] = {
         WrapAngle(s.world_from_body.heading_rad + bearing_rad),
@@ -194,7 +196,8 @@ struct Turn {
 // one may look better, and it would turn to and fro for ever.
 Turn TurnPast(const BlockedHeadings& headings, double wanted_rad, int side) {
   const auto past_all = FreeHeading(headings, wanted_rad, side, false);
-  const auto past_vehicles = FreeHeading(headings, wanted_rad, side, true);
+  const auto past_vehicles =
+      headings.echoes ? FreeHeading(headings, wanted_rad, side, true) : past_all;
   if (past_all) return {*past_all, past_all != past_vehicles};
   return {past_vehicles.value_or(wanted_rad), false};
 }
