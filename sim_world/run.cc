@@ -211,11 +211,12 @@ void Run::Finish() {
 }
 
 void Run::Publish() {
-  scans_.clear();
   truths_.clear();
   further_.Sense(epoch_, &world_);
   const double time_s = started_ ? TimeSeconds() : kBeforeStart_s;
   signals_.Advance(time_s, epoch_, world_.Now());
+  std::size_t scans = 0;
+  scans_.resize(world_.Bodies().size());  // those of the tick before are written over
   for (const Body& body : world_.Bodies()) {
     if (!body.joined) continue;
     truths_.push_back({.vehicle = body.vehicle,
@@ -228,14 +229,16 @@ void Run::Publish() {
                        .present = body.present,
                        .arrived = judge_.HasArrived(body.vehicle)});
     if (!body.present) continue;
-    scans_.push_back({.vehicle = body.vehicle,
-                      .epoch = epoch_,
-                      .tick = world_.Now(),
-                      .run_state = state_,
-                      .wheels = body.encoders,
-                      .counted = body.counted,
-                      .readings = body.sonar.readings});
+    RangeScan& scan = scans_[scans++];
+    scan.vehicle = body.vehicle;
+    scan.epoch = epoch_;
+    scan.tick = world_.Now();
+    scan.run_state = state_;
+    scan.wheels = body.encoders;
+    scan.counted = body.counted;
+    scan.readings = body.sonar.readings;
   }
+  scans_.resize(scans);
 }
 
 std::uint64_t Run::Hash() const {

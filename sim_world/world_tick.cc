@@ -42,8 +42,8 @@ void World::Advance(bool driving) {
   for (const Hit& hit : contacts_.StopAll(neighbours_.Pairs(), dt_s_, parallel_, &things_)) {
     Note(hit);
   }
-  if (driving) separation_.Observe(bodies_, things_, neighbours_.Pairs(), dt_s_);
   Settle();
+  if (driving) separation_.Observe(bodies_, things_, neighbours_.Pairs(), dt_s_);
   touching_.EndIf([this](const TouchingPair& pair) { return HasParted(pair); });
   sensing_.Sense(now_, dt_s_, things_, parallel_, bodies_);
 }

@@ -39,6 +39,7 @@ double Distance(DistanceMetric metric, Vec2 offset_world) {
 
 // The smaller of the two takes care of the last bit, where rounding could go either way.
 double GateDistance(DistanceMetric metric, Vec2 offset_world) {
+  if (metric == DistanceMetric::kEuclidean) return Norm(offset_world);
   const double scale = metric == DistanceMetric::kManhattan ? kInverseSqrt2 : 1;
   return std::min(scale * Distance(metric, offset_world), Norm(offset_world));
 }

@@ -33,12 +33,16 @@ Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s) {
 Facing AdvanceFacing(const Facing& from, Twist twist, double dt_s) {
   const double half = twist.turn_rad_s * dt_s / 2;
   double chord = twist.forward_m_s * dt_s;
-  if (half == 0) return {from.position_world + chord * from.forward_world, from.forward_world};
-  const SineCosine turn = SinCos(half);
-  if (half > 1e-4 || half < -1e-4) chord *= turn.sine / half;
-  const auto turned = [turn](Vec2 a) { return turn.cosine * a + turn.sine * Left(a); };
-  const Vec2 middle = turned(from.forward_world);
-  return {from.position_world + chord * middle, turned(middle)};
+  Vec2 middle = from.forward_world;
+  Vec2 end = from.forward_world;
+  if (half != 0) {
+    const SineCosine turn = SinCos(half);
+    if (half > 1e-4 || half < -1e-4) chord *= turn.sine / half;
+    const auto turned = [turn](Vec2 a) { return turn.cosine * a + turn.sine * Left(a); };
+    middle = turned(from.forward_world);
+    end = turned(middle);
+  }
+  return {from.position_world + chord * middle, end};
 }
 
 double SigmaPosition(const PoseCovariance& c) {

@@ -1,6 +1,9 @@
 #include "services/vehicle/beacon_check.h"
 
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "services/types/fleet_limits.h"
@@ -23,32 +26,68 @@ constexpr double kMaxLength_m = 20;
 constexpr double kAboveZero = std::numeric_limits<double>::denorm_min();
 constexpr double kHeading_rad = kPi + 1e-9;
 
-// Two numbers at a time: of all that a step does with a far peer's beacon this is the most.
-using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
+// Within these every number of a beacon is.
+constexpr Beacon kLeast = {
+    .wheels = {-kMaxWheel_rad_s, -kMaxWheel_rad_s},
+    .cruise_m_s = 0,
+    .world_from_body = {{-kMaxCoordinate_m, -kMaxCoordinate_m}, -kHeading_rad},
+    .covariance = {.xx_m2 = 0,
+                   .xy_m2 = -kMaxSigma_m * kMaxSigma_m,
+                   .yy_m2 = 0,
+                   .xh_m_rad = -kMaxSigma_m * kMaxSigma_rad,
+                   .yh_m_rad = -kMaxSigma_m * kMaxSigma_rad,
+                   .hh_rad2 = 0},
+    .body_radius_m = kMinLength_m,
+    .drive = {kMinLength_m, kMinLength_m},
+    .acceleration_m_s2 = kAboveZero,
+    .deceleration_m_s2 = kAboveZero,
+    .toward_world = {-kMaxCoordinate_m, -kMaxCoordinate_m},
+};
+constexpr Beacon kMost = {
+    .wheels = {kMaxWheel_rad_s, kMaxWheel_rad_s},
+    .cruise_m_s = kMaxSpeed_m_s,
+    .world_from_body = {{kMaxCoordinate_m, kMaxCoordinate_m}, kHeading_rad},
+    .covariance = {.xx_m2 = kMaxSigma_m * kMaxSigma_m,
+                   .xy_m2 = kMaxSigma_m * kMaxSigma_m,
+                   .yy_m2 = kMaxSigma_m * kMaxSigma_m,
+                   .xh_m_rad = kMaxSigma_m * kMaxSigma_rad,
+                   .yh_m_rad = kMaxSigma_m * kMaxSigma_rad,
+                   .hh_rad2 = kMaxSigma_rad * kMaxSigma_rad},
+    .body_radius_m = kMaxLength_m,
+    .drive = {kMaxLength_m, kMaxLength_m},
+    .acceleration_m_s2 = kMaxRate_m_s2,
+    .deceleration_m_s2 = kMaxRate_m_s2,
+    .toward_world = {kMaxCoordinate_m, kMaxCoordinate_m},
+};
 
-auto AreBetween(Lanes low, Lanes x, Lanes high) { return (x >= low) & (x <= high); }
-auto AreWithin(Lanes x, double limit) { return (x >= -limit) & (x <= limit); }
+// The numbers lie side by side, and are looked at two at a time: of all that a step does with a far
+// peer's beacon this is the most.
+constexpr std::size_t kNumbersAt = offsetof(Beacon, wheels);
+constexpr std::size_t kNumbers = 19;
+static_assert(kNumbersAt + kNumbers * sizeof(double) ==
+              offsetof(Beacon, toward_world) + sizeof(Vec2));
+
+using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
+using Bits = std::int32_t __attribute__((vector_size(sizeof(Lanes))));
+
+Lanes TwoNumbers(const Beacon& beacon, std::size_t first) {
+  Lanes lanes;
+  std::memcpy(&lanes, reinterpret_cast<const char*>(&beacon) + kNumbersAt + first * sizeof(double),
+              sizeof lanes);
+  return lanes;
+}
 
 bool AreNumbersInRange(const Beacon& b) {
-  const Pose& pose = b.world_from_body;
+  const auto in_range = [&b](std::size_t first) {
+    const Lanes x = TwoNumbers(b, first);
+    return std::bit_cast<Bits>(x >= TwoNumbers(kLeast, first)) &
+           std::bit_cast<Bits>(x <= TwoNumbers(kMost, first));
+  };
+  Bits all = in_range(kNumbers - 2);  // of an odd number the last but one is looked at twice
+  for (std::size_t i = 0; i + 1 < kNumbers; i += 2) all &= in_range(i);
   const PoseCovariance& c = b.covariance;
   const double mean_m2 = (c.xx_m2 + c.yy_m2) / 2 + kRounding_m2;
-  const auto in_range =
-      AreWithin(Lanes{b.wheels.left_rad_s, b.wheels.right_rad_s}, kMaxWheel_rad_s) &
-      AreBetween(Lanes{}, Lanes{b.cruise_m_s, b.cruise_m_s}, Lanes{} + kMaxSpeed_m_s) &
-      AreWithin(Lanes{pose.position_world.x, pose.position_world.y}, kMaxCoordinate_m) &
-      AreBetween(Lanes{-kHeading_rad, kMinLength_m}, Lanes{pose.heading_rad, b.body_radius_m},
-                 Lanes{kHeading_rad, kMaxLength_m}) &
-      AreBetween(Lanes{}, Lanes{c.xx_m2, c.yy_m2}, Lanes{} + kMaxSigma_m * kMaxSigma_m) &
-      AreBetween(Lanes{-mean_m2, 0}, Lanes{c.xy_m2, c.hh_rad2},
-                 Lanes{mean_m2, kMaxSigma_rad * kMaxSigma_rad}) &
-      AreWithin(Lanes{c.xh_m_rad, c.yh_m_rad}, kMaxSigma_m * kMaxSigma_rad) &
-      AreBetween(Lanes{} + kMinLength_m, Lanes{b.drive.wheel_radius_m, b.drive.axle_m},
-                 Lanes{} + kMaxLength_m) &
-      AreBetween(Lanes{} + kAboveZero, Lanes{b.acceleration_m_s2, b.deceleration_m_s2},
-                 Lanes{} + kMaxRate_m_s2) &
-      AreWithin(Lanes{b.toward_world.x, b.toward_world.y}, kMaxCoordinate_m);
-  return (in_range[0] & in_range[1]) != 0;
+  return (all[0] & all[2]) != 0 && Magnitude(c.xy_m2) <= mean_m2;
 }
 
 bool IsFinite(const PoseCovariance& c) {

@@ -1,6 +1,7 @@
 #include "services/vehicle/echoes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 #include "services/types/math.h"
@@ -18,31 +19,38 @@ constexpr std::uint32_t kSlowMotionStreak = 2;
 // Standard deviations of a closing speed that the readings' noise may leave unexplained.
 constexpr double kNoiseSigmas = 4;
 
-using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
+// Four at a time: plain SSE2 or NEON.
+using FourFloats = float __attribute__((vector_size(4 * sizeof(float))));
+using FourWords = std::uint32_t __attribute__((vector_size(4 * sizeof(std::uint32_t))));
 
-Lanes Load(const double* from) {
-  Lanes lanes;
+FourFloats Load(const float* from) {
+  FourFloats lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
 
 // Bit k is set unless the echo in place k is for another distance than that of the body by more
-// than it may be. Most are, and two at a time and without a root it takes little to see.
+// than it may be. Most are, and four at a time and without a root it takes little to see.
 std::uint32_t PerhapsOf(Vec2 centre_body, double radius_m, const HeardEchoes& echoes) {
-  constexpr double kRounding_m = 1e-6;
-  const double slack_m = kSameBody_m + kRounding_m;
-  std::uint32_t perhaps = 0;
-  for (std::size_t k = 0; k < echoes.count; k += 2) {
-    const Lanes x = centre_body.x - Load(&echoes.from_x_body[k]);
-    const Lanes y = centre_body.y - Load(&echoes.from_y_body[k]);
-    const Lanes expected = Load(&echoes.range_m[k]) + radius_m;
-    const Lanes squared = x * x + y * y;
-    const Lanes most = expected + slack_m;
-    const Lanes least = expected - slack_m;
-    const auto within = squared <= most * most && (least < 0 || squared >= least * least);
-    perhaps |= (within[0] != 0 ? 1U << k : 0U) | (within[1] != 0 ? 2U << k : 0U);
+  constexpr float kRounding_m = 1e-3F;
+  constexpr float kSlack_m = static_cast<float>(kSameBody_m) + kRounding_m;
+  const auto centre_x = static_cast<float>(centre_body.x);
+  const auto centre_y = static_cast<float>(centre_body.y);
+  const auto radius = static_cast<float>(radius_m);
+  FourWords perhaps{};
+  FourWords bits{1, 2, 4, 8};
+  for (std::size_t k = 0; k < echoes.count; k += 4, bits <<= 4) {
+    const FourFloats x = centre_x - Load(&echoes.rough_x_body[k]);
+    const FourFloats y = centre_y - Load(&echoes.rough_y_body[k]);
+    const FourFloats expected = Load(&echoes.rough_range_m[k]) + radius;
+    const FourFloats squared = x * x + y * y;
+    const FourFloats most = expected + kSlack_m;
+    const FourFloats least = expected - kSlack_m;
+    const FourFloats above = least > 0 ? least : FourFloats{};
+    perhaps |= bits & std::bit_cast<FourWords>(squared <= most * most) &
+               std::bit_cast<FourWords>(squared >= above * above);
   }
-  return perhaps;
+  return perhaps[0] | perhaps[1] | perhaps[2] | perhaps[3];
 }
 
 // How far a direction is off a cone's axis.
@@ -50,17 +58,27 @@ double OffAxis(Vec2 direction_body, const Cone& cone) {
   return Magnitude(WrapAngle(Atan2(direction_body.y, direction_body.x) - cone.bearing_rad));
 }
 
+// A body's centre as a sensor has it before it.
+struct Sight {
+  Vec2 to_body;     // from the sensor
+  double along_m;   // the cone's axis
+  double across_m;  // the cone's axis, on either side
+};
+
+Sight Seen(Vec2 to_body, const Cone& cone) {
+  return {to_body, Dot(cone.axis_body, to_body), Magnitude(Cross(cone.axis_body, to_body))};
+}
+
 // Whether a direction is off a cone's axis by no more than limit_rad. The sine of an angle is less
 // than the angle and its tangent more: what lies between takes the angle itself.
-bool IsWithin(double limit_rad, Vec2 direction_body, const Cone& cone) {
-  const double along = Dot(cone.axis_body, direction_body);
-  const double across = Magnitude(Cross(cone.axis_body, direction_body));
+bool IsWithin(double limit_rad, const Sight& centre, double distance_m, const Cone& cone) {
   constexpr double kRounding = 1e-9;
   if (limit_rad < 1.5) {
-    if (along < 0 || across > (limit_rad + kRounding) * Norm(direction_body)) return false;
-    if (across < (limit_rad - kRounding) * along) return true;
+    if (centre.along_m < 0) return false;
+    if (centre.across_m > (limit_rad + kRounding) * distance_m) return false;
+    if (centre.across_m < (limit_rad - kRounding) * centre.along_m) return true;
   }
-  return OffAxis(direction_body, cone) <= limit_rad;
+  return OffAxis(centre.to_body, cone) <= limit_rad;
 }
 
 // The least range at which a cone that looks `off_rad` past the centre of a disc echoes it, metres
@@ -74,16 +92,41 @@ double LeastRange(double distance_m, double radius_m, double off_rad) {
 }
 
 // Something before the body, or beside it: too near for what is unsure to be its echo.
-bool IsBefore(double range_m, double radius_m, double unsure_m, Vec2 to_centre, double cone_rad,
-              const Cone& cone) {
+bool IsBefore(double range_m, double radius_m, double unsure_m, const Sight& centre,
+              double distance_m, double cone_rad, const Cone& cone) {
   constexpr double kUnsure_rad = 0.1;
-  const double distance_m = Norm(to_centre);
   const double slack_rad = kUnsure_rad + unsure_m / std::max(distance_m, radius_m);
   // The body's nearest point, if the cone held it, settles most without an angle.
   if (range_m < LeastRange(distance_m, radius_m, 0) - unsure_m) return true;
-  if (IsWithin(cone_rad + slack_rad, to_centre, cone)) return false;
-  const double off_rad = OffAxis(to_centre, cone) - cone_rad - slack_rad;
+  if (IsWithin(cone_rad + slack_rad, centre, distance_m, cone)) return false;
+  const double off_rad = OffAxis(centre.to_body, cone) - cone_rad - slack_rad;
   return range_m < LeastRange(distance_m, radius_m, off_rad) - unsure_m;
+}
+
+// The body shows from one tangent to the other; half the body more allows for uncertainty.
+constexpr double kShows = 1.5;
+
+// Nearly all that are too far off the axis for a body of this radius to be in the cone, without the
+// root that their distance is: it lies between the greater of two legs and their sum.
+bool IsFarOff(const Sight& centre, double radius_m, double cone_rad) {
+  constexpr double kRounding_m = 1e-6;
+  const double along_m = Magnitude(centre.along_m);
+  const double shows_m = kShows * radius_m + kRounding_m;
+  const double least_m = std::max(along_m, centre.across_m);
+  if (least_m <= shows_m) return false;
+  const double wide_m = cone_rad * (along_m + centre.across_m) + shows_m;
+  return centre.across_m > wide_m || (centre.along_m < 0 && wide_m < 1.5 * least_m);
+}
+
+// Whether an echo of that range is where the body's would be.
+bool IsEchoOf(const Sight& centre, double radius_m, double range_m, double unsure_m,
+              double cone_rad, const Cone& cone) {
+  if (IsFarOff(centre, radius_m, cone_rad)) return false;
+  const double distance_m = Norm(centre.to_body);
+  if (Magnitude(range_m - (distance_m - radius_m)) > kSameBody_m) return false;
+  const double half_width = distance_m > kShows * radius_m ? kShows * radius_m / distance_m : kPi;
+  return IsWithin(cone_rad + half_width, centre, distance_m, cone) &&
+         !IsBefore(range_m, radius_m, unsure_m, centre, distance_m, cone_rad, cone);
 }
 
 // Where a peer comes to stand if it brakes as soon as this vehicle does.
@@ -119,21 +162,23 @@ std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
 
 void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
                 HeardEchoes* heard) {
-  constexpr double kNowhere_m = -1e6;
   heard->any_old = false;
-  heard->range_m.fill(kNowhere_m);
   std::size_t count = 0;
   for (const std::size_t i : BitsOf(ranges.Echoes())) {
     const SensorMount& mount = options.profile.sonar[i];
-    heard->from_x_body[count] = mount.position_body.x;
-    heard->from_y_body[count] = mount.position_body.y;
-    heard->range_m[count] = ranges[i].range_m;
+    heard->rough_x_body[count] = static_cast<float>(mount.position_body.x);
+    heard->rough_y_body[count] = static_cast<float>(mount.position_body.y);
+    heard->rough_range_m[count] = static_cast<float>(ranges[i].range_m);
     heard->age_s[count] = EchoAge(ranges[i], tick, options.tick_period);
     heard->sensor[count] = i;
     heard->any_old = heard->any_old || heard->age_s[count] > 0;
     ++count;
   }
   heard->count = count;
+  for (std::size_t k = count; k % 4 != 0; ++k) {
+    heard->rough_x_body[k] = heard->rough_y_body[k] = 0;
+    heard->rough_range_m[k] = 0;
+  }
 }
 
 std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
@@ -145,20 +190,17 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
   std::uint32_t explains = 0;
   for (const std::size_t k :
        BitsOf(all & (echoes.any_old ? all : PerhapsOf(centre_now, radius_m, echoes)))) {
-    const double age_s = echoes.age_s[k];
-    const Vec2 centre = age_s > 0 ? CentreBefore(age_s, peer, s) : centre_now;
-    const Vec2 to_centre = centre - Vec2{echoes.from_x_body[k], echoes.from_y_body[k]};
-    const double distance = Norm(to_centre);
-    if (Magnitude(echoes.range_m[k] - (distance - radius_m)) > kSameBody_m) continue;
-    // The body shows from one tangent to the other; half the body more allows for uncertainty.
-    const double half_width = distance > 1.5 * radius_m ? 1.5 * radius_m / distance : kPi;
-    const double turned = age_s * Magnitude(s.turn_rad_s);
     const std::size_t sensor = echoes.sensor[k];
+    const double age_s = echoes.age_s[k];
+    const double range_m = s.ranges[sensor].range_m;
     const Cone& cone = s.cones.of[sensor];
+    const Vec2 centre = age_s > 0 ? CentreBefore(age_s, peer, s) : centre_now;
+    const Vec2 to_centre = centre - s.options.profile.sonar[sensor].position_body;
+    const Sight sight = Seen(to_centre, cone);
+    const double turned = age_s * Magnitude(s.turn_rad_s);
     const double cone_rad = s.options.profile.sonar_half_angle_rad + turned;
-    const double by_noise_m = kNoiseSigmas * s.options.sonar_noise * echoes.range_m[k];
-    if (IsWithin(cone_rad + half_width, to_centre, cone) &&
-        !IsBefore(echoes.range_m[k], radius_m, unsure_m + by_noise_m, to_centre, cone_rad, cone)) {
+    const double by_noise_m = kNoiseSigmas * s.options.sonar_noise * range_m;
+    if (IsEchoOf(sight, radius_m, range_m, unsure_m + by_noise_m, cone_rad, cone)) {
       explains |= 1U << sensor;
     }
   }

@@ -213,8 +213,9 @@ void CarryForward(std::span<PeerView> views, const Situation& s) {
     const Facing told = {beacon.world_from_body.position_world, view.told_forward_world};
     const Facing now = AdvanceFacing(told, TwistFromWheels(beacon.drive, beacon.wheels),
                                      CarriedSeconds(beacon, view.fresh, s));
-    view.position_world = now.position_world;
-    view.forward_world = now.forward_world;
+    // By halves: a pair that is loaded right after its halves were stored is waited for.
+    view.position_world = {now.position_world.x, now.position_world.y};
+    view.forward_world = {now.forward_world.x, now.forward_world.y};
   }
 }
 
@@ -241,11 +242,14 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   // one that is gone, which has no way to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
   view.leads = goes_on && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
-  if (goes_on) view.crossing = CrossingWith(view, s);
+  if (goes_on) {
+    const auto crossing = CrossingWith(view, s);
+    if (crossing) view.crossing = *crossing;
+  }
   // One that stands and comes later in the order is a body to steer round.
   const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.goes_first;
-  if (!steered_round) view.conflict = view.crossing;
+  if (view.crossing && !steered_round) view.conflict = *view.crossing;
   view.box_begin_m = 0;
   view.free_m = FreeAlong(view, s.forward_world, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;

@@ -94,11 +94,10 @@ std::optional<Proposal> Deaf(const Situation& s) {
 }
 
 std::optional<Proposal> Obstacle(const Situation& s) {
-  if (Has(Defect::kObstacleIgnored)) return std::nullopt;
   std::optional<Proposal> nearest;
   for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
     const std::optional<double> free_m = FreeAhead(i, s);
-    if (!free_m) continue;
+    if (!free_m || Has(Defect::kObstacleIgnored)) continue;
     const double limit = SpeedToStopWithin(*free_m - kStandOff_m, ReactionSeconds(s.options),
                                            s.options.profile.deceleration_m_s2);
     if (limit >= s.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
@@ -112,10 +111,9 @@ std::optional<Proposal> Obstacle(const Situation& s) {
 }
 
 std::optional<Proposal> KeepClear(const Situation& s) {
-  if (Has(Defect::kClaimIgnored)) return std::nullopt;
   std::optional<Proposal> lowest;
   for (const PeerView& view : s.peers) {
-    if (view.free_m >= s.slows_m) continue;
+    if (view.free_m >= s.slows_m || Has(Defect::kClaimIgnored)) continue;
     if (Has(Defect::kBrakesTooLate) && view.free_m > 0) continue;
     const double limit = SpeedToStopWithin(view.free_m, ReactionSeconds(s.options),
                                            s.options.profile.deceleration_m_s2);

@@ -49,16 +49,17 @@ struct PeerView {
   std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
 };
 
-// The echoes that the sensors hold, side by side: entry by entry `count` of them, and one more
-// where that is odd, which is nowhere.
+// The echoes that the sensors hold, entry by entry `count` of them. What comes after them, up to
+// the next multiple of four, is of no sensor.
 struct HeardEchoes {
   std::size_t count = 0;
-  bool any_old;                                              // has an age
-  alignas(16) std::array<double, kSensorCount> from_x_body;  // the sensor's place
-  alignas(16) std::array<double, kSensorCount> from_y_body;
-  alignas(16) std::array<double, kSensorCount> range_m;
+  bool any_old;  // has an age
   std::array<double, kSensorCount> age_s;
   std::array<std::size_t, kSensorCount> sensor;
+  // The sensor's place and the range once more, for a rough look at four at a time.
+  alignas(16) std::array<float, kSensorCount> rough_x_body;
+  alignas(16) std::array<float, kSensorCount> rough_y_body;
+  alignas(16) std::array<float, kSensorCount> rough_range_m;
 };
 
 // A box that would be left too late: see box.h.

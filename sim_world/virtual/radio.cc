@@ -117,6 +117,7 @@ bool Radio::IsInReach(std::size_t receiver, std::size_t sender) const {
 }
 
 bool Radio::KnowsItIsFar(std::size_t receiver, std::size_t sender, Pair* pair) const {
+  if (!pair->told_far) return false;
   const double listen_m = listen_m_[receiver];
   if (SquaredDistance(receiver, sender) <= listen_m * listen_m) pair->told_far = false;
   return pair->told_far;
