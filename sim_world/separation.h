@@ -37,8 +37,8 @@ class Separation {
   // Only pairs at most this far apart can come nearer than any two did before; none before two
   // bodies were observed together.
   std::optional<double> Reach() const;
-  // Takes in one tick of dt_s, in which bodies moved as `things` says. `pairs` names at least those
-  // within Reach(); before there is a reach, at least the nearest.
+  // Takes in one tick of dt_s, in which bodies moved as `things` says to where they now are.
+  // `pairs` names at least those within Reach(); before there is a reach, at least the nearest.
   void Observe(std::span<const Body> bodies, const Things& things, std::span<const NearPair> pairs,
                double dt_s);
 

@@ -1,0 +1,90 @@
+// Every number of a beacon has a least and a greatest value, and both are in range.
+#include "services/vehicle/beacon_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "services/types/fleet_limits.h"
+#include "services/types/math.h"
+#include "tests/support/brain_bench.h"
+
+namespace giveway {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTiniest = std::numeric_limits<double>::denorm_min();
+
+struct Bounds {
+  const char* name;
+  double& (*number)(Beacon&);
+  double least;
+  double most;
+};
+
+// A beacon whose cruise speed nobody holds against its order, and that is not at all sure of its
+// place: no covariance is too great for it.
+Beacon Wide() {
+  Beacon beacon = test::BeaconOf(2, 1, {});
+  beacon.order.vehicle = VehicleId{9};
+  beacon.covariance.xx_m2 = beacon.covariance.yy_m2 = 1e6;
+  return beacon;
+}
+
+const Bounds kBounds[] = {
+    {"wheels.left", [](Beacon& b) -> double& { return b.wheels.left_rad_s; }, -kMaxWheel_rad_s,
+     kMaxWheel_rad_s},
+    {"wheels.right", [](Beacon& b) -> double& { return b.wheels.right_rad_s; }, -kMaxWheel_rad_s,
+     kMaxWheel_rad_s},
+    {"cruise", [](Beacon& b) -> double& { return b.cruise_m_s; }, 0, kMaxSpeed_m_s},
+    {"x", [](Beacon& b) -> double& { return b.world_from_body.position_world.x; }, -1e5, 1e5},
+    {"y", [](Beacon& b) -> double& { return b.world_from_body.position_world.y; }, -1e5, 1e5},
+    {"heading", [](Beacon& b) -> double& { return b.world_from_body.heading_rad; }, -kPi - 1e-9,
+     kPi + 1e-9},
+    {"xx", [](Beacon& b) -> double& { return b.covariance.xx_m2; }, 0, 1e6},
+    {"xy", [](Beacon& b) -> double& { return b.covariance.xy_m2; }, -1e6, 1e6},
+    {"yy", [](Beacon& b) -> double& { return b.covariance.yy_m2; }, 0, 1e6},
+    {"xh", [](Beacon& b) -> double& { return b.covariance.xh_m_rad; }, -2000 * kPi, 2000 * kPi},
+    {"yh", [](Beacon& b) -> double& { return b.covariance.yh_m_rad; }, -2000 * kPi, 2000 * kPi},
+    {"hh", [](Beacon& b) -> double& { return b.covariance.hh_rad2; }, 0, 4 * kPi* kPi},
+    {"radius", [](Beacon& b) -> double& { return b.body_radius_m; }, 0.01, 20},
+    {"wheel radius", [](Beacon& b) -> double& { return b.drive.wheel_radius_m; }, 0.01, 20},
+    {"axle", [](Beacon& b) -> double& { return b.drive.axle_m; }, 0.01, 20},
+    {"acceleration", [](Beacon& b) -> double& { return b.acceleration_m_s2; }, kTiniest, 20},
+    {"deceleration", [](Beacon& b) -> double& { return b.deceleration_m_s2; }, kTiniest, 20},
+    {"toward x", [](Beacon& b) -> double& { return b.toward_world.x; }, -1e5, 1e5},
+    {"toward y", [](Beacon& b) -> double& { return b.toward_world.y; }, -1e5, 1e5},
+};
+
+bool IsInRangeWith(const Bounds& bounds, double value) {
+  Beacon beacon = Wide();
+  bounds.number(beacon) = value;
+  return IsInRange(beacon);
+}
+
+TEST(BeaconCheck, EveryNumberIsInRangeUpToItsBoundsAndNoFarther) {
+  ASSERT_TRUE(IsInRange(Wide()));
+  for (const Bounds& bounds : kBounds) {
+    EXPECT_TRUE(IsInRangeWith(bounds, bounds.least)) << bounds.name;
+    EXPECT_TRUE(IsInRangeWith(bounds, bounds.most)) << bounds.name;
+    EXPECT_FALSE(IsInRangeWith(bounds, std::nextafter(bounds.least, -kInfinity))) << bounds.name;
+    EXPECT_FALSE(IsInRangeWith(bounds, std::nextafter(bounds.most, kInfinity))) << bounds.name;
+    EXPECT_FALSE(IsInRangeWith(bounds, std::numeric_limits<double>::quiet_NaN())) << bounds.name;
+  }
+}
+
+TEST(BeaconCheck, NoCovarianceIsGreaterThanTheMeanOfItsVariances) {
+  Beacon beacon = Wide();
+  beacon.covariance.xx_m2 = 1;
+  beacon.covariance.yy_m2 = 3;
+  for (const double sign : {-1, 1}) {
+    beacon.covariance.xy_m2 = sign * 2;
+    EXPECT_TRUE(IsInRange(beacon));
+    beacon.covariance.xy_m2 = sign * 2.001;
+    EXPECT_FALSE(IsInRange(beacon));
+  }
+}
+
+}  // namespace
+}  // namespace giveway
