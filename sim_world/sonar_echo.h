@@ -24,10 +24,10 @@ double Measured(double range_m, const SonarModel& model, double max_range_m, Ran
 // What one firing says: an echo at `range_m`, or clear if that is kSilence_m.
 inline RangeReading ReadingOf(double range_m, Tick tick, double fired_before_s = 0) {
   const bool silent = range_m == kSilence_m;
-  return {.range_m = silent ? 0 : range_m,
-          .fired_before_s = fired_before_s,
+  return {.kind = silent ? Echo::kClear : Echo::kEcho,
+          .range_m = silent ? 0 : range_m,
           .tick = tick,
-          .kind = silent ? Echo::kClear : Echo::kEcho};
+          .fired_before_s = fired_before_s};
 }
 
 }  // namespace giveway::sim

@@ -128,7 +128,7 @@ Readings SonarRing::Sense(const Pose& world_from_body, Tick tick, std::span<cons
   Readings readings{};
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     if (!enabled_[i]) continue;
-    readings[i] = {.tick = tick, .kind = Echo::kClear};
+    readings[i] = {.kind = Echo::kClear, .tick = tick};
     const Cone& cone = cones_body_[i];
     for (std::size_t body = 0; body < bodies.size(); ++body) {
       if (body == self) continue;

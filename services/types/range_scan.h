@@ -15,10 +15,10 @@ namespace giveway {
 enum class Echo : std::uint8_t { kNoData, kClear, kEcho };
 
 struct RangeReading {
-  double range_m = 0;         // from the transducer to the nearest point in its cone; only if kEcho
-  double fired_before_s = 0;  // the firing was this long before `tick`; below a tick period
-  Tick tick = kNoTick;        // the first tick at or after the firing; readings keep their own age
   Echo kind = Echo::kNoData;
+  double range_m = 0;         // from the transducer to the nearest point in its cone; only if kEcho
+  Tick tick = kNoTick;        // the first tick at or after the firing; readings keep their own age
+  double fired_before_s = 0;  // the firing was this long before that tick; below a tick period
 };
 
 enum class RunState : std::uint8_t { kWaiting, kRunning, kEnded };

@@ -86,10 +86,8 @@ TEST(Convert, ScanComesBackWithEverySensor) {
   sent.wheels = {-1, kNan};
   sent.counted = {-kTiny, kHuge};
   for (std::size_t i = 0; i < kSensorCount; ++i) {
-    sent.readings[i] = {.range_m = 0.25 * static_cast<double>(i),
-                        .fired_before_s = 0.001 * static_cast<double>(i),
-                        .tick = Tick{static_cast<std::uint32_t>(100 + i)},
-                        .kind = static_cast<Echo>(i % 3)};
+    sent.readings[i] = {static_cast<Echo>(i % 3), 0.25 * static_cast<double>(i),
+                        Tick{static_cast<std::uint32_t>(100 + i)}, 0.001 * static_cast<double>(i)};
   }
   const RangeScan back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);

@@ -34,13 +34,12 @@ inline RangeScan ClearScan(std::uint32_t tick) {
                  .epoch = kEpoch,
                  .tick = Tick{tick},
                  .run_state = RunState::kRunning};
-  for (std::size_t i = 0; i < 8; ++i) scan.readings[i] = {.tick = Tick{tick}, .kind = Echo::kClear};
+  for (std::size_t i = 0; i < 8; ++i) scan.readings[i] = {Echo::kClear, 0, Tick{tick}};
   return scan;
 }
 
 inline void SetEcho(RangeScan* scan, int sensor, double range_m) {
-  scan->readings[static_cast<std::size_t>(sensor)] = {
-      .range_m = range_m, .tick = scan->tick, .kind = Echo::kEcho};
+  scan->readings[static_cast<std::size_t>(sensor)] = {Echo::kEcho, range_m, scan->tick};
 }
 
 // A believable beacon of vehicle `id` standing at `pose`, answering `tick`.

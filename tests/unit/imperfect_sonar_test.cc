@@ -34,7 +34,7 @@ class ImperfectRanges : public testing::Test {
   // The sensor says this at `tick`; the scan comes in the same one.
   void Take(std::uint32_t tick, Echo kind, double range_m, double before_s = 0) {
     RangeScan scan = ClearScan(tick);
-    scan.readings[3] = {range_m, before_s, Tick{tick}, kind};
+    scan.readings[3] = {kind, range_m, Tick{tick}, before_s};
     view_.TakeImperfect(scan, milliseconds(tick * 50), milliseconds(50), {});
   }
   RangeView view_;

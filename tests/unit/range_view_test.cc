@@ -28,7 +28,7 @@ TEST_F(RangeViewTest, NoEchoIsNotNoData) {
   EXPECT_EQ(view_[3].kind, Echo::kClear);
   EXPECT_EQ(view_.FirstBlind(milliseconds(50), Tick{1}, options_), -1);
   scan = ClearScan(2);
-  scan.readings[3] = {.tick = Tick{2}};
+  scan.readings[3] = {Echo::kNoData, 0, Tick{2}};
   view_.Take(scan, milliseconds(100), options_.tick_period);
   EXPECT_EQ(view_.FirstBlind(milliseconds(100), Tick{2}, options_), 3);
 }
@@ -62,7 +62,7 @@ TEST_F(RangeViewTest, ClosingSpeedIsTheRateOfTheRange) {
 TEST_F(RangeViewTest, ARepeatedReadingIsNotANewOne) {
   for (std::uint32_t tick = 1; tick <= 3; ++tick) Take(tick, 2.0 - 0.02 * tick);
   RangeScan scan = ClearScan(4);
-  scan.readings[3] = {.range_m = 1.94, .tick = Tick{3}, .kind = Echo::kEcho};
+  scan.readings[3] = {Echo::kEcho, 1.94, Tick{3}};
   view_.Take(scan, milliseconds(200), options_.tick_period);
   EXPECT_EQ(view_[3].streak, 2U);
   EXPECT_NEAR(view_[3].closing_m_s, 0.4, 1e-9);
