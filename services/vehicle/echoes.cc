@@ -32,7 +32,7 @@ FourFloats Load(const float* from) {
 // Bit k is set unless the echo in place k is for another distance than that of the body by more
 // than it may be. Most are, and four at a time and without a root it takes little to see.
 std::uint32_t PerhapsOf(Vec2 centre_body, double radius_m, const HeardEchoes& echoes) {
-  constexpr float kRounding_m = 1e-3F;
+  constexpr float kRounding_m = 1e-3F;  // of single precision, as far as any ultrasonics hear
   constexpr float kSlack_m = static_cast<float>(kSameBody_m) + kRounding_m;
   const auto centre_x = static_cast<float>(centre_body.x);
   const auto centre_y = static_cast<float>(centre_body.y);

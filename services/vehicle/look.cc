@@ -242,7 +242,7 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   // one that is gone, which has no way to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
   view.leads = goes_on && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
-  if (goes_on) {
+  if (goes_on) {  // most have none: nothing is copied then
     const auto crossing = CrossingWith(view, s);
     if (crossing) view.crossing = *crossing;
   }

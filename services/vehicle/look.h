@@ -21,7 +21,7 @@ void CarryForward(std::span<PeerView> views, const Situation& s);
 // that LookAt has filled in as far as `sigma_m`.
 double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s);
 
-// Relates the peer of `view` to the own path.
+// Relates the peer of `view`, which CarryForward alone has filled in, to the own path.
 void LookAt(PeerView* view, const Situation& s);
 
 }  // namespace giveway

@@ -11,13 +11,6 @@ namespace giveway {
 
 namespace {
 
-// Whether so far away is in reach. The squares decide wherever rounding cannot.
-bool IsWithinReach(Vec2 offset, double reach_m) {
-  constexpr double kSurely = 1 - 1e-12;
-  const double squared_m2 = SquaredNorm(offset);
-  return squared_m2 <= kSurely * (reach_m * reach_m) || Sqrt(squared_m2) <= reach_m;
-}
-
 // The newest believed to be of this world and life, and in reach; null if there is none.
 const Beacon* LastBeaconOf(const Peer& peer) {
   if (IsGone(peer)) return nullptr;
@@ -127,8 +120,8 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   }
   if (beacon.world_epoch != self.epoch) return refuse(&BeaconCounters::rejected_wrong_epoch);
 
-  const bool heard = IsWithinReach(beacon.world_from_body.position_world - self.position_world,
-                                   options.emission_radius_m);
+  const bool heard = Norm(beacon.world_from_body.position_world - self.position_world) <=
+                     options.emission_radius_m;
   if (!heard) {
     ++counters->not_heard;
     Peer* peer = Find(beacon.vehicle);

@@ -16,6 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTiniest = std::numeric_limits<double>::denorm_min();
 
+constexpr double kTurnSquared_rad2 = 4 * kPi * kPi;
+
 struct Bounds {
   const char* name;
   double& (*number)(Beacon&);
@@ -47,7 +49,7 @@ const Bounds kBounds[] = {
     {"yy", [](Beacon& b) -> double& { return b.covariance.yy_m2; }, 0, 1e6},
     {"xh", [](Beacon& b) -> double& { return b.covariance.xh_m_rad; }, -2000 * kPi, 2000 * kPi},
     {"yh", [](Beacon& b) -> double& { return b.covariance.yh_m_rad; }, -2000 * kPi, 2000 * kPi},
-    {"hh", [](Beacon& b) -> double& { return b.covariance.hh_rad2; }, 0, 4 * kPi* kPi},
+    {"hh", [](Beacon& b) -> double& { return b.covariance.hh_rad2; }, 0, kTurnSquared_rad2},
     {"radius", [](Beacon& b) -> double& { return b.body_radius_m; }, 0.01, 20},
     {"wheel radius", [](Beacon& b) -> double& { return b.drive.wheel_radius_m; }, 0.01, 20},
     {"axle", [](Beacon& b) -> double& { return b.drive.axle_m; }, 0.01, 20},
