@@ -48,7 +48,7 @@ double BoxBegin(const Crossings& crossings, double point_m) {
 }
 
 double AlongOwnWay(const PeerView& view, const Situation& s) {
-  return Dot(view.position_world - s.world_from_body.position_world, s.path.direction_world);
+  return Dot(view.offset_world, s.path.direction_world);
 }
 
 // Room that the own lane needs for the vehicle and all between it and the place `along_m` on, where

@@ -14,9 +14,9 @@ constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may n
 // This one is steering round the halted vehicle, which would stop it there by setting off.
 bool IsBeingPassed(const PeerView& view, const Situation& s) {
   if (s.options.behaviour != Behaviour::kCooperative || !view.peer->encounter.holds) return false;
-  const Vec2 offset = view.position_world - s.world_from_body.position_world;
   return view.fresh && !view.standing && view.goes_first &&
-         view.peer->beacon.rule == Rule::kSteerRound && Dot(offset, s.path.direction_world) > 0;
+         view.peer->beacon.rule == Rule::kSteerRound &&
+         Dot(view.offset_world, s.path.direction_world) > 0;
 }
 
 // The nearest echo that is this peer's body; huge if no sensor hears it.
@@ -81,9 +81,8 @@ bool MustBrakeNow(const PeerView& view, const Situation& s) {
 
 // Of two in the conflict both: this one is ahead on the way of both.
 bool IsAhead(const PeerView& view, const Situation& s) {
-  const Vec2 offset = view.position_world - s.world_from_body.position_world;
-  const Vec2 peer_way = view.peer->beacon.toward_world - view.position_world;
-  return Dot(offset, s.path.direction_world) < 0 && Dot(offset, peer_way) < 0;
+  return Dot(view.offset_world, s.path.direction_world) < 0 &&
+         Dot(view.offset_world, view.way_world) < 0;
 }
 
 // Whoever is in the middle of the conflict clears it instead of standing in the way: if the other

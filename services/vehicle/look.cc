@@ -43,18 +43,16 @@ bool Follows(const PeerView& view, const Situation& s) {
   if (Has(Defect::kLeaderIsConflict)) return false;
   constexpr double kSameWay = 0.94;        // the cosine of 20 degrees
   constexpr double kThereAlready_m = 0.5;  // which way it is on says little
-  const Vec2 offset = view.position_world - s.world_from_body.position_world;
-  const double across = Cross(s.path.direction_world, offset);
+  const double across = Cross(s.path.direction_world, view.offset_world);
   const double bodies = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m;
   if (across >= bodies || across <= -bodies) return false;
-  const double along = Dot(s.path.direction_world, offset);
+  const double along = Dot(s.path.direction_world, view.offset_world);
   if (along <= bodies && along >= -bodies) return false;
   if (Dot(s.path.direction_world, view.forward_world) >= kSameWay) return true;
   // One that stands may be turned to whatever it looks for a way past; it means to go on.
-  const Vec2 way = view.peer->beacon.toward_world - view.position_world;
-  const double way_m = Norm(way);
   return s.options.behaviour == Behaviour::kCooperative && view.standing &&
-         way_m > kThereAlready_m && Dot(s.path.direction_world, way) >= kSameWay * way_m;
+         view.way_m > kThereAlready_m &&
+         Dot(s.path.direction_world, view.way_world) >= kSameWay * view.way_m;
 }
 
 // Only the ids tell the two keys apart.
@@ -108,10 +106,8 @@ std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
     return std::nullopt;
   }
   if (Follows(view, s)) return std::nullopt;
-  const Vec2 way = to_world - from_world;
-  const double way_m = cooperative ? Norm(way) : kFarAway_m;
-  const bool drives_on = !cooperative || way_m <= kThere_m;
-  const Path peer_path{from_world, drives_on ? view.forward_world : (1 / way_m) * way};
+  const double way_m = cooperative ? view.way_m : kFarAway_m;
+  const Path peer_path{from_world, cooperative ? view.way_direction_world : view.forward_world};
   const auto conflict = FindConflict(s.path, peer_path, reach_m);
   if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
   if (conflict->peer.begin_m > way_m) return std::nullopt;
@@ -217,6 +213,14 @@ void CarryForward(std::span<PeerView> views, const Situation& s) {
     view.position_world = {now.position_world.x, now.position_world.y};
     view.forward_world = {now.forward_world.x, now.forward_world.y};
   }
+  for (PeerView& view : views) {
+    view.offset_world = view.position_world - s.world_from_body.position_world;
+    view.distance_m = Norm(view.offset_world);
+    view.way_world = view.peer->beacon.toward_world - view.position_world;
+    view.way_m = Norm(view.way_world);
+    const bool is_there = view.way_m <= kThere_m;
+    view.way_direction_world = is_there ? view.forward_world : (1 / view.way_m) * view.way_world;
+  }
 }
 
 void LookAt(PeerView* looked_at, const Situation& s) {
@@ -233,15 +237,14 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   view.at_signal = cooperative && view.believed && beacon.rule == Rule::kSignal;
   view.goes_first = ComesFirst(view, s);
 
-  const Vec2 offset = view.position_world - s.world_from_body.position_world;
   const double radius_m = s.options.profile.body_radius_m;
-  view.gap_m = Norm(offset) - radius_m - beacon.body_radius_m;
+  view.gap_m = view.distance_m - radius_m - beacon.body_radius_m;
   view.gate_gap_m =
-      GateDistance(s.options.distance_metric, offset) - radius_m - beacon.body_radius_m;
+      GateDistance(s.options.distance_metric, view.offset_world) - radius_m - beacon.body_radius_m;
   // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
   // one that is gone, which has no way to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
-  view.leads = goes_on && Dot(offset, s.path.direction_world) > 0 && Follows(view, s);
+  view.leads = goes_on && Dot(view.offset_world, s.path.direction_world) > 0 && Follows(view, s);
   if (goes_on) {  // most have none: nothing is copied then
     const auto crossing = CrossingWith(view, s);
     if (crossing) view.crossing = *crossing;

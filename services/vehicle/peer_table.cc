@@ -120,8 +120,8 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   }
   if (beacon.world_epoch != self.epoch) return refuse(&BeaconCounters::rejected_wrong_epoch);
 
-  const bool heard = Norm(beacon.world_from_body.position_world - self.position_world) <=
-                     options.emission_radius_m;
+  const Vec2 apart = beacon.world_from_body.position_world - self.position_world;
+  const bool heard = SquaredNorm(apart) <= options.emission_radius_m * options.emission_radius_m;
   if (!heard) {
     ++counters->not_heard;
     Peer* peer = Find(beacon.vehicle);

@@ -10,11 +10,9 @@ namespace {
 constexpr double kLongestWay_m = 1000;
 
 // Of the distance between the two centres: only what lies along it counts.
-double SigmaBetween(const PeerView& view, const Situation& s) {
-  const Vec2 offset = view.position_world - s.world_from_body.position_world;
-  const double distance_m = Norm(offset);
-  if (distance_m <= 0) return view.sigma_m;
-  return SigmaAlong(view.apart, (1 / distance_m) * offset);
+double SigmaBetween(const PeerView& view) {
+  if (view.distance_m <= 0) return view.sigma_m;
+  return SigmaAlong(view.apart, (1 / view.distance_m) * view.offset_world);
 }
 
 }  // namespace
@@ -36,7 +34,7 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
   const double own = StoppingDistance(std::max(0.0, s.speed_m_s), ReactionSeconds(s.options),
                                       s.options.profile.deceleration_m_s2);
   const double both = own + StoppingDistanceOf(view, s);
-  return std::max(s.options.gate_enter_m, both + kMargin_m + kSigmas * SigmaBetween(view, s));
+  return std::max(s.options.gate_enter_m, both + kMargin_m + kSigmas * SigmaBetween(view));
 }
 
 double RoomBeside(const PeerView& view, const Situation& s) {
@@ -67,10 +65,8 @@ bool IsOnGoalOf(const PeerView& view, const Situation& s) {
 Vec2 VelocityOf(const PeerView& view) { return view.speed_m_s * view.forward_world; }
 
 double ClosingSpeed(const PeerView& view, const Situation& s) {
-  const Vec2 offset = view.position_world - s.world_from_body.position_world;
-  const double distance = Norm(offset);
   const Vec2 velocity = VelocityOf(view) - s.speed_m_s * s.forward_world;
-  return distance > 0 ? -Dot(offset, velocity) / distance : 0;
+  return view.distance_m > 0 ? -Dot(view.offset_world, velocity) / view.distance_m : 0;
 }
 
 }  // namespace giveway

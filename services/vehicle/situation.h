@@ -19,14 +19,19 @@
 namespace giveway {
 
 // A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
-// CarryForward fills in the places and headings, LookAt everything below them, FindBoxes
+// CarryForward fills in the places and directions, LookAt everything below them, FindBoxes
 // `box_begin_m`.
 struct PeerView {
   Peer* peer;
   bool fresh;
   Vec2 told_forward_world;  // unit vector of the heading in its beacon
   Vec2 position_world;
-  Vec2 forward_world;  // unit vector of its heading
+  Vec2 forward_world;        // unit vector of its heading
+  Vec2 offset_world;         // of its centre from the own one
+  double distance_m;         // the same
+  Vec2 way_world;            // from where it is to where it drives next
+  double way_m;              // the same
+  Vec2 way_direction_world;  // unit vector of that; of its heading if it is there already
 
   PoseCovariance apart;  // of where the peer is to this vehicle
   double sigma_m;        // the same along its worst axis

@@ -52,9 +52,8 @@ bool Queues(const PeerView& view, const Situation& s) {
   const Rule rule = view.peer->beacon.rule;
   if (rule == Rule::kArrived || rule == Rule::kNotRunning) return false;
   constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
-  const Vec2 way = view.peer->beacon.toward_world - view.position_world;
-  const double way_m = Norm(way);
-  return way_m > 0.5 && view.fresh && Dot(way, s.path.direction_world) > kSameWay * way_m;
+  return view.way_m > 0.5 && view.fresh &&
+         Dot(view.way_world, s.path.direction_world) > kSameWay * view.way_m;
 }
 
 // Stands only because another one does, and goes on with it.
@@ -83,16 +82,15 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   for (const PeerView& view : s.peers) {
     const bool waited_for = !s.aimless && Occupies(view, target, s) && !IsOnGoalOf(view, s);
     if (!StandsInTheWay(view, s) || waited_for || headings.count == headings.of.size()) continue;
-    const Vec2 offset = view.position_world - s.world_from_body.position_world;
-    const double distance_m = Norm(offset);
+    const double distance_m = view.distance_m;
     const double clearance_m = RoomBeside(view, s);
     if (distance_m - clearance_m > way_m) continue;
     const double half_rad =
         distance_m > clearance_m
             ? Atan2(clearance_m, Sqrt(distance_m * distance_m - clearance_m * clearance_m))
             : kBesideIt_rad;
-    headings.of[headings.count++] = {Atan2(offset.y, offset.x), half_rad, distance_m,
-                                     view.peer->id};
+    headings.of[headings.count++] = {Atan2(view.offset_world.y, view.offset_world.x), half_rad,
+                                     distance_m, view.peer->id};
   }
   return headings;
 }
@@ -207,8 +205,8 @@ Turn TurnPast(const BlockedHeadings& headings, double wanted_rad, int side) {
 bool HasCompany(const Situation& s) {
   constexpr double kNear_m = 1;
   return std::ranges::any_of(s.peers, [&s](const PeerView& view) {
-    const Vec2 offset = view.position_world - s.world_from_body.position_world;
-    return view.gap_m < kNear_m && !view.peer->left && Dot(offset, s.path.direction_world) > 0;
+    return view.gap_m < kNear_m && !view.peer->left &&
+           Dot(view.offset_world, s.path.direction_world) > 0;
   });
 }
 

@@ -31,18 +31,13 @@ Conflict InTurn(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
   return Shrunk(conflict, own_way, peer_way);
 }
 
-Vec2 PeerWay(const PeerView& view) {
-  const Vec2 way = view.peer->beacon.toward_world - view.position_world;
-  const double way_m = Norm(way);
-  return way_m > 0.05 ? (1 / way_m) * way : view.forward_world;
-}
-
 }  // namespace
 
 bool IsThroughFirst(const PeerView& view, const Situation& s) {
   if (!view.conflict || Has(Defect::kThroughFirstGuessed)) return true;
   const Beacon& beacon = view.peer->beacon;
-  const Conflict conflict = InTurn(*view.conflict, s.path.direction_world, PeerWay(view));
+  const Conflict conflict =
+      InTurn(*view.conflict, s.path.direction_world, view.way_direction_world);
   const double own_s = TimeToCover(conflict.own.end_m, std::max(0.0, s.speed_m_s),
                                    s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
   const double fastest = kPeerSpeedSlack * std::max(beacon.cruise_m_s, view.speed_m_s);
@@ -54,7 +49,8 @@ bool IsThroughFirst(const PeerView& view, const Situation& s) {
 
 bool IsGoneInTime(const PeerView& view, const Situation& s) {
   if (!view.fresh || !view.conflict || view.speed_m_s < kStandingSpeed_m_s) return false;
-  const Conflict conflict = Shrunk(*view.conflict, s.path.direction_world, PeerWay(view));
+  const Conflict conflict =
+      Shrunk(*view.conflict, s.path.direction_world, view.way_direction_world);
   if (conflict.peer.end_m <= 0) return true;
   if (conflict.own.begin_m <= 0) return false;
   const double own_s = TimeToCover(conflict.own.begin_m, std::max(0.0, s.speed_m_s),

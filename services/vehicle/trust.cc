@@ -108,8 +108,7 @@ bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
 bool IsMissed(const PeerView& view, std::uint32_t listening, const Situation& s) {
   if (view.explains != 0) return false;
   const double far_m = s.options.profile.sonar_max_range_m + s.options.profile.body_radius_m;
-  const Vec2 offset = view.position_world - s.world_from_body.position_world;
-  if (SquaredNorm(offset) > far_m * far_m) return false;
+  if (SquaredNorm(view.offset_world) > far_m * far_m) return false;
   const Place place = PlaceOf(view, s);
   for (const std::size_t i : BitsOf(listening)) {
     if (MissesBody(i, place, s)) return true;

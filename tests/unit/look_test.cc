@@ -1,47 +1,22 @@
-// How a peer stands to a vehicle at the origin that drives east, 10 m to go.
-#include "services/vehicle/look.h"
-
+// How a peer stands to a vehicle at the origin that drives east.
 #include <gtest/gtest.h>
 
-#include "tests/support/brain_bench.h"
+#include <cmath>
+
+#include "tests/support/onlooker.h"
 
 namespace giveway {
 namespace {
 
-// A view of the peer, which must outlive it.
-PeerView Look(Peer* peer) {
-  const VehicleOptions options = test::DefaultOptions();
-  const RangeView ranges;
-  const HeardEchoes echoes{};
-  const Cones cones = ConesOf(options.profile);
-  const SeenObjects objects;
-  Situation s{
-      .options = options, .ranges = ranges, .echoes = echoes, .cones = cones, .objects = objects};
-  s.tick = Tick{2};
-  s.forward_world = {1, 0};
-  s.path = {{0, 0}, {1, 0}};
-  s.distance_to_goal_m = 10;
-  PeerView view{.peer = peer, .fresh = IsFresh(*peer, {}, s.tick, options)};
-  CarryForward({&view, 1}, s);
-  LookAt(&view, s);
-  return view;
-}
-
-Peer PeerAt(const Pose& pose) {
-  Peer peer{.id = VehicleId{2}, .known = true};
-  peer.beacon = test::BeaconOf(2, 1, pose);
-  return peer;
-}
-
 // Stands ahead in the own lane, turned as the vehicle is.
-Peer Ahead() { return PeerAt({{2, 0.1}, 0.1}); }
+Peer Ahead() { return test::PeerAt({{2, 0.1}, 0.1}); }
 // Comes across the own way from the right.
-Peer Across() { return PeerAt({{3, -2}, kPi / 2}); }
+Peer Across() { return test::PeerAt({{3, -2}, kPi / 2}); }
 
 bool Leads(Rule rule) {
   Peer peer = Ahead();
   peer.beacon.rule = rule;
-  return Look(&peer).leads;
+  return test::Onlooker().LookAt(&peer).leads;
 }
 
 // Vehicles queued for good behind one that had arrived and happened to be turned their way.
@@ -54,13 +29,13 @@ TEST(LookAt, OneThatHasArrivedIsNoLeaderHoweverItIsTurned) {
 TEST(LookAt, OneThatIsGoneIsNoLeaderAndHasNoWay) {
   for (bool Peer::*gone : {&Peer::left, &Peer::out_of_reach}) {
     Peer ahead = Ahead();
-    EXPECT_TRUE(Look(&ahead).leads);
+    EXPECT_TRUE(test::Onlooker().LookAt(&ahead).leads);
     ahead.*gone = true;
-    EXPECT_FALSE(Look(&ahead).leads);
+    EXPECT_FALSE(test::Onlooker().LookAt(&ahead).leads);
     Peer across = Across();
-    EXPECT_TRUE(Look(&across).crossing);
+    EXPECT_TRUE(test::Onlooker().LookAt(&across).crossing);
     across.*gone = true;
-    EXPECT_FALSE(Look(&across).crossing);
+    EXPECT_FALSE(test::Onlooker().LookAt(&across).crossing);
   }
 }
 
@@ -68,9 +43,25 @@ TEST(LookAt, OneThatIsGoneIsNoLeaderAndHasNoWay) {
 TEST(LookAt, OneThatIsLostKeepsItsWay) {
   Peer across = Across();
   across.deadline_missed = true;
-  const PeerView view = Look(&across);
+  const PeerView view = test::Onlooker().LookAt(&across);
   EXPECT_TRUE(view.lost);
   EXPECT_TRUE(view.crossing);
+}
+
+// A peer that is where it drives to has no way there: which way it lies says nothing.
+TEST(CarryForward, TakesTheStraightWayToWhereThePeerDrivesUntilItIsThere) {
+  Peer peer = Across();
+  peer.beacon.toward_world = {3, -1.94};
+  peer.beacon.world_from_body.heading_rad = 0;
+  const PeerView drives = test::Onlooker().LookAt(&peer);
+  EXPECT_EQ(drives.offset_world, (Vec2{3, -2}));
+  EXPECT_DOUBLE_EQ(drives.distance_m, std::sqrt(13));
+  EXPECT_NEAR(drives.way_m, 0.06, 1e-12);
+  EXPECT_NEAR(Norm(drives.way_direction_world - Vec2{0, 1}), 0, 1e-12);
+  peer.beacon.toward_world = {3, -1.96};
+  const PeerView there = test::Onlooker().LookAt(&peer);
+  EXPECT_NEAR(there.way_m, 0.04, 1e-12);
+  EXPECT_EQ(there.way_direction_world, (Vec2{1, 0}));
 }
 
 }  // namespace
