@@ -50,9 +50,9 @@ bool Follows(const PeerView& view, const Situation& s) {
   if (along <= bodies && along >= -bodies) return false;
   if (Dot(s.path.direction_world, view.forward_world) >= kSameWay) return true;
   // One that stands may be turned to whatever it looks for a way past; it means to go on.
-  return s.options.behaviour == Behaviour::kCooperative && view.standing &&
-         view.way_m > kThereAlready_m &&
-         Dot(s.path.direction_world, view.way_world) >= kSameWay * view.way_m;
+  if (s.options.behaviour != Behaviour::kCooperative || !view.standing) return false;
+  const double way_m = Norm(view.way_world);
+  return way_m > kThereAlready_m && Dot(s.path.direction_world, view.way_world) >= kSameWay * way_m;
 }
 
 // Only the ids tell the two keys apart.
@@ -99,15 +99,11 @@ constexpr double kWellAway_m = 2 * kThere_m + 0.001;
 // Both vehicles' ways to where they drive next.
 std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  const Vec2 from_world = view.position_world;
-  const Vec2 to_world = view.peer->beacon.toward_world;
+  if (!view.way_is_near || Follows(view, s)) return std::nullopt;
   const double reach_m = Reach(view.peer->beacon, view.sigma_m, s);
-  if (cooperative && StaysAway(from_world, to_world, reach_m + kWellAway_m, s.path)) {
-    return std::nullopt;
-  }
-  if (Follows(view, s)) return std::nullopt;
   const double way_m = cooperative ? view.way_m : kFarAway_m;
-  const Path peer_path{from_world, cooperative ? view.way_direction_world : view.forward_world};
+  const Path peer_path{view.position_world,
+                       cooperative ? view.way_direction_world : view.forward_world};
   const auto conflict = FindConflict(s.path, peer_path, reach_m);
   if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
   if (conflict->peer.begin_m > way_m) return std::nullopt;
@@ -160,14 +156,31 @@ double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
 }
 
 // By its bits: of -0 and 0 the unit vectors are not the same either.
-Vec2 ToldForward(Peer* peer) {
+void NoteToldHeading(Peer* peer) {
   const Pose& told = peer->beacon.world_from_body;
   ToldHeading& last = peer->told;
   if (std::bit_cast<std::uint64_t>(told.heading_rad) !=
       std::bit_cast<std::uint64_t>(last.heading_rad)) {
     last = {told.heading_rad, Forward(told)};
   }
-  return last.forward_world;
+}
+
+// How far it is, how sure that is, and which way it drives from there.
+void Measure(PeerView* measured, const Situation& s) {
+  PeerView& view = *measured;
+  const Beacon& beacon = view.peer->beacon;
+  view.offset_world = view.position_world - s.world_from_body.position_world;
+  view.distance_m = Norm(view.offset_world);
+  view.way_world = beacon.toward_world - view.position_world;
+  view.apart = Apart(beacon, view.position_world - beacon.world_from_body.position_world, s);
+  view.sigma_m = SigmaPosition(view.apart);
+  const double well_away_m = Reach(beacon, view.sigma_m, s) + kWellAway_m;
+  view.way_is_near = s.options.behaviour != Behaviour::kCooperative ||
+                     !StaysAway(view.position_world, beacon.toward_world, well_away_m, s.path);
+  if (!view.way_is_near) return;
+  view.way_m = Norm(view.way_world);
+  view.way_direction_world =
+      view.way_m > kThere_m ? (1 / view.way_m) * view.way_world : view.forward_world;
 }
 
 }  // namespace
@@ -181,7 +194,7 @@ double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s) {
   if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.sigma_m, unknown_s, s))
     return kFarAway_m;
   const Claim claim =
-      ClaimOf(beacon, view.told_forward_world, unknown_s, ReactionSeconds(s.options));
+      ClaimOf(beacon, view.peer->told.forward_world, unknown_s, ReactionSeconds(s.options));
   return FreeBefore(claim, {s.world_from_body.position_world, forward_world},
                     ApartFrom(view.sigma_m, s));
 }
@@ -203,24 +216,17 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
 }
 
 void CarryForward(std::span<PeerView> views, const Situation& s) {
-  for (PeerView& view : views) view.told_forward_world = ToldForward(view.peer);
+  for (const PeerView& view : views) NoteToldHeading(view.peer);
   for (PeerView& view : views) {
     const Beacon& beacon = view.peer->beacon;
-    const Facing told = {beacon.world_from_body.position_world, view.told_forward_world};
+    const Facing told = {beacon.world_from_body.position_world, view.peer->told.forward_world};
     const Facing now = AdvanceFacing(told, TwistFromWheels(beacon.drive, beacon.wheels),
                                      CarriedSeconds(beacon, view.fresh, s));
     // By halves: a pair that is loaded right after its halves were stored is waited for.
     view.position_world = {now.position_world.x, now.position_world.y};
     view.forward_world = {now.forward_world.x, now.forward_world.y};
   }
-  for (PeerView& view : views) {
-    view.offset_world = view.position_world - s.world_from_body.position_world;
-    view.distance_m = Norm(view.offset_world);
-    view.way_world = view.peer->beacon.toward_world - view.position_world;
-    view.way_m = Norm(view.way_world);
-    const bool is_there = view.way_m <= kThere_m;
-    view.way_direction_world = is_there ? view.forward_world : (1 / view.way_m) * view.way_world;
-  }
+  for (PeerView& view : views) Measure(&view, s);
 }
 
 void LookAt(PeerView* looked_at, const Situation& s) {
@@ -229,8 +235,6 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
   view.believed = view.fresh && !IsDoubted(view.peer->trust, s.now);
   view.lost = IsLost(*view.peer, view.fresh);
-  view.apart = Apart(beacon, view.position_world - beacon.world_from_body.position_world, s);
-  view.sigma_m = SigmaPosition(view.apart);
   view.speed_m_s = twist.forward_m_s;
   view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
@@ -239,8 +243,11 @@ void LookAt(PeerView* looked_at, const Situation& s) {
 
   const double radius_m = s.options.profile.body_radius_m;
   view.gap_m = view.distance_m - radius_m - beacon.body_radius_m;
-  view.gate_gap_m =
-      GateDistance(s.options.distance_metric, view.offset_world) - radius_m - beacon.body_radius_m;
+  const DistanceMetric metric = s.options.distance_metric;
+  const double gate_m = metric == DistanceMetric::kEuclidean
+                            ? view.distance_m
+                            : GateDistance(metric, view.offset_world);
+  view.gate_gap_m = gate_m - radius_m - beacon.body_radius_m;
   // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
   // one that is gone, which has no way to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);

@@ -12,8 +12,9 @@ namespace giveway {
 // it. It costs a fraction of LookAt, and most of a large fleet is far away.
 bool CanMatter(const Peer& peer, bool fresh, const Situation& s);
 
-// Carries the peers of all views forward to now. For all before LookAt at any: a sine is a chain of
-// operations of which each waits for the one before, and those of several peers run side by side.
+// Carries the peers of all views forward to now and measures how they lie to the own vehicle. For
+// all before LookAt at any: a sine or a root is a chain of operations of which each waits for the
+// one before, and those of several peers run side by side.
 void CarryForward(std::span<PeerView> views, const Situation& s);
 
 // How far this vehicle may go along a unit vector until its shell is at the peer's claim, metres;

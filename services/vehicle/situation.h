@@ -19,23 +19,24 @@
 namespace giveway {
 
 // A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
-// CarryForward fills in the places and directions, LookAt everything below them, FindBoxes
-// `box_begin_m`.
+// CarryForward fills in everything up to the way, LookAt what is below it, FindBoxes `box_begin_m`.
 struct PeerView {
   Peer* peer;
   bool fresh;
-  Vec2 told_forward_world;  // unit vector of the heading in its beacon
   Vec2 position_world;
-  Vec2 forward_world;        // unit vector of its heading
-  Vec2 offset_world;         // of its centre from the own one
-  double distance_m;         // the same
-  Vec2 way_world;            // from where it is to where it drives next
-  double way_m;              // the same
-  Vec2 way_direction_world;  // unit vector of that; of its heading if it is there already
-
+  Vec2 forward_world;    // unit vector of its heading
+  Vec2 offset_world;     // of its centre from the own one
+  double distance_m;     // the same
   PoseCovariance apart;  // of where the peer is to this vehicle
   double sigma_m;        // the same along its worst axis
-  double speed_m_s;      // forward, as measured by the peer
+  Vec2 way_world;        // from where it is to where it drives next
+  bool way_is_near;      // that comes within reach of the own way, or may
+  // Only of a way that is near: its length and its unit vector, or that of the heading where the
+  // peer is there already.
+  double way_m;
+  Vec2 way_direction_world;
+
+  double speed_m_s;  // forward, as measured by the peer
   bool lost;
   bool standing;      // below kStandingSpeed
   bool goes_first;    // before this vehicle, by both keys as published

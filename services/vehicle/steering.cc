@@ -52,8 +52,9 @@ bool Queues(const PeerView& view, const Situation& s) {
   const Rule rule = view.peer->beacon.rule;
   if (rule == Rule::kArrived || rule == Rule::kNotRunning) return false;
   constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
-  return view.way_m > 0.5 && view.fresh &&
-         Dot(view.way_world, s.path.direction_world) > kSameWay * view.way_m;
+  const double way_m = Norm(view.way_world);
+  return way_m > 0.5 && view.fresh &&
+         Dot(view.way_world, s.path.direction_world) > kSameWay * way_m;
 }
 
 // Stands only because another one does, and goes on with it.

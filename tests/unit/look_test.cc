@@ -50,18 +50,28 @@ TEST(LookAt, OneThatIsLostKeepsItsWay) {
 
 // A peer that is where it drives to has no way there: which way it lies says nothing.
 TEST(CarryForward, TakesTheStraightWayToWhereThePeerDrivesUntilItIsThere) {
-  Peer peer = Across();
-  peer.beacon.toward_world = {3, -1.94};
-  peer.beacon.world_from_body.heading_rad = 0;
+  Peer peer = test::PeerAt({{3, -0.3}, 0});
+  peer.beacon.toward_world = {3, -0.24};
   const PeerView drives = test::Onlooker().LookAt(&peer);
-  EXPECT_EQ(drives.offset_world, (Vec2{3, -2}));
-  EXPECT_DOUBLE_EQ(drives.distance_m, std::sqrt(13));
+  EXPECT_EQ(drives.offset_world, (Vec2{3, -0.3}));
+  EXPECT_DOUBLE_EQ(drives.distance_m, std::sqrt(9.09));
+  ASSERT_TRUE(drives.way_is_near);
   EXPECT_NEAR(drives.way_m, 0.06, 1e-12);
   EXPECT_NEAR(Norm(drives.way_direction_world - Vec2{0, 1}), 0, 1e-12);
-  peer.beacon.toward_world = {3, -1.96};
+  peer.beacon.toward_world = {3, -0.26};
   const PeerView there = test::Onlooker().LookAt(&peer);
+  ASSERT_TRUE(there.way_is_near);
   EXPECT_NEAR(there.way_m, 0.04, 1e-12);
   EXPECT_EQ(there.way_direction_world, (Vec2{1, 0}));
+}
+
+// Bodies of 0.25 m each and a margin of 0.1 m: nearer than 0.6 m, and what rounding may be.
+TEST(CarryForward, LooksAtNoWayThatComesNowhereNearTheOwnOne) {
+  Peer peer = test::PeerAt({{3, -5}, kPi / 2});
+  peer.beacon.toward_world = {3, -0.75};
+  EXPECT_FALSE(test::Onlooker().LookAt(&peer).way_is_near);
+  peer.beacon.toward_world = {3, -0.59};
+  EXPECT_TRUE(test::Onlooker().LookAt(&peer).way_is_near);
 }
 
 }  // namespace
