@@ -19,7 +19,7 @@ void CarryForward(std::span<PeerView> views, const Situation& s);
 
 // How far this vehicle may go along a unit vector until its shell is at the peer's claim, metres;
 // huge if it never is, or so far on that the own cruise speed is not too fast for it. Of a view
-// that LookAt has filled in as far as `sigma_m`.
+// that CarryForward has filled in.
 double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s);
 
 // Relates the peer of `view`, which CarryForward alone has filled in, to the own path.

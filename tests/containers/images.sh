@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 engine_up
 trap engine_down EXIT
-BASE=debian:trixie-slim
+BASE=debian:$SUITE-slim
 bytes() { docker image inspect -f '{{.Size}}' "$1"; }
 config() { docker image inspect -f "{{$2}}" "giveway-$1"; }
 
