@@ -104,12 +104,8 @@ bool StandsAtLine(const StopLine& line, const Situation& s) {
 
 Action Decide(const Situation& s) {
   const std::optional<Proposal> limit = MostRestrictive(s);
-  Action action;
-  if (IsAvoiding(s.options.behaviour) && !limit) {
-    action = AvoidingAction(s);
-  } else {
-    action = DrivingAction(s, limit);
-  }
+  const bool avoids = IsAvoiding(s.options.behaviour) && !limit;
+  Action action = avoids ? AvoidingAction(s) : DrivingAction(s, limit);
   if (s.options.behaviour == Behaviour::kLecturePrinted && !limit) action = AsPrinted(s, action);
   if (s.stop_line && !IsToldBeforeLight(action.decision.rule) && StandsAtLine(*s.stop_line, s)) {
     action.decision = {.rule = Rule::kSignal, .cause_tick = s.stop_line->tick};

@@ -211,23 +211,28 @@ void BeginOrEnd(const PeerView& view, std::span<const PeerView> views, const Sit
 
 }  // namespace
 
-EncounterNews UpdateEncounters(std::span<const PeerView> views, const Situation& s) {
-  EncounterNews news;
+void UpdateEncounters(std::span<const PeerView> views, Situation* situation) {
+  const Situation& s = *situation;
+  bool holds = false;
+  bool let_pass = false;
+  bool meets = false;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     const bool met = encounter.active;
     BeginOrEnd(view, views, s);
-    news.let_pass = news.let_pass || (met && !encounter.active && view.goes_first);
+    let_pass = let_pass || (met && !encounter.active && view.goes_first);
     encounter.holds = encounter.active && Holds(view, s);
-    news.holds = news.holds || encounter.holds;
-    news.under_way = news.under_way || encounter.active;
+    holds = holds || encounter.holds;
+    meets = meets || encounter.active;
   }
-  if (news.holds) return news;
+  situation->holds = holds;
+  situation->let_pass = let_pass;
+  situation->meets = meets;
+  if (holds) return;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     if (encounter.active && view.conflict && EntersBox(view, s)) encounter.entered = true;
   }
-  return news;
 }
 
 }  // namespace giveway

@@ -6,14 +6,8 @@
 
 namespace giveway {
 
-struct EncounterNews {
-  bool holds = false;      // this vehicle holds for a peer
-  bool let_pass = false;   // an encounter with one that comes first is over, just now
-  bool under_way = false;  // it meets somebody
-};
-
-// Moves every peer's encounter on by one tick.
-EncounterNews UpdateEncounters(std::span<const PeerView> views, const Situation& s);
+// Moves every peer's encounter on by one tick, and fills in what the situation says of all of them.
+void UpdateEncounters(std::span<const PeerView> views, Situation* s);
 
 // True if this vehicle is the one to wait in the encounter, and can: it stands, or will before
 // the conflict. Only then may it say that it gives way.

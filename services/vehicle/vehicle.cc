@@ -218,10 +218,7 @@ void Vehicle::LookAtPeers(Situation* s) {
   }
   JudgeEchoes(views, *s, &state_->trust);
   s->blocked_box = FindBoxes(views, *s);
-  const EncounterNews news = UpdateEncounters(views, *s);
-  s->holds = news.holds;
-  s->let_pass = news.let_pass;
-  s->meets = news.under_way;
+  UpdateEncounters(views, s);
   s->peers = views;
 }
 
@@ -294,16 +291,14 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   const bool changed = !SameReason(action.decision, state.decision);
   Remember(s, action);
 
-  Outputs outputs;
-  outputs.beacon = Say(s);
-  outputs.decision_changed = changed;
-  outputs.command = {.vehicle = options_.id,
-                     .epoch = state.epoch,
-                     .tick = state.tick,
-                     .target = action.target,
-                     .decision = action.decision,
-                     .decision_changed = changed};
-  return outputs;
+  return {.command = {.vehicle = options_.id,
+                      .epoch = state.epoch,
+                      .tick = state.tick,
+                      .target = action.target,
+                      .decision = action.decision,
+                      .decision_changed = changed},
+          .beacon = Say(s),
+          .decision_changed = changed};
 }
 
 double Vehicle::SpeedMps() const {
