@@ -18,6 +18,7 @@ struct Body {
   bool present = false;  // joined and not removed: stands in the way and is sensed
   bool obeyed = false;   // this tick followed `command`; false: braked by the world itself
   Pose world_from_body;
+  KnownHeading heading;  // of late; follow `world_from_body` before use
   WheelSpeeds wheels;    // at the end of the tick; standstill after a contact
   WheelSpeeds encoders;  // counted over the whole tick; without encoder noise and slip, the
                          // constant speeds that explain its motion exactly

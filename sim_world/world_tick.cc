@@ -182,8 +182,9 @@ void World::SettleBody(std::size_t i) {
   }
   body.counted = CountOn(body.counted, body.encoders, dt_s_);
   // From the speeds over the whole tick, so that whoever integrates them lands on the same bits.
-  body.world_from_body =
-      AdvanceArc(body.world_from_body, TwistFromWheels(body.profile.drive, body.ground), dt_s_);
+  body.heading.Follow(body.world_from_body);
+  body.world_from_body = AdvanceArc(body.world_from_body, body.heading.forward_world,
+                                    TwistFromWheels(body.profile.drive, body.ground), dt_s_);
 }
 
 bool World::HasParted(const TouchingPair& pair) const {

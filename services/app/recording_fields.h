@@ -93,7 +93,7 @@ void Visit(auto& fields, Is<Beacon> auto& beacon) {
 }
 
 void Visit(auto& fields, Is<ReceivedBeacon> auto& received) {
-  auto& [beacon, at, crc_valid, name_valid, writer] = received;
+  auto& [beacon, at, crc_valid, name_valid, writer, in_range] = received;  // who replays, looks
   fields(beacon, at, crc_valid, name_valid, writer);
 }
 

@@ -68,6 +68,7 @@ struct ReceivedBeacon {
   bool crc_valid = false;
   bool name_valid = false;   // the id is the one of the writer's partition
   std::uint64_t writer = 0;  // identity of the writing endpoint, for duplicate ids; never 0
+  bool in_range = false;     // somebody found all its numbers to be so; else each brain looks
 };
 
 }  // namespace giveway

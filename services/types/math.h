@@ -9,8 +9,8 @@ namespace giveway {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-constexpr double Magnitude(double x) { return x < 0 ? -x : x; }
-inline double Sqrt(double x) { return std::sqrt(x); }  // correctly rounded by IEEE 754
+inline double Magnitude(double x) { return std::abs(x); }  // one instruction, unlike a comparison
+inline double Sqrt(double x) { return std::sqrt(x); }      // correctly rounded by IEEE 754
 // No number for what is no angle, or lies beyond 2^30 quarter turns.
 double Sin(double x_rad);
 double Cos(double x_rad);

@@ -30,6 +30,14 @@ Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s) {
           WrapAngle(world_from_body.heading_rad + turned)};
 }
 
+Pose AdvanceArc(const Pose& world_from_body, Vec2 forward_world, Twist twist, double dt_s) {
+  if (twist.turn_rad_s != 0 || twist.forward_m_s == 0) {
+    return AdvanceArc(world_from_body, twist, dt_s);
+  }
+  return {world_from_body.position_world + twist.forward_m_s * dt_s * forward_world,
+          WrapAngle(world_from_body.heading_rad)};
+}
+
 Facing AdvanceFacing(const Facing& from, Twist twist, double dt_s) {
   const double half = twist.turn_rad_s * dt_s / 2;
   double chord = twist.forward_m_s * dt_s;

@@ -2,6 +2,9 @@
 // x) and body (x forward, y left, origin at the axle centre).
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "services/types/vec2.h"
 
 namespace giveway {
@@ -101,6 +104,21 @@ inline Vec2 Forward(const Pose& world_from_body) {
   return {heading.cosine, heading.sine};
 }
 
+// A heading and its unit vector, kept because a sine is dear and most headings are what they were:
+// of who stands, or drives straight on.
+struct KnownHeading {
+  double heading_rad = 0;
+  Vec2 forward_world{1, 0};
+
+  // By its bits: of -0 and 0 the unit vectors are not the same either.
+  void Follow(const Pose& world_from_body) {
+    if (std::bit_cast<std::uint64_t>(world_from_body.heading_rad) !=
+        std::bit_cast<std::uint64_t>(heading_rad)) {
+      *this = {world_from_body.heading_rad, Forward(world_from_body)};
+    }
+  }
+};
+
 // A point given in the body frame, in the world.
 Vec2 ToWorld(const Pose& world_from_body, Vec2 point_body);
 // A point given in the world, in the body frame.
@@ -108,6 +126,8 @@ Vec2 ToBody(const Pose& world_from_body, Vec2 point_world);
 
 // Exact motion along the arc of a constant twist for dt_s seconds (straight-line limit guarded).
 Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s);
+// The same bits, straight on without a sine: forward_world is the unit vector of the heading.
+Pose AdvanceArc(const Pose& world_from_body, Vec2 forward_world, Twist twist, double dt_s);
 
 // A pose by the unit vector of its heading: nobody asks a peer for the angle itself.
 struct Facing {

@@ -25,27 +25,28 @@ Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
 
 }  // namespace
 
-double ClaimLength(const Beacon& beacon, double unknown_s, double reaction_s) {
-  const double pace = Magnitude(TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s);
+double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, double reaction_s) {
+  const double pace = Magnitude(speed_m_s);
   const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
   const double fastest = std::min(most, pace + beacon.acceleration_m_s2 * unknown_s);
   return (pace + fastest) / 2 * unknown_s +
          StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
 }
 
-bool IsClaimShort(const Beacon& beacon, double reaction_s, double length_m) {
-  const double pace = Magnitude(TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s);
+bool IsClaimShort(const Beacon& beacon, double speed_m_s, double reaction_s, double length_m) {
+  const double pace = Magnitude(speed_m_s);
   const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
   const double braking_m = length_m - most * (1 + reaction_s);
   return most * most < 2 * beacon.deceleration_m_s2 * braking_m;
 }
 
-Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double reaction_s) {
-  const double speed = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
+Claim ClaimOf(const Beacon& beacon, const Course& course, double unknown_s, double reaction_s) {
+  const double speed = course.speed_m_s;
   Claim claim;
   claim.axis = {beacon.world_from_body.position_world,
-                speed < 0 ? -1.0 * forward_world : forward_world};
-  claim.length_m = Has(Defect::kClaimWithoutWay) ? 0 : ClaimLength(beacon, unknown_s, reaction_s);
+                speed < 0 ? -1.0 * course.forward_world : course.forward_world};
+  claim.length_m =
+      Has(Defect::kClaimWithoutWay) ? 0 : ClaimLength(beacon, speed, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
   // It may turn meanwhile: the far end swings. From standstill it may leave in any direction.
   const double swing = std::min(1.0, kTurnWhileDriving_rad_s * unknown_s);

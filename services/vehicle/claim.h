@@ -19,16 +19,23 @@ struct Claim {
   double radius_m = 0;
 };
 
-// How far the sender of `beacon` may come before it stands: see ClaimOf.
-double ClaimLength(const Beacon& beacon, double unknown_s, double reaction_s);
+// Which way the sender of a beacon is turned, a unit vector, and how fast it says it drives
+// forward: what follows from its heading and its wheels.
+struct Course {
+  Vec2 forward_world;
+  double speed_m_s = 0;
+};
+
+// How far the sender of `beacon`, driving at speed_m_s, may come before it stands: see ClaimOf.
+double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, double reaction_s);
 
 // True if ClaimLength is surely no more than length_m, however much of a second is unknown. Takes
 // no division.
-bool IsClaimShort(const Beacon& beacon, double reaction_s, double length_m);
+bool IsClaimShort(const Beacon& beacon, double speed_m_s, double reaction_s, double length_m);
 
 // What the sender of `beacon` may cover from its pose until it stands, if it was free to do as it
 // liked for `unknown_s` after the beacon and needs `reaction_s` before it brakes.
-Claim ClaimOf(const Beacon& beacon, Vec2 forward_world, double unknown_s, double reaction_s);
+Claim ClaimOf(const Beacon& beacon, const Course& course, double unknown_s, double reaction_s);
 
 // How far along `path` a disc of radius_m may go before it touches the claim; huge if it never
 // does. From inside the claim: 0 deeper into it, huge out of it.

@@ -20,10 +20,11 @@ Cone ConeOf(double bearing_rad, double half_angle_rad) {
 }  // namespace
 
 Cones ConesOf(const VehicleProfile& profile) {
-  Cones cones;
+  Cones cones{};
   cones.half_sine = Sin(std::min(profile.sonar_half_angle_rad, kPi / 2));
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     cones.of[i] = ConeOf(profile.sonar[i].bearing_rad, profile.sonar_half_angle_rad);
+    cones.enabled |= (profile.sonar[i].enabled ? 1U : 0U) << i;
   }
   return cones;
 }

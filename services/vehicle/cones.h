@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "services/types/profile.h"
 
@@ -17,7 +18,8 @@ struct Cone {
 
 struct Cones {
   std::array<Cone, kSensorCount> of;
-  double half_sine;  // of half the angle of any of them
+  double half_sine;       // of half the angle of any of them
+  std::uint32_t enabled;  // bit i for sensor i
 };
 
 Cones ConesOf(const VehicleProfile& profile);

@@ -50,8 +50,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   Action action;
   double speed = s.options.cruise_m_s;
   if (s.stops_there) {
-    speed = std::min(speed, SpeedToStopWithin(s.distance_to_goal_m, ReactionSeconds(s.options),
-                                              profile.deceleration_m_s2));
+    speed = std::min(
+        speed, SpeedToStopWithin(s.distance_to_goal_m, s.reaction_s, profile.deceleration_m_s2));
   }
   action.decision.rule = Rule::kCruise;
   if (steering.round != kNobody) {

@@ -1,7 +1,6 @@
 #include "services/vehicle/look.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "services/types/math.h"
 #include "services/vehicle/claim.h"
@@ -96,10 +95,10 @@ constexpr double kThere_m = 0.05;
 // is there.
 constexpr double kWellAway_m = 2 * kThere_m + 0.001;
 
-// Both vehicles' ways to where they drive next.
+// Both vehicles' ways to where they drive next, of two that do not follow each other.
 std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (!view.way_is_near || Follows(view, s)) return std::nullopt;
+  if (!view.way_is_near) return std::nullopt;
   const double reach_m = Reach(view.peer->beacon, view.sigma_m, s);
   const double way_m = cooperative ? view.way_m : kFarAway_m;
   const Path peer_path{view.position_world,
@@ -130,8 +129,9 @@ double KeptFrom(const Beacon& beacon, double sigma_m, const Situation& s) {
 
 // True if the claim lies beyond where it could slow this vehicle down: a claim reaches no farther
 // than its length and is no wider than that and the body.
-bool IsClaimFar(const Beacon& beacon, double sigma_m, double unknown_s, const Situation& s) {
-  const double length_m = ClaimLength(beacon, unknown_s, ReactionSeconds(s.options));
+bool IsClaimFar(const Beacon& beacon, double speed_m_s, double sigma_m, double unknown_s,
+                const Situation& s) {
+  const double length_m = ClaimLength(beacon, speed_m_s, unknown_s, s.reaction_s);
   const double far_m = s.slows_m + KeptFrom(beacon, sigma_m, s) + 2 * length_m;
   const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
   return SquaredNorm(offset) > far_m * far_m;
@@ -142,27 +142,10 @@ bool IsClaimFar(const Beacon& beacon, double sigma_m, double unknown_s, const Si
 constexpr double kLooksAround_m = 8;
 constexpr double kSeesFar_m = 25;
 
-double NearReach(const Situation& s) {
-  const VehicleProfile& profile = s.options.profile;
-  const bool sees_far =
-      profile.radar || profile.lidar || profile.camera || profile.sonar_max_range_m > 5;
-  return (sees_far ? kSeesFar_m : kLooksAround_m) + profile.body_radius_m;
-}
-
 // For how long a peer is carried forward since its beacon, as views carry it forward.
 double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
   // A silent peer is left where it was last heard: what it did since is not known.
   return fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
-}
-
-// By its bits: of -0 and 0 the unit vectors are not the same either.
-void NoteToldHeading(Peer* peer) {
-  const Pose& told = peer->beacon.world_from_body;
-  ToldHeading& last = peer->told;
-  if (std::bit_cast<std::uint64_t>(told.heading_rad) !=
-      std::bit_cast<std::uint64_t>(last.heading_rad)) {
-    last = {told.heading_rad, Forward(told)};
-  }
 }
 
 // How far it is, how sure that is, and which way it drives from there.
@@ -185,16 +168,22 @@ void Measure(PeerView* measured, const Situation& s) {
 
 }  // namespace
 
+double LooksAround(const VehicleProfile& profile) {
+  const bool sees_far =
+      profile.radar || profile.lidar || profile.camera || profile.sonar_max_range_m > 5;
+  return (sees_far ? kSeesFar_m : kLooksAround_m) + profile.body_radius_m;
+}
+
 // The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
 // have done since is unknown up to the end of the tick that this decision moves.
 double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s) {
   const Beacon& beacon = view.peer->beacon;
   if (IsGone(*view.peer)) return kFarAway_m;
   const double unknown_s = UnknownSeconds(beacon, s);
-  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.sigma_m, unknown_s, s))
+  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.speed_m_s, view.sigma_m, unknown_s, s))
     return kFarAway_m;
   const Claim claim =
-      ClaimOf(beacon, view.peer->told.forward_world, unknown_s, ReactionSeconds(s.options));
+      ClaimOf(beacon, {view.peer->told.forward_world, view.speed_m_s}, unknown_s, s.reaction_s);
   return FreeBefore(claim, {s.world_from_body.position_world, forward_world},
                     ApartFrom(view.sigma_m, s));
 }
@@ -205,23 +194,25 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
   const double speed_m_s = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
   const double moved_m = CarriedSeconds(beacon, fresh, s) * Magnitude(speed_m_s);
   const Vec2 from_world = beacon.world_from_body.position_world;
-  const double near_m = NearReach(s) + beacon.body_radius_m + moved_m;
+  const double near_m = s.looks_m + beacon.body_radius_m + moved_m;
   if (SquaredNorm(from_world - s.world_from_body.position_world) <= near_m * near_m) return true;
   const double sigma_m = SigmaAtMost(beacon, moved_m, s);
   const double reach_m = Reach(beacon, sigma_m, s) + moved_m + kWellAway_m;
   if (!StaysAway(from_world, beacon.toward_world, reach_m, s.path)) return true;
   const double short_m = (near_m - s.slows_m - KeptFrom(beacon, sigma_m, s)) / 2;
-  return !IsClaimShort(beacon, ReactionSeconds(s.options), short_m) &&
-         !IsClaimFar(beacon, sigma_m, UnknownSeconds(beacon, s), s);
+  return !IsClaimShort(beacon, speed_m_s, s.reaction_s, short_m) &&
+         !IsClaimFar(beacon, speed_m_s, sigma_m, UnknownSeconds(beacon, s), s);
 }
 
 void CarryForward(std::span<PeerView> views, const Situation& s) {
-  for (const PeerView& view : views) NoteToldHeading(view.peer);
+  for (const PeerView& view : views) view.peer->told.Follow(view.peer->beacon.world_from_body);
   for (PeerView& view : views) {
     const Beacon& beacon = view.peer->beacon;
     const Facing told = {beacon.world_from_body.position_world, view.peer->told.forward_world};
-    const Facing now = AdvanceFacing(told, TwistFromWheels(beacon.drive, beacon.wheels),
-                                     CarriedSeconds(beacon, view.fresh, s));
+    const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
+    const Facing now = AdvanceFacing(told, twist, CarriedSeconds(beacon, view.fresh, s));
+    view.speed_m_s = twist.forward_m_s;
+    view.turn_rad_s = twist.turn_rad_s;
     // By halves: a pair that is loaded right after its halves were stored is waited for.
     view.position_world = {now.position_world.x, now.position_world.y};
     view.forward_world = {now.forward_world.x, now.forward_world.y};
@@ -232,11 +223,9 @@ void CarryForward(std::span<PeerView> views, const Situation& s) {
 void LookAt(PeerView* looked_at, const Situation& s) {
   PeerView& view = *looked_at;
   const Beacon& beacon = view.peer->beacon;
-  const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
   view.believed = view.fresh && !IsDoubted(view.peer->trust, s.now);
   view.lost = IsLost(*view.peer, view.fresh);
-  view.speed_m_s = twist.forward_m_s;
-  view.standing = twist.forward_m_s < kStandingSpeed_m_s && twist.forward_m_s > -kStandingSpeed_m_s;
+  view.standing = Magnitude(view.speed_m_s) < kStandingSpeed_m_s;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   view.at_signal = cooperative && view.believed && beacon.rule == Rule::kSignal;
   view.goes_first = ComesFirst(view, s);
@@ -251,8 +240,9 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
   // one that is gone, which has no way to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
-  view.leads = goes_on && Dot(view.offset_world, s.path.direction_world) > 0 && Follows(view, s);
-  if (goes_on) {  // most have none: nothing is copied then
+  const bool follows = goes_on && Follows(view, s);
+  view.leads = follows && Dot(view.offset_world, s.path.direction_world) > 0;
+  if (goes_on && !follows) {  // most have none: nothing is copied then
     const auto crossing = CrossingWith(view, s);
     if (crossing) view.crossing = *crossing;
   }

@@ -8,6 +8,10 @@
 
 namespace giveway {
 
+// How far from its centre a vehicle of that profile looks for anything but claims and ways, up to
+// another one's shell.
+double LooksAround(const VehicleProfile& profile);
+
 // False if the peer is so far away, and so is all of its way, that no rule has anything to say of
 // it. It costs a fraction of LookAt, and most of a large fleet is far away.
 bool CanMatter(const Peer& peer, bool fresh, const Situation& s);

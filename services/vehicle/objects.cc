@@ -45,8 +45,7 @@ Vec2 At(double range_m, double bearing_rad) {
 
 // Until the vehicle would stand, if it began to see and brake now.
 double SecondsToStand(const Situation& s) {
-  return ReactionSeconds(s.options) +
-         std::max(0.0, s.speed_m_s) / s.options.profile.deceleration_m_s2;
+  return s.reaction_s + std::max(0.0, s.speed_m_s) / s.options.profile.deceleration_m_s2;
 }
 
 // Whether a camera that sees now names what is at the point a vehicle.

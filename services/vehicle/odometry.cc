@@ -27,9 +27,9 @@ bool IsUsable(const PoseFix& fix) {
 void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s, double wheel_error,
                     double guessed_m) {
   const Vec2 before = pose_.position_world;
-  const Vec2 forward = forward_world_;
-  pose_ = AdvanceArc(pose_, TwistFromWheels(drive, wheels), dt_s);
-  forward_world_ = Forward(pose_);
+  const Vec2 forward = heading_.forward_world;
+  pose_ = AdvanceArc(pose_, forward, TwistFromWheels(drive, wheels), dt_s);
+  heading_.Follow(pose_);
   const Vec2 way = pose_.position_world - before;
 
   // How the end of the way depends on its start: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
@@ -64,7 +64,7 @@ bool Odometry::Fix(const PoseFix& fix) {
   const Vector3 step = gain * difference;
   pose_.position_world = pose_.position_world + Vec2{step(0), step(1)};
   pose_.heading_rad = WrapAngle(pose_.heading_rad + step(2));
-  forward_world_ = Forward(pose_);
+  heading_.Follow(pose_);
   // Joseph's form: stays symmetric and positive whatever is rounded.
   const Matrix3 kept = Matrix3::Identity() - gain;
   const Matrix3 updated = kept * covariance * kept.transpose() + gain * noise * gain.transpose();

@@ -15,7 +15,7 @@ class Odometry {
  public:
   // Knows exactly where it is.
   explicit Odometry(const Pose& world_from_body = {})
-      : pose_(world_from_body), forward_world_(Forward(world_from_body)) {}
+      : pose_(world_from_body), heading_{world_from_body.heading_rad, Forward(world_from_body)} {}
 
   // Rolls on for dt_s at the measured wheel speeds, each of which is wrong by a standard deviation
   // of wheel_error times itself, plus guessed_m of way where the speeds are a guess.
@@ -26,14 +26,14 @@ class Odometry {
   bool Fix(const PoseFix& fix);
 
   const Pose& WorldFromBody() const { return pose_; }
-  Vec2 ForwardWorld() const { return forward_world_; }  // the unit vector of its heading
+  Vec2 ForwardWorld() const { return heading_.forward_world; }  // the unit vector of its heading
   PoseCovariance Covariance() const;
 
   void AddTo(StateHash* hash) const;
 
  private:
   Pose pose_;
-  Vec2 forward_world_;
+  KnownHeading heading_;
   std::array<double, 9> covariance_{};  // of x, y, heading; row by row
 };
 

@@ -22,11 +22,14 @@ const Beacon* LastBeaconOf(const Peer& peer) {
 
 // Where the id is, or would have to be.
 std::uint32_t PeerTable::IndexOf(VehicleId id) {
-  if (guess_ >= count_ || ids_[guess_] != id) {
-    const auto end = ids_.begin() + count_;
-    guess_ = static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), end, id) - ids_.begin());
-  }
-  return guess_++;
+  if (count_ == 0) return 0;
+  const std::uint32_t guess = after_[found_];
+  if (guess < count_ && ids_[guess] == id) return found_ = guess;
+  const auto end = ids_.begin() + count_;
+  const auto at =
+      static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), end, id) - ids_.begin());
+  if (at < count_) found_ = after_[found_] = at;
+  return at;
 }
 
 Peer* PeerTable::Find(VehicleId id) {
@@ -42,6 +45,7 @@ Peer* PeerTable::FindOrInsert(VehicleId id) {
   std::move_backward(ids_.begin() + at, ids_.begin() + count_, ids_.begin() + count_ + 1);
   peers_[at] = Peer{.id = id};
   ids_[at] = id;
+  after_[count_] = at;
   ++count_;
   return &peers_[at];
 }
@@ -109,7 +113,7 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   if (own) return refuse(&BeaconCounters::rejected_own);
   if (!received.name_valid) return refuse(&BeaconCounters::rejected_wrong_name);
   if (!received.crc_valid) return refuse(&BeaconCounters::rejected_crc);
-  if (!IsInRange(beacon)) {
+  if (!received.in_range && !IsInRange(beacon)) {
     return refuse(IsFinite(beacon) ? &BeaconCounters::rejected_out_of_range
                                    : &BeaconCounters::rejected_not_finite);
   }

@@ -30,13 +30,6 @@ struct Encounter {
   double lost_wait_s = 0;  // how long the silent peer may take to pass at its cruise speed
 };
 
-// A heading and its unit vector, kept because a sine is dear and most peers say what they said:
-// they stand, or drive straight on.
-struct ToldHeading {
-  double heading_rad = 0;
-  Vec2 forward_world{1, 0};
-};
-
 // What every step looks at comes first, what waits last: few cache lines a peer are ever touched.
 struct Peer {
   VehicleId id = kNobody;
@@ -56,7 +49,7 @@ struct Peer {
   bool out_of_reach = false;     // last heard of from beyond the emission radius
   Encounter encounter;
   PeerTrust trust;
-  ToldHeading told;                 // of a beacon of late
+  KnownHeading told;                // of a beacon of late
   Beacon beacon;                    // newest of a tick before this vehicle's
   std::array<Beacon, 2> waiting{};  // of this tick or later, older first
   std::array<SteadyTime, 2> waiting_received{};
@@ -111,7 +104,10 @@ class PeerTable {
   };
   std::array<VehicleId, kMaxPeers> ids_;  // theirs, side by side: these are searched
   std::uint32_t count_ = 0;
-  std::uint32_t guess_ = 0;  // beacons tend to come in order: the place after the last one found
+  // Beacons tend to come in the same order with every tick: who was found last, and of each who was
+  // found after it.
+  std::uint32_t found_ = 0;
+  std::array<std::uint32_t, kMaxPeers> after_;
   VehicleId last_deadline_missed_ = kNobody;
   VehicleId last_liveliness_lost_ = kNobody;
   VehicleId last_rejected_ = kNobody;

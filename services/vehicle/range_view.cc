@@ -87,6 +87,16 @@ void RangeView::Mark(std::size_t sensor) {
   echoes_ = sensors_[sensor].kind == Echo::kEcho ? echoes_ | bit : echoes_ & ~bit;
 }
 
+void RangeView::NoteWhoSpoke(Tick tick) {
+  spoke_ = 0;
+  spoke_tick_ = tick;
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    const SensorView& view = sensors_[i];
+    const bool spoke = view.tick == tick && view.kind != Echo::kNoData && !view.missed;
+    spoke_ |= (spoke ? 1U : 0U) << i;
+  }
+}
+
 void RangeView::Take(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period) {
   taken_ = now;
   any_ = true;
@@ -95,6 +105,7 @@ void RangeView::Take(const RangeScan& scan, SteadyTime now, Nanoseconds tick_per
     Update(&sensors_[i], scan.readings[i], tick_period);
     Mark(i);
   }
+  NoteWhoSpoke(scan.tick);
 }
 
 void RangeView::TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period,
@@ -108,15 +119,16 @@ void RangeView::TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds
     UpdateImperfect(&sensors_[i], scan.readings[i], tick_period, way_);
     Mark(i);
   }
+  NoteWhoSpoke(scan.tick);
 }
 
-int RangeView::FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& options) const {
+int RangeView::FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& options,
+                          std::uint32_t enabled) const {
   if (!any_ || now - taken_ > options.ranges_age_limit) return kSensorCount;
   const auto limit_ticks = (options.ranges_age_limit + options.sonar_refresh) / options.tick_period;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
+  for (const std::size_t i : BitsOf(enabled & ~SpokeAt(tick))) {
     const bool old = TicksBetween(sensors_[i].tick, tick) > limit_ticks;
-    const bool blind = old || sensors_[i].kind == Echo::kNoData;
-    if (blind && options.profile.sonar[i].enabled) return static_cast<int>(i);
+    if (old || sensors_[i].kind == Echo::kNoData) return static_cast<int>(i);
   }
   return -1;
 }

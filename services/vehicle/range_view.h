@@ -56,9 +56,14 @@ class RangeView {
   const SensorView& operator[](std::size_t sensor) const { return sensors_[sensor]; }
   // Which sensors hold an echo: bit i for sensor i.
   std::uint32_t Echoes() const { return echoes_; }
-  // The first enabled sensor without usable data, -1 if every one has it; kSensorCount if the scan
-  // as a whole is too old or has never come. A reading may be older by the sonar's refresh.
-  int FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& options) const;
+  // Which sensors fired for this very tick and say something, be it that nothing is there; none of
+  // those that may have dropped out.
+  std::uint32_t SpokeAt(Tick tick) const { return tick == spoke_tick_ ? spoke_ : 0; }
+  // The first of the `enabled` sensors without usable data, -1 if every one has it; kSensorCount if
+  // the scan as a whole is too old or has never come. A reading may be older by the sonar's
+  // refresh.
+  int FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& options,
+                 std::uint32_t enabled) const;
   // The nearest echo of any sensor; negative if there is none.
   double NearestEcho() const;
 
@@ -66,9 +71,12 @@ class RangeView {
 
  private:
   void Mark(std::size_t sensor);
+  void NoteWhoSpoke(Tick tick);
 
   std::array<SensorView, kSensorCount> sensors_{};
   std::uint32_t echoes_ = 0;
+  std::uint32_t spoke_ = 0;  // see SpokeAt; of the scan last taken
+  Tick spoke_tick_ = kNoTick;
   OwnWay way_;
   SteadyTime taken_{0};
   bool any_ = false;

@@ -67,18 +67,17 @@ std::optional<Proposal> PeerLost(const Situation& s) {
 
 std::optional<Proposal> Signal(const Situation& s) {
   if (!s.stop_line || Has(Defect::kSignalIgnored)) return std::nullopt;
-  return Proposal{
-      .max_speed_m_s = SpeedToStopWithin(s.stop_line->free_m, ReactionSeconds(s.options),
-                                         s.options.profile.deceleration_m_s2),
-      .may_turn = false,
-      .rule = Rule::kSignal,
-      .cause_tick = s.stop_line->tick};
+  return Proposal{.max_speed_m_s = SpeedToStopWithin(s.stop_line->free_m, s.reaction_s,
+                                                     s.options.profile.deceleration_m_s2),
+                  .may_turn = false,
+                  .rule = Rule::kSignal,
+                  .cause_tick = s.stop_line->tick};
 }
 
 std::optional<Proposal> Object(const Situation& s) {
   const std::optional<ObjectAhead> object = NearestObstacle(s.objects, s);
   if (!object) return std::nullopt;
-  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, ReactionSeconds(s.options),
+  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, s.reaction_s,
                                          s.options.profile.deceleration_m_s2);
   if (limit >= s.options.cruise_m_s) return std::nullopt;
   return Proposal{
@@ -98,8 +97,8 @@ std::optional<Proposal> Obstacle(const Situation& s) {
   for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
     const std::optional<double> free_m = FreeAhead(i, s);
     if (!free_m || Has(Defect::kObstacleIgnored)) continue;
-    const double limit = SpeedToStopWithin(*free_m - kStandOff_m, ReactionSeconds(s.options),
-                                           s.options.profile.deceleration_m_s2);
+    const double limit =
+        SpeedToStopWithin(*free_m - kStandOff_m, s.reaction_s, s.options.profile.deceleration_m_s2);
     if (limit >= s.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
     nearest = Proposal{.max_speed_m_s = limit,
                        .may_turn = true,
@@ -115,8 +114,8 @@ std::optional<Proposal> KeepClear(const Situation& s) {
   for (const PeerView& view : s.peers) {
     if (view.free_m >= s.slows_m || Has(Defect::kClaimIgnored)) continue;
     if (Has(Defect::kBrakesTooLate) && view.free_m > 0) continue;
-    const double limit = SpeedToStopWithin(view.free_m, ReactionSeconds(s.options),
-                                           s.options.profile.deceleration_m_s2);
+    const double limit =
+        SpeedToStopWithin(view.free_m, s.reaction_s, s.options.profile.deceleration_m_s2);
     if (limit >= s.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
     lowest = Proposal{.max_speed_m_s = limit,
                       .may_turn = true,
@@ -129,9 +128,8 @@ std::optional<Proposal> KeepClear(const Situation& s) {
 
 std::optional<Proposal> KeepBoxClear(const Situation& s) {
   if (!s.blocked_box) return std::nullopt;
-  const double limit =
-      SpeedToStopWithin(s.blocked_box->begin_m - kInHand_m, ReactionSeconds(s.options),
-                        s.options.profile.deceleration_m_s2);
+  const double limit = SpeedToStopWithin(s.blocked_box->begin_m - kInHand_m, s.reaction_s,
+                                         s.options.profile.deceleration_m_s2);
   if (limit >= s.options.cruise_m_s) return std::nullopt;
   return Proposal{.max_speed_m_s = limit,
                   .may_turn = true,

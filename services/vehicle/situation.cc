@@ -19,19 +19,19 @@ double SigmaBetween(const PeerView& view) {
 
 double OwnStoppingDistance(const Situation& s) {
   const double speed = std::max(0.0, s.speed_m_s);
-  return StoppingDistance(speed, ReactionSeconds(s.options) + Seconds(s.options.tick_period),
+  return StoppingDistance(speed, s.reaction_s + Seconds(s.options.tick_period),
                           s.options.profile.deceleration_m_s2) +
          kInHand_m;
 }
 
 double StoppingDistanceOf(const PeerView& view, const Situation& s) {
-  return StoppingDistance(std::max(0.0, view.speed_m_s), ReactionSeconds(s.options),
+  return StoppingDistance(std::max(0.0, view.speed_m_s), s.reaction_s,
                           view.peer->beacon.deceleration_m_s2);
 }
 
 double CriticalDistance(const Situation& s, const PeerView& view) {
   constexpr double kMargin_m = 0.1;
-  const double own = StoppingDistance(std::max(0.0, s.speed_m_s), ReactionSeconds(s.options),
+  const double own = StoppingDistance(std::max(0.0, s.speed_m_s), s.reaction_s,
                                       s.options.profile.deceleration_m_s2);
   const double both = own + StoppingDistanceOf(view, s);
   return std::max(s.options.gate_enter_m, both + kMargin_m + kSigmas * SigmaBetween(view));

@@ -23,6 +23,8 @@ namespace giveway {
 struct PeerView {
   Peer* peer;
   bool fresh;
+  double speed_m_s;  // forward, as measured by the peer
+  double turn_rad_s;
   Vec2 position_world;
   Vec2 forward_world;    // unit vector of its heading
   Vec2 offset_world;     // of its centre from the own one
@@ -36,7 +38,6 @@ struct PeerView {
   double way_m;
   Vec2 way_direction_world;
 
-  double speed_m_s;  // forward, as measured by the peer
   bool lost;
   bool standing;      // below kStandingSpeed
   bool goes_first;    // before this vehicle, by both keys as published
@@ -89,7 +90,9 @@ struct Situation {
   double turn_rad_s = 0;      // measured
   WheelSpeeds wheels;         // measured
   PoseCovariance covariance;  // of world_from_body
+  double reaction_s = 0;      // see ReactionSeconds
   double slows_m = 0;         // a free way no longer than this is too short for the cruise speed
+  double looks_m = 0;         // see LooksAround
   Path path;                  // towards the goal, or straight on
   double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
   bool stops_there = false;          // at the goal; a waypoint is driven through

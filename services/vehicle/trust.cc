@@ -79,19 +79,7 @@ bool IsSquarelyIn(std::size_t sensor, const Place& place, const Situation& s) {
   return across * across <= s.cones.half_sine * s.cones.half_sine * SquaredNorm(to);
 }
 
-// The sensors that fired just now, and what they heard or did not counts: one bit each.
-std::uint32_t Listening(const Situation& s) {
-  std::uint32_t listening = 0;
-  for (std::size_t i = 0; i < kSensorCount; ++i) {
-    const SensorView& heard = s.ranges[i];
-    const bool listens = s.options.profile.sonar[i].enabled && heard.kind != Echo::kNoData &&
-                         heard.tick == s.tick && !heard.missed;
-    listening |= (listens ? 1U : 0U) << i;
-  }
-  return listening;
-}
-
-// True if a sensor that listens heard nothing as near as the centre, which lies in its cone:
+// True if a sensor that has just fired heard nothing as near as the centre, which lies in its cone:
 // whatever hides a body is nearer still. By the centre, not the shell, for the body need not be
 // round.
 bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
@@ -149,9 +137,7 @@ bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const Si
 }
 
 bool SaysItStands(const PeerView& view) {
-  const Beacon& beacon = view.peer->beacon;
-  const double turn_rad_s = TwistFromWheels(beacon.drive, beacon.wheels).turn_rad_s;
-  return view.standing && Magnitude(turn_rad_s) < kTurning_rad_s;
+  return view.standing && Magnitude(view.turn_rad_s) < kTurning_rad_s;
 }
 
 std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
@@ -182,7 +168,7 @@ void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCount
   // Ultrasonics that miss what is there, by its slant or by chance, or take a neighbour's ping for
   // an echo accuse nobody.
   const bool believes_ears = !HasImperfectSonar(s.options);
-  const std::uint32_t listening = Listening(s);
+  const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
   for (const PeerView& view : views) {
     PeerTrust& trust = view.peer->trust;
     if (!view.fresh) {

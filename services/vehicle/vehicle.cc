@@ -163,11 +163,13 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.turn_rad_s = twist.turn_rad_s;
   s.wheels = state.wheels;
   s.covariance = state.odometry.Covariance();
-  s.slows_m = StoppingDistance(options_.cruise_m_s, ReactionSeconds(options_),
-                               options_.profile.deceleration_m_s2);
+  s.reaction_s = ReactionSeconds(options_);
+  s.slows_m =
+      StoppingDistance(options_.cruise_m_s, s.reaction_s, options_.profile.deceleration_m_s2);
+  s.looks_m = LooksAround(options_.profile);
   s.order = ActingOrder(state.order, state.peers, options_.id);
   s.steer_side = state.steer_side;
-  s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_);
+  s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_, cones_.enabled);
   s.forward_world = state.odometry.ForwardWorld();
   LookAhead(&s);
   s.arrived = state.arrived;
@@ -178,8 +180,8 @@ Situation Vehicle::Look(const Inputs& inputs) {
 void Vehicle::LookAtSignals(Situation* s) {
   if (options_.behaviour != Behaviour::kCooperative || s->run_state != RunState::kRunning) return;
   const VehicleProfile& profile = options_.profile;
-  const double stopping_m = StoppingDistance(std::max(0.0, s->speed_m_s), ReactionSeconds(options_),
-                                             profile.deceleration_m_s2);
+  const double stopping_m =
+      StoppingDistance(std::max(0.0, s->speed_m_s), s->reaction_s, profile.deceleration_m_s2);
   s->stop_line = state_->signals.MustStopAt({.path = s->path,
                                              .distance_to_goal_m = s->distance_to_goal_m,
                                              .body_radius_m = profile.body_radius_m,

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "services/types/check.h"
+#include "services/vehicle/beacon_check.h"
 #include "sim_world/ticks.h"
 
 namespace giveway::sim {
@@ -83,7 +84,8 @@ void Radio::Say(std::size_t sender, Tick tick, const Beacon& beacon) {
                  .received = SteadyTime{0},
                  .crc_valid = true,
                  .name_valid = true,
-                 .writer = beacon.boot_epoch};
+                 .writer = beacon.boot_epoch,
+                 .in_range = IsInRange(beacon)};
 }
 
 void Radio::BeginTick(Tick now, double time_s, std::span<const RadioPlace> places) {

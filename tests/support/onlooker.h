@@ -15,7 +15,9 @@ class Onlooker {
     situation_.forward_world = {1, 0};
     situation_.path = {{0, 0}, {1, 0}};
     situation_.distance_to_goal_m = 100;
+    situation_.reaction_s = ReactionSeconds(options_);
     situation_.slows_m = 10;
+    situation_.looks_m = LooksAround(options_.profile);
   }
   Onlooker(const Onlooker&) = delete;  // the situation refers to the others
 

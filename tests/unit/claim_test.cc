@@ -22,7 +22,9 @@ Beacon Driving(double speed_m_s, double cruise_m_s, double heading_rad) {
 }
 
 Claim ClaimOf(const Beacon& beacon, double unknown_s) {
-  return giveway::ClaimOf(beacon, Forward(beacon.world_from_body), unknown_s, kReaction_s);
+  const double speed_m_s = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
+  return giveway::ClaimOf(beacon, {Forward(beacon.world_from_body), speed_m_s}, unknown_s,
+                          kReaction_s);
 }
 
 bool Holds(const Claim& claim, Vec2 point) {

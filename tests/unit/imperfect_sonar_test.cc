@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "services/types/random.h"
+#include "services/vehicle/cones.h"
 #include "services/vehicle/range_view.h"
 #include "services/vehicle/scan_check.h"
 #include "tests/support/brain_bench.h"
@@ -98,15 +99,27 @@ TEST_F(ImperfectRanges, TheRateErrsByNoMoreThanItsNoiseAllows) {
   }
 }
 
+TEST_F(ImperfectRanges, WhatMayHaveDroppedOutDoesNotSpeak) {
+  Take(1, Echo::kEcho, 1);
+  EXPECT_NE(view_.SpokeAt(Tick{1}) & 1U << 3, 0U);
+  Take(2, Echo::kClear, 0);
+  EXPECT_EQ(view_.SpokeAt(Tick{2}) & 1U << 3, 0U);
+  Take(3, Echo::kClear, 0);
+  EXPECT_NE(view_.SpokeAt(Tick{3}) & 1U << 3, 0U);
+}
+
 TEST(SlowSonar, AReadingMayBeOlderByTheRefresh) {
   const VehicleOptions options = Slow();
   RangeView view;
   RangeScan scan = ClearScan(12);
   scan.readings[6].tick = Tick{2};
   view.TakeImperfect(scan, milliseconds(600), options.tick_period, {});
-  EXPECT_EQ(view.FirstBlind(milliseconds(600), Tick{12}, options), -1);  // 500 ms old
-  EXPECT_EQ(view.FirstBlind(milliseconds(600), Tick{13}, options), 6);   // 550 ms old
-  EXPECT_EQ(view.FirstBlind(milliseconds(751), Tick{12}, options), static_cast<int>(kSensorCount));
+  EXPECT_EQ(view.FirstBlind(milliseconds(600), Tick{12}, options, ConesOf(options.profile).enabled),
+            -1);  // 500 ms old
+  EXPECT_EQ(view.FirstBlind(milliseconds(600), Tick{13}, options, ConesOf(options.profile).enabled),
+            6);  // 550 ms old
+  EXPECT_EQ(view.FirstBlind(milliseconds(751), Tick{12}, options, ConesOf(options.profile).enabled),
+            static_cast<int>(kSensorCount));
 }
 
 TEST(SlowSonar, TheRefreshIsReactionTime) {

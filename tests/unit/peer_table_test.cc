@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "tests/support/brain_bench.h"
 
@@ -41,6 +42,37 @@ TEST_F(PeerTableTest, EveryNeighbourKeepsItsOwnPlace) {
   EXPECT_EQ(table_->Peers()[0].id, VehicleId{2});
   EXPECT_EQ(table_->Peers()[2].id, VehicleId{9});
   EXPECT_EQ(counters_.accepted, 3U);
+}
+
+// Whoever was heard after another one last time is looked for there first.
+TEST_F(PeerTableTest, InWhateverOrderTheyAreHeardEachIsFoundInItsPlace) {
+  const std::vector<std::vector<std::uint32_t>> orders = {{7, 3, 9, 5},    {7, 3, 9, 5},
+                                                          {5, 9, 4, 7, 3}, {3, 4, 5, 7, 9},
+                                                          {9, 8, 2},       {2, 9, 3, 5, 7, 8, 4}};
+  std::uint32_t seq = 90;
+  for (const std::vector<std::uint32_t>& order : orders) {
+    ++seq;
+    for (const std::uint32_t id : order) Hear(id, seq, milliseconds(0));
+    for (const std::uint32_t id : order) {
+      const Peer* peer = table_->Find(VehicleId{id});
+      ASSERT_NE(peer, nullptr) << id;
+      EXPECT_EQ(peer->id, VehicleId{id});
+      EXPECT_EQ(peer->last_seq, seq) << id;
+    }
+    EXPECT_EQ(table_->Find(VehicleId{6}), nullptr);
+  }
+  EXPECT_EQ(table_->Peers().size(), 7U);
+  EXPECT_EQ(counters_.accepted, 28U);
+}
+
+TEST_F(PeerTableTest, WhatWasFoundToBeInRangeIsNotLookedAtAgain) {
+  ReceivedBeacon received = Received(BeaconOf(2, 99, {}), milliseconds(0));
+  received.beacon.wheels.right_rad_s = 31;
+  Take(received);
+  EXPECT_EQ(counters_.rejected_out_of_range, 1U);
+  received.in_range = true;
+  Take(received);
+  EXPECT_EQ(counters_.accepted, 1U);
 }
 
 TEST_F(PeerTableTest, ASilentPeerIsNotBelievedPastTheAgeLimit) {
@@ -240,6 +272,8 @@ TEST_F(PeerTableTest, AForgottenPeerLeavesItsPlace) {
   table_->Advance(milliseconds(30'001), Tick{700});
   ASSERT_EQ(table_->Peers().size(), 1U);
   EXPECT_EQ(table_->Peers()[0].id, VehicleId{3});
+  EXPECT_EQ(table_->Find(VehicleId{2}), nullptr);
+  EXPECT_EQ(table_->Find(VehicleId{3}), &table_->Peers()[0]);
 }
 
 }  // namespace

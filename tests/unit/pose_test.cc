@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "services/types/math.h"
 #include "services/types/random.h"
 
@@ -95,6 +97,29 @@ TEST(PoseCovariance, IsWorstAlongItsLongAxis) {
 
 TEST(PoseCovariance, ThatCannotBeIsNoNegativeRoot) {
   EXPECT_EQ(SigmaAlong({.xx_m2 = 0.01, .xy_m2 = -1, .yy_m2 = 0.01}, {Sqrt(0.5), Sqrt(0.5)}), 0);
+}
+
+TEST(KnownHeading, FollowsEveryChangeOfTheHeading) {
+  KnownHeading known;
+  for (const double heading_rad : {0.0, 0.3, 0.3, -2.0, kPi, 0.0, -0.0}) {
+    const Pose pose{{1, 2}, heading_rad};
+    known.Follow(pose);
+    EXPECT_EQ(known.forward_world, Forward(pose)) << heading_rad;
+    EXPECT_EQ(std::signbit(known.forward_world.y), std::signbit(Forward(pose).y)) << heading_rad;
+  }
+}
+
+TEST(AdvanceArc, WithAKnownHeadingItEndsOnTheSameBits) {
+  for (const double heading_rad : {0.0, 0.3, -2.0, 3.1412, kPi}) {
+    const Pose from{{0.7, -1.3}, heading_rad};
+    for (const Twist twist :
+         {Twist{0.3, 0}, {-0.3, 0}, {0, 0}, {0, 0.2}, {0.3, 1e-6}, {0.3, 0.2}}) {
+      const Pose expected = AdvanceArc(from, twist, 0.05);
+      const Pose known = AdvanceArc(from, Forward(from), twist, 0.05);
+      EXPECT_EQ(known.position_world, expected.position_world);
+      EXPECT_EQ(known.heading_rad, expected.heading_rad);
+    }
+  }
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/brain_bench.h"
+
 namespace giveway::sim {
 namespace {
 
@@ -80,6 +82,20 @@ TEST_F(RadioTest, EveryBeaconIsHeardATickAfterItWasSaidAndNotBefore) {
   EXPECT_EQ(heard_[0].received, tick_ * Nanoseconds(50'000'000));
   EXPECT_TRUE(heard_[0].crc_valid && heard_[0].name_valid);
   EXPECT_EQ(heard_[0].writer, 7U);
+}
+
+TEST_F(RadioTest, LooksOnceForAllWhoHearWhetherABeaconIsInRange) {
+  Begin({});
+  talks_ = false;
+  for (const double speed_rad_s : {3.0, 31.0}) {
+    Tick();
+    Beacon beacon = test::BeaconOf(2, tick_, {{3, 0}, 0});
+    beacon.wheels.left_rad_s = speed_rad_s;
+    radio_->Say(kTalker, giveway::Tick{tick_}, beacon);
+    Tick();
+    ASSERT_EQ(heard_.size(), 1U);
+    EXPECT_EQ(heard_[0].in_range, speed_rad_s < 30);
+  }
 }
 
 TEST_F(RadioTest, WhoTalksHearsItselfOnlyWhereTheRadioLoopsBack) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "services/vehicle/cones.h"
 #include "tests/support/brain_bench.h"
 
 namespace giveway {
@@ -19,6 +20,7 @@ class RangeViewTest : public testing::Test {
   }
 
   VehicleOptions options_ = test::DefaultOptions();
+  std::uint32_t enabled_ = ConesOf(options_.profile).enabled;
   RangeView view_;
 };
 
@@ -26,30 +28,43 @@ TEST_F(RangeViewTest, NoEchoIsNotNoData) {
   RangeScan scan = ClearScan(1);
   view_.Take(scan, milliseconds(50), options_.tick_period);
   EXPECT_EQ(view_[3].kind, Echo::kClear);
-  EXPECT_EQ(view_.FirstBlind(milliseconds(50), Tick{1}, options_), -1);
+  EXPECT_EQ(view_.FirstBlind(milliseconds(50), Tick{1}, options_, enabled_), -1);
   scan = ClearScan(2);
   scan.readings[3] = {Echo::kNoData, 0, Tick{2}};
   view_.Take(scan, milliseconds(100), options_.tick_period);
-  EXPECT_EQ(view_.FirstBlind(milliseconds(100), Tick{2}, options_), 3);
+  EXPECT_EQ(view_.FirstBlind(milliseconds(100), Tick{2}, options_, enabled_), 3);
 }
 
 TEST_F(RangeViewTest, SwitchedOffSensorsDoNotBlind) {
   view_.Take(ClearScan(1), milliseconds(50), options_.tick_period);  // rear eight have no data
-  EXPECT_EQ(view_.FirstBlind(milliseconds(50), Tick{1}, options_), -1);
+  EXPECT_EQ(view_.FirstBlind(milliseconds(50), Tick{1}, options_, enabled_), -1);
 }
 
 TEST_F(RangeViewTest, AScanTooOldIsNoScan) {
-  EXPECT_EQ(view_.FirstBlind(milliseconds(0), Tick{1}, options_), static_cast<int>(kSensorCount));
+  EXPECT_EQ(view_.FirstBlind(milliseconds(0), Tick{1}, options_, enabled_),
+            static_cast<int>(kSensorCount));
   view_.Take(ClearScan(1), milliseconds(50), options_.tick_period);
-  EXPECT_EQ(view_.FirstBlind(milliseconds(200), Tick{1}, options_), -1);
-  EXPECT_EQ(view_.FirstBlind(milliseconds(201), Tick{1}, options_), static_cast<int>(kSensorCount));
+  EXPECT_EQ(view_.FirstBlind(milliseconds(200), Tick{1}, options_, enabled_), -1);
+  EXPECT_EQ(view_.FirstBlind(milliseconds(201), Tick{1}, options_, enabled_),
+            static_cast<int>(kSensorCount));
 }
 
 TEST_F(RangeViewTest, ASensorThatNoLongerFiresIsBlindByItself) {
   RangeScan scan = ClearScan(5);
   scan.readings[6].tick = Tick{1};
   view_.Take(scan, milliseconds(250), options_.tick_period);
-  EXPECT_EQ(view_.FirstBlind(milliseconds(250), Tick{5}, options_), 6);
+  EXPECT_EQ(view_.FirstBlind(milliseconds(250), Tick{5}, options_, enabled_), 6);
+}
+
+TEST_F(RangeViewTest, WhoFiredForATickSpeaksForNoOther) {
+  EXPECT_EQ(view_.SpokeAt(kNoTick), 0U);
+  RangeScan scan = ClearScan(5);
+  scan.readings[1] = {Echo::kEcho, 0.5, Tick{5}};
+  scan.readings[6].tick = Tick{4};
+  view_.Take(scan, milliseconds(250), options_.tick_period);
+  EXPECT_EQ(view_.SpokeAt(Tick{5}), 0b1011'1111U);  // the rear eight have no data
+  EXPECT_EQ(view_.SpokeAt(Tick{4}), 0U);
+  EXPECT_EQ(view_.SpokeAt(Tick{6}), 0U);
 }
 
 TEST_F(RangeViewTest, ClosingSpeedIsTheRateOfTheRange) {
