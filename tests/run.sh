@@ -79,8 +79,30 @@ export TSAN_OPTIONS=report_mutex_bugs=0:suppressions=$GIVEWAY_ROOT/tests/support
 passed_total=0
 failed_total=0
 table=()
+failed_names=()
 passed=0
 failed=0
+stage=set-up
+said=$(mktemp) # what ctest printed of tests that failed, said again at the end
+
+# The end of every run, also of one that could not go on: then the stage it was in failed.
+ending() {
+  if [[ -n $stage ]]; then
+    passed_total=$((passed_total + passed))
+    failed_total=$((failed_total + failed + 1))
+    failed_names+=("$stage: could not go on")
+  fi
+  if [[ -s $said ]]; then
+    say "what failed tests printed"
+    cat "$said"
+  fi
+  rm -f "$said"
+  printf '\n%-8s %7s %7s %8s\n' stage passed failed time
+  printf '%s\n' "${table[@]}"
+  [[ $failed_total -eq 0 ]] || printf 'failed: %s\n' "${failed_names[@]}"
+  printf '\n%d passed, %d failed\n' "$passed_total" "$failed_total"
+}
+trap ending EXIT
 
 # check NAME COMMAND...: one test case.
 check() {
@@ -91,21 +113,27 @@ check() {
     echo "ok      $name"
   else
     failed=$((failed + 1))
+    failed_names+=("$name")
     echo "FAILED  $name"
   fi
 }
 
 # check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints, and as
-# many as a line "N passed, N failed" of another run of tests counts.
+# many as a line "N passed, N failed" of another run of tests counts, which lists them as "failed:".
 check_lines() {
-  local lines code=0 good bad
+  local lines code=0 good bad names
   lines=$("$@") || code=$?
   printf '%s\n' "$lines"
   good=$(awk '/^ok /{n++} /^[0-9]+ passed, [0-9]+ failed$/{n += $1} END{print n + 0}' <<<"$lines")
   bad=$(awk '/^FAILED /{n++} /^[0-9]+ passed, [0-9]+ failed$/{n += $3} END{print n + 0}' <<<"$lines")
-  [[ $code -eq 0 || $bad -gt 0 ]] || bad=1
+  mapfile -t names < <(sed -n 's/^FAILED  *//p; s/^failed: //p' <<<"$lines")
+  if [[ $code -ne 0 && $bad -eq 0 ]]; then
+    bad=1
+    names=("$*: exit code $code")
+  fi
   passed=$((passed + good))
   failed=$((failed + bad))
+  failed_names+=("${names[@]}")
 }
 
 # An attribute of the first testsuite element of a JUnit file; 0 if there is none.
@@ -115,14 +143,23 @@ junit() {
   echo "${value:-0}"
 }
 
+# What ctest, whose output this reads, printed of those that failed.
+of_failed() {
+  awk '/^ *[0-9]+\/[0-9]+ Test +#[0-9]+:/ {shown = /\*\*\*(Failed|Timeout|Exception|Not Run)/}
+       /^ +Start +[0-9]+:/ {shown = 0}
+       /tests passed, [0-9]+ tests? failed/ {shown = 0}
+       shown'
+}
+
 # run_ctest PRESET LABEL JOBS [CTEST_ARGUMENTS]
 run_ctest() {
-  local preset=$1 label=$2 jobs=$3 report code=0 ran bad skipped
+  local preset=$1 label=$2 jobs=$3 report code=0 ran bad skipped names
   shift 3
   report="$GIVEWAY_ROOT/build/$preset/junit-$label.xml"
   rm -f "$report"
   ctest --test-dir "build/$preset" -L "^$label\$" -j "$jobs" --output-on-failure --no-tests=error \
-    --output-junit "$report" "$@" || code=$?
+    --output-junit "$report" "$@" | tee "$report.log" || code=$?
+  of_failed <"$report.log" >>"$said"
   ran=$(junit "$report" tests)
   bad=$(junit "$report" failures)
   skipped=$(($(junit "$report" skipped) + $(junit "$report" disabled)))
@@ -134,6 +171,9 @@ run_ctest() {
   fi
   passed=$((passed + ran - bad - skipped))
   failed=$((failed + bad))
+  mapfile -t names < <(sed -n "s|.*<testcase name=\"\([^\"]*\)\".* status=\"fail\".*|$preset/\1|p" "$report" 2>/dev/null)
+  [[ $code -eq 0 || ${#names[@]} -gt 0 ]] || names=("$preset/$label: ctest's exit code $code")
+  failed_names+=("${names[@]}")
 }
 
 # prepare PRESET [TARGETS]
@@ -227,7 +267,5 @@ for stage in "${stages[@]}"; do
   table+=("$(printf '%-8s %7d %7d %6d s' "$stage" "$passed" "$failed" $((SECONDS - started)))")
 done
 
-printf '\n%-8s %7s %7s %8s\n' stage passed failed time
-printf '%s\n' "${table[@]}"
-printf '\n%d passed, %d failed\n' "$passed_total" "$failed_total"
+stage=
 [[ $failed_total -eq 0 && $passed_total -gt 0 ]]

@@ -24,7 +24,7 @@ debian13() {
   export GIVEWAY_SUITE=trixie
   SUITE=$GIVEWAY_SUITE
   base_image "$SUITE"
-  bash "$HERE/debian13.sh" asan fuzz | tee >(cat >&2) | grep -E '^[0-9]+ passed, [0-9]+ failed$' ||
+  bash "$HERE/debian13.sh" asan fuzz | tee >(cat >&2) | grep -E '^([0-9]+ passed, [0-9]+ failed$|failed: )' ||
     echo "FAILED  asan and fuzz on Debian 13"
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
