@@ -39,8 +39,7 @@ case $scenario in
 esac
 
 code=0
-"$FLEETCTL" run "$scenario" --json --picture "$SCRATCH/run.svg" --logs "$SCRATCH/logs" \
-  >"$SCRATCH/run.json" 2>"$SCRATCH/run.err" || code=$?
+judged_run "$SCRATCH/run.json" "$SCRATCH/logs" "$scenario" --picture "$SCRATCH/run.svg" || code=$?
 cat "$SCRATCH/run.json"
 
 [[ $code -eq 0 ]] || fail "exit code $code"
@@ -54,6 +53,6 @@ fi
 [[ -e $SCRATCH/logs/world.log ]] || fail "no log of the world"
 
 if [[ $failures -gt 0 ]]; then
-  tail -n 20 "$SCRATCH/run.err" "$SCRATCH"/logs/*
+  tail -n 20 "$SCRATCH/run.json.err" "$SCRATCH"/logs/*
   exit 1
 fi

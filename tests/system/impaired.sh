@@ -10,11 +10,9 @@ count() { sed -n "s/.* impairment: .*\b$2=\([0-9]*\).*/\1/p" "$SCRATCH/logs/vehi
 crosses() {
   local name=$1 code=0
   shift
-  rm -rf "$SCRATCH/logs"
-  "$FLEETCTL" run --json --logs "$SCRATCH/logs" "$@" >"$SCRATCH/run.json" 2>"$SCRATCH/err" ||
-    code=$?
+  judged_run "$SCRATCH/run.json" "$SCRATCH/logs" "$@" || code=$?
   cat "$SCRATCH/run.json"
-  [[ $code -eq 0 ]] || fail "$name: exit code $code: $(tail -n 5 "$SCRATCH/err")"
+  [[ $code -eq 0 ]] || fail "$name: exit code $code: $(tail -n 5 "$SCRATCH/run.json.err")"
   jq -e '.verdict == "passed" and .contacts == 0 and .arrived == [1, 2]
     and (.violations | all(. == 0))' "$SCRATCH/run.json" >/dev/null || fail "$name: $(<"$SCRATCH/run.json")"
 }

@@ -115,19 +115,20 @@ qos 2 "show of a broken file" show --qos cut.xml
 qos 2 "no verb" lint
 
 crossing() { # SET: a crossing with it, begun; its domain in $domain
-  "$FLEETCTL" run intersection_yield --qos "$1" --json >run.json 2>run.err &
+  : >run.json.err # before there is anything to look for
+  judged_run run.json logs intersection_yield --qos "$1" &
   fleet=$!
   domain=
   for _ in $(seq 100); do
-    domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
+    domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.json.err)
     [[ -z $domain ]] || return 0
     sleep 0.1
   done
-  fail "$1: no domain in $(cat run.err)"
+  fail "$1: no domain in $(cat run.json.err)"
 }
 
 arrives() { # SET: the crossing under way passes
-  wait "$fleet" || fail "a crossing with $1: $(cat run.json; tail -n 5 run.err)"
+  wait "$fleet" || fail "a crossing with $1: $(cat run.json; tail -n 5 run.json.err)"
   jq -e '.verdict == "passed"' run.json >/dev/null || fail "a crossing with $1: $(cat run.json)"
 }
 

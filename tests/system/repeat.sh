@@ -32,8 +32,7 @@ done
 
 one_run() {
   local seed=$1 code=0 reason
-  "$FLEETCTL" run "$scenario" --seed "$seed" --json --logs "$SCRATCH/logs-$seed" \
-    >"$SCRATCH/$seed.json" 2>"$SCRATCH/$seed.err" || code=$?
+  judged_run "$SCRATCH/$seed.json" "$SCRATCH/logs-$seed" "$scenario" --seed "$seed" || code=$?
   if [[ $code -eq 0 ]] && jq -e '.verdict == "passed"' "$SCRATCH/$seed.json" >/dev/null; then
     echo "seed $seed passed" >&2
     return
@@ -41,16 +40,17 @@ one_run() {
   reason=$(jq -r '"\(.reason), halted \(.halted), contacts \(.contacts)"' "$SCRATCH/$seed.json" \
     2>/dev/null || echo "no report")
   echo "seed $seed FAILED: exit code $code, $reason; again: fleetctl run $scenario --seed $seed"
-  tail -n 3 "$SCRATCH/$seed.err" | sed 's/^/  /'
+  tail -n 3 "$SCRATCH/$seed.json.err" | sed 's/^/  /'
 }
-export -f one_run
+export -f one_run judged_run excused
 export FLEETCTL SCRATCH scenario
 
 # shellcheck disable=SC2016  # the inner shell expands it
 seq "$seed_start" $((seed_start + count - 1)) |
   xargs -P "$jobs" -I{} bash -c 'one_run "$1"' one_run {}
 
-jq -s -r --arg scenario "$scenario" --argjson count "$count" '
+again=$(find "$SCRATCH" -name '*.again' -exec cat {} + | wc -l)
+jq -s -r --arg scenario "$scenario" --argjson count "$count" --argjson again "$again" '
   def over(f): [.[] | f | numbers];
   def text: if . == null then "-" else (. * 1000 | round / 1000 | tostring) end;
   "\($scenario) \([.[] | select(.verdict == "passed")] | length) of \($count) passed, " +
@@ -58,6 +58,7 @@ jq -s -r --arg scenario "$scenario" --argjson count "$count" '
   "min separation \(over(.min_separation_m) | min | text) m, " +
   "longest time to clear \(over(.time_to_clear_s) | max | text) s, " +
   "worst reaction p99 \(over(.reaction_ms.p99) | max | text) ms, " +
-  "tick overruns \(over(.tick_overruns) | add // 0)"' "$SCRATCH"/*.json
+  "tick overruns \(over(.tick_overruns) | add // 0)" +
+  if $again > 0 then ", \($again) runs made again: the machine stood still" else "" end' "$SCRATCH"/*.json
 all=$(jq -s '[.[] | select(.verdict == "passed")] | length' "$SCRATCH"/*.json)
 [[ $all -eq $count ]]

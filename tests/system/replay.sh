@@ -12,8 +12,8 @@ replayed() {
 same='.steps > 100 and .difference == null and .finding == "" and .lost == 0'
 
 record() { # SCENARIO
-  "$FLEETCTL" run "$1" --record "$SCRATCH/$1" --json >"$SCRATCH/run.json" 2>"$SCRATCH/run.err" ||
-    fail "$1: $(cat "$SCRATCH/run.json"; tail -n 5 "$SCRATCH/run.err")"
+  judged_run "$SCRATCH/run.json" "$SCRATCH/logs" "$1" --record "$SCRATCH/$1" ||
+    fail "$1: $(cat "$SCRATCH/run.json"; tail -n 5 "$SCRATCH/run.json.err")"
 }
 
 record intersection_yield

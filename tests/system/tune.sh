@@ -44,8 +44,8 @@ fi
 code=0
 "$FLEETCTL" qos check small/recommended.xml --vehicles 3 >out 2>err || code=$?
 [[ $code -le 1 ]] || fail "recommended.xml: $(cat out err)"
-"$FLEETCTL" run intersection_yield --qos small/recommended.xml --json >out 2>err ||
-  fail "recommended.xml does not run: $(cat out err)"
+judged_run out logs intersection_yield --qos small/recommended.xml ||
+  fail "recommended.xml does not run: $(cat out out.err)"
 
 cp -r small before
 tune "0 1" "the same again" "${small[@]}" --out small
