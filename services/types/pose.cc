@@ -34,8 +34,9 @@ Pose AdvanceArc(const Pose& world_from_body, Vec2 forward_world, Twist twist, do
   if (twist.turn_rad_s != 0 || twist.forward_m_s == 0) {
     return AdvanceArc(world_from_body, twist, dt_s);
   }
+  // The turn is none, and added all the same: of a heading of -0 it makes 0, as the arc does.
   return {world_from_body.position_world + twist.forward_m_s * dt_s * forward_world,
-          WrapAngle(world_from_body.heading_rad)};
+          WrapAngle(world_from_body.heading_rad + twist.turn_rad_s * dt_s)};
 }
 
 Facing AdvanceFacing(const Facing& from, Twist twist, double dt_s) {

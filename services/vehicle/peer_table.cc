@@ -45,7 +45,7 @@ Peer* PeerTable::FindOrInsert(VehicleId id) {
   std::move_backward(ids_.begin() + at, ids_.begin() + count_, ids_.begin() + count_ + 1);
   peers_[at] = Peer{.id = id};
   ids_[at] = id;
-  after_[count_] = at;
+  after_[count_] = at;  // so that no place in use is without a guess
   ++count_;
   return &peers_[at];
 }

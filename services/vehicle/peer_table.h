@@ -104,8 +104,9 @@ class PeerTable {
   };
   std::array<VehicleId, kMaxPeers> ids_;  // theirs, side by side: these are searched
   std::uint32_t count_ = 0;
-  // Beacons tend to come in the same order with every tick: who was found last, and of each who was
-  // found after it.
+  // Beacons tend to come in the same order with every tick: the place of who was found last, and by
+  // the place of each that of who was found after it. Guesses: whoever stands there is asked for
+  // its id, for places shift when somebody comes or goes.
   std::uint32_t found_ = 0;
   std::array<std::uint32_t, kMaxPeers> after_;
   VehicleId last_deadline_missed_ = kNobody;

@@ -110,7 +110,7 @@ TEST(KnownHeading, FollowsEveryChangeOfTheHeading) {
 }
 
 TEST(AdvanceArc, WithAKnownHeadingItEndsOnTheSameBits) {
-  for (const double heading_rad : {0.0, 0.3, -2.0, 3.1412, kPi}) {
+  for (const double heading_rad : {0.0, -0.0, 0.3, -2.0, 3.1412, kPi}) {
     const Pose from{{0.7, -1.3}, heading_rad};
     for (const Twist twist :
          {Twist{0.3, 0}, {-0.3, 0}, {0, 0}, {0, 0.2}, {0.3, 1e-6}, {0.3, 0.2}}) {
@@ -118,6 +118,7 @@ TEST(AdvanceArc, WithAKnownHeadingItEndsOnTheSameBits) {
       const Pose known = AdvanceArc(from, Forward(from), twist, 0.05);
       EXPECT_EQ(known.position_world, expected.position_world);
       EXPECT_EQ(known.heading_rad, expected.heading_rad);
+      EXPECT_EQ(std::signbit(known.heading_rad), std::signbit(expected.heading_rad));
     }
   }
 }
