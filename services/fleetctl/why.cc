@@ -139,7 +139,8 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   AddNotKnown(speaker, options.speaker, &report);
   report.host_id = speaker ? HostId(*speaker) : std::nullopt;
   if (options.probe) {
-    report.probe = Probe({from, to, report.topics, options.seconds});
+    report.probe =
+        Probe({from, to, report.topics, options.seconds.value_or(ListenSeconds(report.topics))});
     AddNotJoined(from, to, &report);
   }
   const Told told = Tell(options.json ? ToJson(report) : ToText(report));

@@ -25,7 +25,7 @@ struct WhyOptions {
   Named hearer;
   Named speaker;
   std::optional<std::uint32_t> domain;  // only processes of this one
-  double seconds = 3;                   // the probe listens at most so long
+  std::optional<double> seconds;        // the probe listens at most so long; see ListenSeconds
   bool probe = true;
   bool json = false;
 };

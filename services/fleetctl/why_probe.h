@@ -47,7 +47,7 @@ struct ProbeOrder {
   const ProcessSituation& hearer;
   const ProcessSituation& speaker;
   const std::vector<TopicOutlook>& topics;
-  double seconds = 3;
+  double seconds = 0;  // at most
 };
 
 // Runs in a child process: this one enters no namespace and loads no profiles. Ends as soon as

@@ -156,6 +156,12 @@ Cause NotJoined(const ProcessSituation& process, bool hears) {
 
 }  // namespace
 
+double ListenSeconds(const std::vector<TopicOutlook>& topics) {
+  const bool silent = std::ranges::all_of(
+      topics, [](const TopicOutlook& topic) { return topic.in_place == Outlook::kCannot; });
+  return silent ? 3 : 10;
+}
+
 void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
                   WhyReport* report) {
   if (!Probed(*report)) return;

@@ -33,6 +33,10 @@ struct TopicVerdict {
   std::string explanation;  // "predicted: hears; probed: heard 40 samples, the first after 31 ms"
 };
 
+// At most how long the probe listens if nobody says: longer where something should be heard, for
+// through a channel that loses packets discovery takes its time.
+double ListenSeconds(const std::vector<TopicOutlook>& topics);
+
 // Adds the reason that no file of /proc tells and the probe does: a vehicle that has no place in a
 // world yet.
 void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,

@@ -49,8 +49,8 @@ void AddWhyVerb(CLI::App* fleetctl, int* exit_code) {
       ->required();
   verb->add_option("--domain", options->domain, "Only processes in this DDS domain")
       ->check(CLI::Range(kFirstDomain, kLastDomain));
-  verb->add_option("--seconds", options->seconds, "The probe listens at most so long")
-      ->capture_default_str()
+  verb->add_option("--seconds", options->seconds,
+                   "The probe listens at most so long [3 where silence is foretold, else 10]")
       ->check(CheckSeconds);
   verb->add_flag("!--no-probe", options->probe, "Only foretell");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
