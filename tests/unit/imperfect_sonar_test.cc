@@ -114,12 +114,13 @@ TEST(SlowSonar, AReadingMayBeOlderByTheRefresh) {
   RangeScan scan = ClearScan(12);
   scan.readings[6].tick = Tick{2};
   view.TakeImperfect(scan, milliseconds(600), options.tick_period, {});
-  EXPECT_EQ(view.FirstBlind(milliseconds(600), Tick{12}, options, ConesOf(options.profile).enabled),
-            -1);  // 500 ms old
-  EXPECT_EQ(view.FirstBlind(milliseconds(600), Tick{13}, options, ConesOf(options.profile).enabled),
-            6);  // 550 ms old
-  EXPECT_EQ(view.FirstBlind(milliseconds(751), Tick{12}, options, ConesOf(options.profile).enabled),
-            static_cast<int>(kSensorCount));
+  const std::uint32_t enabled = ConesOf(options.profile).enabled;
+  const auto first_blind = [&](milliseconds now, std::uint32_t tick) {
+    return view.FirstBlind(now, Tick{tick}, options, enabled);
+  };
+  EXPECT_EQ(first_blind(milliseconds(600), 12), -1);  // 500 ms old
+  EXPECT_EQ(first_blind(milliseconds(600), 13), 6);   // 550 ms old
+  EXPECT_EQ(first_blind(milliseconds(751), 12), static_cast<int>(kSensorCount));
 }
 
 TEST(SlowSonar, TheRefreshIsReactionTime) {
