@@ -76,6 +76,13 @@ TEST(BeaconCheck, EveryNumberIsInRangeUpToItsBoundsAndNoFarther) {
   }
 }
 
+// A number that may be 0 may be -0: what is rounded to nothing keeps its sign.
+TEST(BeaconCheck, AZeroWithASignIsAZero) {
+  for (const Bounds& bounds : kBounds) {
+    if (bounds.least <= 0) EXPECT_TRUE(IsInRangeWith(bounds, -0.0)) << bounds.name;
+  }
+}
+
 TEST(BeaconCheck, NoCovarianceIsGreaterThanTheMeanOfItsVariances) {
   Beacon beacon = Wide();
   beacon.covariance.xx_m2 = 1;
