@@ -33,40 +33,61 @@ Stretch Hull(const Stretch& a, const Stretch& b) {
   return {std::min(a.begin_m, b.begin_m), std::max(a.end_m, b.end_m)};
 }
 
-// Where the line of `path` runs within `reach_m` of one point.
-Stretch StretchNearPoint(const Path& path, Vec2 point_world, double reach_m) {
-  const Vec2 to_point = point_world - path.from_world;
-  const double along = Dot(to_point, path.direction_world);
-  const double across = Cross(path.direction_world, to_point);
-  const double half_squared = reach_m * reach_m - across * across;
+// How two lines lie to each other, as both of their stretches ask it: where each starts by the
+// other's axes (x along, y across), and the angle from the second to the first.
+struct PairOfLines {
+  Vec2 first_by_second;
+  Vec2 second_by_first;
+  double sine;
+  double cosine;
+};
+
+PairOfLines PairOf(const Path& first, const Path& second) {
+  const Vec2 offset = first.from_world - second.from_world;
+  const Vec2& a = first.direction_world;
+  const Vec2& b = second.direction_world;
+  return {.first_by_second = {Dot(b, offset), Cross(b, offset)},
+          .second_by_first = {-Dot(a, offset), -Cross(a, offset)},
+          .sine = Cross(b, a),
+          .cosine = Dot(b, a)};
+}
+
+PairOfLines Swapped(const PairOfLines& c) {
+  return {c.second_by_first, c.first_by_second, -c.sine, c.cosine};
+}
+
+// Where a line runs within `reach_m` of a point that lies there by its own axes.
+Stretch StretchNearPoint(Vec2 point, double reach_m) {
+  const double half_squared = reach_m * reach_m - point.y * point.y;
   if (half_squared < 0) return kNowhere;
   const double half = Sqrt(half_squared);
-  return {along - half, along + half};
+  return {point.x - half, point.x + half};
+}
+
+// The stretch of the first line near the half-line of the second.
+inline Stretch StretchNear(const PairOfLines& c, double reach_m) {
+  // Beside the half-line: within reach across it and not before its start.
+  const Stretch across = WhereBetween(c.first_by_second.y, c.sine, -reach_m, reach_m);
+  const Stretch ahead = WhereBetween(c.first_by_second.x, c.cosine, 0, 2 * kFar_m);
+  // Round its start.
+  const Stretch cap = StretchNearPoint(c.second_by_first, reach_m);
+  return Hull(Intersection(across, ahead), cap);
 }
 
 }  // namespace
 
 Stretch StretchNear(const Path& path, const Path& other, double reach_m) {
-  const Vec2 offset = path.from_world - other.from_world;
-  const Vec2& along = other.direction_world;
-  // Beside the half-line: within reach across it and not before its start.
-  const Stretch across =
-      WhereBetween(Cross(along, offset), Cross(along, path.direction_world), -reach_m, reach_m);
-  const Stretch ahead =
-      WhereBetween(Dot(along, offset), Dot(along, path.direction_world), 0, 2 * kFar_m);
-  // Round its start.
-  const Stretch cap = StretchNearPoint(path, other.from_world, reach_m);
-  return Hull(Intersection(across, ahead), cap);
+  return StretchNear(PairOf(path, other), reach_m);
 }
 
 std::optional<Conflict> FindConflict(const Path& own, const Path& peer, double reach_m) {
-  const Stretch of_own = StretchNear(own, peer, reach_m);
+  const PairOfLines pair = PairOf(own, peer);
+  const Stretch of_own = StretchNear(pair, reach_m);
   if (IsEmpty(of_own) || of_own.end_m <= 0) return std::nullopt;
-  const Stretch of_peer = StretchNear(peer, own, reach_m);
+  const Stretch of_peer = StretchNear(Swapped(pair), reach_m);
   if (IsEmpty(of_peer) || of_peer.end_m <= 0) return std::nullopt;
   constexpr double kAcross = 0.5;  // the sine of 30 degrees
-  const double sine = Cross(own.direction_world, peer.direction_world);
-  return Conflict{of_own, of_peer, Magnitude(sine) > kAcross};
+  return Conflict{of_own, of_peer, Magnitude(pair.sine) > kAcross};
 }
 
 double SpeedToStopWithin(double distance_m, double reaction_s, double deceleration_m_s2) {

@@ -69,6 +69,25 @@ TEST(Conflict, StretchesAgreeWithSampling) {
   }
 }
 
+TEST(Conflict, HoldsTheStretchOfEitherPathNearTheOther) {
+  Random random(6);
+  int found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Path own = From(random.Uniform(-4, 4), random.Uniform(-4, 4), random.Uniform(0, 360));
+    const Path peer = From(random.Uniform(-4, 4), random.Uniform(-4, 4), random.Uniform(0, 360));
+    const auto conflict = FindConflict(own, peer, 0.7);
+    if (!conflict) continue;
+    ++found;
+    const Stretch of_own = StretchNear(own, peer, 0.7);
+    const Stretch of_peer = StretchNear(peer, own, 0.7);
+    ASSERT_EQ(conflict->own.begin_m, of_own.begin_m) << "placement " << i;
+    ASSERT_EQ(conflict->own.end_m, of_own.end_m) << "placement " << i;
+    ASSERT_EQ(conflict->peer.begin_m, of_peer.begin_m) << "placement " << i;
+    ASSERT_EQ(conflict->peer.end_m, of_peer.end_m) << "placement " << i;
+  }
+  EXPECT_GT(found, 300);
+}
+
 TEST(Conflict, TheSpeedToStopWithinIsTheInverseOfTheStoppingDistance) {
   for (double v : {0.05, 0.3, 1.0}) {
     EXPECT_NEAR(SpeedToStopWithin(StoppingDistance(v, 0.1, 0.6), 0.1, 0.6), v, 1e-12);
