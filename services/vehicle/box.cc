@@ -16,6 +16,9 @@ constexpr double kNever_m = 1e6;
 struct Crossings {
   std::array<const PeerView*, 64> of;  // the first `count`
   std::size_t count = 0;
+  // No stretch of the own way begins before the one or ends after the other.
+  double first_begin_m = kNever_m;
+  double last_end_m = -kNever_m;
 
   std::span<const PeerView* const> All() const { return {of.data(), count}; }
 };
@@ -27,6 +30,8 @@ Crossings CrossingsAhead(std::span<const PeerView> views) {
     const Conflict& crossing = *view.crossing;
     if (crossing.peer.begin_m > kPeerNear_m || crossing.own.begin_m > kOwnNear_m) continue;
     crossings.of[crossings.count++] = &view;
+    crossings.first_begin_m = std::min(crossings.first_begin_m, crossing.own.begin_m);
+    crossings.last_end_m = std::max(crossings.last_end_m, crossing.own.end_m);
   }
   return crossings;
 }
@@ -34,6 +39,9 @@ Crossings CrossingsAhead(std::span<const PeerView> views) {
 // Where the box begins that a point of the own way lies in: back over every stretch that leaves no
 // room to stand before the next.
 double BoxBegin(const Crossings& crossings, double point_m) {
+  const bool alone =
+      point_m <= crossings.first_begin_m || point_m - kRoomToStand_m > crossings.last_end_m;
+  if (alone) return point_m;
   double begin_m = point_m;
   for (bool moved = true; moved;) {
     moved = false;
