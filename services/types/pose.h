@@ -119,6 +119,18 @@ struct KnownHeading {
   }
 };
 
+// The heading along a direction, kept because an arctangent is dearer still and the way of who
+// stands leads where it led.
+struct KnownBearing {
+  Vec2 direction_world{1, 0};
+  double heading_rad = 0;
+
+  double Of(Vec2 direction) {
+    if (!(direction == direction_world)) *this = {direction, Atan2(direction.y, direction.x)};
+    return heading_rad;
+  }
+};
+
 // A point given in the body frame, in the world.
 Vec2 ToWorld(const Pose& world_from_body, Vec2 point_body);
 // A point given in the world, in the body frame.

@@ -94,6 +94,7 @@ struct Situation {
   double slows_m = 0;         // a free way no longer than this is too short for the cruise speed
   double looks_m = 0;         // see LooksAround
   Path path;                  // towards the goal, or straight on
+  double path_rad = 0;        // the heading along it, world frame
   double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
   bool stops_there = false;          // at the goal; a waypoint is driven through
   OrderKey order;                    // as it publishes it with this step

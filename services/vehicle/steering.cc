@@ -81,8 +81,9 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   const Vec2 target =
       s.world_from_body.position_world + s.distance_to_goal_m * s.path.direction_world;
   for (const PeerView& view : s.peers) {
+    if (!StandsInTheWay(view, s) || headings.count == headings.of.size()) continue;
     const bool waited_for = !s.aimless && Occupies(view, target, s) && !IsOnGoalOf(view, s);
-    if (!StandsInTheWay(view, s) || waited_for || headings.count == headings.of.size()) continue;
+    if (waited_for) continue;
     const double distance_m = view.distance_m;
     const double clearance_m = RoomBeside(view, s);
     if (distance_m - clearance_m > way_m) continue;
@@ -134,8 +135,7 @@ const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad,
 
 // The nearest vehicle on the straight way to the goal.
 VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
-  const double straight_rad = Atan2(s.path.direction_world.y, s.path.direction_world.x);
-  const Blocked* vehicle = BlockedAt(headings, straight_rad, true);
+  const Blocked* vehicle = BlockedAt(headings, s.path_rad, true);
   return vehicle == nullptr ? kNobody : vehicle->peer;
 }
 
@@ -237,11 +237,14 @@ double Activation(const BraitenbergWeights& weights, const SensorView& view) {
 
 Steering SteerToGoal(const Situation& s) {
   Steering steering;
-  const Vec2 way =
-      s.detour_world ? *s.detour_world - s.world_from_body.position_world : s.path.direction_world;
-  const double wanted = Atan2(way.y, way.x);
+  double wanted = s.path_rad;
+  double way_m = std::min(s.distance_to_goal_m, kLookAhead_m);
+  if (s.detour_world) {
+    const Vec2 way = *s.detour_world - s.world_from_body.position_world;
+    wanted = Atan2(way.y, way.x);
+    way_m = Norm(way);
+  }
   double heading = wanted;
-  const double way_m = s.detour_world ? Norm(way) : std::min(s.distance_to_goal_m, kLookAhead_m);
   BlockedHeadings headings = WhatBlocks(s, way_m);
   if (s.aimless) {
     AddEchoes(s, &headings);

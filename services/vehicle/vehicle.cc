@@ -172,6 +172,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_, cones_.enabled);
   s.forward_world = state.odometry.ForwardWorld();
   LookAhead(&s);
+  s.path_rad = state.way.Of(s.path.direction_world);
   s.arrived = state.arrived;
   return s;
 }
@@ -193,17 +194,20 @@ void Vehicle::LookAtSignals(Situation* s) {
 // Views are made where they stay: copying one costs as much as making it.
 std::span<PeerView> Vehicle::ThoseThatMatter(Situation* s) {
   std::uint32_t count = 0;
-  peers_heard_ = 0;
+  std::uint32_t heard = 0;
+  bool someone_lost = false;
   for (Peer& peer : state_->peers.Peers()) {
     if (!peer.known) continue;
     const bool fresh = IsFresh(peer, s->now, s->tick, options_);
-    peers_heard_ += fresh ? 1 : 0;
-    s->someone_lost = s->someone_lost || IsLost(peer, fresh);
+    heard += fresh ? 1 : 0;
+    someone_lost = someone_lost || IsLost(peer, fresh);
     if (!CanMatter(peer, fresh, *s)) continue;
     auto* view = new (&(*views_)[count++]) PeerView;
     view->peer = &peer;
     view->fresh = fresh;
   }
+  peers_heard_ = heard;
+  s->someone_lost = someone_lost;
   return {views_->data(), count};
 }
 

@@ -31,6 +31,7 @@ struct VehicleState {
   Odometry odometry;
   WheelSpeeds wheels;          // as last measured
   WheelAngles counted;         // by the encoders, as last heard
+  KnownBearing way;            // to where it drives next
   std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
   bool arrived = false;
   OrderKey order;

@@ -109,6 +109,14 @@ TEST(KnownHeading, FollowsEveryChangeOfTheHeading) {
   }
 }
 
+TEST(KnownBearing, IsTheHeadingAlongWhateverDirectionIsAskedFor) {
+  KnownBearing known;
+  for (const Vec2 direction : {Vec2{1, 0}, {0, 1}, {0, 1}, {0, -1}, {-1, 0}, {0.6, 0.8}, {1, 0}}) {
+    EXPECT_EQ(known.Of(direction), Atan2(direction.y, direction.x))
+        << direction.x << ' ' << direction.y;
+  }
+}
+
 TEST(AdvanceArc, WithAKnownHeadingItEndsOnTheSameBits) {
   for (const double heading_rad : {0.0, -0.0, 0.3, -2.0, 3.1412, kPi}) {
     const Pose from{{0.7, -1.3}, heading_rad};
