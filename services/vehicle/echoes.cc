@@ -183,6 +183,7 @@ void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& option
 
 std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
   const HeardEchoes& echoes = s.echoes;
+  if (echoes.count == 0) return 0;
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.position_world);
   const std::uint32_t all = (1U << echoes.count) - 1;

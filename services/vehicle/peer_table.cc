@@ -54,11 +54,12 @@ Peer* PeerTable::FindOrInsert(VehicleId id) {
 // left; while both speak, neither is.
 bool PeerTable::BelongsTo(Peer* peer, const ReceivedBeacon& received) {
   const SteadyTime now = received.received;
-  if (peer->writer == 0) peer->writer = received.writer;
   if (received.writer != peer->writer) {
     const bool silent = now - peer->spoke > kWriterLease || peer->left;
     const bool restarted = received.beacon.boot_epoch != peer->boot_epoch;
-    if (silent && restarted) {
+    if (peer->writer == 0) {
+      peer->writer = received.writer;
+    } else if (silent && restarted) {
       *peer = Peer{.id = peer->id,
                    .writer = received.writer,
                    .encounter = peer->encounter,
@@ -118,11 +119,12 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
                                    : &BeaconCounters::rejected_not_finite);
   }
   // Before either has heard the world, positions have no common frame to be near in.
-  if (beacon.world_epoch == kNoEpoch || self.epoch == kNoEpoch) {
+  const bool elsewhere = beacon.world_epoch != self.epoch;
+  if (self.epoch == kNoEpoch || (elsewhere && beacon.world_epoch == kNoEpoch)) {
     ++counters->not_heard;
     return;
   }
-  if (beacon.world_epoch != self.epoch) return refuse(&BeaconCounters::rejected_wrong_epoch);
+  if (elsewhere) return refuse(&BeaconCounters::rejected_wrong_epoch);
 
   const Vec2 apart = beacon.world_from_body.position_world - self.position_world;
   const bool heard = SquaredNorm(apart) <= options.emission_radius_m * options.emission_radius_m;
@@ -139,10 +141,11 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
   Peer* peer = FindOrInsert(beacon.vehicle);
   if (peer == nullptr) return refuse(&BeaconCounters::rejected_table_full);
   if (!BelongsTo(peer, received)) return refuse(&BeaconCounters::rejected_duplicate_id);
-  const bool replayed = peer->boot_epoch != 0 &&
-                        (beacon.boot_epoch != peer->boot_epoch || beacon.seq <= peer->last_seq);
-  if (replayed) return refuse(&BeaconCounters::rejected_replayed);
-  if (peer->boot_epoch != 0) counters->lost += beacon.seq - peer->last_seq - 1;
+  if (peer->boot_epoch != 0) {  // it has spoken before
+    const bool replayed = beacon.boot_epoch != peer->boot_epoch || beacon.seq <= peer->last_seq;
+    if (replayed) return refuse(&BeaconCounters::rejected_replayed);
+    counters->lost += beacon.seq - peer->last_seq - 1;
+  }
   ++counters->accepted;
   if (const Beacon* before = LastBeaconOf(*peer)) {
     JudgeBeacon(*before, received, options, &peer->trust, trust);
@@ -224,8 +227,10 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
   if (Has(Defect::kStaleBeaconTrusted)) return peer.known && !peer.left;
-  return peer.known && !peer.left && !peer.rivalled && !peer.deadline_missed &&
-         !peer.liveliness_lost && !peer.out_of_reach &&
+  // Asked of every peer in every step: one branch for all that is seldom so.
+  const bool doubtful =
+      peer.left | peer.rivalled | peer.deadline_missed | peer.liveliness_lost | peer.out_of_reach;
+  return peer.known && !doubtful &&
          Age(peer, now, tick, options.tick_period) <= options.beacon_age_limit;
 }
 

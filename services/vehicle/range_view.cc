@@ -125,9 +125,9 @@ void RangeView::TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds
 int RangeView::FirstBlind(SteadyTime now, Tick tick, const VehicleOptions& options,
                           std::uint32_t enabled) const {
   if (!any_ || now - taken_ > options.ranges_age_limit) return kSensorCount;
-  const auto limit_ticks = (options.ranges_age_limit + options.sonar_refresh) / options.tick_period;
+  const Nanoseconds limit = options.ranges_age_limit + options.sonar_refresh;
   for (const std::size_t i : BitsOf(enabled & ~SpokeAt(tick))) {
-    const bool old = TicksBetween(sensors_[i].tick, tick) > limit_ticks;
+    const bool old = TicksBetween(sensors_[i].tick, tick) * options.tick_period > limit;
     if (old || sensors_[i].kind == Echo::kNoData) return static_cast<int>(i);
   }
   return -1;
