@@ -25,12 +25,10 @@ struct Bounds {
   double most;
 };
 
-// A beacon whose cruise speed nobody holds against its order, and that is not at all sure of its
-// place: no covariance is too great for it.
-Beacon Wide() {
+// A beacon whose cruise speed nobody holds against its order.
+Beacon Believable() {
   Beacon beacon = test::BeaconOf(2, 1, {});
   beacon.order.vehicle = VehicleId{9};
-  beacon.covariance.xx_m2 = beacon.covariance.yy_m2 = 1e6;
   return beacon;
 }
 
@@ -60,13 +58,16 @@ const Bounds kBounds[] = {
 };
 
 bool IsInRangeWith(const Bounds& bounds, double value) {
-  Beacon beacon = Wide();
+  Beacon beacon = Believable();
   bounds.number(beacon) = value;
+  // Not at all sure of its place: no covariance is too great for it.
+  PoseCovariance& c = beacon.covariance;
+  if (c.xy_m2 != 0) c.xx_m2 = c.yy_m2 = 1e6;
   return IsInRange(beacon);
 }
 
 TEST(BeaconCheck, EveryNumberIsInRangeUpToItsBoundsAndNoFarther) {
-  ASSERT_TRUE(IsInRange(Wide()));
+  ASSERT_TRUE(IsInRange(Believable()));
   for (const Bounds& bounds : kBounds) {
     EXPECT_TRUE(IsInRangeWith(bounds, bounds.least)) << bounds.name;
     EXPECT_TRUE(IsInRangeWith(bounds, bounds.most)) << bounds.name;
@@ -76,15 +77,27 @@ TEST(BeaconCheck, EveryNumberIsInRangeUpToItsBoundsAndNoFarther) {
   }
 }
 
+TEST(BeaconCheck, ANumberIsInRangeIfAndOnlyIfItIsBetweenItsBounds) {
+  for (const Bounds& bounds : kBounds) {
+    for (const double factor : {-kInfinity, -1e200, -2.0, -1.001, -0.999, -0.5, -1e-200, 1e-200,
+                                0.5, 0.999, 1.001, 2.0, 1e200, kInfinity}) {
+      const double value = factor * bounds.most;
+      EXPECT_EQ(IsInRangeWith(bounds, value), value >= bounds.least && value <= bounds.most)
+          << bounds.name << ' ' << value;
+    }
+  }
+}
+
 // A number that may be 0 may be -0: what is rounded to nothing keeps its sign.
 TEST(BeaconCheck, AZeroWithASignIsAZero) {
   for (const Bounds& bounds : kBounds) {
-    if (bounds.least <= 0) EXPECT_TRUE(IsInRangeWith(bounds, -0.0)) << bounds.name;
+    if (bounds.least > 0) continue;
+    EXPECT_TRUE(IsInRangeWith(bounds, -0.0)) << bounds.name;
   }
 }
 
 TEST(BeaconCheck, NoCovarianceIsGreaterThanTheMeanOfItsVariances) {
-  Beacon beacon = Wide();
+  Beacon beacon = Believable();
   beacon.covariance.xx_m2 = 1;
   beacon.covariance.yy_m2 = 3;
   for (const double sign : {-1, 1}) {

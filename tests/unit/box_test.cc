@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "tests/support/brain_bench.h"
+#include "tests/support/onlooker.h"
 
 namespace giveway {
 namespace {
@@ -161,6 +164,29 @@ TEST(HeldUp, OneThatIsHeldUpByThisVehicleOverAnotherIsNotWaitedFor) {
 }
 
 // The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.
+// One whose way crosses the own one there, and who is so far before it.
+PeerView Crossing(Peer* peer, Stretch own, double away_m) {
+  PeerView view{.peer = peer};
+  view.crossing = Conflict{own, {away_m, away_m + 1}, true};
+  return view;
+}
+
+// Too little to stand in lies between 4.5 and 5 m, enough between 4.5 and 5.3 m. Those who are far
+// from where the ways cross make no box, and have theirs all the same.
+TEST(Box, BeginsWithTheFirstOfThoseThatLeaveNoRoomBetween) {
+  const test::Onlooker onlooker;
+  Peer peer = test::PeerAt({});
+  std::vector<PeerView> views = {Crossing(&peer, {3, 4}, 1), Crossing(&peer, {3.5, 4.5}, 1),
+                                 Crossing(&peer, {5, 6}, 10), Crossing(&peer, {5.3, 6}, 10),
+                                 Crossing(&peer, {2, 2.5}, 10)};
+  FindBoxes(views, onlooker.Situation());
+  EXPECT_EQ(views[0].box_begin_m, 3);
+  EXPECT_EQ(views[1].box_begin_m, 3);
+  EXPECT_EQ(views[2].box_begin_m, 3);
+  EXPECT_EQ(views[3].box_begin_m, 5.3);
+  EXPECT_EQ(views[4].box_begin_m, 2);
+}
+
 TEST(Box, IsNotEnteredBehindOneThatStands) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {

@@ -251,6 +251,7 @@ TEST_F(PeerTableTest, AfterAGoodByeSilenceIsNeitherLossNorMiss) {
   Beacon good_bye = BeaconOf(2, 99, {});
   good_bye.mode = Mode::kLeaving;
   Take(Received(good_bye, milliseconds(0)));
+  EXPECT_FALSE(Fresh(2, milliseconds(0)));
   table_->Note({QosEventKind::kDeadlineMissed, VehicleId{2}, milliseconds(150)}, &qos_);
   table_->Note({QosEventKind::kLivelinessLost, VehicleId{2}, milliseconds(250)}, &qos_);
   EXPECT_EQ(qos_.deadline_missed, 0U);

@@ -37,6 +37,24 @@ TEST(Steering, TheLecturesVehicleTurnsAwayFromEitherSide) {
   EXPECT_EQ(left.right_rad_s, right.left_rad_s);
 }
 
+// The rule of a vehicle that drives two metres east once it has heard of one that has arrived there
+// on its way.
+Rule RuleBefore(double x_m) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  options.goal.at_world = {2, 0};
+  test::BrainBench bench(options);
+  bench.Step(test::ClearScan(0));
+  Beacon peer = test::BeaconOf(2, 1, {.position_world = {x_m, 0.01}});
+  peer.toward_world = peer.world_from_body.position_world;
+  peer.rule = Rule::kArrived;
+  return bench.Step(test::ClearScan(0), {peer}).command.decision.rule;
+}
+
+TEST(Steering, WhoeverStandsOnTheVeryGoalIsWaitedForAndNotSteeredRound) {
+  EXPECT_EQ(RuleBefore(1), Rule::kSteerRound);
+  EXPECT_NE(RuleBefore(2), Rule::kSteerRound);
+}
+
 // The stock script's table for base 2 rad/s: sensor 4 alone gives 1.2 and 1.0.
 TEST(Steering, TheStockVehicleBrakesAndTurnsAway) {
   const WheelSpeeds wheels = Avoid(StockWeights(), Seeing(3, 0.1)).wheels;

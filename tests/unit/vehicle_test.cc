@@ -128,6 +128,7 @@ TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   }
   ASSERT_EQ(out.command.decision.rule, Rule::kDeaf);
   ASSERT_GT(out.beacon.order.waited_ticks, 2U);
+  ASSERT_EQ(bench.Brain().PeersHeard(), 1U);
   Vehicle brain(options, 42);
   brain.Restore(bench.Brain().State());
   RangeScan first = ClearScan(1);
