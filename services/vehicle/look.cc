@@ -95,18 +95,23 @@ constexpr double kThere_m = 0.05;
 // is there.
 constexpr double kWellAway_m = 2 * kThere_m + 0.001;
 
-// Both vehicles' ways to where they drive next, of two that do not follow each other.
-std::optional<Conflict> CrossingWith(const PeerView& view, const Situation& s) {
+// Number by number: a pair that is loaded right after its halves were stored is waited for.
+void Put(const Conflict& from, std::optional<Conflict>* to) {
+  *to = {{from.own.begin_m, from.own.end_m}, {from.peer.begin_m, from.peer.end_m}, from.across};
+}
+
+// Where both vehicles' ways to where they drive next cross, of two that do not follow each other.
+void FindCrossing(PeerView* view, const Situation& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
-  if (!view.way_is_near) return std::nullopt;
-  const double reach_m = Reach(view.peer->beacon, view.sigma_m, s);
-  const double way_m = cooperative ? view.way_m : kFarAway_m;
-  const Path peer_path{view.position_world,
-                       cooperative ? view.way_direction_world : view.forward_world};
+  if (!view->way_is_near) return;
+  const double reach_m = Reach(view->peer->beacon, view->sigma_m, s);
+  const double way_m = cooperative ? view->way_m : kFarAway_m;
+  const Path peer_path{view->position_world,
+                       cooperative ? view->way_direction_world : view->forward_world};
   const auto conflict = FindConflict(s.path, peer_path, reach_m);
-  if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return std::nullopt;
-  if (conflict->peer.begin_m > way_m) return std::nullopt;
-  return conflict;
+  if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return;
+  if (conflict->peer.begin_m > way_m) return;
+  Put(*conflict, &view->crossing);
 }
 
 // Of one that was silent for longer nothing can be said; the ultrasonics and PeerLost see to it.
@@ -242,14 +247,11 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
   const bool follows = goes_on && Follows(view, s);
   view.leads = follows && Dot(view.offset_world, s.path.direction_world) > 0;
-  if (goes_on && !follows) {  // most have none: nothing is copied then
-    const auto crossing = CrossingWith(view, s);
-    if (crossing) view.crossing = *crossing;
-  }
+  if (goes_on && !follows) FindCrossing(&view, s);
   // One that stands and comes later in the order is a body to steer round.
   const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.goes_first;
-  if (view.crossing && !steered_round) view.conflict = *view.crossing;
+  if (view.crossing && !steered_round) Put(*view.crossing, &view.conflict);
   view.box_begin_m = 0;
   view.free_m = FreeAlong(view, s.forward_world, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
