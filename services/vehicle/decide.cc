@@ -16,17 +16,6 @@ bool IsAvoiding(Behaviour behaviour) {
   return behaviour == Behaviour::kLectureAvoid || behaviour == Behaviour::kStockAvoid;
 }
 
-std::optional<Proposal> MostRestrictive(const Situation& s) {
-  std::optional<Proposal> lowest;
-  for (const RuleFunction rule : RulesOf(s.options.behaviour)) {
-    const std::optional<Proposal> proposal = rule(s);
-    if (proposal && (!lowest || proposal->max_speed_m_s < lowest->max_speed_m_s)) {
-      lowest = proposal;
-    }
-  }
-  return lowest;
-}
-
 // The ladder: how much of what a decision wants to know is known.
 Mode ModeOf(const Situation& s) {
   if (s.leaving) return Mode::kLeaving;

@@ -138,25 +138,40 @@ std::optional<Proposal> KeepBoxClear(const Situation& s) {
                   .cause_tick = s.blocked_box->told};
 }
 
-std::span<const RuleFunction> RulesOf(Behaviour behaviour) {
-  static constexpr std::array<RuleFunction, 4> kDeadStops = {Leaving, NotRunning, RangesStale,
-                                                             Arrived};
-  static constexpr std::array<RuleFunction, 8> kLecture = {
-      Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle};
-  static constexpr std::array<RuleFunction, 13> kCooperative = {
-      Leaving,  NotRunning, RangesStale, Arrived,      Signal,   GiveWay, NotGranted,
-      PeerLost, Deaf,       KeepClear,   KeepBoxClear, Obstacle, Object};
-  switch (behaviour) {
+namespace {
+
+using RuleFunction = std::optional<Proposal> (*)(const Situation&);
+
+// As a list that the compiler knows, so that each rule becomes part of one function.
+template <RuleFunction... kRules>
+std::optional<Proposal> LowestOf(const Situation& s) {
+  std::optional<Proposal> lowest;
+  const auto keep = [&lowest](const std::optional<Proposal>& proposal) {
+    if (proposal && (!lowest || proposal->max_speed_m_s < lowest->max_speed_m_s)) {
+      lowest = proposal;
+    }
+  };
+  (keep(kRules(s)), ...);
+  return lowest;
+}
+
+}  // namespace
+
+// The more telling reason comes first in each list.
+std::optional<Proposal> MostRestrictive(const Situation& s) {
+  switch (s.options.behaviour) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:
     case Behaviour::kLecturePrinted:
-      return kDeadStops;
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived>(s);
     case Behaviour::kLectureYield:
-      return kLecture;
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle>(
+          s);
     case Behaviour::kCooperative:
-      return kCooperative;
+      break;
   }
-  return kCooperative;
+  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Signal, GiveWay, NotGranted, PeerLost,
+                  Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
 }
 
 }  // namespace giveway

@@ -2,7 +2,6 @@
 // nothing to say. Decide takes the most restrictive.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "services/vehicle/situation.h"
@@ -17,8 +16,6 @@ struct Proposal {
   int sensor = -1;
   Tick cause_tick = kNoTick;  // of the scan or beacon that shows the cause
 };
-
-using RuleFunction = std::optional<Proposal> (*)(const Situation&);
 
 // Dead stops, whatever the behaviour.
 std::optional<Proposal> Leaving(const Situation& s);
@@ -49,8 +46,8 @@ std::optional<Proposal> Object(const Situation& s);
 std::optional<Proposal> Deaf(const Situation& s);
 std::optional<Proposal> Obstacle(const Situation& s);
 
-// Every rule that applies to the behaviour, the more telling reason first: of equal limits the
-// first one names the decision.
-std::span<const RuleFunction> RulesOf(Behaviour behaviour);
+// The lowest limit that a rule of the vehicle's behaviour proposes; of equal limits the more
+// telling reason names the decision. Empty if none has anything to say.
+std::optional<Proposal> MostRestrictive(const Situation& s);
 
 }  // namespace giveway
