@@ -49,7 +49,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
     action.decision.peer = steering.round;
   }
   bool may_turn = true;
-  if (limit && limit->max_speed_m_s < speed) {
+  // Exactly on its goal it stands anyhow, and says why all the same.
+  if (limit && (limit->max_speed_m_s < speed || limit->max_speed_m_s <= 0)) {
     speed = limit->max_speed_m_s;
     may_turn = limit->may_turn;
     action.decision = {.rule = limit->rule,

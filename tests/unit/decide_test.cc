@@ -138,6 +138,31 @@ TEST(Decide, AnEchoInThePathLimitsTheSpeedToWhatStopsBeforeIt) {
 }
 
 // Own vehicle at the origin heading east at 0.3 m/s; the crossing is at (4, 0).
+// It said that it cruises: it would stand without any limit too. Of equal limits the more telling
+// reason is named.
+TEST(Decide, AVehicleExactlyOnItsGoalSaysWhyItStands) {
+  VehicleOptions options = test::DefaultOptions();
+  options.goal.at_world = {0, 0};
+  BrainBench bench(options);
+  EXPECT_EQ(bench.Step(ClearScan(1)).command.decision.rule, Rule::kArrived);
+  Outputs out;
+  for (int i = 0; i < 4; ++i) out = bench.StepBlind();
+  EXPECT_EQ(out.command.decision.rule, Rule::kRangesStale);
+  RangeScan scan = ClearScan(1);
+  scan.run_state = RunState::kWaiting;
+  EXPECT_EQ(bench.Step(scan).command.decision.rule, Rule::kNotRunning);
+}
+
+TEST(Decide, ByTheLecturesYieldingAnEchoInThePathIsAnObstacleToo) {
+  VehicleOptions options = test::DefaultOptions();
+  options.behaviour = Behaviour::kLectureYield;
+  BrainBench bench(options);
+  RangeScan scan = ClearScan(1);
+  test::SetEcho(&scan, 3, 0.3);
+  const Outputs out = bench.Step(scan);
+  EXPECT_EQ(out.command.decision.rule, Rule::kObstacle);
+}
+
 TEST(Decide, TheSlowerSaysItGivesWayLongBeforeItHasToStop) {
   BrainBench bench(test::DefaultOptions());
   bench.Step(Driving(0.3));
