@@ -1,5 +1,6 @@
 #include "services/vehicle/beacon_check.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -160,22 +161,10 @@ bool AreNumbersInRange(const Beacon& b) {
   return Magnitude(c.xy_m2) <= mean_m2;
 }
 
-bool IsFinite(const PoseCovariance& c) {
-  return std::isfinite(c.xx_m2) && std::isfinite(c.xy_m2) && std::isfinite(c.yy_m2) &&
-         std::isfinite(c.xh_m_rad) && std::isfinite(c.yh_m_rad) && std::isfinite(c.hh_rad2);
-}
-
 }  // namespace
 
 bool IsFinite(const Beacon& b) {
-  return std::isfinite(b.wheels.left_rad_s) && std::isfinite(b.wheels.right_rad_s) &&
-         std::isfinite(b.cruise_m_s) && std::isfinite(b.world_from_body.position_world.x) &&
-         std::isfinite(b.world_from_body.position_world.y) &&
-         std::isfinite(b.world_from_body.heading_rad) && IsFinite(b.covariance) &&
-         std::isfinite(b.body_radius_m) && std::isfinite(b.drive.wheel_radius_m) &&
-         std::isfinite(b.drive.axle_m) && std::isfinite(b.acceleration_m_s2) &&
-         std::isfinite(b.deceleration_m_s2) && std::isfinite(b.toward_world.x) &&
-         std::isfinite(b.toward_world.y);
+  return std::ranges::all_of(NumbersOf(b), [](double x) { return std::isfinite(x); });
 }
 
 bool IsInRange(const Beacon& b) {

@@ -52,8 +52,8 @@ PairOfLines PairOf(const Path& first, const Path& second) {
           .cosine = Dot(b, a)};
 }
 
-PairOfLines Swapped(const PairOfLines& c) {
-  return {c.second_by_first, c.first_by_second, -c.sine, c.cosine};
+PairOfLines Swapped(const PairOfLines& pair) {
+  return {pair.second_by_first, pair.first_by_second, -pair.sine, pair.cosine};
 }
 
 // Where a line runs within `reach_m` of a point that lies there by its own axes.
@@ -65,12 +65,12 @@ Stretch StretchNearPoint(Vec2 point, double reach_m) {
 }
 
 // The stretch of the first line near the half-line of the second.
-inline Stretch StretchNear(const PairOfLines& c, double reach_m) {
+Stretch StretchNear(const PairOfLines& pair, double reach_m) {
   // Beside the half-line: within reach across it and not before its start.
-  const Stretch across = WhereBetween(c.first_by_second.y, c.sine, -reach_m, reach_m);
-  const Stretch ahead = WhereBetween(c.first_by_second.x, c.cosine, 0, 2 * kFar_m);
+  const Stretch across = WhereBetween(pair.first_by_second.y, pair.sine, -reach_m, reach_m);
+  const Stretch ahead = WhereBetween(pair.first_by_second.x, pair.cosine, 0, 2 * kFar_m);
   // Round its start.
-  const Stretch cap = StretchNearPoint(c.second_by_first, reach_m);
+  const Stretch cap = StretchNearPoint(pair.second_by_first, reach_m);
   return Hull(Intersection(across, ahead), cap);
 }
 

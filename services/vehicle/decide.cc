@@ -49,8 +49,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
     action.decision.peer = steering.round;
   }
   bool may_turn = true;
-  // Exactly on its goal it stands anyhow, and says why all the same.
-  if (limit && (limit->max_speed_m_s < speed || limit->max_speed_m_s <= 0)) {
+  // Also of one that takes nothing off: exactly on its goal it stands anyhow, and says why.
+  if (limit && limit->max_speed_m_s <= speed) {
     speed = limit->max_speed_m_s;
     may_turn = limit->may_turn;
     action.decision = {.rule = limit->rule,

@@ -27,6 +27,21 @@ std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies
   return proposal;
 }
 
+using RuleFunction = std::optional<Proposal> (*)(const Situation&);
+
+// As a list that the compiler knows, so that each rule becomes part of one function.
+template <RuleFunction... kRules>
+std::optional<Proposal> LowestOf(const Situation& s) {
+  std::optional<Proposal> lowest;
+  const auto keep = [&lowest](const std::optional<Proposal>& proposal) {
+    if (proposal && (!lowest || proposal->max_speed_m_s < lowest->max_speed_m_s)) {
+      lowest = proposal;
+    }
+  };
+  (keep(kRules(s)), ...);
+  return lowest;
+}
+
 }  // namespace
 
 std::optional<Proposal> Leaving(const Situation& s) {
@@ -137,25 +152,6 @@ std::optional<Proposal> KeepBoxClear(const Situation& s) {
                   .peer = s.blocked_box->by,
                   .cause_tick = s.blocked_box->told};
 }
-
-namespace {
-
-using RuleFunction = std::optional<Proposal> (*)(const Situation&);
-
-// As a list that the compiler knows, so that each rule becomes part of one function.
-template <RuleFunction... kRules>
-std::optional<Proposal> LowestOf(const Situation& s) {
-  std::optional<Proposal> lowest;
-  const auto keep = [&lowest](const std::optional<Proposal>& proposal) {
-    if (proposal && (!lowest || proposal->max_speed_m_s < lowest->max_speed_m_s)) {
-      lowest = proposal;
-    }
-  };
-  (keep(kRules(s)), ...);
-  return lowest;
-}
-
-}  // namespace
 
 // The more telling reason comes first in each list.
 std::optional<Proposal> MostRestrictive(const Situation& s) {

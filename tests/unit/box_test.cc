@@ -163,7 +163,6 @@ TEST(HeldUp, OneThatIsHeldUpByThisVehicleOverAnotherIsNotWaitedFor) {
   EXPECT_GT(PlaceOf(DriveUpToAQueueBehindOneBlockedBy(VehicleId{1})), 3);
 }
 
-// The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.
 // One whose way crosses the own one there, and who is so far before it.
 PeerView Crossing(Peer* peer, Stretch own, double away_m) {
   PeerView view{.peer = peer};
@@ -187,6 +186,7 @@ TEST(Box, BeginsWithTheFirstOfThoseThatLeaveNoRoomBetween) {
   EXPECT_EQ(views[4].box_begin_m, 2);
 }
 
+// The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.
 TEST(Box, IsNotEnteredBehindOneThatStands) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {

@@ -128,16 +128,19 @@ TEST(Decide, AStandingEchoBesideThePathIsNoObstacle) {
 }
 
 TEST(Decide, AnEchoInThePathLimitsTheSpeedToWhatStopsBeforeIt) {
-  BrainBench bench(test::DefaultOptions());
-  RangeScan scan = ClearScan(0);
-  test::SetEcho(&scan, 3, 0.3);
-  const Outputs out = bench.Step(scan);
-  EXPECT_EQ(out.command.decision.rule, Rule::kObstacle);
-  EXPECT_EQ(out.command.decision.sensor, 3);
-  EXPECT_LT(out.command.target.left_rad_s, 0.3 / 0.0975);
+  for (const Behaviour behaviour : {Behaviour::kCooperative, Behaviour::kLectureYield}) {
+    VehicleOptions options = test::DefaultOptions();
+    options.behaviour = behaviour;
+    BrainBench bench(options);
+    RangeScan scan = ClearScan(0);
+    test::SetEcho(&scan, 3, 0.3);
+    const Outputs out = bench.Step(scan);
+    EXPECT_EQ(out.command.decision.rule, Rule::kObstacle);
+    EXPECT_EQ(out.command.decision.sensor, 3);
+    EXPECT_LT(out.command.target.left_rad_s, 0.3 / 0.0975);
+  }
 }
 
-// Own vehicle at the origin heading east at 0.3 m/s; the crossing is at (4, 0).
 // It said that it cruises: it would stand without any limit too. Of equal limits the more telling
 // reason is named.
 TEST(Decide, AVehicleExactlyOnItsGoalSaysWhyItStands) {
@@ -153,16 +156,7 @@ TEST(Decide, AVehicleExactlyOnItsGoalSaysWhyItStands) {
   EXPECT_EQ(bench.Step(scan).command.decision.rule, Rule::kNotRunning);
 }
 
-TEST(Decide, ByTheLecturesYieldingAnEchoInThePathIsAnObstacleToo) {
-  VehicleOptions options = test::DefaultOptions();
-  options.behaviour = Behaviour::kLectureYield;
-  BrainBench bench(options);
-  RangeScan scan = ClearScan(1);
-  test::SetEcho(&scan, 3, 0.3);
-  const Outputs out = bench.Step(scan);
-  EXPECT_EQ(out.command.decision.rule, Rule::kObstacle);
-}
-
+// Own vehicle at the origin heading east at 0.3 m/s; the crossing is at (4, 0).
 TEST(Decide, TheSlowerSaysItGivesWayLongBeforeItHasToStop) {
   BrainBench bench(test::DefaultOptions());
   bench.Step(Driving(0.3));

@@ -51,10 +51,10 @@ TEST_F(RangeViewTest, AScanTooOldIsNoScan) {
 
 TEST_F(RangeViewTest, ASensorThatNoLongerFiresIsBlindByItself) {
   RangeScan scan = ClearScan(5);
-  scan.readings[6].tick = Tick{2};
+  scan.readings[6].tick = Tick{1};
   view_.Take(scan, milliseconds(250), options_.tick_period);
-  EXPECT_EQ(view_.FirstBlind(milliseconds(250), Tick{5}, options_, enabled_), -1);  // 150 ms old
-  EXPECT_EQ(view_.FirstBlind(milliseconds(300), Tick{6}, options_, enabled_), 6);
+  EXPECT_EQ(view_.FirstBlind(milliseconds(250), Tick{5}, options_, enabled_), 6);
+  EXPECT_EQ(view_.FirstBlind(milliseconds(250), Tick{4}, options_, enabled_), -1);  // 150 ms old
 }
 
 TEST_F(RangeViewTest, WhoFiredForATickSpeaksForNoOther) {
