@@ -2,12 +2,16 @@
 # it exits 1 and says nothing.
 #   cmake -DGENERATOR= -DOPTIONS= -DIDL= -DFOLDER= -DEXPECTED= -P generate.cmake
 file(REMOVE ${EXPECTED})
-file(MAKE_DIRECTORY ${FOLDER})
+# What it leaves of the preprocessor has one name for all users of the host and for all builds that run
+# at once: in /tmp the file of the first user stops every other one.
+set(temporary ${FOLDER}/temporary)
+file(MAKE_DIRECTORY ${FOLDER} ${temporary})
 execute_process(
-  COMMAND ${GENERATOR} -cs -replace ${OPTIONS} -d ${FOLDER} ${IDL}
+  COMMAND ${GENERATOR} -cs -replace ${OPTIONS} -t ${temporary} -d ${FOLDER} ${IDL}
   RESULT_VARIABLE result
   OUTPUT_VARIABLE said
   ERROR_VARIABLE said)
+file(REMOVE_RECURSE ${temporary})
 
 set(missing "")
 foreach(file IN LISTS EXPECTED)

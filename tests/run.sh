@@ -13,7 +13,7 @@ Usage: bash tests/run.sh [STAGE ...] [--full]
 
 Stages, by default all but asan and fuzz, which debian13 runs in its container:
   format   clang-format over every tracked source
-  rules    include arrows, sizes, names, shell scripts
+  rules    include arrows, sizes, names, shell scripts, generation
   deploy   the manifests of Kubernetes against its schemas and against each other
   unit     pure tests: no sockets, no clocks
   golden   hashes that must never change
@@ -192,6 +192,7 @@ stage_rules() {
   check "include rules" bash tests/rules/include_rules.sh
   check "include rules catch what is planted" bash tests/rules/include_rules_test.sh
   check "shell scripts" shellcheck "${scripts[@]}"
+  check "the wire types are generated beside another user's" bash tests/rules/generate_test.sh
 }
 
 # Kubernetes' schemas come as an npm package.
