@@ -4,11 +4,13 @@
 
 #include <cstdint>
 #include <exception>
+#include <string>
 #include <variant>
 
 #include "services/app/flags.h"
 #include "services/app/health_server.h"
 #include "services/app/process.h"
+#include "services/link/library_log.h"
 #include "services/link/link_options.h"
 #include "services/types/scenario.h"
 
@@ -26,6 +28,9 @@ inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Sce
       .discovery_servers = flags.discovery_servers};
 }
 
+// A reader of the log that has stopped delays the end by no more.
+inline constexpr Nanoseconds kFlushLog = std::chrono::milliseconds(200);
+
 // Runs the service unless the flags asked for help or were wrong.
 inline int ServiceMain(const std::variant<app::ServiceFlags, int>& parsed,
                        int (*run)(const app::ServiceFlags&, const app::StopSignal&)) {
@@ -35,15 +40,18 @@ inline int ServiceMain(const std::variant<app::ServiceFlags, int>& parsed,
     return app::AskHealth(flags.health_address, static_cast<std::uint16_t>(flags.health_port),
                           flags.ask_health);
   }
-  // Never destroyed: a second SIGTERM may come while the process is already leaving, and must not
-  // end it by the default handler then.
+  // Never destroyed: the limit on the time to leave holds until the process is gone.
   static const app::StopSignal& stop = *new app::StopSignal;
+  // The library's own thread says what it has to say: a log that is not read must not hold it up.
+  link::SetLibraryLog([](const std::string& line) { app::LogWarning(line); });
+  int exit_code = 2;
   try {
-    return run(flags, stop);
+    exit_code = run(flags, stop);
   } catch (const std::exception& error) {
     app::LogError(error.what());
-    return 2;
   }
+  app::FlushLog(kFlushLog);
+  return exit_code;
 }
 
 }  // namespace giveway

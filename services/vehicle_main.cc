@@ -57,7 +57,8 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
 
 enum class DriveEnd { kOver, kRefused, kRestarts };
 
-// A drill. As of a loop that really hangs: SIGTERM finds it deaf too.
+// A drill. As of a loop that really hangs: it does not see SIGTERM, which ends the process a second
+// later.
 void Hang() {
   app::LogWarning("drill: the control loop hangs");
   while (app::HangSignal::IsUp()) app::SleepUntil(app::SteadyNow() + kHangPoll);
@@ -335,8 +336,9 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   if (!new_flags) return exit_code;
   app::HoldSignalsBack();
   // A stop that came while the link was closed would be forgotten by a new process image.
-  if (!stop.IsSet()) app::RestartWith(*new_flags);
-  return exit_code;
+  if (stop.IsSet()) return exit_code;
+  app::FlushLog(kFlushLog);
+  app::RestartWith(*new_flags);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "services/app/process.h"
 #include "services/types/decision.h"
 
 namespace giveway::app {
@@ -64,6 +65,11 @@ void AddLoop(const LoopHealth& loop, bool ready, SteadyTime now, Metrics* metric
   metrics->Counter("loop_turns", "Turns of the control loop.", loop.turns);
   metrics->Gauge("loop_silence_seconds", "Time since the control loop was last heard of.",
                  Seconds(now - loop.turned));
+}
+
+void AddLog(const ProcessFigures& process, Metrics* metrics) {
+  metrics->Counter("log_lines_dropped", "Lines of the log that its reader did not take.",
+                   process.log_lines_dropped);
 }
 
 void AddBeacons(const VehicleStatus& status, Metrics* metrics) {
@@ -168,7 +174,8 @@ ProcessFigures ReadProcessFigures() {
   std::ifstream("/proc/self/statm") >> pages >> resident_pages;
   return {.started_s = started_s,
           .cpu_s = SecondsOf(usage.ru_utime) + SecondsOf(usage.ru_stime),
-          .resident_bytes = resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE))};
+          .resident_bytes = resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)),
+          .log_lines_dropped = LogLinesDropped()};
 }
 
 std::string MetricsText(const VehicleHealth& vehicle, const ProcessFigures& process,
@@ -182,6 +189,7 @@ std::string MetricsText(const VehicleHealth& vehicle, const ProcessFigures& proc
   AddPeers(vehicle, &metrics);
   AddBeacons(vehicle.status, &metrics);
   AddTrust(vehicle.status.trust, &metrics);
+  AddLog(process, &metrics);
   return metrics.Text() + Text(process);
 }
 
@@ -208,6 +216,7 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
   metrics.Add({{"reason", "unbound"}}, world.commands_unbound);
   metrics.Add({{"reason", "not_finite"}}, world.commands_not_finite);
   metrics.Counter("write_failures", "Samples the middleware did not take.", world.write_failures);
+  AddLog(process, &metrics);
   return metrics.Text() + Text(process);
 }
 

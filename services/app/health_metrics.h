@@ -2,17 +2,19 @@
 // nothing itself.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "services/app/health.h"
 
 namespace giveway::app {
 
-// What the operating system says of this process. Seconds, bytes.
+// What the operating system says of this process, and its log. Seconds, bytes.
 struct ProcessFigures {
   double started_s = 0;  // since 1970, when this program image began
   double cpu_s = 0;
   double resident_bytes = 0;
+  std::uint64_t log_lines_dropped = 0;  // because stderr was not read
 };
 ProcessFigures ReadProcessFigures();
 

@@ -1,13 +1,19 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <spdlog/formatter.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <memory>
+#include <utility>
 
 #include "services/app/json_line.h"
+#include "services/app/log_queue.h"
 #include "services/app/process.h"
 #include "services/types/check.h"
 
@@ -37,10 +43,54 @@ class JsonFormatter : public spdlog::formatter {
   }
 };
 
+constexpr const char* kTextPattern = "%H:%M:%S.%e %-7l %n: %v";
+constexpr std::size_t kMostWaitingBytes = 256U << 10U;  // some two thousand lines
+
+// Of this process, from InitLog on. Never destroyed: its thread may be held up by a reader that has
+// stopped, and the end of the process does not wait for that. spdlog's own asynchronous logger
+// would: its pool posts a message that may not be dropped when it is destroyed, and joins; and its
+// sink holds the lock of stderr while it writes.
+std::atomic<LogQueue*> queue{nullptr};
+
+LogQueue& Queue() {
+  if (queue.load() == nullptr) queue = new LogQueue(STDERR_FILENO, kMostWaitingBytes);
+  return *queue.load();
+}
+
+// Formats on the thread that logs, and leaves the writing to the queue.
+class QueueSink : public spdlog::sinks::base_sink<std::mutex> {
+ protected:
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    Queue().Push(fmt::to_string(line));
+  }
+  void flush_() override {}
+};
+
+std::unique_ptr<spdlog::formatter> MakeFormatter(const std::string& format) {
+  if (format == "json") return std::make_unique<JsonFormatter>();
+  return std::make_unique<spdlog::pattern_formatter>(kTextPattern);
+}
+
+LogQueue::Notice MakeNotice(const std::string& process_name, const std::string& format) {
+  return [process_name, shared = std::shared_ptr<spdlog::formatter>(MakeFormatter(format))](
+             std::uint64_t dropped) {
+    const std::string text =
+        fmt::format("{} log line{} dropped here: the log was not read, or could not be written",
+                    dropped, dropped == 1 ? " was" : "s were");
+    line_at = SteadyNow();
+    spdlog::memory_buf_t line;
+    shared->format({process_name, spdlog::level::warn, text}, line);
+    return fmt::to_string(line);
+  };
+}
+
+// Until InitLog: written at once.
 std::shared_ptr<spdlog::logger> MakeLogger(const std::string& name) {
   auto logger =
       std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern("%H:%M:%S.%e %-7l %n: %v");
+  logger->set_pattern(kTextPattern);
   return logger;
 }
 
@@ -58,13 +108,18 @@ void Log(spdlog::level::level_enum level, const std::string& text, SteadyTime at
 
 void InitLog(const std::string& process_name, const std::string& format, const std::string& level) {
   GIVEWAY_CHECK(format == "text" || format == "json", format);
-  auto logger = MakeLogger(process_name);
-  if (format == "json") logger->set_formatter(std::make_unique<JsonFormatter>());
+  Queue().SetNotice(MakeNotice(process_name, format));
+  auto logger = std::make_shared<spdlog::logger>(process_name, std::make_shared<QueueSink>());
+  logger->set_formatter(MakeFormatter(format));
   const auto parsed = spdlog::level::from_str(level);  // off for a name it does not know
   GIVEWAY_CHECK(parsed != spdlog::level::off, level);
   logger->set_level(parsed);
   Logger() = std::move(logger);
 }
+
+bool FlushLog(Nanoseconds limit) { return queue.load() == nullptr || Queue().Flush(limit); }
+
+std::uint64_t LogLinesDropped() { return queue.load() == nullptr ? 0 : Queue().Dropped(); }
 
 void LogDebug(const std::string& text) { Log(spdlog::level::debug, text, SteadyNow()); }
 void LogInfo(const std::string& text) { LogInfo(text, SteadyNow()); }

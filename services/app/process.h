@@ -9,10 +9,17 @@
 
 namespace giveway::app {
 
-// Installs handlers for SIGINT and SIGTERM that set a flag, and ignores SIGPIPE. Restores on
-// destruction. One at a time.
+// The first SIGINT or SIGTERM sets a flag; the process then has one second to leave in good order.
+// When that is over, or a second one comes that is not the same request sent twice, the process
+// ends at once, whatever its threads are doing: with the exit code 128 + signal, as of a shell.
+// Nothing is flushed then. SIGPIPE and SIGXFSZ are ignored: a closed pipe and a file that may not
+// grow are errors of the write that met them. Restores on destruction. One at a time.
 class StopSignal {
  public:
+  // Two signals closer than this are one request: `timeout` and terminals signal twice.
+  static constexpr Nanoseconds kSameRequest = std::chrono::milliseconds(200);
+  static constexpr unsigned kLeave_s = 1;
+
   StopSignal();
   ~StopSignal();
   StopSignal(const StopSignal&) = delete;
@@ -47,7 +54,8 @@ class Ticker {
 
 // Log lines go to stderr. Format "text" or "json" (one object a line: time, steady_ns, level,
 // process, text; steady_ns is the steady clock, which all processes of a machine share), level
-// "debug", "info", "warning" or "error". Before InitLog: text from info on.
+// "debug", "info", "warning" or "error". Before InitLog: text from info on, written at once. From
+// InitLog on no thread that logs waits for the reader of stderr: see log_queue.h.
 void InitLog(const std::string& process_name, const std::string& format, const std::string& level);
 void LogDebug(const std::string& text);
 void LogInfo(const std::string& text);
@@ -56,5 +64,9 @@ void LogWarning(const std::string& text);
 void LogInfo(const std::string& text, SteadyTime at);
 void LogWarning(const std::string& text, SteadyTime at);
 void LogError(const std::string& text);
+// At the end of the process, and before it becomes another image: true if all was written in time.
+bool FlushLog(Nanoseconds limit);
+// By this process, because its reader had stopped.
+std::uint64_t LogLinesDropped();
 
 }  // namespace giveway::app

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 
 #include "services/fleetctl/child_process.h"
@@ -48,7 +47,7 @@ ChildAnswer AskChild(const std::function<std::string()>& tell) {
   const pid_t child = ::fork();
   if (child < 0) throw StartError(std::string("cannot fork: ") + std::strerror(errno));
   if (child == 0) {
-    DieWith(parent, SIGKILL);
+    DieWith(parent);
     TellAndExit(tell(), writing.Get());
   }
   writing.Close();

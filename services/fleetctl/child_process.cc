@@ -34,20 +34,25 @@ Pipe MakePipe() {
   return pipe;
 }
 
-std::vector<char*> Environment() {
-  std::vector<char*> variables;
-  for (char** variable = environ; *variable != nullptr; ++variable) variables.push_back(*variable);
-  variables.push_back(nullptr);
-  return variables;
-}
+// The folder of the configuration is no flag's twin.
+constexpr std::string_view kNoTwin = "GIVEWAY_CONFIG_DIR=";
+// What a service may be told by the environment of fleetctl. Everything else it is told by flags:
+// a twin such as GIVEWAY_HEALTH_PORT or GIVEWAY_ID means fleetctl itself, or one service, and would
+// be wrong for all of them at once.
+constexpr std::array<std::string_view, 3> kHandedOn{
+    "GIVEWAY_LOG_FORMAT=", "GIVEWAY_THREADS=", "GIVEWAY_PARTITION_FREE="};
 
-// Without those that stand for flags; the folder of the configuration is none.
-std::vector<char*> WithoutTwins() {
-  std::vector<char*> variables = Environment();
-  std::erase_if(variables, [](const char* variable) {
-    const std::string_view text(variable == nullptr ? "" : variable);
-    return text.starts_with("GIVEWAY_") && !text.starts_with("GIVEWAY_CONFIG_DIR=");
-  });
+std::vector<char*> EnvironmentOf(const ChildCommand& command) {
+  const auto is_handed_on = [&](std::string_view text) {
+    const auto names = [text](std::string_view name) { return text.starts_with(name); };
+    return names(kNoTwin) || (!command.flags_only && std::ranges::any_of(kHandedOn, names));
+  };
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text(*variable);
+    if (!text.starts_with("GIVEWAY_") || is_handed_on(text)) variables.push_back(*variable);
+  }
+  variables.push_back(nullptr);
   return variables;
 }
 
@@ -56,7 +61,9 @@ void ResetSignals() {
   sigset_t none;
   sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
-  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGQUIT}) std::signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGQUIT, SIGALRM, SIGXFSZ}) {
+    std::signal(number, SIG_DFL);
+  }
 }
 
 // Between fork and exec, in a process whose other threads are gone: system calls only.
@@ -65,7 +72,7 @@ void ResetSignals() {
   ResetSignals();
   // An own process group: Ctrl-C reaches fleetctl alone, which stops the fleet in good order.
   ::setpgid(0, 0);
-  DieWith(parent, SIGTERM);
+  DieWith(parent);
   const int nothing = ::open("/dev/null", O_RDONLY);
   if (nothing >= 0) ::dup2(nothing, STDIN_FILENO);
   ::dup2(output, STDOUT_FILENO);
@@ -91,8 +98,9 @@ std::filesystem::path ProgramFolder() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path();
 }
 
-void DieWith(pid_t parent, int signal_number) {
-  ::prctl(PR_SET_PDEATHSIG, signal_number);
+void DieWith(pid_t parent) {
+  // No other signal ends a process that is stopped, hangs, or handles it.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(kCannotExec);  // the parent died before the prctl
 }
 
@@ -111,7 +119,7 @@ ChildProcess::ChildProcess(const ChildCommand& command)
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  std::vector<char*> environment = command.flags_only ? WithoutTwins() : Environment();
+  std::vector<char*> environment = EnvironmentOf(command);
 
   Pipe pipe = MakePipe();
   const pid_t parent = ::getpid();
@@ -142,6 +150,10 @@ void ChildProcess::Poll() {
 
 void ChildProcess::Signal(int signal_number) {
   if (IsRunning()) ::kill(pid_, signal_number);
+}
+
+void ChildProcess::AskToStop() {
+  if (!std::exchange(asked_to_stop_, true)) Signal(SIGTERM);
 }
 
 void ChildProcess::ReadOutput() {

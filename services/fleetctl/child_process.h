@@ -25,9 +25,9 @@ class StartError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// For a process that was just forked: when its parent dies it gets the signal, and it ends at once
-// if the parent has died already.
-void DieWith(pid_t parent, int signal_number);
+// For a process that was just forked: it is killed when its parent dies, whatever it is doing then,
+// and ends at once if the parent has died already.
+void DieWith(pid_t parent);
 
 // How a process ended.
 struct ProcessEnd {
@@ -49,7 +49,9 @@ struct ChildCommand {
   std::string log_file;            // everything the child says is copied here; empty: nowhere
   int kept_fd = -1;                // stays open in the child as descriptor 3; -1: none
   bool hands_on_lines = false;     // every line is kept for TakeLines
-  bool flags_only = false;         // no GIVEWAY_ variable of this shell is a flag of the child
+  // No GIVEWAY_ variable of this shell is a flag of the child. Without this the log's format, the
+  // world's threads and free partitions may be given so; no other flag ever is.
+  bool flags_only = false;
 };
 
 class ChildProcess {
@@ -69,6 +71,8 @@ class ChildProcess {
   bool IsRunning() const { return !end_.has_value(); }
   // Nothing happens to a child that has ended: its id may be another process by now.
   void Signal(int signal_number);
+  // SIGTERM, once: a second one would end a service before it has left in good order.
+  void AskToStop();
 
   const std::string& Name() const { return name_; }
   pid_t Pid() const { return pid_; }
@@ -86,6 +90,7 @@ class ChildProcess {
   FileDescriptor output_;
   std::ofstream log_;
   bool hands_on_lines_;
+  bool asked_to_stop_ = false;
   std::optional<ProcessEnd> end_;
   std::string unfinished_line_;
   std::deque<std::string> last_lines_;

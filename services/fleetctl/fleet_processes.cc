@@ -134,6 +134,10 @@ bool FleetProcesses::AnyRunning() const {
   return false;
 }
 
+void FleetProcesses::AskAllToStop() {
+  for (ChildProcess& child : children_) child.AskToStop();
+}
+
 void FleetProcesses::SignalAll(int signal_number) {
   for (ChildProcess& child : children_) child.Signal(signal_number);
 }

@@ -50,6 +50,7 @@ class FleetProcesses {
   // whose exit code is not 0 (the world's own code carries the verdict); nullptr if there is none.
   const ChildProcess* FirstBadEnd() const;
   bool AnyRunning() const;
+  void AskAllToStop();
   void SignalAll(int signal_number);
 
  private:

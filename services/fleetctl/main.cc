@@ -1,4 +1,5 @@
 // fleetctl: the operator's command line. Only parses; each verb is a file of its own.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -30,6 +31,8 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may not grow is an error of the write that met it, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App fleetctl("Runs and judges fleets of vehicles that talk over DDS.", "fleetctl");
   fleetctl.require_subcommand(1);
   fleetctl.set_version_flag(

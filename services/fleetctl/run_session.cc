@@ -75,7 +75,7 @@ app::Report RunSession::Run() {
   std::optional<Overruled> overruled = Supervise();
   stopping_ = true;
   // The world first, so that it announces the end and the vehicles leave in good order.
-  if (overruled) processes_.World().Signal(SIGTERM);
+  if (overruled) processes_.World().AskToStop();
   const bool announces = processes_.World().IsRunning();
   StopAll(!overruled ? kLeaveGrace : announces ? kAnnounceGrace : Nanoseconds{0});
   DrainLast();
@@ -122,7 +122,7 @@ std::optional<Overruled> RunSession::JudgeEnd(const ChildProcess& gone) {
 
 void RunSession::StopAll(Nanoseconds grace) {
   if (WaitUntilAllEnded(grace)) return;
-  processes_.SignalAll(SIGTERM);
+  processes_.AskAllToStop();
   if (WaitUntilAllEnded(kTermGrace)) return;
   processes_.SignalAll(SIGKILL);
   while (processes_.AnyRunning()) Turn();

@@ -84,7 +84,7 @@ int RunShrink(const ShrinkOptions& options) {
   CheckWritable(file);
   VirtualCase failing = maker.Make(options.seed);
   app::WriteScenario(failing.scenario, "");  // throws now rather than after a minute's work
-  const Interrupts interrupts;
+  const Interrupts interrupts(Silence::kComputes);
   std::optional<Shrunk> shrunk = Shrink(failing, ShowProgress);
   if (::isatty(STDERR_FILENO) == 1) std::fputs("\r\x1b[K", stderr);
   if (!shrunk) return TellThatNothingBreaks(maker, options.seed, failing);

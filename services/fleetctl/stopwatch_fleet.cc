@@ -6,6 +6,7 @@
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
 #include "services/fleetctl/fleet_processes.h"
+#include "services/fleetctl/interrupts.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -58,7 +59,7 @@ StopwatchFleet::~StopwatchFleet() {
   signal_all(SIGCONT);
   signal_all(SIGTERM);
   const SteadyTime limit = app::SteadyNow() + kGrace;
-  while (AnyRunning() && app::SteadyNow() < limit) Turn();
+  while (AnyRunning() && app::SteadyNow() < limit && Interrupts::Count() < 2) Turn();
 }
 
 void StopwatchFleet::Turn() {

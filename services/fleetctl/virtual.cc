@@ -108,7 +108,7 @@ int RunAll(const VirtualOptions& options) {
   }
   const CaseMaker maker(options.made_by);
   std::fputs(maker.Remark().c_str(), stderr);
-  const Interrupts interrupts;
+  const Interrupts interrupts(Silence::kComputes);
   const SteadyTime start = app::SteadyNow();
   BatchTotals totals;
   {

@@ -12,9 +12,14 @@ namespace {
 
 constexpr std::size_t kComplaintBytes = 2000;
 
+using Take = std::function<void(const std::string& line)>;
+
+void WriteToStderr(const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
 struct Complaints {
   std::mutex mutex;
   std::string text;
+  Take take = WriteToStderr;
 };
 
 // Never destroyed: the library's log thread may outlive static destruction.
@@ -23,14 +28,18 @@ Complaints& TheComplaints() {
   return complaints;
 }
 
-class StderrConsumer final : public dds::LogConsumer {
+class Consumer final : public dds::LogConsumer {
  public:
   void Consume(const dds::Log::Entry& entry) override {
-    std::fprintf(stderr, "Fast DDS: %s\n", entry.message.c_str());
+    const std::string line = "Fast DDS: " + entry.message;
     Complaints& complaints = TheComplaints();
-    const std::scoped_lock lock(complaints.mutex);
-    if (complaints.text.size() > kComplaintBytes) return;
-    complaints.text += "\n  Fast DDS: " + entry.message;
+    Take take;
+    {
+      const std::scoped_lock lock(complaints.mutex);
+      take = complaints.take;
+      if (complaints.text.size() <= kComplaintBytes) complaints.text += "\n  " + line;
+    }
+    take(line);
   }
 };
 
@@ -40,9 +49,15 @@ void TakeOverLibraryLog() {
   static std::once_flag once;
   std::call_once(once, [] {
     dds::Log::ClearConsumers();
-    dds::Log::RegisterConsumer(std::make_unique<StderrConsumer>());
+    dds::Log::RegisterConsumer(std::make_unique<Consumer>());
     dds::Log::SetVerbosity(dds::Log::Kind::Error);
   });
+}
+
+void SetLibraryLog(Take take) {
+  Complaints& complaints = TheComplaints();
+  const std::scoped_lock lock(complaints.mutex);
+  complaints.take = std::move(take);
 }
 
 std::string LibraryComplaints() {

@@ -49,21 +49,24 @@ TEST(ChildProcess, ExitCodeAndLastLinesAreKept) {
   EXPECT_THAT(child.LastLines(), ElementsAre("to stdout", "to stderr", "unfinished"));
 }
 
-TEST(ChildProcess, IsToldByItsFlagsAloneWhereThatIsAskedFor) {
-  ::setenv("GIVEWAY_LOCKSTEP", "1", 1);
-  ::setenv("GIVEWAY_CONFIG_DIR", "here", 1);
-  ::setenv("NO_TWIN", "kept", 1);
-  ChildCommand command =
-      Shell("echo ${GIVEWAY_LOCKSTEP:-none} ${GIVEWAY_CONFIG_DIR:-none} $NO_TWIN");
-  ChildProcess told(command);
-  command.flags_only = true;
+// A port of fleetctl's own, an id and a question made every child the same, or no service at all.
+TEST(ChildProcess, IsGivenOnlyTheVariablesThatAreMeantForIt) {
+  const std::vector<const char*> names{
+      "GIVEWAY_HEALTH_PORT", "GIVEWAY_HEALTH",     "GIVEWAY_ID", "GIVEWAY_RECORD",
+      "GIVEWAY_LOG_FORMAT",  "GIVEWAY_CONFIG_DIR", "NO_TWIN"};
+  std::string script = "echo";
+  for (const char* name : names) {
+    ::setenv(name, "set", 1);
+    script += std::string(" ${") + name + ":-none}";
+  }
+  ChildCommand command = Shell(script);
   ChildProcess child(command);
-  ::unsetenv("GIVEWAY_LOCKSTEP");
-  ::unsetenv("GIVEWAY_CONFIG_DIR");
-  ::unsetenv("NO_TWIN");
-  ASSERT_TRUE(WaitForEnd(&told) && WaitForEnd(&child));
-  EXPECT_THAT(told.LastLines(), ElementsAre("1 here kept"));
-  EXPECT_THAT(child.LastLines(), ElementsAre("none here kept"));
+  command.flags_only = true;
+  ChildProcess measured(command);
+  for (const char* name : names) ::unsetenv(name);
+  ASSERT_TRUE(WaitForEnd(&child) && WaitForEnd(&measured));
+  EXPECT_THAT(child.LastLines(), ElementsAre("none none none none set set set"));
+  EXPECT_THAT(measured.LastLines(), ElementsAre("none none none none none set set"));
 }
 
 TEST(ChildProcess, EveryLineIsHandedOnOnceWhereThatIsAskedFor) {
@@ -92,6 +95,20 @@ TEST(ChildProcess, MegabytesWithoutALineFeedStayBounded) {
   ASSERT_TRUE(WaitForEnd(&child));
   ASSERT_THAT(child.LastLines(), SizeIs(1));
   EXPECT_LE(child.LastLines()[0].size(), 2000U);
+}
+
+TEST(ChildProcess, IsAskedToStopOnce) {
+  ChildProcess child(Shell("trap 'echo asked' TERM; echo ready; while :; do sleep 0.01; done"));
+  const auto lines = [&child](std::size_t count) {
+    return WaitFor(&child, [&] { return child.LastLines().size() >= count; });
+  };
+  ASSERT_TRUE(lines(1));
+  child.AskToStop();
+  ASSERT_TRUE(lines(2));
+  child.AskToStop();
+  child.Signal(SIGINT);  // which ends it, after whatever came before
+  ASSERT_TRUE(WaitForEnd(&child));
+  EXPECT_THAT(child.LastLines(), ElementsAre("ready", "asked"));
 }
 
 TEST(ChildProcess, DeathBySignalIsNamed) {
@@ -158,13 +175,21 @@ bool IsGoneOrUnreaped(pid_t pid) {
   return !(stat >> id >> name >> state) || state == "Z";
 }
 
-TEST(ChildProcess, DiesWhenItsParentIsKilled) {
+// Also one that handles signals and does not come to them, and one that is stopped: `fleetctl
+// stopwatch` has both.
+class KilledParent : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(ChildProcess, KilledParent,
+                         testing::Values("exec sleep 60",
+                                         "trap '' TERM INT; while :; do sleep 1; done",
+                                         "kill -STOP $$"));
+
+TEST_P(KilledParent, TakesItsChildWithIt) {
   std::array<int, 2> pipe{};
   ASSERT_EQ(::pipe(pipe.data()), 0);
   const pid_t parent = ::fork();
   ASSERT_GE(parent, 0);
   if (parent == 0) {
-    ChildProcess child({"sleep", {"/bin/sleep", "60"}, "", -1});
+    ChildProcess child(Shell(GetParam()));
     const pid_t pid = child.Pid();
     if (::write(pipe[1], &pid, sizeof pid) != sizeof pid) ::_exit(1);
     for (;;) ::pause();

@@ -164,7 +164,7 @@ await "a hears c" 5 a "beacon_heard: vehicle $id_b" "$line"
 line=$(lines_of a)
 kill_now c
 await "a loses c" 3 a "(stale|lost).*vehicle $id_b" "$line"
-start c2 giveway-vehicle --health-port "$C" --id "$id_b"
+start c2 giveway-vehicle --health-port "$C" --id "$id_b" --hang-on-signal
 await_health "c is back" 5 "$C" ready 0 '^ready$'
 
 # --- Two with one id: the later one waits, says why, and stops as ever.
@@ -231,13 +231,26 @@ await_health "and yet alive" 1 "$A" live 0 '^live$'
 stops a
 kill_now c2
 
-# --- The world stops as its vehicles do, with one of them there and with none.
+# start_unread NAME ARGUMENTS...: a vehicle whose stderr is a full pipe that is never read.
+start_unread() {
+  local name=$1 pipe
+  shift
+  mkfifo "$SCRATCH/$name.pipe"
+  exec {pipe}<>"$SCRATCH/$name.pipe"
+  timeout 0.2 cat /dev/zero >&"$pipe" || true
+  LOG=$SCRATCH/$name.pipe start "$name" giveway-vehicle "$@"
+}
+
+# --- The world stops as its vehicles do, with one of them there and with none. That one's log is
+# not read: this delays neither its loop nor its end.
 start world2 giveway-world --health-port "$WORLD"
 await_health "the port of a killed world" 5 "$WORLD" ready 0 '^ready$'
 stops world2
 start world3 giveway-world --health-port "$WORLD"
-start d giveway-vehicle --health-port "$A"
+start_unread d --health-port "$A" --log-level debug
 await_health "d drives" 10 "$A" ready 0 '^ready$'
+await_health "d's log is not read" 1 "$A" live 0 '^live$'
+[[ $(metric "$A" giveway_vehicle_log_lines_dropped_total) =~ ^[0-9]+$ ]] || fail "d: dropped lines"
 watched_in_vain
 since=$(date +%s%N)
 stops world3

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Ctrl-C is a clean stop: exit code 1, reason "interrupted", everyone leaves in good order. SIGTERM is
-# the same; a second Ctrl-C does not wait. The bound on the time is a guard against hanging, not a
+# the same, a flood of it one request; a second Ctrl-C does not wait. The bound on the time is a guard against hanging, not a
 # measurement: a quiet machine takes under half a second, a busy one longer.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
@@ -36,24 +36,27 @@ interrupt() {
   echo "$name: gone after $took ms" >&2
 }
 
-# A vehicle that got a second SIGTERM while it was already leaving died of it instead of exiting 0.
+# again_and_again NAME CODES SECONDS_BETWEEN: a vehicle is sent SIGTERM until it is gone. One request
+# sent often is one request; a later one ends what has not left yet, as by a shell: 128 + 15.
 again_and_again() {
-  local vehicle code try signal
-  for ((try = 0; try < 5; ++try)); do
-    code=0
-    "$(dirname "$FLEETCTL")/giveway-vehicle" --scenario wall_only --id 1 --domain "$1" 2>/dev/null &
-    vehicle=$!
-    sleep 0.3
-    for ((signal = 0; signal < 300; ++signal)); do
-      kill -TERM "$vehicle" 2>/dev/null || break
-      sleep 0.001
-    done
-    wait "$vehicle" || code=$?
-    [[ $code -eq 0 ]] || fail "SIGTERM again and again: exit code $code"
+  local vehicle code=0 signal begun
+  "$(dirname "$FLEETCTL")/giveway-vehicle" --scenario wall_only --id 1 --domain 98 2>/dev/null &
+  vehicle=$!
+  sleep 0.3
+  begun=$(now_ms)
+  for ((signal = 0; signal < 300; ++signal)); do
+    kill -TERM "$vehicle" 2>/dev/null || break
+    [[ $3 == 0 ]] || sleep "$3"
   done
+  wait "$vehicle" || code=$?
+  [[ $code =~ ^($2)$ ]] || fail "$1: exit code $code"
+  (($(now_ms) - begun < 2000)) || fail "$1: it took $(($(now_ms) - begun)) ms"
 }
 
-again_and_again 98
+for _ in 1 2 3; do
+  again_and_again "SIGTERM 300 times at once" 0 0
+  again_and_again "SIGTERM again and again" '0|143' 0.001
+done
 interrupt "Ctrl-C at once" 0 INT
 interrupt "Ctrl-C while driving" 4 INT
 interrupt "SIGTERM while driving" 3 TERM

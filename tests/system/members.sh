@@ -25,11 +25,11 @@ take_domain() {
   exit 2
 }
 
-# start NAME PROGRAM ARGUMENTS...
+# start NAME PROGRAM ARGUMENTS...; LOG, if set, is where its stderr goes
 start() {
   local name=$1 program=$2
   shift 2
-  "$BIN/$program" --scenario "$LANES" --domain "$DOMAIN" "$@" 2>>"$SCRATCH/$name.log" &
+  "$BIN/$program" --scenario "$LANES" --domain "$DOMAIN" "$@" 2>>"${LOG:-$SCRATCH/$name.log}" &
   PID[$name]=$!
 }
 

@@ -9,7 +9,12 @@ namespace {
 
 using ::testing::HasSubstr;
 using ::testing::internal::CaptureStderr;
-using ::testing::internal::GetCapturedStderr;
+
+// What was logged is written by a thread of the log's own.
+std::string GetCapturedStderr() {
+  EXPECT_TRUE(FlushLog(std::chrono::seconds(10)));
+  return ::testing::internal::GetCapturedStderr();
+}
 
 TEST(Log, AJsonStringEscapesWhatItMust) {
   EXPECT_EQ(JsonString("a \"b\" \\ \n\t\x01"), R"("a \"b\" \\ \n\t\u0001")");

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 
@@ -69,6 +70,46 @@ TEST(StopSignal, SurvivesABrokenPipeAndRestoresWhatWasThere) {
   EXPECT_EQ(after.sa_handler, before.sa_handler);
   sigaction(SIGTERM, nullptr, &after);
   EXPECT_EQ(after.sa_handler, SIG_DFL);
+}
+
+// One request may arrive twice: `timeout` signals its child and the child's process group.
+TEST(StopSignal, TheSameRequestSentTwiceEndsNothing) {
+  const StopSignal stop;
+  std::raise(SIGTERM);
+  for (int i = 0; i < 50; ++i) std::raise(SIGTERM);
+  EXPECT_TRUE(stop.IsSet());
+}
+
+// A library that hangs, and a loop that never asks: whatever the process does, it ends.
+TEST(StopSignalDeathTest, AProcessThatDoesNotLeaveIsEndedASecondAfterTheFirstSignal) {
+  EXPECT_EXIT(
+      {
+        const StopSignal stop;
+        std::raise(SIGTERM);
+        for (;;) ::pause();
+      },
+      testing::ExitedWithCode(128 + SIGTERM), "");
+}
+
+TEST(StopSignalDeathTest, TheSecondSignalEndsAProcessThatDoesNotLeave) {
+  const SteadyTime begun = SteadyNow();
+  EXPECT_EXIT(
+      {
+        const StopSignal stop;
+        std::raise(SIGTERM);
+        while (SteadyNow() - begun < 2 * StopSignal::kSameRequest) {
+        }
+        ::alarm(0);  // the limit on the time is not what ends it
+        std::raise(SIGINT);
+        for (;;) ::pause();
+      },
+      testing::ExitedWithCode(128 + SIGINT), "");
+}
+
+TEST(StopSignal, AFileThatMayNotGrowEndsNothing) {
+  const StopSignal stop;
+  std::raise(SIGXFSZ);
+  EXPECT_FALSE(stop.IsSet());
 }
 
 TEST(StopSignalDeathTest, TwoAtATimeAreOurBug) {
