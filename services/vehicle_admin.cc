@@ -6,6 +6,7 @@
 
 #include "services/app/process.h"
 #include "services/qos/check.h"
+#include "services/qos/order_check.h"
 #include "services/qos/xml_tree.h"
 #include "services/types/check.h"
 
@@ -14,16 +15,19 @@ namespace {
 
 // Why these profiles would not do; empty if they would. An operator has looked already: this is for
 // the one that did not.
-std::string WhatIsWrong(const QosProfiles& profiles, std::uint32_t fleet_size) {
-  // It would write files, wherever the sender says.
-  const qos::XmlRead read = qos::ReadXml(profiles.text, profiles.name);
-  if (read.root && read.root->Child("log") != nullptr) return "has a <log>, which is no QoS";
-  const qos::Findings findings =
-      qos::Check({{profiles.name, profiles.text}}, {.vehicles = fleet_size});
+std::string WhatIsWrong(const QosProfiles& profiles, const QosProfiles& in_use,
+                        std::uint32_t fleet_size) {
+  qos::Findings findings = qos::Check({{profiles.name, profiles.text}}, {.vehicles = fleet_size});
+  const qos::XmlRead wanted = qos::ReadXml(profiles.text, profiles.name);
+  const qos::XmlRead running = qos::ReadXml(in_use.text, in_use.name);
+  if (wanted.root && running.root) {
+    const qos::Findings beyond = qos::CheckOrder(*wanted.root, *running.root, profiles.name);
+    findings.insert(findings.begin(), beyond.begin(), beyond.end());
+  }
   const auto worst = std::ranges::find(findings, qos::Severity::kError, &qos::Finding::severity);
   if (worst == findings.end()) return "";
   return worst->place.file + ":" + std::to_string(worst->place.line) + ": " + worst->rule + ": " +
-         worst->values;
+         worst->subject + " " + worst->values;
 }
 
 std::vector<qos::Change> ChangesBetween(const QosProfiles& from, const QosProfiles& to) {
@@ -60,7 +64,7 @@ bool VehicleAdmin::Serve() {
 }
 
 bool VehicleAdmin::Apply(const AdminOrder& order) {
-  const std::string wrong = WhatIsWrong(order.profiles, options_.fleet_size);
+  const std::string wrong = WhatIsWrong(order.profiles, in_use_, options_.fleet_size);
   if (!wrong.empty()) {
     app::LogWarning("refused the QoS of " + order.profiles.name + ": " + wrong);
     Answer(order.number, AnswerState::kRefused, wrong);

@@ -19,6 +19,7 @@
 #include "services/beacon_news.h"
 #include "services/link/library_release.h"
 #include "services/link/vehicle_link.h"
+#include "services/qos_at_start.h"
 #include "services/server_wait.h"
 #include "services/service_main.h"
 #include "services/types/vehicle_options.h"
@@ -331,6 +332,7 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  RequireSoundQos(flags.qos, scenario);
   int exit_code = 0;
   const auto new_flags = Live(flags, scenario, stop, &exit_code);
   if (!new_flags) return exit_code;

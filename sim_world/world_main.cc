@@ -14,6 +14,7 @@
 #include "services/app/state_file.h"
 #include "services/link/library_release.h"
 #include "services/link/world_link.h"
+#include "services/qos_at_start.h"
 #include "services/server_wait.h"
 #include "services/service_main.h"
 #include "services/types/state_hash.h"
@@ -59,6 +60,7 @@ int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  RequireSoundQos(flags.qos, scenario);
   app::ParallelPool pool(flags.threads);
   WorldLoopOptions options{.lockstep = flags.lockstep,
                            .parallel = pool.Function(),

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "services/fleetctl/child_answer.h"
+#include "services/fleetctl/qos_files.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -43,6 +44,7 @@ std::vector<link::ResolvedEntity> Understood(const std::string& text) {
 }  // namespace
 
 std::vector<link::ResolvedEntity> ResolveQosApart(const link::LinkOptions& options) {
+  RequireSoundQos(options.qos_file);
   const auto [text, whole] = AskChild([&] { return Told(options); });
   if (!text.empty() && text.front() == kComplaint) throw link::LinkError(text.substr(1));
   if (!whole || text.empty()) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -17,6 +18,7 @@
 #include "services/fleetctl/qos_apart.h"
 #include "services/fleetctl/qos_apply_report.h"
 #include "services/fleetctl/qos_files.h"
+#include "services/qos/order_check.h"
 #include "services/qos/rules.h"
 #include "services/qos/xml_tree.h"
 #include "services/types/check.h"
@@ -84,6 +86,7 @@ class Applying {
  private:
   std::optional<ApplyVerdict> WhyNot();
   void CheckAgainstOld();
+  void CheckAsOrder();
   bool ApplyTo(AppliedTo* applied);
   std::optional<ApplyVerdict> Try(AppliedTo* canary);
   // Whether it says that it runs with its old profiles.
@@ -142,12 +145,25 @@ void Applying::CheckAgainstOld() {
   }
 }
 
+// The vehicles would refuse it, and this says it before any has changed.
+void Applying::CheckAsOrder() {
+  const qos::XmlElement wanted = RootOf(wanted_);
+  std::vector<std::string> seen;
+  for (const auto& [vehicle, answer] : told_) {
+    if (std::ranges::find(seen, answer.profiles.text) != seen.end()) continue;
+    seen.push_back(answer.profiles.text);
+    std::ranges::move(qos::CheckOrder(wanted, RootOf(answer.profiles), wanted_.name),
+                      std::back_inserter(report_.findings));
+  }
+}
+
 std::optional<ApplyVerdict> Applying::WhyNot() {
   std::int64_t fleet_size = 1;
   for (const auto& [vehicle, answer] : told_) {
     fleet_size = std::max<std::int64_t>(fleet_size, answer.fleet_size);
   }
   report_.findings = qos::Check({{wanted_.name, wanted_.text}}, {.vehicles = fleet_size});
+  CheckAsOrder();
   if (!options_.force) CheckAgainstOld();
   std::erase_if(report_.findings, [](const qos::Finding& finding) {
     return finding.severity != qos::Severity::kError;

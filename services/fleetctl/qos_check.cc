@@ -32,14 +32,10 @@ void Print(const qos::Findings& findings, std::size_t files, bool json) {
 
 qos::Deployment DeploymentOf(const QosCheckOptions& options) {
   qos::Deployment deployment;
-  deployment.complete = !options.partial;
   if (!options.scenario.empty()) {
-    const Scenario scenario = app::LoadScenario(options.scenario, {});
-    deployment.vehicles =
-        static_cast<std::int64_t>(scenario.vehicles.size() + scenario.spawns.size());
-    deployment.signals = static_cast<std::int64_t>(scenario.signals.size());
-    deployment.tick_ns = scenario.tick_period.count();
+    deployment = fleetctl::DeploymentOf(app::LoadScenario(options.scenario, {}));
   }
+  deployment.complete = !options.partial;
   if (options.vehicles) deployment.vehicles = *options.vehicles;
   deployment.environment = OwnEnvironment();
   deployment.folder_files = NamesIn(".");

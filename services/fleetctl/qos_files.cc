@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "services/app/scenario_file.h"
+#include "services/link/link_options.h"
 #include "services/qos/xml_tree.h"
 
 namespace giveway::fleetctl {
@@ -51,6 +52,20 @@ std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path
   file.bytes.resize(static_cast<std::size_t>(stream.gcount()));
   if (stream.bad()) return Unreadable(path, "cannot be read to its end");
   return file;
+}
+
+qos::Deployment DeploymentOf(const Scenario& scenario) {
+  return {.vehicles = static_cast<std::int64_t>(scenario.vehicles.size() + scenario.spawns.size()),
+          .signals = static_cast<std::int64_t>(scenario.signals.size()),
+          .tick_ns = scenario.tick_period.count()};
+}
+
+void RequireSoundQos(const std::string& path, const qos::Deployment& fleet) {
+  const auto read = ReadQosFile(path);
+  const auto* const file = std::get_if<qos::ProfileFile>(&read);
+  if (file == nullptr) return;
+  const std::string why = qos::WhyRefused(*file, fleet);
+  if (!why.empty()) throw link::LinkError(why);
 }
 
 std::vector<std::string> OwnEnvironment() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/qos/check.h"
+#include "services/types/scenario.h"
 
 namespace giveway::fleetctl {
 
@@ -17,6 +18,15 @@ std::string ResolveQosFile(const std::string& argument);
 // The file, or the finding that says why it cannot be read. A file over the limit is not read
 // whole.
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path);
+
+// The fleet of a verb that was started elsewhere: how large it is and how fast it ticks is not
+// known, and no rule about that speaks.
+inline qos::Deployment UnknownFleet() { return {.vehicles = 1, .tick_ns = 0}; }
+// Throws LinkError if the rules of `qos check` find an error in the set, before the library hangs
+// on it. A file that cannot be read is left to whoever opens it.
+void RequireSoundQos(const std::string& path, const qos::Deployment& fleet = UnknownFleet());
+
+qos::Deployment DeploymentOf(const Scenario& scenario);
 
 // What the library finds by itself: NAME=value of this shell, and the names of files in a folder.
 std::vector<std::string> OwnEnvironment();

@@ -23,6 +23,7 @@ link::LinkOptions LinkOptionsOf(const ObserverOptions& options) {
   link.domain = options.domain;
   link.interface = options.interface;
   link.qos_file = ResolveQosFile(options.qos_file);
+  RequireSoundQos(link.qos_file);
   link.area = options.area;
   link.fleet_size = kFleetSize;
   link.discovery_servers = options.discovery_servers;

@@ -19,6 +19,7 @@ struct ObserverOptions {
   std::string qos_file;  // empty: the shipped one
 };
 
+// Throws LinkError where the profile set is unsound.
 link::LinkOptions LinkOptionsOf(const ObserverOptions& options);
 
 enum class Told : std::uint8_t {

@@ -61,13 +61,15 @@ int StartAndWatch(const RunOptions& options) {
                             "leave --vehicles out, or write spawn { ... } in the scenario"}});
   }
   RefuseImpairedLockstep(options, scenario);
+  const std::string qos_file = ResolveQosFile(options.qos_file);
+  RequireSoundQos(qos_file, DeploymentOf(scenario));
   if (!options.picture_file.empty()) CheckWritable(options.picture_file);
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
   if (!options.record_folder.empty()) CheckFolder(options.record_folder);
 
   const DomainLock lock(options.domain);
   FleetCommand command{ProgramFolder(), app::ResolveScenario(options.scenario), lock.Domain(),
-                       ResolveQosFile(options.qos_file), lock.Fd()};
+                       qos_file, lock.Fd()};
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
   RunSession session(options, scenario, command);
   const app::Report report = session.Run();

@@ -215,7 +215,9 @@ int RunStopwatch(const StopwatchOptions& options) {
   const std::string scenario_file = (scratch.Path() / "stopwatch.textproto").string();
   WriteFile(scenario_file, StopwatchScenario(StopwatchVehicles(options.vehicles)));
   const std::string qos_file = ResolveQosFile(options.qos_file);
-  const Limits limits = LimitsOf(options, qos_file, app::LoadScenario(scenario_file, {}));
+  const Scenario scenario = app::LoadScenario(scenario_file, {});
+  RequireSoundQos(qos_file, DeploymentOf(scenario));
+  const Limits limits = LimitsOf(options, qos_file, scenario);
   if (options.table) {
     std::fputs(TableText(limits).c_str(), stdout);
     return 0;

@@ -17,6 +17,7 @@
 #include "services/app/process.h"
 #include "services/fleetctl/child_answer.h"
 #include "services/fleetctl/file_descriptor.h"
+#include "services/fleetctl/qos_files.h"
 #include "services/link/ear.h"
 #include "services/link/observer_link.h"
 
@@ -71,6 +72,7 @@ link::LinkOptions OptionsOf(const Instructions& told) {
   options.domain = told.domain;
   options.interface = told.interface;
   options.qos_file = told.qos_file;
+  RequireSoundQos(options.qos_file);
   options.area = told.area;
   options.fleet_size = told.fleet_size;
   return options;

@@ -56,11 +56,9 @@ void FlattenProfiles(const XmlElement& profiles, Elsewhere& to) {
 
 Elsewhere ElsewhereOf(const XmlElement& root) {
   Elsewhere all;
-  if (root.name == "profiles") FlattenProfiles(root, all);
+  if (const XmlElement* profiles = ProfilesOf(root)) FlattenProfiles(*profiles, all);
   for (const XmlElement& child : root.children) {
-    if (child.name == "profiles") {
-      FlattenProfiles(child, all);
-    } else if (root.name != "profiles") {
+    if (child.name != "profiles" && root.name != "profiles") {
       Flatten(
           child, child.name, "", [](const std::string&) { return false; }, all);
     }

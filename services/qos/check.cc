@@ -76,6 +76,24 @@ Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployme
   return findings;
 }
 
+std::string WhyRefused(const ProfileFile& file, const Deployment& deployment) {
+  std::string why;
+  for (const Finding& finding : Check({file}, deployment)) {
+    if (finding.severity != Severity::kError) continue;
+    why += (why.empty() ? "QoS file " : "\n") + finding.place.file;
+    if (finding.place.line > 0) why += ":" + std::to_string(finding.place.line);
+    if (!finding.subject.empty()) why += ": " + finding.subject;
+    why += ": " + finding.values + ": " + finding.consequence;
+    if (why.ends_with('.')) why.pop_back();
+    why += "; " + finding.remedy;
+  }
+  // What a file holds must not command the terminal it is shown on.
+  std::ranges::replace_if(
+      why, [](char c) { return c != '\n' && (static_cast<unsigned char>(c) < 0x20 || c == 0x7f); },
+      '?');
+  return why;
+}
+
 int ExitCode(const Findings& findings) {
   if (findings.empty()) return 0;
   const bool error = std::ranges::any_of(

@@ -30,6 +30,11 @@ struct ComposeSet {
 Findings Check(const std::vector<ProfileFile>& files, const Deployment& deployment,
                const std::vector<ComposeSet>& set_of);
 
+// Why a process may not start with this set, a line an error: "QoS file FILE:LINE: field: value:
+// consequence; remedy". Empty where it may. Processes ask before the library sees the file: it
+// hangs on some.
+std::string WhyRefused(const ProfileFile& file, const Deployment& deployment);
+
 // 2 with an error, 1 with a warning, 0 clean.
 int ExitCode(const Findings& findings);
 

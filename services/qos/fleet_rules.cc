@@ -104,6 +104,13 @@ void FleetRules::CheckLease() {
     Add(Severity::kError, "lease_too_short", Policy::kLease, Every(),
         "One late sample, and a living vehicle counts as gone.",
         "five periods: " + DurationText(5 * period_));
+  } else if (lease < profile_.Number(Policy::kDeadline) &&
+             profile_.Number(Policy::kDeadline) <= kLongestDeadline * period_) {
+    Add(Severity::kWarning, "lease_below_deadline", Policy::kLease,
+        ", below the deadline of " + Said(profile_, Policy::kDeadline),
+        "A silent peer counts as gone before its deadline is missed, and the deadline says "
+        "nothing.",
+        "longer than the deadline: " + DurationText(5 * period_));
   } else if (lease > kLongestLease * period_) {
     Add(Severity::kWarning, "lease_too_long", Policy::kLease, Every(),
         "A dead vehicle counts as alive for that long.",

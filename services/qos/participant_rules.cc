@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::int64_t kLongestLease = 60 * kSecond;
+constexpr std::int64_t kShortestPause = 10'000'000;
 constexpr std::int64_t kLastDomain = 99;
 constexpr std::int64_t kLastPort = 65'535;
 // Announcements a second in the whole fleet; 21 760 were half of what two cores can receive.
@@ -26,6 +27,7 @@ class ParticipantRules {
         findings_(*findings) {}
 
   void CheckLease();
+  void CheckPause(Policy policy);
   void CheckDiscovery();
   void CheckIdentity();
   void CheckPorts();
@@ -69,6 +71,9 @@ void ParticipantRules::CheckLease() {
         "A process that was killed keeps its place, its ports and its samples for that long.",
         "10 s, announced every 1 s");
   }
+  CheckPause(Policy::kAnnouncement);
+  CheckPause(Policy::kInitialAnnouncementPeriod);
+  CheckPause(Policy::kClientAnnouncement);
   const std::int64_t others = std::min(participants_, kLargeFleet);
   if (announcement > 0 && others * others * kSecond / announcement > kMostAnnouncements) {
     Add(Severity::kWarning, "announcement_storm", Policy::kAnnouncement, There(),
@@ -80,6 +85,14 @@ void ParticipantRules::CheckLease() {
     Add(Severity::kWarning, "no_initial_announcement", Policy::kInitialAnnouncements, "",
         "Whoever starts is found only by the next periodic announcement.", "5, every 100 ms");
   }
+}
+
+// The library takes a pause of nothing for as often as it can: 212 994 datagrams in 4 s.
+void ParticipantRules::CheckPause(Policy policy) {
+  if (Number(policy) >= kShortestPause) return;
+  Add(Severity::kError, "announcement_without_pause", policy, "",
+      "Every process announces itself as often as it can, and the network holds nothing else.",
+      "at least " + DurationText(kShortestPause));
 }
 
 void ParticipantRules::CheckDiscovery() {

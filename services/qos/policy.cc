@@ -18,7 +18,8 @@ constexpr PolicyInfo Writers(Policy policy, std::string_view name, std::string_v
 
 constexpr PolicyInfo Participants(Policy policy, std::string_view name, std::string_view path,
                                   Shape shape, std::string_view words, std::int64_t value) {
-  return {policy, name, path, shape, words, 0, 0, value, false, false};
+  const bool is_unsigned = shape == Shape::kCount && policy != Policy::kParticipantId;
+  return {policy, name, path, shape, words, 0, 0, value, false, false, is_unsigned};
 }
 
 // Defaults are those of Fast DDS 2.9 and 3.1; tests/link/qos_resolved_test.cc holds them against

@@ -95,6 +95,7 @@ struct PolicyInfo {
   std::int64_t participant_default = 0;
   bool writer = true;
   bool reader = true;
+  bool is_unsigned = false;  // the library reads -1 as its largest number
 };
 
 // In the order of Policy.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "services/qos/schema_check.h"
+#include "services/qos/xml_value.h"
 
 namespace giveway::qos {
 namespace {
@@ -24,16 +24,17 @@ std::optional<std::int64_t> Parse(const XmlElement& element, const PolicyInfo& i
       return index < 0 ? std::nullopt : std::optional(index);
     }
     case Shape::kDuration:
-      return ParseDuration(element);
+      return ReadDuration(element);
     case Shape::kFlag:
-      return ParseFlag(element.text);
+      return ReadFlag(element.text);
     case Shape::kCount:
       break;
   }
-  // What is larger the library cannot hold, and a product of two must fit our arithmetic.
-  const auto number = ParseNumber(element.text);
-  if (!number || *number < -kLargestCount || *number > kLargestCount) return std::nullopt;
-  return number;
+  const auto number =
+      ReadNumber(element.text, info.is_unsigned ? NumberKind::kUnsigned : NumberKind::kSigned);
+  if (!number) return std::nullopt;
+  // A product of two must fit our arithmetic.
+  return std::clamp(number->value, -kLargestCount, kLargestCount);
 }
 
 class Reader {
@@ -41,10 +42,7 @@ class Reader {
   Reader(const XmlElement& root, const std::string& file) : root_(root) { set_.file = file; }
 
   ProfileSet Read() {
-    if (root_.name == "profiles") ReadProfilesIn(root_);
-    for (const XmlElement& child : root_.children) {
-      if (child.name == "profiles") ReadProfilesIn(child);
-    }
+    if (const XmlElement* profiles = ProfilesOf(root_)) ReadProfilesIn(*profiles);
     if (const auto* delivery = root_.Descendant("library_settings/intraprocess_delivery")) {
       set_.intraprocess = delivery->text;
       set_.intraprocess_place = At(*delivery);
@@ -70,8 +68,8 @@ void Reader::ReadTransport(const XmlElement& descriptor) {
   for (const XmlElement& child : descriptor.children) {
     if (child.name == "transport_id") transport.id = child.text;
     if (child.name == "type") transport.type = child.text;
-    if (const auto number = ParseNumber(child.text)) {
-      transport.numbers[child.name] = {*number, At(child), true};
+    if (const auto number = ReadNumber(child.text, NumberKind::kUnsigned)) {
+      transport.numbers[child.name] = {number->value, At(child), true};
     } else if (child.name == "interfaceWhiteList") {
       transport.numbers[child.name] = {1, At(child), true};
     }
@@ -170,6 +168,10 @@ const Profile* ProfileSet::Find(Owner owner, std::string_view name) const {
 const Transport* ProfileSet::FindTransport(std::string_view id) const {
   const auto found = std::ranges::find(transports, id, &Transport::id);
   return found == transports.end() ? nullptr : &*found;
+}
+
+const XmlElement* ProfilesOf(const XmlElement& root) {
+  return root.name == "profiles" ? &root : root.FirstChild("profiles");
 }
 
 ProfileSet ReadProfiles(const XmlElement& root, const std::string& file) {

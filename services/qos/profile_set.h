@@ -71,6 +71,10 @@ struct ProfileSet {
   const Transport* FindTransport(std::string_view id) const;
 };
 
+// The <profiles> that the library reads, of a root that is it or holds it: the first. Null if there
+// is none.
+const XmlElement* ProfilesOf(const XmlElement& root);
+
 // Takes what can be understood; what cannot is left out, and is a finding of CheckSchema.
 ProfileSet ReadProfiles(const XmlElement& root, const std::string& file);
 

@@ -13,12 +13,15 @@ enum class Content : std::uint8_t {
   kElements,
   kWord,      // one of ElementRule::words
   kDuration,  // <sec> and <nanosec>, or a name for infinite
-  kUnsigned,
-  kInteger,
-  kFlag,  // true or false
+  kUnsigned,  // 32 bits; -1 is the largest
+  kPort,      // 16 bits without a sign
+  kInteger,   // 32 bits with a sign
+  kByte,      // 0 to 255
+  kFlag,      // true or false
   kText,
   kNoEffect,  // the library accepts whatever is inside, and does nothing
   kOpaque,    // beyond QoS; not looked into
+  kDoor,      // beyond QoS too, and makes the library open files or load what QoS does not need
 };
 
 struct ElementRule {

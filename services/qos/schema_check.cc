@@ -1,20 +1,27 @@
 #include "services/qos/schema_check.h"
 
 #include <algorithm>
-#include <charconv>
+#include <optional>
 #include <set>
 
 #include "services/qos/policy.h"
+#include "services/qos/profile_set.h"
 #include "services/qos/schema.h"
+#include "services/qos/xml_value.h"
 
 namespace giveway::qos {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr char kRefused[] = "The library refuses the whole file, and no process starts.";
 constexpr char kUnknown[] =
     "Fast DDS refuses the whole file, and no process starts; what 3.1 alone knows stops every "
     "process with 2.9.";
+constexpr char kDropped[] =
+    "The library reads the digits it finds first, drops the rest without a word, and runs with "
+    "that.";
+constexpr char kHangs[] =
+    "The library loops for ever on such a duration: the process that makes the endpoint hangs, and "
+    "SIGTERM does not end it.";
 constexpr std::size_t kShown = 40;  // characters of a wrong value that are quoted
 
 std::string Quoted(std::string_view text) {
@@ -29,16 +36,22 @@ class Checker {
   void CheckRoot(const XmlElement& root);
 
  private:
+  void AddSecondProfiles(const XmlElement& second, const XmlElement& first);
   void CheckProfiles(const XmlElement& profiles);
   void CheckProfile(const XmlElement& profile);
   void CheckTransports(const XmlElement& descriptors);
   void CheckChildren(const XmlElement& parent, std::span<const ElementRule> rules);
   void CheckElement(const XmlElement& element, const ElementRule& rule);
   void CheckText(const XmlElement& element, const ElementRule& rule);
+  void CheckNumber(const XmlElement& element, Content content);
+  bool IsExact(const XmlElement& element, const Number& number);
   void CheckDuration(const XmlElement& element);
+  void CheckDurationPart(const XmlElement& part);
   void CheckName(const XmlElement& profile);
   void AddUnknown(const XmlElement& element, const XmlElement& parent, std::string known);
+  void AddRepeated(const XmlElement& element, const XmlElement& parent);
   void AddWrong(const XmlElement& element, const std::string& must_be);
+  void AddDoor(const XmlElement& element);
   void Add(const std::string& rule, const XmlElement& element, std::string values,
            std::string remedy, Severity severity = Severity::kError,
            std::string consequence = kRefused) {
@@ -68,22 +81,79 @@ void Checker::AddUnknown(const XmlElement& element, const XmlElement& parent, st
       "remove it, or write one of: " + std::move(known), Severity::kError, kUnknown);
 }
 
+void Checker::AddRepeated(const XmlElement& element, const XmlElement& parent) {
+  Add("repeated_element", element, "stands twice in <" + parent.name + ">",
+      "keep the one that is meant", Severity::kError,
+      "The library takes the last of them, or refuses the whole file.");
+}
+
 void Checker::AddWrong(const XmlElement& element, const std::string& must_be) {
   Add("wrong_value", element, Quoted(element.text) + " is not " + must_be, "write " + must_be);
 }
 
-void Checker::CheckDuration(const XmlElement& element) {
-  for (const XmlElement& child : element.children) {
-    if (child.name != "sec" && child.name != "nanosec") AddUnknown(child, element, "sec, nanosec");
+// False, and a finding, where the library takes another number than a person reads.
+bool Checker::IsExact(const XmlElement& element, const Number& number) {
+  if (number.exact) return true;
+  Add("number_cut_off", element,
+      Quoted(element.text) + " is taken for " + std::to_string(number.value),
+      "write the number alone, within 32 bits", Severity::kError, kDropped);
+  return false;
+}
+
+void Checker::CheckDurationPart(const XmlElement& part) {
+  if (IsInfinite(part.text)) return;
+  const bool whole = part.name == "sec";
+  const auto number = ReadNumber(part.text, whole ? NumberKind::kSigned : NumberKind::kUnsigned);
+  if (!number) {
+    AddWrong(part, "a number");
+  } else if (number->value < 0 || (!whole && number->value > 999'999'999)) {
+    Add("duration_out_of_range", part, Quoted(part.text),
+        whole ? "write seconds from 0 to 2147483647, or DURATION_INFINITY"
+              : "write nanoseconds from 0 to 999999999, and whole seconds in <sec>",
+        Severity::kError, kHangs);
+  } else {
+    IsExact(part, *number);
   }
-  if (!ParseDuration(element)) {
+}
+
+void Checker::CheckDuration(const XmlElement& element) {
+  if (element.children.empty() && IsInfinite(element.text)) return;
+  if (element.Child("sec") == nullptr && element.Child("nanosec") == nullptr) {
     Add("wrong_value", element, "is not a duration",
         "write <sec> from 0 to 2147483647 and <nanosec> from 0 to 999999999, or DURATION_INFINITY");
+  }
+  const bool is_infinite = ReadDuration(element) == kInfinite;
+  std::set<std::string_view> seen;
+  for (const XmlElement& child : element.children) {
+    if (child.name != "sec" && child.name != "nanosec") {
+      AddUnknown(child, element, "sec, nanosec");
+    } else if (!seen.insert(child.name).second) {
+      AddRepeated(child, element);
+    } else if (!is_infinite) {
+      CheckDurationPart(child);
+    }
+  }
+}
+
+void Checker::CheckNumber(const XmlElement& element, Content content) {
+  struct Range {
+    std::int64_t least, most;
+    const char* words;
+  };
+  const bool is_unsigned = content == Content::kUnsigned || content == Content::kPort;
+  const auto number =
+      ReadNumber(element.text, is_unsigned ? NumberKind::kUnsigned : NumberKind::kSigned);
+  Range range{-0x8000'0000LL, 0xffff'ffff, "a number"};
+  if (content == Content::kPort) range = {0, 0xffff, "a number from 0 to 65535"};
+  if (content == Content::kByte) range = {0, 0xff, "a number from 0 to 255"};
+  if (!number || (number->exact && (number->value < range.least || number->value > range.most))) {
+    AddWrong(element, range.words);
+  } else {
+    IsExact(element, *number);
   }
 }
 
 void Checker::CheckText(const XmlElement& element, const ElementRule& rule) {
-  const auto number = ParseNumber(element.text);
   switch (rule.content) {
     case Content::kWord:
       if (WordIndex(rule.words, element.text) < 0) {
@@ -91,15 +161,13 @@ void Checker::CheckText(const XmlElement& element, const ElementRule& rule) {
       }
       break;
     case Content::kUnsigned:
-      if (!number || *number < 0 || *number > 0xffff'ffff) AddWrong(element, "a number from 0");
-      break;
+    case Content::kPort:
     case Content::kInteger:
-      if (!number || *number < -1 || *number > 0x7fff'ffff) {
-        AddWrong(element, "a number from -1 to 2147483647");
-      }
+    case Content::kByte:
+      CheckNumber(element, rule.content);
       break;
     case Content::kFlag:
-      if (!ParseFlag(element.text)) AddWrong(element, "true or false");
+      if (!ReadFlag(element.text)) AddWrong(element, "true or false");
       break;
     case Content::kText:
       if (element.text.empty()) AddWrong(element, "a text");
@@ -110,8 +178,17 @@ void Checker::CheckText(const XmlElement& element, const ElementRule& rule) {
   for (const XmlElement& child : element.children) AddUnknown(child, element, "nothing");
 }
 
+void Checker::AddDoor(const XmlElement& element) {
+  Add("beyond_qos", element, "is no QoS", "remove it, unless the fleet cannot do without it",
+      Severity::kWarning,
+      "The library writes or opens files for it, or loads parts that QoS does not need; an order "
+      "by "
+      "fleetctl qos apply may not bring it.");
+}
+
 void Checker::CheckElement(const XmlElement& element, const ElementRule& rule) {
   if (rule.content == Content::kOpaque) return;
+  if (rule.content == Content::kDoor) return AddDoor(element);
   if (rule.gone_in_3) {
     Add("removed_element", element, "is an element of Fast DDS 2.9 alone", "remove it",
         Severity::kError,
@@ -141,9 +218,7 @@ void Checker::CheckChildren(const XmlElement& parent, std::span<const ElementRul
       continue;
     }
     if (!seen.insert(rule->name).second && !rule->repeats) {
-      Add("repeated_element", child, "stands twice in <" + parent.name + ">",
-          "keep the one that is meant", Severity::kError,
-          "The library takes the last of them, or refuses the whole file.");
+      AddRepeated(child, parent);
     }
     CheckElement(child, *rule);
   }
@@ -214,50 +289,28 @@ void Checker::CheckRoot(const XmlElement& root) {
         "put <profiles> in <dds xmlns=\"http://www.eprosima.com/XMLSchemas/fastRTPS_Profiles\">");
     return;
   }
+  const XmlElement* const read = ProfilesOf(root);
   for (const XmlElement& child : root.children) {
     if (child.name == "profiles") {
+      if (&child != read) AddSecondProfiles(child, *read);
       CheckProfiles(child);
     } else if (child.name == "library_settings") {
       CheckChildren(child, kLibrary);
-    } else if (child.name != "types" && child.name != "log") {
+    } else if (child.name == "log") {
+      AddDoor(child);
+    } else if (child.name != "types") {
       AddUnknown(child, root, "profiles, library_settings, types, log");
     }
   }
 }
 
+void Checker::AddSecondProfiles(const XmlElement& second, const XmlElement& first) {
+  Add("second_profiles", second, "stands beside the one of line " + std::to_string(first.line),
+      "move what is in it to the first", Severity::kError,
+      "The library reads the first <profiles> and drops every other without a word.");
+}
+
 }  // namespace
-
-std::optional<std::int64_t> ParseNumber(std::string_view text) {
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-std::optional<bool> ParseFlag(std::string_view text) {
-  if (text == "true" || text == "1") return true;
-  if (text == "false" || text == "0") return false;
-  return std::nullopt;
-}
-
-std::optional<std::int64_t> ParseDuration(const XmlElement& element) {
-  if (element.text == "DURATION_INFINITY" && element.children.empty()) return kInfinite;
-  if (element.children.empty()) return std::nullopt;
-  std::int64_t parts[2] = {0, 0};
-  for (const XmlElement& child : element.children) {
-    const bool whole = child.name == "sec";
-    if (!whole && child.name != "nanosec") return std::nullopt;
-    if (child.text == (whole ? "DURATION_INFINITE_SEC" : "DURATION_INFINITE_NSEC")) {
-      return kInfinite;
-    }
-    const auto number = ParseNumber(child.text);
-    const std::int64_t most = whole ? 0x7fff'ffff : kSecond - 1;
-    if (!number || *number < 0 || *number > most) return std::nullopt;
-    parts[whole ? 0 : 1] = *number;
-  }
-  if (parts[0] == 0x7fff'ffff) return kInfinite;
-  return parts[0] * kSecond + parts[1];
-}
 
 void CheckSchema(const XmlElement& root, const std::string& file, Findings* findings) {
   Checker(file, findings).CheckRoot(root);

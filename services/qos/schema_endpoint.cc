@@ -33,8 +33,8 @@ constexpr ElementRule kPositiveAcks[] = {{"enabled", kFlag}, {"duration", kDurat
 constexpr ElementRule kPiggyback[] = {{"enabled", kFlag}};
 constexpr ElementRule kDomainIds[] = {{"domainId", kUnsigned, {}, {}, true}};
 constexpr ElementRule kDataSharing[] = {Word("kind", "AUTOMATIC ON OFF"),
-                                        {"shared_dir", kText},
-                                        {"max_domains", kUnsigned},
+                                        {"shared_dir", kDoor},
+                                        {"max_domains", kInteger},
                                         Group("domain_ids", kDomainIds)};
 
 constexpr ElementRule kWriterQos[] = {
@@ -116,9 +116,9 @@ constexpr ElementRule kWriter[] = {
     {"ignore_non_matching_locators", kFlag},
     {"throughputController", kElements, kThroughput, {}, false, false, true},
     Word("historyMemoryPolicy", kMemory),
-    {"propertiesPolicy", kOpaque},
-    {"userDefinedID", kInteger},
-    {"entityID", kInteger},
+    {"propertiesPolicy", kDoor},
+    {"userDefinedID", kByte},
+    {"entityID", kByte},
     Group("matchedSubscribersAllocation", kMatched),
 };
 constexpr ElementRule kReader[] = {
@@ -132,9 +132,9 @@ constexpr ElementRule kReader[] = {
     {"ignore_non_matching_locators", kFlag},
     {"expectsInlineQos", kFlag},
     Word("historyMemoryPolicy", kMemory),
-    {"propertiesPolicy", kOpaque},
-    {"userDefinedID", kInteger},
-    {"entityID", kInteger},
+    {"propertiesPolicy", kDoor},
+    {"userDefinedID", kByte},
+    {"entityID", kByte},
     Group("matchedPublishersAllocation", kMatched),
 };
 

@@ -47,8 +47,8 @@ constexpr ElementRule kDiscovery[] = {
     Group("initialAnnouncements", kInitial),
     {"clientAnnouncementPeriod", kDuration},
     List("discoveryServersList", kServers),
-    {"staticEndpointXMLFilename", kText},
-    {"static_edp_xml_config", kText, {}, {}, true},
+    {"staticEndpointXMLFilename", kDoor},
+    {"static_edp_xml_config", kDoor, {}, {}, true},
 };
 
 constexpr std::string_view kMemory =
@@ -68,10 +68,9 @@ constexpr ElementRule kBuiltin[] = {
     {"writerPayloadSize", kUnsigned},
     {"mutation_tries", kUnsigned},
 };
-constexpr ElementRule kPort[] = {{"portBase", kUnsigned},          {"domainIDGain", kUnsigned},
-                                 {"participantIDGain", kUnsigned}, {"offsetd0", kUnsigned},
-                                 {"offsetd1", kUnsigned},          {"offsetd2", kUnsigned},
-                                 {"offsetd3", kUnsigned}};
+constexpr ElementRule kPorts[] = {
+    {"portBase", kPort}, {"domainIDGain", kPort}, {"participantIDGain", kPort}, {"offsetd0", kPort},
+    {"offsetd1", kPort}, {"offsetd2", kPort},     {"offsetd3", kPort}};
 constexpr ElementRule kThroughput[] = {{"bytesPerPeriod", kUnsigned},
                                        {"periodMillisecs", kUnsigned}};
 constexpr ElementRule kUserTransports[] = {{"transport_id", kText, {}, {}, true}};
@@ -86,29 +85,29 @@ constexpr ElementRule kRtps[] = {
     {"sendSocketBufferSize", kUnsigned},
     {"listenSocketBufferSize", kUnsigned},
     Group("builtin", kBuiltin),
-    Group("port", kPort),
+    Group("port", kPorts),
     {"participantID", kInteger},
     {"throughputController", kElements, kThroughput, {}, false, false, true},
     Group("userTransports", kUserTransports),
     {"useBuiltinTransports", kFlag},
-    {"propertiesPolicy", kOpaque},
+    {"propertiesPolicy", kDoor},
     {"userData", kOpaque},
 };
 constexpr ElementRule kParticipant[] = {{"domainId", kUnsigned}, Group("rtps", kRtps)};
 
 constexpr ElementRule kWhitelist[] = {{"address", kText, {}, {}, true}};
-constexpr ElementRule kListening[] = {{"port", kUnsigned, {}, {}, true}};
+constexpr ElementRule kListening[] = {{"port", kPort, {}, {}, true}};
 constexpr ElementRule kUdp[] = {
     {"transport_id", kText},
     Word("type", "UDPv4 UDPv6"),
     {"sendBufferSize", kUnsigned},
     {"receiveBufferSize", kUnsigned},
-    {"TTL", kUnsigned},
+    {"TTL", kByte},
     {"non_blocking_send", kFlag},
     {"maxMessageSize", kUnsigned},
     {"maxInitialPeersRange", kUnsigned},
     Group("interfaceWhiteList", kWhitelist),
-    {"output_port", kUnsigned},
+    {"output_port", kPort},
 };
 constexpr ElementRule kSharedMemory[] = {
     {"transport_id", kText},
@@ -118,25 +117,25 @@ constexpr ElementRule kSharedMemory[] = {
     {"segment_size", kUnsigned},
     {"port_queue_capacity", kUnsigned},
     {"healthy_check_timeout_ms", kUnsigned},
-    {"rtps_dump_file", kText},
+    {"rtps_dump_file", kDoor},
 };
 constexpr ElementRule kTcp[] = {
     {"transport_id", kText},
     Word("type", "TCPv4 TCPv6"),
     {"sendBufferSize", kUnsigned},
     {"receiveBufferSize", kUnsigned},
-    {"TTL", kUnsigned},
+    {"TTL", kByte},
     {"maxMessageSize", kUnsigned},
     {"maxInitialPeersRange", kUnsigned},
     Group("interfaceWhiteList", kWhitelist),
     {"wan_addr", kText},
     {"keep_alive_frequency_ms", kUnsigned},
     {"keep_alive_timeout_ms", kUnsigned},
-    {"max_logical_port", kUnsigned},
-    {"logical_port_range", kUnsigned},
-    {"logical_port_increment", kUnsigned},
+    {"max_logical_port", kPort},
+    {"logical_port_range", kPort},
+    {"logical_port_increment", kPort},
     {"enable_tcp_nodelay", kFlag},
-    {"metadata_logical_port", kUnsigned},
+    {"metadata_logical_port", kPort},
     Group("listening_ports", kListening),
     {"tls", kOpaque},
     {"calculate_crc", kFlag},

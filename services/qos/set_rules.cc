@@ -58,6 +58,19 @@ void CheckTwice(const ProfileSet& set, Findings* findings) {
   }
 }
 
+std::string ElementOf(Owner owner) {
+  if (owner == Owner::kParticipant) return "<participant>";
+  return owner == Owner::kWriter ? "<data_writer>" : "<data_reader>";
+}
+
+// The name is right, and the element is not.
+void AddWrongElement(const Profile& profile, Owner wanted, Findings* findings) {
+  findings->push_back({Severity::kWarning, "unused_profile", profile.place, profile.name,
+                       "is a " + ElementOf(profile.owner) + ", and services ask for a " +
+                           ElementOf(wanted) + " of that name",
+                       "What it says has no effect.", "write " + ElementOf(wanted)});
+}
+
 void CheckUnused(const ProfileSet& set, Findings* findings) {
   const std::vector<Wanted> wanted = WantedProfiles();
   for (const Profile& profile : set.profiles) {
@@ -65,6 +78,11 @@ void CheckUnused(const ProfileSet& set, Findings* findings) {
       return one.owner == profile.owner && one.name == profile.name;
     });
     if (used || profile.name.empty()) continue;
+    const auto of_another = std::ranges::find(wanted, profile.name, &Wanted::name);
+    if (of_another != wanted.end()) {
+      AddWrongElement(profile, of_another->owner, findings);
+      continue;
+    }
     findings->push_back(
         {Severity::kWarning, "unused_profile", profile.place, profile.name,
          "no service asks for it; the nearest name asked for is " + Closest(profile.name),

@@ -9,8 +9,11 @@ namespace {
 
 constexpr std::int64_t kLargestSample = 4096;  // a lidar scan with room to spare
 constexpr std::int64_t kUdpMessage = 65'500;   // the library's default maxMessageSize
-constexpr std::int64_t kShmQueue = 512;        // its default port_queue_capacity
-constexpr std::int64_t kSamplesATick = 3;      // beacon, ranges and command of a vehicle
+constexpr std::int64_t kLargestBuffer = 0x7fff'ffff;
+constexpr char kNoParticipant[] =
+    "The library makes no participant, and the service does not start.";
+constexpr std::int64_t kShmQueue = 512;    // its default port_queue_capacity
+constexpr std::int64_t kSamplesATick = 3;  // beacon, ranges and command of a vehicle
 
 class TransportRules {
  public:
@@ -19,6 +22,7 @@ class TransportRules {
 
   void CheckUse(const Participation& participation);
   void CheckOne(const Transport& transport);
+  void CheckBuffers(const Transport& transport);
   void CheckSharedMemory(const Transport& transport);
   void CheckTwiceOrUnused();
   void CheckIntraprocess();
@@ -108,7 +112,40 @@ void TransportRules::CheckOne(const Transport& transport) {
   AddBelow(
       transport, "maxMessageSize", kUdpMessage, kLargestSample, "message_too_small",
       "A lidar scan no longer fits one message, and a best-effort one is lost with any piece.");
-  if (transport.type == "SHM") CheckSharedMemory(transport);
+  if (transport.type == "SHM") {
+    CheckSharedMemory(transport);
+  } else {
+    CheckBuffers(transport);
+  }
+}
+
+// What the library holds these numbers against when it makes the transport. A buffer of 0 is left
+// to the system.
+void TransportRules::CheckBuffers(const Transport& transport) {
+  const auto message = transport.numbers.find("maxMessageSize");
+  const std::int64_t most =
+      message == transport.numbers.end() ? kUdpMessage : message->second.number;
+  if (most > kUdpMessage) {
+    Add(Severity::kError, "message_too_large", message->second.place, transport.id,
+        "maxMessageSize " + std::to_string(most), kNoParticipant,
+        "at most " + std::to_string(kUdpMessage));
+  }
+  for (const char* name : {"sendBufferSize", "receiveBufferSize"}) {
+    const auto buffer = transport.numbers.find(name);
+    if (buffer == transport.numbers.end() || buffer->second.number == 0) continue;
+    const std::int64_t size = buffer->second.number;
+    const std::string said = std::string(name) + " " + std::to_string(size);
+    if (size < most) {
+      Add(Severity::kError, "buffer_below_message", buffer->second.place, transport.id,
+          said + " against maxMessageSize " + std::to_string(most), kNoParticipant,
+          "room for several messages, or 0 for what the system gives");
+    } else if (size > kLargestBuffer) {
+      Add(Severity::kWarning, "buffer_above_limit", buffer->second.place, transport.id, said,
+          "Fast DDS 2.9 takes it for as much as the system grants; 3.1 makes no participant.",
+          "at most " + std::to_string(kLargestBuffer) +
+              ", of which the system grants what it does");
+    }
+  }
 }
 
 void TransportRules::CheckSharedMemory(const Transport& transport) {

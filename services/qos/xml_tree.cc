@@ -46,6 +46,19 @@ const tinyxml2::XMLElement* TooDeep(const tinyxml2::XMLElement& element, int dep
   return nullptr;
 }
 
+// <!DOCTYPE ...> or <!ENTITY ...> before or after the root; null if there is none.
+const tinyxml2::XMLUnknown* DocumentType(const tinyxml2::XMLDocument& document) {
+  for (const auto* node = document.FirstChild(); node != nullptr; node = node->NextSibling()) {
+    if (const auto* unknown = node->ToUnknown()) return unknown;
+  }
+  return nullptr;
+}
+
+std::string Shortened(std::string_view text) {
+  constexpr std::size_t kShown = 24;
+  return std::string(text.substr(0, kShown)) + (text.size() > kShown ? "…" : "");
+}
+
 XmlElement Copied(const tinyxml2::XMLElement& from, std::size_t* budget) {
   XmlElement to;
   to.name = from.Name();
@@ -90,6 +103,11 @@ const XmlElement* XmlElement::Child(std::string_view child_name) const {
   return found == children.rend() ? nullptr : &*found;
 }
 
+const XmlElement* XmlElement::FirstChild(std::string_view child_name) const {
+  const auto found = std::ranges::find(children, child_name, &XmlElement::name);
+  return found == children.end() ? nullptr : &*found;
+}
+
 const XmlElement* XmlElement::Descendant(std::string_view path) const {
   const std::size_t slash = path.find('/');
   const XmlElement* child = Child(path.substr(0, slash));
@@ -111,6 +129,12 @@ XmlRead ReadXml(std::string_view bytes, const std::string& file) {
     return {std::nullopt,
             {Unusable("malformed_xml", file, document.ErrorLineNum(), Reason(document),
                       "correct the XML here or just before; xmllint --noout FILE says more")}};
+  }
+  if (const auto* type = DocumentType(document)) {
+    return {std::nullopt,
+            {Unusable("document_type", file, type->GetLineNum(),
+                      "declares a document type or entities, <!" + Shortened(type->Value()) + ">",
+                      "remove it: entities are not expanded, and a set needs none")}};
   }
   const tinyxml2::XMLElement* root = document.RootElement();
   if (root == nullptr) {

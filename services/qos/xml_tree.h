@@ -29,6 +29,8 @@ struct XmlElement {
 
   // The last child of that name, as the library's later elements win; null if there is none.
   const XmlElement* Child(std::string_view child_name) const;
+  // The first one; null if there is none.
+  const XmlElement* FirstChild(std::string_view child_name) const;
   // Child by child along "a/b/c".
   const XmlElement* Descendant(std::string_view path) const;
   // Empty if there is no such attribute.

@@ -53,10 +53,10 @@ may_include() {
     fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|qos|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
       [[ $2 == services/@(vehicle|link|qos|app|types)/* ||
-        $2 == services/@(beacon_news|vehicle_admin|vehicle_health|vehicle_join|vehicle_report|service_main|server_wait).h ]]
+        $2 == services/@(beacon_news|vehicle_admin|vehicle_health|vehicle_join|vehicle_report|service_main|server_wait|qos_at_start).h ]]
       ;;
     world_main)
-      [[ $2 == services/@(link|app|types)/* || $2 == sim_world/* || $2 == services/@(service_main|server_wait).h ]]
+      [[ $2 == services/@(link|qos|app|types)/* || $2 == sim_world/* || $2 == services/@(service_main|server_wait|qos_at_start).h ]]
       ;;
     tests) true ;;
     *) false ;;
@@ -87,8 +87,8 @@ check_system_include() {
       return
       ;;
   esac
-  # How XML is read is one file's concern.
-  [[ $file == services/qos/xml_tree.cc && $header == tinyxml2.h ]] && return
+  # How XML is read, and the values in it, is the concern of two files.
+  [[ $file == services/qos/xml_@(tree|value).cc && $header == tinyxml2.h ]] && return
   [[ $file == services/qos/compose.cc && $header == yaml-cpp/* ]] && return
   # Vector registers are the language's concern, not another room's; one file may name them.
   [[ $file == sim_world/sonar_kernel.cc && $header == immintrin.h ]] && return

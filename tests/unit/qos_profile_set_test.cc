@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "services/qos/profile_set.h"
-#include "services/qos/schema_check.h"
+#include "services/qos/xml_value.h"
 
 namespace giveway::qos {
 namespace {
@@ -42,7 +42,8 @@ TEST(ProfileSet, LeavesOutWhatMeansNothing) {
       "9223372036854775807</max_instances></resourceLimitsQos></topic></data_writer>");
   EXPECT_EQ(set.profiles.front().Number(Policy::kReliability), kReliable);
   EXPECT_EQ(set.profiles.front().Number(Policy::kDepth), 1);
-  EXPECT_EQ(set.profiles.front().Number(Policy::kMaxInstances), 10);
+  // The library reads it so, too; the schema's check says that it is cut off.
+  EXPECT_EQ(set.profiles.front().Number(Policy::kMaxInstances), -1);
 }
 
 XmlElement Duration(const std::string& inside) {
@@ -50,14 +51,35 @@ XmlElement Duration(const std::string& inside) {
 }
 
 TEST(Durations, AreSecondsAndNanosecondsOrInfinite) {
-  EXPECT_EQ(ParseDuration(Duration("<sec>2</sec><nanosec>5</nanosec>")), 2'000'000'005);
-  EXPECT_EQ(ParseDuration(Duration("<nanosec>7</nanosec>")), 7);
-  EXPECT_EQ(ParseDuration(Duration("DURATION_INFINITY")), kInfinite);
-  EXPECT_EQ(ParseDuration(Duration("<sec>DURATION_INFINITE_SEC</sec>")), kInfinite);
-  EXPECT_EQ(ParseDuration(Duration("<sec>2147483647</sec>")), kInfinite);
-  for (const char* wrong : {"", "1", "<sec/>", "<sec>-1</sec>", "<sec>1.5</sec>", "<sec>1 s</sec>",
-                            "<nanosec>1000000000</nanosec>", "<sec>99999999999999999999</sec>"}) {
-    EXPECT_EQ(ParseDuration(Duration(wrong)), std::nullopt) << wrong;
+  EXPECT_EQ(ReadDuration(Duration("<sec>2</sec><nanosec>5</nanosec>")), 2'000'000'005);
+  EXPECT_EQ(ReadDuration(Duration("<nanosec>7</nanosec>")), 7);
+  EXPECT_EQ(ReadDuration(Duration("DURATION_INFINITY")), kInfinite);
+  EXPECT_EQ(ReadDuration(Duration("<sec>DURATION_INFINITE_SEC</sec>")), kInfinite);
+  EXPECT_EQ(ReadDuration(Duration("<sec>2147483647</sec>")), kInfinite);
+  for (const char* wrong : {"", "1", "<sec/>", "<sec>-1</sec>", "<sec>s</sec>",
+                            "<nanosec>1000000000</nanosec>", "<nanosec>-1</nanosec>"}) {
+    EXPECT_EQ(ReadDuration(Duration(wrong)), std::nullopt) << wrong;
+  }
+}
+
+TEST(Numbers, AreReadAsTheLibraryReadsThem) {
+  const auto read = [](const char* text, NumberKind kind = NumberKind::kSigned) {
+    const auto number = ReadNumber(text, kind);
+    return number ? std::pair(number->value, number->exact) : std::pair(std::int64_t{-999}, false);
+  };
+  for (const char* four : {"4", " 4 ", "\n  4\n", "\t+4", "4.0", "4.", "0x4", " 0X4 ", "04"}) {
+    EXPECT_EQ(read(four), std::pair(std::int64_t{4}, true)) << four;
+    EXPECT_EQ(read(four, NumberKind::kUnsigned), std::pair(std::int64_t{4}, true)) << four;
+  }
+  for (const char* cut : {"4ms", "4.5", "4 5", "4,0", "4e3", "4.0.0"}) {
+    EXPECT_EQ(read(cut), std::pair(std::int64_t{4}, false)) << cut;
+  }
+  EXPECT_EQ(read("-1"), std::pair(std::int64_t{-1}, true));
+  EXPECT_EQ(read("-1", NumberKind::kUnsigned), std::pair(std::int64_t{0xffff'ffff}, true));
+  EXPECT_FALSE(read("-2", NumberKind::kUnsigned).second);
+  EXPECT_FALSE(read("5000000000").second);
+  for (const char* none : {"", " ", "four", "+", ".4", "- 4"}) {
+    EXPECT_EQ(read(none).first, -999) << none;
   }
 }
 
