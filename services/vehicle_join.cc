@@ -1,5 +1,6 @@
 #include "services/vehicle_join.h"
 
+#include <algorithm>
 #include <chrono>
 
 namespace giveway {
@@ -39,6 +40,23 @@ bool Asking::IsFinal(const RosterEntry& entry) {
 void Asking::Ask() {
   link_.SendJoin(request_);
   again_ = app::SteadyNow() + kAskAgain;
+}
+
+VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
+  const auto& known = entry.spawn == 0 ? scenario.vehicles : scenario.spawns;
+  const auto found = entry.spawn == 0 ? std::ranges::find(known, entry.vehicle, &VehicleOptions::id)
+                                      : known.begin() + std::min<std::ptrdiff_t>(entry.spawn - 1,
+                                                                                 std::ssize(known));
+  if (found == known.end()) {
+    throw link::LinkError("the world gave this vehicle a place its scenario does not have: id " +
+                          std::to_string(Number(entry.vehicle)) +
+                          (entry.spawn == 0 ? "" : ", spawn " + std::to_string(entry.spawn)) +
+                          "; start both with the same scenario file");
+  }
+  VehicleOptions options = *found;
+  options.id = entry.vehicle;
+  options.start_world = entry.start_world;
+  return options;
 }
 
 std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,

@@ -6,7 +6,7 @@
 
 #include "services/app/process.h"
 #include "services/link/vehicle_link.h"
-#include "services/types/vehicle_options.h"
+#include "services/types/scenario.h"
 #include "services/vehicle_health.h"
 
 namespace giveway {
@@ -36,6 +36,10 @@ class Asking {
   bool answered_ = false;
   std::string waits_for_;
 };
+
+// By what the vehicle of this entry drives, from where it was put. Throws LinkError where the world
+// has another scenario.
+VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry);
 
 // Waits for the last word. Empty if asked to stop meanwhile.
 std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& stop,

@@ -34,49 +34,25 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr Nanoseconds kHangPoll = milliseconds(20);
 constexpr Nanoseconds kStatusPeriod = milliseconds(200);
 constexpr Nanoseconds kFlushTimeout = milliseconds(300);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
 
-VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
-  const auto& known = entry.spawn == 0 ? scenario.vehicles : scenario.spawns;
-  const auto found = entry.spawn == 0 ? std::ranges::find(known, entry.vehicle, &VehicleOptions::id)
-                                      : known.begin() + std::min<std::ptrdiff_t>(entry.spawn - 1,
-                                                                                 std::ssize(known));
-  if (found == known.end()) {
-    throw link::LinkError("the world gave this vehicle a place its scenario does not have: id " +
-                          std::to_string(Number(entry.vehicle)) +
-                          (entry.spawn == 0 ? "" : ", spawn " + std::to_string(entry.spawn)) +
-                          "; start both with the same scenario file");
-  }
-  VehicleOptions options = *found;
-  options.id = entry.vehicle;
-  options.start_world = entry.start_world;
-  return options;
-}
-
 enum class DriveEnd { kOver, kRefused, kRestarts };
-
-// A drill. As of a loop that really hangs: it does not see SIGTERM, which ends the process a second
-// later.
-void Hang() {
-  app::LogWarning("drill: the control loop hangs");
-  while (app::HangSignal::IsUp()) app::SleepUntil(app::SteadyNow() + kHangPoll);
-  app::LogWarning("drill: the control loop goes on");
-}
 
 // The loop and what it must remember between two turns.
 class Loop {
  public:
   // `recorder` is null where nothing is recorded.
   Loop(link::VehicleLink* link, VehicleAdmin* admin, VehicleHealthTeller* health,
-       const Scenario& scenario, const RosterEntry& entry, bool lockstep, app::Recorder* recorder)
+       const Scenario& scenario, const RosterEntry& entry, const app::ServiceFlags& flags,
+       app::Recorder* recorder)
       : link_(*link),
         admin_(*admin),
         health_(*health),
         scenario_(scenario),
-        lockstep_(lockstep),
+        lockstep_(flags.lockstep),
+        stays_(flags.stay),
         recorder_(recorder),
         place_(entry),
         options_(OptionsOf(scenario, entry)),
@@ -87,11 +63,11 @@ class Loop {
     health_.Placed(options_.ranges_age_limit);
   }
 
-  // Until the run has ended, `stop` is set, the world refuses it, or an operator's order takes a
-  // restart. Halts and says good-bye if the run goes on without it; for good only in the second
-  // case, in the last it keeps its place.
+  // Until the run has ended (unless it stays), `stop` is set, the world refuses it, or an
+  // operator's order takes a restart. Halts and says good-bye if the run goes on without it; for
+  // good only in the second case, in the last it keeps its place.
   DriveEnd Drive(const app::StopSignal& stop) {
-    while (!stop.IsSet() && !RunEnded() && !refused_ && !restarts_) Turn(false);
+    while (!stop.IsSet() && (stays_ || !RunEnded()) && !refused_ && !restarts_) Turn(false);
     health_.Leaves();
     const bool goes = stop.IsSet() || restarts_;
     for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
@@ -121,6 +97,7 @@ class Loop {
 
   // A world that was restarted, or that gives the vehicle another place, says where it stands now.
   void Follow(const RosterEntry& entry) {
+    if (asking_ && RunEnded() && entry.epoch == place_.epoch) return;  // of the run that is over
     if (asking_ && !asking_->IsFinal(entry)) return;
     if (!entry.accepted && entry.waiting) return AskAnew(entry);
     if (!entry.accepted) {
@@ -140,6 +117,14 @@ class Loop {
     app::LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
   }
 
+  // The run is over. Who stays asks the next world, as the same session: that world may know it
+  // from the request that is kept for later worlds already.
+  void AwaitNextWorld() {
+    if (!stays_ || !RunEnded() || asking_) return;
+    app::LogInfo("the run has ended: waits for the next world");
+    asking_.emplace(&link_, options_.id, place_.session);
+  }
+
   // Its place is gone; its id stays if it can, since everything it says is named after it.
   void AskAnew(const RosterEntry& entry) {
     app::LogWarning("lost its place: " + entry.reason);
@@ -155,11 +140,12 @@ class Loop {
 
   void Turn(bool leaving) {
     const bool woken = link_.WaitForScan(leaving ? Nanoseconds{0} : Patience());
-    if (app::HangSignal::IsUp()) Hang();
+    if (app::HangSignal::IsUp()) app::HangWhileUp();
     const SteadyTime woke = app::SteadyNow();
     link::Taken taken = link_.Take(woke);
     Inputs& inputs = taken.inputs;
     if (inputs.roster) Follow(*inputs.roster);
+    AwaitNextWorld();
     health_.Turned(taken, link_.Counters(), place_, woke);
     if (asking_) {
       asking_->AskAgainIfDue();
@@ -253,6 +239,7 @@ class Loop {
   VehicleHealthTeller& health_;
   const Scenario& scenario_;
   const bool lockstep_;
+  const bool stays_;
   app::Recorder* const recorder_;
   RosterEntry place_;
   VehicleOptions options_;
@@ -316,8 +303,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   if (flags.resume) admin.AnswerResumed(flags.resume->order);
   std::optional<app::HangSignal> hang;
   if (flags.hang_on_signal) hang.emplace();
-  Loop loop(&link, &admin, &health, scenario, *entry, flags.lockstep,
-            recorder ? &*recorder : nullptr);
+  Loop loop(&link, &admin, &health, scenario, *entry, flags, recorder ? &*recorder : nullptr);
   const DriveEnd end = loop.Drive(stop);
   app::LogInfo(Describe(link.Counters()));
   if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));

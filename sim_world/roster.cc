@@ -54,11 +54,17 @@ RosterEntry Roster::AdmitBySpawn(VehicleId vehicle, const JoinRequest& request,
   if (seats_.size() >= kMaxSeats) return Refuse(request, "the fleet is full", true);
   for (std::uint32_t spawn = 1; spawn <= spawns_.size(); ++spawn) {
     const Seat seat{vehicle, spawn, true, request.session};
-    if (!ask.is_free(OptionsOf(seat))) continue;
+    if (IsPatrolled(spawn) || !ask.is_free(OptionsOf(seat))) continue;
     const auto at = std::ranges::lower_bound(seats_, vehicle, {}, &Seat::vehicle);
     return Accept(*seats_.insert(at, seat));
   }
   return Refuse(request, "no start place is free", true);
+}
+
+// Whoever drives in a circle comes by again: another one from this place would be one too many.
+bool Roster::IsPatrolled(std::uint32_t spawn) const {
+  return spawns_[spawn - 1].route.loop &&
+         std::ranges::find(seats_, spawn, &Seat::spawn) != seats_.end();
 }
 
 VehicleId Roster::LowestFree() const {

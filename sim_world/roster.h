@@ -60,6 +60,7 @@ class Roster {
   RosterEntry AdmitAny(const JoinRequest& request, const SeatQuestions& ask);
   RosterEntry AdmitTo(Seat* seat, const JoinRequest& request, const SeatQuestions& ask);
   RosterEntry AdmitBySpawn(VehicleId vehicle, const JoinRequest& request, const SeatQuestions& ask);
+  bool IsPatrolled(std::uint32_t spawn) const;
   VehicleId LowestFree() const;
   RosterEntry Accept(const Seat& seat) const;
   RosterEntry Refuse(const JoinRequest& request, std::string reason, bool waiting) const;

@@ -11,6 +11,11 @@ namespace {
 
 constexpr double kBeforeStart_s = -1;  // Truth::time_s while the start is still to come
 
+std::optional<std::uint32_t> DurationTicks(const Scenario& scenario) {
+  if (IsEndless(scenario)) return std::nullopt;
+  return TicksCovering(FromSeconds(scenario.duration_s), scenario.tick_period);
+}
+
 }  // namespace
 
 Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
@@ -23,7 +28,7 @@ Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
       judge_(scenario),
       attendance_(scenario),
       log_(epoch),
-      duration_ticks_(TicksCovering(FromSeconds(scenario.duration_s), scenario.tick_period)) {
+      duration_ticks_(DurationTicks(scenario)) {
   scans_.reserve(scenario.vehicles.size());
   truths_.reserve(scenario.vehicles.size());
 }
@@ -148,7 +153,7 @@ void Run::CheckEnd() {
   if (end_reason_.empty() && state_ == RunState::kRunning) {
     if (!open_ && EveryoneLivingArrived()) {
       end_reason_ = "all_arrived";
-    } else if (ticks_run_ >= duration_ticks_) {
+    } else if (duration_ticks_ && ticks_run_ >= *duration_ticks_) {
       end_reason_ = "duration_over";
     }
   }

@@ -3,7 +3,8 @@
 // virtual fleet wires it to brains in memory.
 //
 // A closed run knows everybody from the start and ends when its vehicles have arrived or one dies.
-// In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration.
+// In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration. Where
+// that is without an end, until End is called.
 #pragma once
 
 #include <cstdint>
@@ -114,10 +115,10 @@ class Run {
   Attendance attendance_;
   EventLog log_;
   RunState state_ = RunState::kWaiting;
-  std::uint32_t duration_ticks_;
-  bool started_ = false;                        // the start signal was given
-  std::uint32_t ticks_run_ = 0;                 // since then, without pauses
-  std::vector<WorldEvent> comings_and_goings_;  // since the last tick
+  std::optional<std::uint32_t> duration_ticks_;  // empty: until End
+  bool started_ = false;                         // the start signal was given
+  std::uint32_t ticks_run_ = 0;                  // since then, without pauses
+  std::vector<WorldEvent> comings_and_goings_;   // since the last tick
   std::string asked_end_;
   std::string end_reason_;
   RunFigures figures_;

@@ -42,6 +42,7 @@ class CommandLine {
       Add("--impair", "RULES",
           "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
           "none; the README lists the keys");
+      AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
       Add("--resume", "WORD", "given by a vehicle to itself when an operator's order restarts it");
       AddSwitch("--hang-on-signal",
@@ -182,6 +183,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     if (values->Text("--record")) flags.record = values->TextOr("", "--record");
     flags.impair = ReadImpairment(values);
     flags.resume = ReadResumed(values);
+    flags.stay = values->Switch("--stay");
     flags.partition_free = values->Switch("--partition-free");
     flags.hang_on_signal = values->Switch("--hang-on-signal");
   }

@@ -29,6 +29,7 @@ struct ServiceFlags {
   std::string record;                // vehicle only; the file it is written to; empty: none is
   bool partition_free = false;       // vehicle only; beacons also without a partition
   std::optional<Resumed> resume;     // vehicle only; it was itself before, see restart.h
+  bool stay = false;                 // vehicle only; outlives its world
   bool hang_on_signal = false;       // vehicle only; a drill, see HangSignal
   std::optional<Impairment> impair;  // vehicle only; instead of the scenario's
   // Overrides of the scenario's; 0 moves nothing. Without the flag: the scenario's own seed.

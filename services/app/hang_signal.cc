@@ -2,6 +2,7 @@
 
 #include <atomic>
 
+#include "services/app/process.h"
 #include "services/types/check.h"
 
 namespace giveway::app {
@@ -10,6 +11,8 @@ namespace {
 // The handler runs on any thread at any moment: a lock-free flag is all it may touch.
 std::atomic<bool> is_up{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
+
+constexpr Nanoseconds kPoll = std::chrono::milliseconds(20);
 
 void OnSignal(int /*signal*/) { is_up = !is_up; }
 
@@ -30,5 +33,11 @@ HangSignal::~HangSignal() {
 }
 
 bool HangSignal::IsUp() { return is_up; }
+
+void HangWhileUp() {
+  LogWarning("drill: the control loop hangs");
+  while (HangSignal::IsUp()) SleepUntil(SteadyNow() + kPoll);
+  LogWarning("drill: the control loop goes on");
+}
 
 }  // namespace giveway::app

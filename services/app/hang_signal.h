@@ -22,4 +22,7 @@ class HangSignal {
   struct sigaction before_ {};
 };
 
+// As of a loop that really hangs: it does not see SIGTERM, which ends the process a second later.
+void HangWhileUp();
+
 }  // namespace giveway::app

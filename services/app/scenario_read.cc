@@ -91,7 +91,8 @@ void ReadSettings(const Section& root, const ScenarioOverrides& overrides, Scena
   scenario->description = ReadDescription(root);
   scenario->area = ReadName(root, "area", scenario->area);
   scenario->seed = overrides.seed.value_or(root.WholeOr(scenario->seed, "seed", kWholeNumber));
-  const double written_s = root.NumberOr(scenario->duration_s, "duration_s", kDuration);
+  const double written_s =
+      root.NumberOr(scenario->duration_s, "duration_s", {kDuration.low, kDuration.high, "s"});
   scenario->duration_s = overrides.duration_s.value_or(written_s);
   if (overrides.duration_s && !kDuration.Contains(*overrides.duration_s)) {
     root.Complain("",

@@ -115,7 +115,7 @@ Route ReadRoute(const Section& section) {
   return route;
 }
 
-// All but the id and the route.
+// All but the id.
 VehicleOptions ReadDriver(const Section& section, const VehicleOptions& common,
                           std::optional<Behaviour> forced) {
   VehicleOptions vehicle = common;
@@ -136,6 +136,7 @@ VehicleOptions ReadDriver(const Section& section, const VehicleOptions& common,
   if (const auto weights = section.Sub("braitenberg")) {
     vehicle.braitenberg = ReadBraitenberg(*weights, vehicle.braitenberg);
   }
+  vehicle.route = ReadRoute(section);
   if (const auto metric = section.Choice("distance_metric")) {
     vehicle.distance_metric =
         static_cast<DistanceMetric>(*metric);  // numbered alike, as behaviours
@@ -198,7 +199,6 @@ VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
   const VehicleId id{section.Whole("id", kId)};
   VehicleOptions vehicle = ReadDriver(section, common, forced);
   vehicle.id = id;
-  vehicle.route = ReadRoute(section);
   return vehicle;
 }
 

@@ -38,8 +38,10 @@ std::string Row(VehicleId vehicle, const TableView& view) {
 }
 
 std::string Title(const TableView& view) {
-  return fmt::format("{}  domain {}  {}  {:.1f} s of at most {:.0f} s", view.scenario, view.domain,
-                     view.state, view.time_s, view.duration_s);
+  const std::string end =
+      view.duration_s > 0 ? fmt::format("of at most {:.0f} s", view.duration_s) : "until stopped";
+  return fmt::format("{}  domain {}  {}  {:.1f} s {}", view.scenario, view.domain, view.state,
+                     view.time_s, end);
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace giveway::fleetctl {
 struct TableView {
   std::string scenario;
   std::uint32_t domain = 0;
-  std::string state;  // "waiting", "running", "stopping"
-  double time_s = 0;  // since the start signal
-  double duration_s = 0;
+  std::string state;                // "waiting", "running", "stopping"
+  double time_s = 0;                // since the start signal
+  double duration_s = 0;            // 0: until stopped
   std::vector<VehicleId> vehicles;  // every one the scenario names, heard of or not
   std::map<VehicleId, VehicleStatus> statuses;
   std::set<VehicleId> silent;  // their last status is history, not state

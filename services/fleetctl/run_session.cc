@@ -21,6 +21,7 @@ constexpr Nanoseconds kAnnounceGrace = milliseconds(300);  // for the world to a
 constexpr Nanoseconds kTermGrace = seconds(1);             // from SIGTERM to SIGKILL
 constexpr Nanoseconds kLastWords = milliseconds(500);
 constexpr double kSpareSeconds = 10;
+constexpr Nanoseconds kNoLimit = std::chrono::hours(24 * 365 * 100);
 constexpr double kLockstepSlowdown =
     10;  // lockstep waits for slow brains: no real time is promised
 
@@ -29,6 +30,7 @@ constexpr int kCouldNotStart = 2;
 constexpr int kCouldNotExec = 127;
 
 Nanoseconds TimeLimit(const Scenario& scenario, bool lockstep) {
+  if (IsEndless(scenario)) return kNoLimit;
   const double run_s = scenario.duration_s * (lockstep ? kLockstepSlowdown : 1);
   return FromSeconds(scenario.start_timeout_s + run_s + kSpareSeconds);
 }

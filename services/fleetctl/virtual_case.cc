@@ -84,7 +84,9 @@ CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
   }
   app::ScenarioOverrides overrides;
   overrides.seed = 0;
+  overrides.duration_s = options.duration_s;
   loaded_ = app::LoadScenario(options.scenario, overrides);
+  if (IsEndless(*loaded_)) loaded_->duration_s = kEndless_s;
   name_ = loaded_->name;
   CheckVehicles();
 }

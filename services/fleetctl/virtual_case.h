@@ -23,11 +23,15 @@ struct NumberRange {
   double high = 0;
 };
 
+// How much is looked at of a scenario that lasts until it is stopped.
+inline constexpr double kEndless_s = 600;
+
 // What the operator asked for. Where a range is given, each seed draws its own value from it.
 struct CaseOptions {
   std::string scenario;                // a file, a shipped one, or a generator
   std::optional<WholeRange> vehicles;  // of a generator, or of an open fleet
   std::optional<Behaviour> behaviour;
+  std::optional<double> duration_s;  // of a scenario; absent: its own, or kEndless_s
   NumberRange loss_percent;
   bool burst = false;  // the loss comes in bursts, the mean is the same
   double delay_ms = 0;

@@ -127,6 +127,11 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
       },
       "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
       "lecture_printed, which shows the flaws of the printed scripts: it collides");
+  verb->add_option(
+          "--duration", made_by->duration_s,
+          "Of a scenario: end after so many seconds instead; without it one that lasts until "
+          "it is stopped is looked at for 600")
+      ->check(CLI::Range(1.0, 86400.0));
   verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
   AddRadioFlags(verb, made_by);
   AddFaultFlags(verb, made_by);

@@ -108,7 +108,7 @@ struct Scenario {
   std::string area = "main";
   std::uint32_t seed = 0;
   Nanoseconds tick_period{50'000'000};
-  double duration_s = 60;
+  double duration_s = 60;            // 0: until it is stopped
   double start_timeout_s = 15;       // the world gives up waiting for the roster
   double remove_after_s = 5;         // a silent vehicle's body stays this long
   std::uint32_t watchdog_ticks = 3;  // the world stops a vehicle whose last command is older
@@ -128,5 +128,8 @@ struct Scenario {
   Impairment impairment;  // of what the vehicles hear; the virtual fleet has a radio of its own
   Expectation expect;
 };
+
+// Its run lasts until somebody stops it.
+inline bool IsEndless(const Scenario& scenario) { return scenario.duration_s == 0; }
 
 }  // namespace giveway

@@ -8,6 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 engine_up
 DISCOVERY=$1
 use "$DISCOVERY"
+once
 
 # crossing VEHICLES SCENARIO
 crossing() {

@@ -20,6 +20,9 @@ use() {
   return 0
 }
 
+# One run and no more: the services end with it, and the world's exit code is its verdict.
+once() { export GIVEWAY_RESTART=on-failure GIVEWAY_STAY=; }
+
 # eight ARRIVALS: the shipped open fleet, begun by eight at once, with this line on who must arrive.
 eight() {
   sed -e 's/^start_with: 2$/start_with: 8\nstart_timeout_s: 60/' -e 's/^duration_s: 90$/duration_s: 60/' \

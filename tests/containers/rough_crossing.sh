@@ -8,6 +8,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 [[ ${1:-} == multicast || ${1:-} == servers ]] || die "say multicast or servers"
 engine_up
 use "$1"
+once
 eight 'any_arrived: true'
 export GIVEWAY_SCENARIO=/drill/eight.textproto
 

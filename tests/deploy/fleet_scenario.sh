@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints the scenario of a deployed fleet: copies of the crossing of open_fleet, so far apart that
+# Prints the scenario of a deployed fleet: copies of the crossing of patrol, so far apart that
 # nobody of one hears anybody of another. config/scenarios/fleet_N.textproto is what this prints.
 # Usage: fleet_scenario.sh VEHICLES CROSSINGS START_WITH
 set -euo pipefail
@@ -9,17 +9,18 @@ if [[ $# -ne 3 ]]; then
 fi
 vehicles=$1 crossings=$2 start_with=$3
 
-# Farther than a goal lies from its crossing (7 m), twice, plus the emission radius (5 m).
+# Farther than a road reaches from its crossing (7 m), twice, plus the emission radius (5 m).
 PITCH_M=24
-# x, y, heading, cruise, goal x, goal y: the front four of a crossing, then those behind them.
-PLACES='-4 -1 0 0.40 7 -1
-1 -4 90 0.30 1 7
-4 1 180 0.45 -7 1
--1 4 -90 0.35 -1 -7
--7 -1 0 0.35 5 -1
-1 -7 90 0.40 1 5
-7 1 180 0.30 -5 1
--1 7 -90 0.45 -1 -5'
+# x, y, heading, cruise, and the four corners of the way round: the front four of a crossing, then
+# those behind them.
+PLACES='-4 -1 0 0.40 7 -1 7 1 -7 1 -7 -1
+1 -4 90 0.30 1 7 -1 7 -1 -7 1 -7
+4 1 180 0.45 -7 1 -7 -1 7 -1 7 1
+-1 4 -90 0.35 -1 -7 1 -7 1 7 -1 7
+-7 -1 0 0.35 7 -1 7 1 -7 1 -7 -1
+1 -7 90 0.40 1 7 -1 7 -1 -7 1 -7
+7 1 180 0.30 -7 1 -7 -1 7 -1 7 1
+-1 7 -90 0.45 -1 -7 1 -7 1 7 -1 7'
 
 cat <<TEXT
 # A fleet of $vehicles as it is deployed (config/deploy). Schema: idl/scenario.proto.
@@ -27,10 +28,9 @@ cat <<TEXT
 name: "fleet_$vehicles"
 description: "Places for $vehicles vehicles that join as they come: crossings of two roads, eight places each, $PITCH_M m apart."
 
-# A day, the longest there is: in a cluster a run that ends is only started again.
-duration_s: 86400
-# Images are pulled and nodes are found meanwhile. A place is given anew as soon as its vehicle has
-# driven off, so the fleet is gathered before it starts.
+# Zero: until it is told to stop.
+duration_s: 0
+# Images are pulled and nodes are found meanwhile: the fleet is gathered before it starts.
 start_with: $start_with
 start_timeout_s: 600
 
@@ -39,9 +39,16 @@ columns=$(awk -v n="$crossings" 'BEGIN { c = int(sqrt(n)); while (c * c < n) ++c
 for ((crossing = 0; crossing < crossings; ++crossing)); do
   column=$((crossing % columns)) row=$((crossing / columns))
   east=$((column * PITCH_M)) north=$((row * PITCH_M))
-  while read -r x y heading cruise goal_x goal_y; do
-    printf 'spawn { start { x_m: %d y_m: %d heading_deg: %d } cruise_m_s: %s goal { x_m: %d y_m: %d radius_m: 0.2 } }\n' \
-      $((east + x)) $((north + y)) "$heading" "$cruise" $((east + goal_x)) $((north + goal_y))
+  while read -r x y heading cruise corners; do
+    printf 'spawn { start { x_m: %d y_m: %d heading_deg: %d } cruise_m_s: %s' \
+      $((east + x)) $((north + y)) "$heading" "$cruise"
+    # shellcheck disable=SC2086 # two numbers a corner
+    set -- $corners
+    while [[ $# -gt 0 ]]; do
+      printf ' waypoint { x_m: %d y_m: %d }' $((east + $1)) $((north + $2))
+      shift 2
+    done
+    printf ' loop: true }\n'
   done <<<"$PLACES"
 done
 cat <<'TEXT'

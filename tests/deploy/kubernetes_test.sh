@@ -131,7 +131,7 @@ expect images_pinned "the image latest" $B/kustomization.yaml '0,/newTag: .*/s//
 expect fleet "two worlds at a time" $B/world.yaml 's/type: Recreate/type: RollingUpdate/'
 expect fleet "vehicles one after the other" $B/vehicle.yaml 's/Parallel/OrderedReady/'
 expect "fleet places" "more vehicles than places" $O/20/kustomization.yaml 's/count: 20/count: 30/'
-expect scenario_as_written "a scenario changed by hand" config/scenarios/fleet_20.textproto 's/duration_s: 86400/duration_s: 60/'
+expect scenario_as_written "a scenario changed by hand" config/scenarios/fleet_20.textproto 's/duration_s: 0/duration_s: 60/'
 expect "places scenario_as_written" "a place on top of another" config/scenarios/fleet_20.textproto 's/x_m: 20 y_m: -1 /x_m: -4 y_m: -1.2 /'
 overlay=200
 expect planned_for "two hundred with what two take" $O/200/kustomization.yaml 's/requests: \{cpu: 150m/requests: {cpu: 20m/'

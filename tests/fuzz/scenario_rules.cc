@@ -213,7 +213,7 @@ void CheckScenario(const Scenario& scenario) {
   GIVEWAY_CHECK(IsName(scenario.area), scenario.area);
   GIVEWAY_CHECK(IsUtf8(scenario.description), scenario.description);
   GIVEWAY_CHECK(Within(Milliseconds(scenario.tick_period), 5, 1000), scenario.tick_period.count());
-  GIVEWAY_CHECK(Positive(scenario.duration_s, 86400), scenario.duration_s);
+  GIVEWAY_CHECK(Within(scenario.duration_s, 0, 86400), scenario.duration_s);
   GIVEWAY_CHECK(Positive(scenario.start_timeout_s, 600), scenario.start_timeout_s);
   GIVEWAY_CHECK(Within(scenario.remove_after_s, 0, 3600), scenario.remove_after_s);
   GIVEWAY_CHECK(scenario.watchdog_ticks >= 1 && scenario.watchdog_ticks <= 100);

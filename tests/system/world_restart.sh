@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The world is killed with -9 and started again, with a checkpoint, with a spoilt one and without:
-# the same vehicle processes drive again within five seconds, and nobody touches anybody.
+# The world is killed with -9 and started again, with a checkpoint, with a damaged one and without,
+# is told to stop, and comes to the end of its run: the same vehicle processes drive again within five
+# seconds, and nobody touches anybody. Who was not told to stay ends with its run.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 checkpoint=$SCRATCH/world.checkpoint
@@ -25,7 +26,7 @@ lines_until() { grep -n "$2" "$SCRATCH/$1.log" | tail -n 1 | cut -d: -f1; }
 
 start world1 giveway-world --checkpoint "$checkpoint"
 for vehicle in a b c; do
-  start "$vehicle" giveway-vehicle --record "$SCRATCH/$vehicle.recording"
+  start "$vehicle" giveway-vehicle --stay --record "$SCRATCH/$vehicle.recording"
 done
 for vehicle in a b c; do await "at first: $vehicle drives" 15 "$vehicle" 'cruise'; done
 
@@ -48,7 +49,16 @@ await "another comes" 10 d 'cruise'
   fail "two vehicles have one id"
 
 kill -TERM "${PID[world4]}"
-for vehicle in a b c d; do
+code=0
+wait "${PID[d]}" || code=$?
+unset "PID[d]"
+[[ $code -eq 0 ]] || fail "after the end: exit code $code of d, which does not stay"
+restart world5 "after one that was told to stop" 'started with' --duration 2
+wait "${PID[world5]}" # its run is over
+restart world6 "after one whose run was over" 'started with'
+
+kill -TERM "${PID[world6]}" "${PID[a]}" "${PID[b]}" "${PID[c]}"
+for vehicle in a b c; do
   code=0
   wait "${PID[$vehicle]}" || code=$?
   unset "PID[$vehicle]"

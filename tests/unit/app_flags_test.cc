@@ -151,6 +151,19 @@ TEST(Flags, OnlyAVehicleBeaconsWithoutAPartitionAndOnlyIfAsked) {
   EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(least)).partition_free);
 }
 
+TEST(Flags, OnlyAVehicleOutlivesItsWorldAndOnlyIfAsked) {
+  const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
+  EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).stay);
+  std::vector<const char*> words = least;
+  words.push_back("--stay");
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).stay);
+  CaptureStderr();
+  EXPECT_EQ(std::get<int>(World(words)), 2);
+  EXPECT_THAT(GetCapturedStderr(), HasSubstr("--stay"));
+  const Variable twin("GIVEWAY_STAY", "true");
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(least)).stay);
+}
+
 TEST(Flags, OnlyTheWorldSharesItsWorkAmongThreads) {
   const auto threads = [](std::vector<const char*> words) {
     words.insert(words.begin(), {"--scenario", "s", "--domain", "1"});

@@ -1,4 +1,4 @@
-// Waypoints of a vehicle in a scenario file.
+// Waypoints of a vehicle or of a spawn place in a scenario file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,6 +23,20 @@ TEST(RouteInAFile, IsReadInTurn) {
   EXPECT_EQ(route.waypoints_world[1], (Vec2{3, -4}));
   EXPECT_TRUE(route.loop);
   EXPECT_EQ(scenario.vehicles[1].route.count, 0U);
+}
+
+TEST(RouteInAFile, IsReadOfASpawnPlaceToo) {
+  const std::string spawn = "spawn { start { x_m: 9 y_m: 9 heading_deg: 0 } cruise_m_s: 0.2 ";
+  const Scenario scenario =
+      Load(kGoodScenario + spawn +
+           "waypoint { x_m: 1 y_m: 2 } waypoint { x_m: 3 y_m: -4 } loop: true }");
+  ASSERT_EQ(scenario.spawns.size(), 1U);
+  const Route& route = scenario.spawns[0].route;
+  ASSERT_EQ(route.count, 2U);
+  EXPECT_EQ(route.waypoints_world[1], (Vec2{3, -4}));
+  EXPECT_TRUE(route.loop);
+  EXPECT_THAT(ProblemsOf(kGoodScenario + spawn + "loop: true }"),
+              ElementsAre(Is(17, "spawn[0].loop", "without a waypoint")));
 }
 
 TEST(RouteInAFile, HasAtMostSixteenWaypoints) {

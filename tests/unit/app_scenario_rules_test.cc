@@ -258,7 +258,7 @@ TEST_P(SettingsOutOfRange, AreRefused) {
 INSTANTIATE_TEST_SUITE_P(
     ScenarioRules, SettingsOutOfRange,
     ::testing::Values(OutOfRange{"tick_period_ms", "4"}, OutOfRange{"tick_period_ms", "nan"},
-                      OutOfRange{"duration_s", "0"}, OutOfRange{"duration_s", "86401"},
+                      OutOfRange{"duration_s", "-1"}, OutOfRange{"duration_s", "86401"},
                       OutOfRange{"start_timeout_s", "0"}, OutOfRange{"remove_after_s", "-1"},
                       OutOfRange{"watchdog_ticks", "0"}, OutOfRange{"watchdog_ticks", "101"},
                       OutOfRange{"emission_radius_m", "0"}, OutOfRange{"emission_radius_m", "-5"},

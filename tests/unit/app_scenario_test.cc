@@ -68,6 +68,11 @@ INSTANTIATE_TEST_SUITE_P(Files, BadScenario,
                                                      "../tests/unit/bad_scenarios")),
                          StemOf);
 
+TEST(Scenario, ADurationOfZeroLastsUntilItIsStopped) {
+  EXPECT_TRUE(IsEndless(Load(kGoodScenario + "duration_s: 0")));
+  EXPECT_FALSE(IsEndless(Load(kGoodScenario)));
+}
+
 TEST(Scenario, TheFiveOfTheCrossingAreShipped) {
   for (const char* name : {"intersection_yield", "intersection_equal", "intersection_avoid",
                            "wall_only", "peer_dies"}) {

@@ -66,5 +66,18 @@ TEST(Roster, AFullFleetTakesNobodyElse) {
   EXPECT_EQ(roster.Admit(Ask(3, 0)).reason, "the fleet is full");
 }
 
+// Whoever patrols comes by its start again: another one from there would fill the loop.
+TEST(Roster, APlaceThatLoopsIsItsVehiclesForAsLongAsThatIsInTheRun) {
+  Scenario scenario = ScenarioOf({});
+  scenario.spawns = {VehicleAt(0, {.position_world = {1, 0}})};
+  scenario.spawns[0].route = {.waypoints_world = {Vec2{5, 0}}, .count = 1, .loop = true};
+  Roster roster(scenario, kEpoch);
+  const VehicleId first = roster.Admit(Ask(1, 0)).vehicle;
+  EXPECT_EQ(first, VehicleId{1});
+  EXPECT_EQ(roster.Admit(Ask(2, 0)).reason, "no start place is free");
+  roster.Free(first);
+  EXPECT_TRUE(roster.Admit(Ask(2, 0)).accepted);
+}
+
 }  // namespace
 }  // namespace giveway::sim

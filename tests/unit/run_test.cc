@@ -154,6 +154,19 @@ TEST(Run, AVehicleWithoutAGoalRunsForTheDuration) {
   EXPECT_TRUE(driver.run.Figures().passed);
 }
 
+TEST(Run, OneWithoutAnEndGoesOnUntilItIsStopped) {
+  Scenario scenario = TwoLanes();
+  scenario.vehicles[1].goal.set = false;
+  scenario.duration_s = 0;
+  Driver driver(scenario);
+  driver.run.Start();
+  driver.Advance(100);
+  EXPECT_EQ(driver.run.State(), RunState::kRunning);
+  driver.run.End("interrupted");
+  driver.Advance(1);
+  EXPECT_EQ(driver.run.EndReason(), "interrupted");
+}
+
 TEST(Run, WhoDoesNotArriveInTimeIsNamed) {
   Scenario scenario = TwoLanes();
   scenario.duration_s = 1;
