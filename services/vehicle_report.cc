@@ -62,6 +62,7 @@ std::string Describe(const link::VehicleLinkCounters& counters) {
                           {"wrong_name_scans", counters.wrong_name_scans},
                           {"old_world_entries", counters.old_world_entries},
                           {"events_dropped", counters.events_dropped},
+                          {"deadline_watches_lost", counters.deadline_watches_lost},
                           {"write_failures", counters.write_failures}});
 }
 

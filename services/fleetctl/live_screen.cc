@@ -5,6 +5,8 @@
 
 #include <cstdio>
 
+#include "services/fleetctl/library_lines.h"
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -62,6 +64,7 @@ void LiveScreen::Draw(const std::vector<std::string>& lines) {
   if (!cursor_hidden_) text += kHideCursor;
   cursor_hidden_ = true;
   if (lines_drawn_ > 0) text += "\x1b[" + std::to_string(lines_drawn_) + "A";
+  for (const std::string& line : TakeLibraryLines()) text += kClearLine + line + "\n";
   for (const std::string& line : lines) text += kClearLine + line + "\n";
   text += kClearBelow;
   lines_drawn_ = lines.size();

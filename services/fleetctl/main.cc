@@ -5,6 +5,7 @@
 #include <string>
 
 #include "services/fleetctl/exit_codes.h"
+#include "services/fleetctl/library_lines.h"
 #include "services/fleetctl/verbs.h"
 #include "services/link/library_release.h"
 
@@ -28,6 +29,18 @@ std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::
   return "there is no verb '" + std::string(argv[1]) + "'; verbs: " + verbs;
 }
 
+// Whatever no table has shown.
+struct LibraryLinesAtEnd {
+  LibraryLinesAtEnd() = default;
+  ~LibraryLinesAtEnd() {
+    for (const std::string& line : giveway::fleetctl::TakeLibraryLines()) {
+      std::fprintf(stderr, "%s\n", line.c_str());
+    }
+  }
+  LibraryLinesAtEnd(const LibraryLinesAtEnd&) = delete;
+  LibraryLinesAtEnd& operator=(const LibraryLinesAtEnd&) = delete;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -50,6 +63,8 @@ int main(int argc, char** argv) {
   giveway::fleetctl::AddTopVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddWhyVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::KeepLibraryLines();
+  const LibraryLinesAtEnd told_at_end;
   try {
     fleetctl.parse(argc, argv);
   } catch (const CLI::Success& help) {

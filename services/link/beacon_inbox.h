@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "services/link/endpoint.h"
+#include "services/link/anchored_reader.h"
 #include "services/link/writer_names.h"
 #include "services/types/beacon.h"
 #include "services/types/qos_event.h"
@@ -13,7 +13,8 @@ namespace giveway::link {
 
 class BeaconInbox {
  public:
-  // Beacons of writers with the prefix `own` are left out: a reader hears its own participant.
+  // Beacons of writers with the prefix `own` are left out: a reader hears its own participant. The
+  // reader's listener removes departed vehicles: ReaderEvents with RemoveDeparted.
   BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names, const rtps::GuidPrefix_t& own);
 
   // Appends what came, `now` stamped on it, and to `lost`, if given, whose samples are missing:
@@ -31,7 +32,7 @@ class BeaconInbox {
   void Receive(const wire::Beacon& sample, const dds::SampleInfo& info, SteadyTime now,
                std::vector<ReceivedBeacon>& beacons, std::vector<QosEvent>* lost);
 
-  Reader<wire::Beacon> reader_;
+  AnchoredReader<wire::Beacon> reader_;
   WriterNames& names_;
   rtps::GuidPrefix_t own_;
   std::uint64_t gaps_ = 0;

@@ -4,6 +4,7 @@
 #include <array>
 #include <mutex>
 
+#include "services/link/anchored_reader.h"
 #include "services/link/impairer.h"
 #include "services/link/participant.h"
 #include "services/link/reader_events.h"
@@ -72,10 +73,10 @@ class TopicListener final : public Listener {
  public:
   TopicListener(Participant& participant, const std::string& partition)
       : reader_(participant.MakeReader<Wire>(partition, Participant::kProfileDepth, &events_,
-                                             dds::StatusMask::subscription_matched())) {}
+                                             ReaderEvents::Mask())) {}
 
   void Listen(Processes& processes) override {
-    for (const ReaderEvent& event : events_.Take()) {
+    for (const ReaderEvent& event : events_.Take().events) {
       if (event.kind == ReaderEvent::Kind::kMatched) {
         CountOf(processes, GuidOf(event.handle)).matched = true;
       }
@@ -90,8 +91,8 @@ class TopicListener final : public Listener {
     return ProcessOf(processes, PrefixOf(writer)).topics[TopicOf<Wire>::kName];
   }
 
-  ReaderEvents events_;
-  Reader<Wire> reader_;
+  ReaderEvents events_{&RemoveDeparted<Wire>};
+  AnchoredReader<Wire> reader_;
 };
 
 template <typename... Wires>

@@ -1,7 +1,9 @@
-// Sends what Fast DDS logs to stderr (its default is stdout, where our JSON goes), errors only, and
-// keeps the last of it so that a start-up error can quote the library's own words.
+// What Fast DDS logs, errors only: its default is stdout, where our JSON goes. It goes where the
+// program says, and the last of it is kept so that a start-up error can quote the library's own
+// words.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -11,11 +13,16 @@ namespace giveway::link {
 void TakeOverLibraryLog();
 
 // From now on each line is handed to `take` instead of being written to stderr; it is called on the
-// library's log thread, and must not wait.
+// library's log thread, and must not wait. A line that the library repeats is handed on once in ten
+// seconds.
 void SetLibraryLog(std::function<void(const std::string& line)> take);
 
 // What the library complained about since the last call, one line each; empty if nothing. It was
-// on stderr already.
+// sent on already.
 std::string LibraryComplaints();
+
+// How often the library said that it stops watching the deadlines of a reader. Who listens to a
+// vehicle's beacons goes on by its own clock.
+std::uint32_t DeadlineWatchesLost();
 
 }  // namespace giveway::link

@@ -8,24 +8,32 @@ namespace giveway::link {
 template <typename Wire>
 class Loan {
  public:
+  using Samples = dds::LoanableSequence<Wire>;
+
   // Takes what the library gives in one go (32 samples by default); Size() 0 means nothing is left.
   explicit Loan(dds::DataReader& reader)
-      : reader_(reader), taken_(Ok(reader.take(samples_, infos_))) {}
+      : Loan(reader, [&](Samples& samples, dds::SampleInfoSeq& infos) {
+          return reader.take(samples, infos);
+        }) {}
+  // What get(samples, infos), one of the reader's own functions, gives.
+  template <typename Get>
+  Loan(dds::DataReader& reader, Get&& get) : reader_(reader), code_(get(samples_, infos_)) {}
   ~Loan() {
-    if (taken_) reader_.return_loan(samples_, infos_);
+    if (Ok(code_)) reader_.return_loan(samples_, infos_);
   }
   Loan(const Loan&) = delete;
   Loan& operator=(const Loan&) = delete;
 
-  int Size() const { return taken_ ? static_cast<int>(samples_.length()) : 0; }
+  int Size() const { return Ok(code_) ? static_cast<int>(samples_.length()) : 0; }
   const Wire& Sample(int i) const { return samples_[i]; }
   const dds::SampleInfo& Info(int i) const { return infos_[i]; }
+  const ReturnCode& Code() const { return code_; }
 
  private:
   dds::DataReader& reader_;
-  dds::LoanableSequence<Wire> samples_;
+  Samples samples_;
   dds::SampleInfoSeq infos_;
-  bool taken_;
+  ReturnCode code_;
 };
 
 // Empties the reader: visit(sample, info) for every sample that carries data. The samples of one

@@ -3,6 +3,7 @@
 #include "services/link/beacon_inbox.h"
 #include "services/link/convert.h"
 #include "services/link/participant.h"
+#include "services/link/reader_events.h"
 #include "services/link/writer_names.h"
 
 namespace giveway::link {
@@ -26,8 +27,10 @@ struct ObserverLink::Impl {
   explicit Impl(const LinkOptions& options)
       : participant(options, "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*")),
-        beacons(participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth), names,
-                participant.Prefix()),
+        beacons(
+            participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth, &beacon_events,
+                                                 dds::StatusMask::requested_deadline_missed()),
+            names, participant.Prefix()),
         truth_reader(participant.MakeReader<wire::Truth>(kWorld)),
         event_reader(participant.MakeReader<wire::Event>(kWorld, EventDepth(options.fleet_size))),
         roster_reader(participant.MakeReader<wire::Roster>(kWorld)),
@@ -47,7 +50,8 @@ struct ObserverLink::Impl {
     });
   }
 
-  WriterNames names;  // the library calls it until the participant is gone
+  WriterNames names;  // the library calls these two until the participant is gone
+  ReaderEvents beacon_events{&RemoveDeparted<wire::Beacon>};  // only to remove; its news go unread
   Participant participant;
   Reader<wire::Status> status_reader;
   BeaconInbox beacons;

@@ -7,25 +7,50 @@ namespace giveway::link {
 PeerEvents::PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own, std::string area)
     : names_(names), own_(own), area_(std::move(area)) {}
 
-void PeerEvents::Matched(VehicleId vehicle) {
-  ++matched_writers_;
+void PeerEvents::Match(const rtps::GUID_t& writer) {
+  if (writer.guidPrefix == own_) return;
+  const WriterEntry* const entry = names_.Find(writer);
+  const VehicleId vehicle = entry == nullptr ? kNobody : entry->vehicle;
+  if (!writers_.try_emplace(Identity(writer), Writer{.vehicle = vehicle}).second) return;
   if (vehicle != kNobody) ++peers_[vehicle].writers;
+  Tell(QosEventKind::kMatched, vehicle);
 }
 
-void PeerEvents::Unmatched(VehicleId vehicle) {
-  if (matched_writers_ > 0) --matched_writers_;
+void PeerEvents::Unmatch(std::uint64_t writer) {
+  const auto found = writers_.find(writer);
+  if (found == writers_.end()) return;
+  const VehicleId vehicle = found->second.vehicle;
+  writers_.erase(found);
   const auto peer = peers_.find(vehicle);
   if (peer != peers_.end() && --peer->second.writers == 0) peers_.erase(peer);
+  Tell(QosEventKind::kUnmatched, vehicle);
 }
 
-bool PeerEvents::IsNewMiss(VehicleId vehicle) {
-  const auto peer = peers_.find(vehicle);
-  return peer != peers_.end() && !std::exchange(peer->second.missed, true);
+// The first sample of a writer is no return.
+void PeerEvents::SetSilent(std::uint64_t writer, bool silent) {
+  const auto found = writers_.find(writer);
+  if (found == writers_.end() || std::exchange(found->second.silent, silent) == silent) return;
+  Tell(silent ? QosEventKind::kLivelinessLost : QosEventKind::kLivelinessBack,
+       found->second.vehicle);
 }
 
-void PeerEvents::Heard(VehicleId vehicle) {
+void PeerEvents::Miss(VehicleId vehicle, Peer* peer) {
+  if (!std::exchange(peer->missed, true)) Tell(QosEventKind::kDeadlineMissed, vehicle);
+}
+
+void PeerEvents::Heard(VehicleId vehicle, SteadyTime now) {
   const auto peer = peers_.find(vehicle);
-  if (peer != peers_.end()) peer->second.missed = false;
+  if (peer == peers_.end()) return;
+  peer->second.missed = false;
+  peer->second.heard = now;
+}
+
+void PeerEvents::Watch(SteadyTime now, Nanoseconds deadline, std::vector<QosEvent>& told) {
+  now_ = now;
+  told_ = &told;
+  for (auto& [vehicle, peer] : peers_) {
+    if (peer.heard && now - *peer.heard > deadline) Miss(vehicle, &peer);
+  }
 }
 
 VehicleId PeerEvents::Unfit(const ReaderEvent& event) {
@@ -61,47 +86,54 @@ void PeerEvents::NoteMatch(const ReaderEvent& event) {
   }
 }
 
-void PeerEvents::Translate(std::span<const ReaderEvent> events, SteadyTime now,
-                           std::vector<QosEvent>& told) {
+void PeerEvents::Translate(const ReaderNews& news, SteadyTime now, std::vector<QosEvent>& told) {
+  now_ = now;
+  told_ = &told;
   // All matches first: who is matched a moment later is not the one that does not fit.
-  for (const ReaderEvent& event : events) NoteMatch(event);
-  for (const ReaderEvent& event : events) {
-    if (event.kind == ReaderEvent::Kind::kIncompatibleQos) {
-      told.push_back({QosEventKind::kIncompatibleQos, Unfit(event), now});
-      continue;
+  for (const ReaderEvent& event : news.events) NoteMatch(event);
+  for (const ReaderEvent& event : news.events) Follow(event);
+  if (news.incomplete) Reconcile(news.matched);
+}
+
+void PeerEvents::Follow(const ReaderEvent& event) {
+  const auto writer = [&] { return Identity(GuidOf(event.handle)); };
+  switch (event.kind) {
+    case ReaderEvent::Kind::kDeadlineMissed: {
+      const auto peer = peers_.find(VehicleId{KeyOf(event.handle)});
+      if (peer != peers_.end()) Miss(peer->first, &peer->second);
+      break;
     }
-    if (event.kind == ReaderEvent::Kind::kDeadlineMissed) {
-      const VehicleId vehicle{KeyOf(event.handle)};
-      if (IsNewMiss(vehicle)) told.push_back({QosEventKind::kDeadlineMissed, vehicle, now});
-      continue;
-    }
-    const rtps::GUID_t writer = GuidOf(event.handle);
-    if (writer.guidPrefix == own_) continue;
-    const WriterEntry* const entry = names_.Find(writer);
-    const VehicleId vehicle = entry == nullptr ? kNobody : entry->vehicle;
-    switch (event.kind) {
-      case ReaderEvent::Kind::kMatched:
-        Matched(vehicle);
-        told.push_back({QosEventKind::kMatched, vehicle, now});
-        break;
-      case ReaderEvent::Kind::kUnmatched:
-        Unmatched(vehicle);
-        not_alive_.erase(Identity(writer));
-        told.push_back({QosEventKind::kUnmatched, vehicle, now});
-        break;
-      case ReaderEvent::Kind::kNotAlive:
-        not_alive_.insert(Identity(writer));
-        told.push_back({QosEventKind::kLivelinessLost, vehicle, now});
-        break;
-      case ReaderEvent::Kind::kAlive:
-        // The first sample of a writer is no return.
-        if (not_alive_.erase(Identity(writer)) > 0) {
-          told.push_back({QosEventKind::kLivelinessBack, vehicle, now});
-        }
-        break;
-      default:
-        break;
-    }
+    case ReaderEvent::Kind::kIncompatibleQos:
+      Tell(QosEventKind::kIncompatibleQos, Unfit(event));
+      break;
+    case ReaderEvent::Kind::kMatched:
+      Match(GuidOf(event.handle));
+      break;
+    case ReaderEvent::Kind::kUnmatched:
+      Unmatch(writer());
+      break;
+    case ReaderEvent::Kind::kNotAlive:
+      SetSilent(writer(), true);
+      break;
+    case ReaderEvent::Kind::kAlive:
+      SetSilent(writer(), false);
+      break;
+  }
+}
+
+// After events were dropped: what is matched now counts, and each difference is told.
+void PeerEvents::Reconcile(std::span<const MatchedWriter> matched) {
+  matched_.clear();
+  for (const MatchedWriter& writer : matched) matched_.insert(Identity(GuidOf(writer.handle)));
+  std::vector<std::uint64_t> gone;
+  for (const auto& [identity, writer] : writers_) {
+    if (!matched_.contains(identity)) gone.push_back(identity);
+  }
+  for (const std::uint64_t writer : gone) Unmatch(writer);
+  for (const MatchedWriter& writer : matched) {
+    unfit_.erase(Identity(GuidOf(writer.handle)));
+    Match(GuidOf(writer.handle));
+    SetSilent(Identity(GuidOf(writer.handle)), !writer.alive);
   }
 }
 

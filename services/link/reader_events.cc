@@ -19,10 +19,17 @@ dds::StatusMask ReaderEvents::Mask() {
          << dds::StatusMask::requested_incompatible_qos();
 }
 
-std::span<const ReaderEvent> ReaderEvents::Take() {
+ReaderNews ReaderEvents::Take() {
   const std::scoped_lock lock(mutex_);
   std::copy_n(queue_.begin(), size_, taken_.begin());
-  return {taken_.data(), std::exchange(size_, 0)};
+  missed_.clear();
+  taken_matched_.clear();
+  ReaderNews news{.events = {taken_.data(), std::exchange(size_, 0)}};
+  if (std::exchange(dropped_before_, dropped_) == dropped_) return news;
+  for (const auto& [identity, writer] : matched_) taken_matched_.push_back(writer);
+  news.incomplete = true;
+  news.matched = taken_matched_;
+  return news;
 }
 
 std::uint32_t ReaderEvents::Dropped() const {
@@ -31,7 +38,6 @@ std::uint32_t ReaderEvents::Dropped() const {
 }
 
 void ReaderEvents::Push(ReaderEvent::Kind kind, const dds::InstanceHandle_t& handle) {
-  const std::scoped_lock lock(mutex_);
   if (size_ == kCapacity) {
     ++dropped_;
     return;
@@ -39,30 +45,54 @@ void ReaderEvents::Push(ReaderEvent::Kind kind, const dds::InstanceHandle_t& han
   queue_[size_++] = {kind, handle};
 }
 
-void ReaderEvents::on_requested_deadline_missed(dds::DataReader*,
+void ReaderEvents::NoteMatch(const dds::InstanceHandle_t& writer, bool matched) {
+  const std::uint64_t identity = Identity(GuidOf(writer));
+  if (matched) {
+    matched_.insert_or_assign(identity, MatchedWriter{.handle = writer});
+  } else {
+    matched_.erase(identity);
+  }
+}
+
+void ReaderEvents::NoteLiveliness(const dds::InstanceHandle_t& writer, bool alive) {
+  const auto found = matched_.find(Identity(GuidOf(writer)));
+  if (found != matched_.end()) found->second.alive = alive;
+}
+
+// With the reader's lock held, which a thread may take again. The miss is of the instance that the
+// timer is set for.
+void ReaderEvents::on_requested_deadline_missed(dds::DataReader* reader,
                                                 const dds::RequestedDeadlineMissedStatus& status) {
-  Push(ReaderEvent::Kind::kDeadlineMissed, status.last_instance_handle);
+  const dds::InstanceHandle_t instance = status.last_instance_handle;
+  if (remove_departed_ != nullptr && reader != nullptr) remove_departed_(*reader, instance);
+  const std::scoped_lock lock(mutex_);
+  if (missed_.size() == kMostMisses || !missed_.insert(KeyOf(instance)).second) return;
+  Push(ReaderEvent::Kind::kDeadlineMissed, instance);
 }
 
 void ReaderEvents::on_liveliness_changed(dds::DataReader*,
                                          const dds::LivelinessChangedStatus& status) {
   // A writer that leaves lowers a count; that is told by kUnmatched.
-  if (status.not_alive_count_change > 0) {
-    Push(ReaderEvent::Kind::kNotAlive, status.last_publication_handle);
-  } else if (status.alive_count_change > 0) {
-    Push(ReaderEvent::Kind::kAlive, status.last_publication_handle);
-  }
+  const bool lost = status.not_alive_count_change > 0;
+  if (!lost && status.alive_count_change <= 0) return;
+  const std::scoped_lock lock(mutex_);
+  NoteLiveliness(status.last_publication_handle, !lost);
+  Push(lost ? ReaderEvent::Kind::kNotAlive : ReaderEvent::Kind::kAlive,
+       status.last_publication_handle);
 }
 
 void ReaderEvents::on_subscription_matched(dds::DataReader*,
                                            const dds::SubscriptionMatchedStatus& status) {
   const bool matched = status.current_count_change > 0;
+  const std::scoped_lock lock(mutex_);
+  NoteMatch(status.last_publication_handle, matched);
   Push(matched ? ReaderEvent::Kind::kMatched : ReaderEvent::Kind::kUnmatched,
        status.last_publication_handle);
 }
 
 void ReaderEvents::on_requested_incompatible_qos(dds::DataReader*,
                                                  const dds::RequestedIncompatibleQosStatus&) {
+  const std::scoped_lock lock(mutex_);
   Push(ReaderEvent::Kind::kIncompatibleQos, WriterNames::FoundByThisThread());
 }
 

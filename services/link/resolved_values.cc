@@ -6,11 +6,7 @@
 namespace giveway::link {
 namespace {
 
-std::int64_t Number(const Duration& duration) {
-  // The library's infinite differs in its nanoseconds from release to release.
-  if (duration.seconds == std::numeric_limits<std::int32_t>::max()) return kInfiniteDuration;
-  return duration.seconds * std::int64_t{1'000'000'000} + duration.nanosec;
-}
+std::int64_t Number(const Duration& duration) { return NanosecondsOf(duration); }
 
 // Where the library's number of a kind is its place in this list.
 template <typename Kind, std::size_t count>
@@ -55,6 +51,12 @@ std::vector<ResolvedValue> EndpointValues(const Qos& qos, const Around& around) 
 }
 
 }  // namespace
+
+std::int64_t NanosecondsOf(const Duration& duration) {
+  // The library's infinite differs in its nanoseconds from release to release.
+  if (duration.seconds == std::numeric_limits<std::int32_t>::max()) return kInfiniteDuration;
+  return duration.seconds * std::int64_t{1'000'000'000} + duration.nanosec;
+}
 
 Duration ToDuration(std::int64_t nanoseconds) {
   if (nanoseconds == kInfiniteDuration) return dds::DeadlineQosPolicy().period;

@@ -10,6 +10,7 @@ namespace giveway::link {
 
 // Back from a number of nanoseconds, or kInfiniteDuration.
 Duration ToDuration(std::int64_t nanoseconds);
+std::int64_t NanosecondsOf(const Duration& duration);
 
 std::vector<ResolvedValue> ValuesOf(const dds::DomainParticipantQos& qos);
 std::vector<ResolvedValue> ValuesOf(const dds::DataWriterQos& qos, const dds::PublisherQos& around);

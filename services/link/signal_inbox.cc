@@ -36,7 +36,7 @@ void SignalInbox::Keep(const SignalState& state) {
 }
 
 void SignalInbox::CountMisses() {
-  for (const ReaderEvent& event : events_.Take()) {
+  for (const ReaderEvent& event : events_.Take().events) {
     if (not_heard_.size() == kMaxHeads) return;
     if (not_heard_.insert(KeyOf(event.handle)).second) ++deadline_missed_;
   }

@@ -5,6 +5,7 @@
 #include "services/link/beacon_inbox.h"
 #include "services/link/convert.h"
 #include "services/link/impairer.h"
+#include "services/link/library_log.h"
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
 #include "services/link/reader_events.h"
@@ -83,6 +84,10 @@ struct OwnEndpoints {
     if (options.partition_free) open_beacon_writer = participant.MakeWriter<wire::Beacon>("");
   }
 
+  // Requested now: an operator may change it while the vehicle drives.
+  Nanoseconds BeaconDeadline() const {
+    return Nanoseconds(NanosecondsOf(beacon_reader.Entity().get_qos().deadline().period));
+  }
   void AddTo(VehicleLinkCounters& counters) {
     counters.beacons_superseded = beacons.Superseded();
     counters.unbound_samples += beacons.Unbound();
@@ -146,8 +151,8 @@ struct VehicleLink::Impl {
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
   LinkOptions options;
-  WriterNames names;    // the library calls these three until the participant is gone, so they are
-  ReaderEvents events;  // declared before it
+  WriterNames names;  // the library calls these three until the participant is gone, so they are
+  ReaderEvents events{&RemoveDeparted<wire::Beacon>};  // declared before it
   std::optional<ReaderEvents> signal_events;
   Participant participant;
   Writer<wire::Join> join_writer;
@@ -224,9 +229,9 @@ Taken VehicleLink::Take(SteadyTime now) {
   link.qos_events.clear();
   // Events before names: whoever an event is about is then known by name. Events before beacons: a
   // miss is told before the beacon that ends it.
-  const auto events = link.events.Take();
+  const ReaderNews news = link.events.Take();
   link.names.Update();
-  link.peers.Translate(events, now, link.qos_events);
+  link.peers.Translate(news, now, link.qos_events);
 
   Taken taken;
   taken.inputs.now = now;
@@ -238,8 +243,9 @@ Taken VehicleLink::Take(SteadyTime now) {
   taken.inputs.roster = link.NewestEntry(link.told_to_step);
   own.beacons.Drain(now, link.taken_beacons, &link.qos_events);
   for (const ReceivedBeacon& received : link.taken_beacons) {
-    if (received.crc_valid && received.name_valid) link.peers.Heard(received.beacon.vehicle);
+    if (received.crc_valid && received.name_valid) link.peers.Heard(received.beacon.vehicle, now);
   }
+  link.peers.Watch(now, own.BeaconDeadline(), link.qos_events);
   taken.inputs.beacons = link.taken_beacons;
   taken.inputs.events = link.qos_events;
   return taken;
@@ -288,6 +294,7 @@ bool VehicleLink::SetDeadline(const std::string& profile, std::int64_t deadline)
 VehicleLinkCounters VehicleLink::Counters() const {
   VehicleLinkCounters counters = impl_->counters;
   counters.events_dropped = impl_->events.Dropped();
+  counters.deadline_watches_lost = DeadlineWatchesLost();
   counters.matched_peers = impl_->peers.MatchedWriters();
   counters.unreadable_samples = impl_->roster.Unreadable();
   counters.old_world_entries = impl_->roster.FromOldWorlds();

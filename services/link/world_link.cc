@@ -5,10 +5,13 @@
 #include <cmath>
 #include <unordered_map>
 
+#include "services/link/anchored_reader.h"
 #include "services/link/convert.h"
+#include "services/link/join_inbox.h"
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
 #include "services/link/reader_events.h"
+#include "services/link/resolved_values.h"
 #include "services/link/roster_outbox.h"
 #include "services/link/vehicle_writers.h"
 #include "services/link/writer_names.h"
@@ -18,6 +21,7 @@ namespace giveway::link {
 namespace {
 
 constexpr char kWorld[] = "world";
+constexpr std::uint32_t kForgetEvery = 32;  // turns; of vehicles that are gone
 
 bool IsFinite(const MotorCommand& command) {
   return std::isfinite(command.target.left_rad_s) && std::isfinite(command.target.right_rad_s);
@@ -28,9 +32,11 @@ bool IsFinite(const MotorCommand& command) {
 struct WorldLink::Impl {
   explicit Impl(const LinkOptions& options)
       : participant(options, "giveway-world", names),
-        join_reader(participant.MakeReader<wire::Join>("fleet")),
+        joins(participant.MakeReader<wire::Join>("fleet")),
         command_reader(participant.MakeReader<wire::MotorCommand>(
-            "v*", Participant::kProfileDepth, &events, dds::StatusMask::subscription_matched())),
+            "v*", Participant::kProfileDepth, &events,
+            dds::StatusMask::subscription_matched()
+                << dds::StatusMask::requested_deadline_missed())),
         roster(participant.MakeWriter<wire::Roster>(kWorld)),
         signal_writer(participant.MakeWriter<wire::SignalState>(kWorld)),
         truth_writer(participant.MakeWriter<wire::Truth>(kWorld)),
@@ -46,15 +52,16 @@ struct WorldLink::Impl {
     vehicles.Translate(queued, SteadyTime{0}, discarded);
   }
   void Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info);
+  void ForgetDeparted();
   template <typename Scan>
   void Send(const Scan& scan);
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
-  WriterNames names;    // the library calls these two until the participant is gone, so they are
-  ReaderEvents events;  // declared before it
+  WriterNames names;  // the library calls these two until the participant is gone, so they are
+  ReaderEvents events{&RemoveDeparted<wire::MotorCommand>};  // declared before it
   Participant participant;
-  Reader<wire::Join> join_reader;
-  Reader<wire::MotorCommand> command_reader;
+  JoinInbox joins;
+  AnchoredReader<wire::MotorCommand> command_reader;
   RosterOutbox roster;
   Writer<wire::SignalState> signal_writer;
   Writer<wire::Truth> truth_writer;
@@ -66,6 +73,7 @@ struct WorldLink::Impl {
   std::vector<MotorCommand> commands;
   std::vector<QosEvent> discarded;
   WorldLinkCounters counters;
+  std::uint32_t turns = 0;
 };
 
 void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info) {
@@ -113,17 +121,21 @@ bool WorldLink::IsMatched(VehicleId vehicle) const {
 }
 
 std::vector<JoinRequest> WorldLink::TakeJoins() {
-  std::vector<JoinRequest> joins;
-  impl_->join_reader.TakeEach([&](const wire::Join& sample, const dds::SampleInfo&) {
-    FromWire(sample, joins.emplace_back());
-  });
-  std::stable_partition(joins.begin(), joins.end(),
-                        [](const JoinRequest& request) { return request.leaving; });
-  return joins;
+  impl_->FollowDiscovery();
+  return impl_->joins.Take(impl_->names);
+}
+
+// Of a reader with a deadline its listener removes them, which alone knows when it may.
+void WorldLink::Impl::ForgetDeparted() {
+  if (++turns % kForgetEvery != 0) return;
+  if (NanosecondsOf(command_reader.Entity().get_qos().deadline().period) == kInfiniteDuration) {
+    RemoveDeparted<wire::MotorCommand>(command_reader.Entity(), dds::HANDLE_NIL);
+  }
 }
 
 std::span<const MotorCommand> WorldLink::TakeCommands() {
   impl_->FollowDiscovery();
+  impl_->ForgetDeparted();
   impl_->commands.clear();
   impl_->command_reader.TakeEach(
       [&](const wire::MotorCommand& sample, const dds::SampleInfo& info) {

@@ -21,7 +21,6 @@ constexpr std::array kTopics = {
           .written_in = "v<id>",
           .read_in = "v*",
           .ticks = 1,
-          .guarded = true,
           .reader_depth = 2},
     Topic{.name = "fleet/status", .stem = "fleet_status", .written_in = "v<id>", .read_in = "v*"},
     Topic{.name = "fleet/admin",

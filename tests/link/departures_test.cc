@@ -1,6 +1,7 @@
 // Vehicles that fall silent, leave and come back: each is named, and a gone one stays gone.
 #include <gmock/gmock.h>
 
+#include "services/link/library_log.h"
 #include "tests/link/fleet.h"
 #include "tests/link/raw_vehicle.h"
 
@@ -102,14 +103,69 @@ TEST(Departures, OfFiftyVehiclesLeaveThePublishedCountersStill) {
   EXPECT_EQ(listener.Told(QosEventKind::kUnmatched), 50U);
   EXPECT_GE(listener.Told(QosEventKind::kLivelinessLost), 10U);
 
-  // The library still repeats the misses of the departed; none of it is told.
+  // Nothing is told of the departed, and they cost nothing: the library repeats the miss of an
+  // instance every 150 ms for as long as it has it, and has one left of fifty.
   const std::size_t told = listener.Told();
   const std::size_t raw = listener.RawMisses();
+  Repeat(milliseconds(1500), [&] { listener.Listen(); });
+  EXPECT_EQ(listener.Told(), told);
+  EXPECT_LE(listener.RawMisses() - raw, 30U) << "of 500, were all repeated";
+
+  // It still watches those who come.
+  auto late = std::make_unique<BeaconingProcess>(options, VehicleId{++id});
+  ASSERT_TRUE(Eventually([&] {
+    listener.Listen();
+    return listener.Vehicles().contains(VehicleId{id});
+  }));
+  EXPECT_EQ(listener.RawMissesOf(VehicleId{id}), 0U);
+  late->Kill();
   EXPECT_TRUE(Eventually([&] {
     listener.Listen();
-    return listener.RawMisses() > raw + 200;
-  })) << "the library stopped repeating: this test no longer shows anything";
-  EXPECT_EQ(listener.Told(), told);
+    return listener.RawMissesOf(VehicleId{id}) > 0;
+  })) << "the library stopped watching deadlines";
+}
+
+// Issue 21, number 22: the library removed the instance that its timer was set for, and no deadline
+// of the reader was watched any more.
+TEST(Departures, OfAVehicleThatWasNotHeardToTheEndLeavesTheDeadlinesWatched) {
+  const DomainLock domain;
+  const link::LinkOptions options = OptionsIn(domain);
+  RawListener listener(options);
+  RawSender staying(options, "main/v6");
+  std::uint32_t seq = 0;
+  const auto send = [&seq](RawSender& sender, std::uint32_t id) {
+    sender.Send(link::ToWire(BeaconFrom(VehicleId{id}, ++seq).beacon));
+  };
+  {
+    RawSender leaving(options, "main/v5");
+    ASSERT_TRUE(Eventually([&] {
+      send(leaving, 5);
+      send(staying, 6);
+      listener.Listen();
+      return listener.Vehicles().size() == 2;
+    }));
+    // Of the two, the timer is set for the one that says nothing more.
+    send(leaving, 5);
+    Repeat(milliseconds(100), [&] { send(staying, 6); });
+  }
+  ASSERT_TRUE(Eventually([&] {
+    send(staying, 6);
+    listener.FollowMatches();
+    return listener.Matched() == 1;
+  }));
+  const std::uint32_t lost = link::DeadlineWatchesLost();
+  Repeat(milliseconds(500), [&] {
+    send(staying, 6);
+    listener.Listen();
+  });
+  EXPECT_TRUE(Eventually(
+      [&] {
+        listener.Listen();
+        return listener.RawMissesOf(VehicleId{6}) > 0;
+      },
+      seconds(3)))
+      << "the library stopped watching deadlines";
+  EXPECT_EQ(link::DeadlineWatchesLost(), lost);
 }
 
 TEST(Departures, ARestartedVehicleIsHeardAgainAndMissedAgain) {

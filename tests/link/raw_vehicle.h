@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,25 +39,36 @@ class RawListener {
         inbox_(reader_, names_, participant_.Prefix()),
         peers_(names_, participant_.Prefix(), "main") {}
 
-  // One turn of VehicleLink::Take.
-  void Listen() {
-    const auto events = events_.Take();
-    for (const link::ReaderEvent& event : events) {
-      raw_misses_ += event.kind == link::ReaderEvent::Kind::kDeadlineMissed ? 1 : 0;
+  // The first half of a turn: nothing is drained.
+  void FollowMatches() {
+    const link::ReaderNews news = events_.Take();
+    for (const link::ReaderEvent& event : news.events) {
+      if (event.kind != link::ReaderEvent::Kind::kDeadlineMissed) continue;
+      ++raw_misses_;
+      ++raw_misses_of_[VehicleId{link::KeyOf(event.handle)}];
     }
     names_.Update();
-    peers_.Translate(events, SteadyTime{0}, told_);
+    peers_.Translate(news, SteadyTime{0}, told_);
+  }
+  // One turn of VehicleLink::Take, but that no clock watches.
+  void Listen() {
+    FollowMatches();
     beacons_.clear();
     inbox_.Drain(SteadyTime{0}, beacons_);
     for (const ReceivedBeacon& received : beacons_) {
-      peers_.Heard(received.beacon.vehicle);
+      peers_.Heard(received.beacon.vehicle, SteadyTime{0});
       vehicles_.insert(received.beacon.vehicle);
     }
     heard_ += beacons_.size();
   }
   std::size_t Heard() const { return heard_; }
   const std::set<VehicleId>& Vehicles() const { return vehicles_; }  // heard at least once
-  std::size_t RawMisses() const { return raw_misses_; }  // as often as the library said so
+  // As often as the library said so, at most once a turn and vehicle.
+  std::size_t RawMisses() const { return raw_misses_; }
+  std::size_t RawMissesOf(VehicleId vehicle) const {
+    const auto found = raw_misses_of_.find(vehicle);
+    return found == raw_misses_of_.end() ? 0 : found->second;
+  }
   std::size_t Told() const { return told_.size(); }
   std::size_t Told(QosEventKind kind) const {
     return static_cast<std::size_t>(std::count_if(
@@ -69,7 +81,7 @@ class RawListener {
 
  private:
   link::WriterNames names_;
-  link::ReaderEvents events_;
+  link::ReaderEvents events_{&link::RemoveDeparted<wire::Beacon>};
   link::Participant participant_;
   link::Reader<wire::Beacon> reader_;
   link::BeaconInbox inbox_;
@@ -79,6 +91,7 @@ class RawListener {
   std::size_t heard_ = 0;
   std::set<VehicleId> vehicles_;
   std::size_t raw_misses_ = 0;
+  std::map<VehicleId, std::size_t> raw_misses_of_;
 };
 
 }  // namespace giveway::test

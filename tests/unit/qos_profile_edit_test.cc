@@ -43,7 +43,7 @@ TEST(ProfileEdit, AnEditChangesItsValueAndNothingElse) {
 TEST(ProfileEdit, AnEditThatSaysWhatIsThereChangesNoByte) {
   EXPECT_EQ(Edited(Default(), {{Owner::kReader, kReader, Policy::kDeadline, 150 * kMs},
                                {Owner::kReader, kReader, Policy::kReliability, kBestEffort},
-                               {Owner::kReader, kReader, Policy::kDepth, 4}}),
+                               {Owner::kReader, kReader, Policy::kDepth, 5}}),
             Default());
 }
 
