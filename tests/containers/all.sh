@@ -40,6 +40,7 @@ containers() {
   case_of "images" images
   [[ $SUITE == bookworm ]] || discoveries+=(servers)
   for discovery in "${discoveries[@]}"; do
+    [[ $discovery != multicast ]] || case_of "a fleet as the README starts it" patrol
     case_of "crossings of 2 and 8, $discovery" crossing "$discovery"
     case_of "drills, $discovery" drills "$discovery"
     case_of "eight cross while things happen, $discovery" rough_crossing "$discovery"

@@ -20,14 +20,6 @@ drill_vehicle_crash() {
   await "$1: all drive" "$LIMIT_S" all_drive "$VEHICLES"
 }
 
-# Places all vehicles were given so far: each is told anew by another world.
-places() {
-  local vehicle sum=0
-  for vehicle in $(running vehicle); do
-    sum=$((sum + $(metric "$vehicle" vehicle_placements_total)))
-  done
-  echo "$sum"
-}
 # drive_again PLACES: so many places were given, and all drive. Without the former a vehicle that has
 # just woken might be seen with the speed and the ranges it fell asleep with.
 drive_again() { [[ $(places) -ge $1 ]] && all_drive "$VEHICLES"; }

@@ -121,6 +121,15 @@ any_drives() {
   return 1
 }
 
+# Places all vehicles were given so far: each is told anew by another world.
+places() {
+  local vehicle sum=0
+  for vehicle in $(running vehicle); do
+    sum=$((sum + $(metric "$vehicle" vehicle_placements_total)))
+  done
+  echo "$sum"
+}
+
 # await WHAT SECONDS COMMAND...: true once the command is; else a failure after so many seconds.
 await() {
   local what=$1 seconds=$2 begun now

@@ -5,6 +5,8 @@
 # memory grows.
 #
 #   bash tests/containers/patrol.sh [MINUTES [VEHICLES]]   default: each of the three once, at once
+#
+# GIVEWAY_NO_BUILD=1 takes the images as they are, GIVEWAY_KEEP_SAMPLES=FILE keeps what was looked at.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 MINUTES=${1:-0}
 VEHICLES=${2:-4}
@@ -20,7 +22,9 @@ unset GIVEWAY_SCENARIO
 README_UP=$(grep -Eo '^bash config/deploy/up\.sh --vehicles [0-9]+' "$GIVEWAY_ROOT/README.md" | head -n 1)
 [[ -n $README_UP ]] || die "the README does not say how a fleet is started"
 up_as_the_readme_says() {
-  (cd "$GIVEWAY_ROOT" && ${README_UP% *} "$VEHICLES") >"$SCRATCH/up.log" 2>&1 ||
+  local as_it_is=()
+  [[ -z ${GIVEWAY_NO_BUILD:-} ]] || as_it_is=(--no-build)
+  (cd "$GIVEWAY_ROOT" && ${README_UP% *} "$VEHICLES" "${as_it_is[@]}") >"$SCRATCH/up.log" 2>&1 ||
     fail "$README_UP: exit code $?: $(tail -n 5 "$SCRATCH/up.log")"
 }
 
@@ -58,9 +62,13 @@ until_then() {
   done
 }
 
+placed() { [[ $(places) -ge $1 ]]; }
 restart_world() {
+  local told
+  told=$(places)
   # The README's words, not docker's: the world is told to stop, and its run is over.
   compose restart -t 5 world >"$SCRATCH/restart.log" 2>&1 || fail "restart: $(tail -n 3 "$SCRATCH/restart.log")"
+  await "world restarted: all are given a place" 20 placed $((told + VEHICLES))
   drive_again "world restarted"
 }
 kill_vehicle() {
