@@ -278,7 +278,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
                                   const app::StopSignal& stop, int* exit_code) {
   VehicleHealthTeller health(flags);
   std::optional<app::Recorder> recorder;
-  if (!flags.record.empty()) recorder.emplace(flags.record);
+  if (!flags.record.empty()) recorder.emplace(flags.record, flags.record_split);
   link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
   link_options.impairment = ImpairmentOf(flags, scenario);
   if (!AwaitServers(link_options, stop, [&](const std::string& why) { health.Joins(why); })) {

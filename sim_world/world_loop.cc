@@ -281,7 +281,8 @@ void WorldLoop::KeepCheckpoint() {
   next_checkpoint_ = begun + kCheckpointPeriod;
   const std::string complaint = app::WriteStateFile(
       options_.checkpoint_file, sim::ToBytes(fleet_->admission.Save(options_.scenario_mark)));
-  if (!complaint.empty()) app::LogWarning("checkpoint " + complaint);
+  const std::string line = checkpoint_fault_.Note(complaint, begun);
+  if (!line.empty()) app::LogWarning("checkpoint " + line);
   longest_checkpoint_ = std::max(longest_checkpoint_, app::SteadyNow() - begun);
 }
 

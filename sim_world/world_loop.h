@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "services/app/fault_reminder.h"
 #include "services/app/health_service.h"
 #include "services/app/process.h"
 #include "services/link/world_link.h"
@@ -89,6 +90,7 @@ class WorldLoop {
   std::vector<MotorCommand> commands_;
   std::uint32_t overruns_ = 0;
   SteadyTime next_checkpoint_{0};
+  app::FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
   Nanoseconds longest_checkpoint_{0};
 };
 

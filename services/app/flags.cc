@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <list>
 
+#include "services/app/byte_size.h"
 #include "services/app/flag_values.h"
 #include "services/app/impair_text.h"
 
@@ -37,8 +38,9 @@ class CommandLine {
     if (service == Service::kVehicle) {
       Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
       Add("--record", "FILE",
-          "write all the brain is told and says, for fleetctl replay; a FILE that\n"
-          "is there is kept as FILE.old");
+          "write all the brain is told and says, for fleetctl replay; where FILE is\n"
+          "there already, into the first free of FILE with a number");
+      Add("--record-split", "SIZE", "begin another file of the recording at this size: 64MiB");
       Add("--impair", "RULES",
           "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
           "none; the README lists the keys");
@@ -129,6 +131,19 @@ std::optional<Impairment> ReadImpairment(FlagValues* values) {
   return std::move(parsed.impairment);
 }
 
+void ReadRecord(FlagValues* values, ServiceFlags* flags) {
+  if (values->Text("--record")) flags->record = values->TextOr("", "--record");
+  const auto split = values->Text("--record-split");
+  if (!split) return;
+  const auto bytes = ParseByteSize(*split);
+  if (!bytes || *bytes < kLeastSplitBytes || *bytes > kMostSplitBytes) {
+    values->Complain("--record-split", "\"" + *split + "\" is no size a recording is split by",
+                     kSplitRemedy);
+    return;
+  }
+  flags->record_split = *bytes;
+}
+
 std::optional<Resumed> ReadResumed(FlagValues* values) {
   const auto text = values->Text("--resume");
   if (!text) return std::nullopt;
@@ -180,7 +195,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
   flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
   if (service == Service::kVehicle) {
     flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
-    if (values->Text("--record")) flags.record = values->TextOr("", "--record");
+    ReadRecord(values, &flags);
     flags.impair = ReadImpairment(values);
     flags.resume = ReadResumed(values);
     flags.stay = values->Switch("--stay");

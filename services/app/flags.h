@@ -27,6 +27,7 @@ struct ServiceFlags {
   std::uint32_t threads = 1;         // world only; the result does not depend on it
   std::string checkpoint;            // world only; the file it is kept in; empty: none is
   std::string record;                // vehicle only; the file it is written to; empty: none is
+  std::uint64_t record_split = 0;    // vehicle only; bytes of a file of it; 0: it is one file
   bool partition_free = false;       // vehicle only; beacons also without a partition
   std::optional<Resumed> resume;     // vehicle only; it was itself before, see restart.h
   bool stay = false;                 // vehicle only; outlives its world

@@ -1,19 +1,12 @@
 #include "services/app/recorder.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <atomic>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <stdexcept>
-#include <string_view>
+#include <string>
 #include <thread>
 
-#include "services/app/framed_stream.h"
 #include "services/app/process.h"
 #include "services/app/recording.h"
+#include "services/app/recording_writer.h"
 #include "services/app/slot_ring.h"
 
 namespace giveway::app {
@@ -21,35 +14,25 @@ namespace {
 
 constexpr std::size_t kSlots = 128;  // 6.4 s of steps at 20 Hz
 static_assert((kSlots & (kSlots - 1)) == 0, "a power of two");
-
-int OpenAnew(const std::string& file) {
-  std::error_code none;
-  if (std::filesystem::is_regular_file(file, none)) {
-    std::filesystem::rename(file, file + ".old", none);
-  }
-  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd >= 0) return fd;
-  throw std::runtime_error("--record " + file + ": cannot be written: " + std::strerror(errno) +
-                           "; name a file in a folder that exists and is yours to write");
-}
+constexpr Nanoseconds kReportPeriod = std::chrono::minutes(1);
+constexpr const char* kTooSlow = "the disk does not keep up";
 
 }  // namespace
 
-// The recorder's thread and its file.
+// The recorder's thread and its files.
 class Recorder::Writer {
  public:
-  explicit Writer(const std::string& file)
-      : file_(file), fd_(OpenAnew(file)), ring_(kSlots), thread_([this] { Run(); }) {}
-  ~Writer() {
-    Finish();
-    ::close(fd_);
-  }
+  Writer(const std::string& file, std::uint64_t split_bytes)
+      : files_(file, split_bytes), ring_(kSlots), thread_([this] { Run(); }) {}
+  ~Writer() { Finish(); }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
   SlotRing<Record>& Ring() { return ring_; }
   bool HasFailed() const { return failed_.load(std::memory_order_acquire); }
-  const std::string& File() const { return file_; }
+  const std::string& FirstName() const { return files_.FirstName(); }
+  // Does not change any more once HasFailed.
+  std::string Failure() const { return files_.Failure(); }
 
   // Waits until everything queued is written.
   void Finish() {
@@ -57,41 +40,30 @@ class Recorder::Writer {
     ring_.Close();
     thread_.join();
   }
-  // Steps in the file; after Finish.
-  std::uint32_t Steps() const { return steps_; }
-  void WriteEnd(const RecordedEnd& end) { Write(Framed(ToBytes(end))); }
+  // After Finish.
+  RecordingWriter& Files() { return files_; }
 
  private:
   void Run() {
-    Write(kRecordingMark);
+    if (!files_.Failure().empty()) failed_.store(true, std::memory_order_release);
     while (const Record* record = ring_.Next()) {
-      Write(Framed(ToBytes(*record)));
-      if (!HasFailed() && std::holds_alternative<RecordedStep>(*record)) ++steps_;
+      if (!files_.Write(*record)) failed_.store(true, std::memory_order_release);
       ring_.Pop();
     }
   }
 
-  void Write(std::string_view bytes) {
-    while (!HasFailed() && !bytes.empty()) {
-      const ssize_t written = ::write(fd_, bytes.data(), bytes.size());
-      if (written >= 0) {
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-      } else if (errno != EINTR) {
-        LogError("the recording " + file_ + " ends here: " + std::strerror(errno));
-        failed_.store(true, std::memory_order_release);
-      }
-    }
-  }
-
-  const std::string file_;
-  const int fd_;
+  RecordingWriter files_;
   SlotRing<Record> ring_;
   std::atomic<bool> failed_{false};
-  std::uint32_t steps_ = 0;
   std::thread thread_;  // last: it uses all of the above
 };
 
-Recorder::Recorder(const std::string& file) : writer_(std::make_unique<Writer>(file)) {}
+Recorder::Recorder(const std::string& file, std::uint64_t split_bytes)
+    : writer_(std::make_unique<Writer>(file, split_bytes)) {
+  if (writer_->FirstName() != file) {
+    LogInfo("records in " + writer_->FirstName() + ": " + file + " is there already");
+  }
+}
 
 Recorder::~Recorder() { Close(); }
 
@@ -104,11 +76,22 @@ bool Recorder::Queue(Fill&& fill) {
     writer_->Ring().Push();
     return true;
   }
-  if (!ended_ && !writer_->HasFailed()) {
-    LogWarning("the recording " + writer_->File() + " ends here: the disk does not keep up");
-  }
   ended_ = true;
   return false;
+}
+
+void Recorder::ReportLoss() {
+  const SteadyTime now = SteadyNow();
+  if (now < next_report_) return;
+  const std::string why =
+      writer_->HasFailed() ? writer_->Failure() : writer_->FirstName() + ": " + kTooSlow;
+  if (next_report_ == SteadyTime{0}) {
+    LogError("the recording ends here: " + why);
+  } else {
+    LogWarning("the recording has ended: " + why + "; " + std::to_string(tally_.lost) +
+               " steps lost so far");
+  }
+  next_report_ = now + kReportPeriod;
 }
 
 void Recorder::Begin(const VehicleOptions& options, std::uint32_t boot_epoch) {
@@ -126,21 +109,24 @@ void Recorder::Step(const Inputs& inputs, const Outputs& outputs, std::uint64_t 
     step->Hold(inputs, outputs, hash);
   });
   ++(queued ? tally_.steps : tally_.lost);
+  if (!queued) ReportLoss();
 }
 
 RecorderTally Recorder::Close() {
   if (closed_) return tally_;
   closed_ = true;
   writer_->Finish();
-  tally_.lost += tally_.steps - writer_->Steps();
-  tally_.steps = writer_->Steps();
-  writer_->WriteEnd({tally_.steps, tally_.lost});
-  const std::string text =
-      "recorded " + std::to_string(tally_.steps) + " steps in " + writer_->File();
-  if (tally_.lost == 0 && !writer_->HasFailed()) {
+  RecordingWriter& files = writer_->Files();
+  const std::uint32_t given = tally_.steps + tally_.lost;
+  files.End(given - files.Steps(), tally_.lost > 0 ? kTooSlow : "");
+  tally_ = {.steps = files.Steps(), .lost = given - files.Steps()};
+  std::string text = "recorded " + std::to_string(tally_.steps) + " steps in " + files.FirstName();
+  if (files.Parts() > 1) text += " and " + std::to_string(files.Parts() - 1) + " further parts";
+  if (tally_.lost == 0 && files.Failure().empty()) {
     LogInfo(text);
   } else {
-    LogWarning(text + "; " + std::to_string(tally_.lost) + " were lost");
+    const std::string why = files.Failure().empty() ? kTooSlow : files.Failure();
+    LogError(text + "; " + std::to_string(tally_.lost) + " steps were lost: " + why);
   }
   return tally_;
 }

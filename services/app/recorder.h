@@ -3,8 +3,8 @@
 // The deciding thread only copies into a bounded queue and never waits; a thread of the recorder's
 // own makes bytes of it and writes one record at a time. A full queue (the disk does not keep up
 // for six seconds) or a failed write ends the recording, for a brain cannot be led over a gap:
-// what is not written from then on is counted and said. What was written survives the death of the
-// process at any moment; it does not wait for the disk.
+// what is not written from then on is counted and reported, at once, every minute and at the end.
+// What was written survives the death of the process at any moment; it does not wait for the disk.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,9 @@ struct RecorderTally {
 
 class Recorder {
  public:
-  // Makes the file; one that is there is kept as FILE.old. Throws std::runtime_error if it cannot.
-  explicit Recorder(const std::string& file);
+  // Makes the file, under another name where it is there already; see recording_writer.h. Throws
+  // std::runtime_error if it cannot.
+  explicit Recorder(const std::string& file, std::uint64_t split_bytes = 0);
   // As Close.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -43,10 +44,12 @@ class Recorder {
   class Writer;
   template <typename Fill>
   bool Queue(Fill&& fill);
+  void ReportLoss();
 
   std::unique_ptr<Writer> writer_;
   RecorderTally tally_;
   bool ended_ = false;  // something was lost: nothing more is queued
+  SteadyTime next_report_{0};
   bool closed_ = false;
 };
 

@@ -49,12 +49,25 @@ struct RecordedStep {
   Inputs AsInputs() const;
 };
 
-struct RecordedEnd {
-  std::uint32_t steps = 0;  // written
-  std::uint32_t lost = 0;   // not written
+// What a part begins with that is not the first of its recording.
+struct RecordedContinuation {
+  std::uint32_t boot_epoch = 0;  // of the same life as the parts before
+  VehicleId vehicle = kNobody;
+  std::uint32_t part = 0;  // the first is 1
+  std::uint32_t steps_before = 0;
+
+  friend bool operator==(const RecordedContinuation&, const RecordedContinuation&) = default;
 };
 
-using Record = std::variant<RecordedLife, RecordedStep, RecordedReseat, RecordedEnd>;
+struct RecordedEnd {
+  std::uint32_t steps = 0;   // written, in this part
+  std::uint32_t lost = 0;    // not written
+  std::string failure = {};  // why it ends before the vehicle did; empty: it does not
+  bool continues = false;    // there is another part
+};
+
+using Record =
+    std::variant<RecordedLife, RecordedStep, RecordedReseat, RecordedEnd, RecordedContinuation>;
 
 std::string ToBytes(const Record& record);
 // Nothing where the bytes are no record: not of the schema, an enumerator nobody knows, a list of

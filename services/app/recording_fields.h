@@ -188,8 +188,13 @@ void Visit(auto& fields, Is<RecordedStep> auto& step) {
 }
 
 void Visit(auto& fields, Is<RecordedEnd> auto& end) {
-  auto& [steps, lost] = end;
-  fields(steps, lost);
+  auto& [steps, lost, failure, continues] = end;
+  fields(steps, lost, failure, continues);
+}
+
+void Visit(auto& fields, Is<RecordedContinuation> auto& head) {
+  auto& [boot_epoch, vehicle, part, steps_before] = head;
+  fields(boot_epoch, vehicle, part, steps_before);
 }
 
 }  // namespace giveway::app

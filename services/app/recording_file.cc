@@ -21,7 +21,17 @@ RecordingFile::RecordingFile(std::istream* stream) : stream_(*stream) {
     if (complaint_.empty()) complaint_ = "ends before the vehicle was made: it holds no step";
     return;
   }
-  auto* life = std::get_if<RecordedLife>(&*first);
+  Begin(std::move(*first));
+}
+
+void RecordingFile::Begin(Record first) {
+  if (const auto* head = std::get_if<RecordedContinuation>(&first)) {
+    const bool is_one = head->part > 1 && head->boot_epoch != 0 && head->vehicle != kNobody;
+    if (is_one) continues_ = *head;
+    if (!is_one) complaint_ = "does not say which part of a recording it is";
+    return;
+  }
+  auto* life = std::get_if<RecordedLife>(&first);
   if (life == nullptr) {
     complaint_ = "does not begin with the making of a vehicle";
     return;
@@ -47,7 +57,7 @@ bool RecordingFile::ReadMark() {
       line.starts_with(kAnyMark) && version.size() > 1 && version.back() == '\n' &&
       std::all_of(version.begin(), version.end() - 1, [](char c) { return c >= '0' && c <= '9'; });
   if (line.empty()) {
-    complaint_ = "is empty";
+    complaint_ = "is empty: its disk was full, or its writer died at once";
   } else if (of_other_version) {
     complaint_ = fmt::format("is a recording of format {}; this program reads format {}",
                              version.substr(0, version.size() - 1),
@@ -83,7 +93,7 @@ std::optional<Record> RecordingFile::ReadRecord() {
 }
 
 std::optional<Record> RecordingFile::Next() {
-  if (!life_ || !complaint_.empty() || cut_off_ || end_) return std::nullopt;
+  if (!(life_ || continues_) || !complaint_.empty() || cut_off_ || end_) return std::nullopt;
   std::optional<Record> record = ReadRecord();
   if (!record) return std::nullopt;
   if (const auto* end = std::get_if<RecordedEnd>(&*record)) {
@@ -94,8 +104,9 @@ std::optional<Record> RecordingFile::Next() {
     return std::nullopt;
   }
   if (std::holds_alternative<RecordedLife>(*record)) return Refuse("a second vehicle is made");
+  if (std::holds_alternative<RecordedContinuation>(*record)) return Refuse("another part begins");
   if (const auto* reseat = std::get_if<RecordedReseat>(&*record)) {
-    const std::string why = reseat->options.id == life_->options.id
+    const std::string why = reseat->options.id == (life_ ? life_->options.id : continues_->vehicle)
                                 ? WhyUnusable(reseat->options)
                                 : "options are another vehicle's";
     if (!why.empty()) return Refuse(why);

@@ -13,11 +13,14 @@ namespace giveway::app {
 
 class RecordingFile {
  public:
-  // Reads the mark and the vehicle's making. `stream` must outlive this.
+  // Reads the mark and how the file begins. `stream` must outlive this.
   explicit RecordingFile(std::istream* stream);
 
-  // Nothing if nothing can be replayed: Complaint() says why.
+  // The making of the vehicle, or nothing. If neither this nor Continues(), nothing can be
+  // replayed: Complaint() says why.
   const std::optional<RecordedLife>& Life() const { return life_; }
+  // Which part it is, where it is a part and not the first.
+  const std::optional<RecordedContinuation>& Continues() const { return continues_; }
   // The next step or reseat; nothing at the end of what is whole.
   std::optional<Record> Next();
 
@@ -32,9 +35,11 @@ class RecordingFile {
   bool ReadMark();
   std::optional<Record> ReadRecord();
   std::optional<Record> Refuse(const std::string& why);
+  void Begin(Record first);
 
   std::istream& stream_;
   std::optional<RecordedLife> life_;
+  std::optional<RecordedContinuation> continues_;
   std::optional<RecordedEnd> end_;
   std::string complaint_;
   bool cut_off_ = false;

@@ -215,6 +215,9 @@ std::string ToBytes(const Record& record) {
   if (const auto* step = std::get_if<RecordedStep>(&record)) put(message.mutable_step(), *step);
   if (const auto* seat = std::get_if<RecordedReseat>(&record)) put(message.mutable_reseat(), *seat);
   if (const auto* end = std::get_if<RecordedEnd>(&record)) put(message.mutable_end(), *end);
+  if (const auto* head = std::get_if<RecordedContinuation>(&record)) {
+    put(message.mutable_continuation(), *head);
+  }
   return message.SerializeAsString();
 }
 
@@ -234,6 +237,8 @@ std::optional<Record> RecordFrom(std::string_view bytes) {
       return Decoded<RecordedReseat>(message.reseat());
     case Cases::kEnd:
       return Decoded<RecordedEnd>(message.end());
+    case Cases::kContinuation:
+      return Decoded<RecordedContinuation>(message.continuation());
     case Cases::RECORD_NOT_SET:
       break;
   }

@@ -29,6 +29,8 @@ void Set(const ReplayedFile& file, schema::ReplayedFile* message) {
   message->set_steps(file.steps);
   message->set_complete(file.complete);
   message->set_lost(file.lost);
+  message->set_failure(WellFormed(file.failure));
+  message->set_part(file.part);
   message->set_finding(WellFormed(file.finding));
   if (!file.difference) return;
   schema::ReplayDifference& difference = *message->mutable_difference();
@@ -42,7 +44,8 @@ void Set(const ReplayedFile& file, schema::ReplayedFile* message) {
 std::string Line(const ReplayedFile& file) {
   std::string text = file.file + ": ";
   if (file.vehicle != kNobody) {
-    text += fmt::format("vehicle {}, {} steps the same", Number(file.vehicle), file.steps);
+    text += fmt::format("vehicle {}, {}{} steps the same", Number(file.vehicle),
+                        file.part > 1 ? fmt::format("part {}, ", file.part) : "", file.steps);
   }
   if (const auto& found = file.difference) {
     text += fmt::format("; step {} (tick {}) differs: {} was {}, is now {}", found->step,
@@ -51,7 +54,9 @@ std::string Line(const ReplayedFile& file) {
   } else if (!file.finding.empty()) {
     text += (file.vehicle == kNobody ? "" : "; ") + file.finding;
   } else if (!file.complete) {
-    text += "; then cut off: its writer died";
+    text += "; then cut off: its writer died, or its disk took nothing more";
+  } else if (!file.failure.empty()) {
+    text += "; then it could not be written: " + file.failure;
   }
   if (file.lost > 0) text += fmt::format("; {} steps were not recorded", file.lost);
   return text + '\n';

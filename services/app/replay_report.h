@@ -23,8 +23,10 @@ struct ReplayedFile {
   std::string file;
   VehicleId vehicle = kNobody;
   std::uint32_t steps = 0;
+  std::uint32_t part = 1;
   bool complete = false;
   std::uint32_t lost = 0;
+  std::string failure;
   std::optional<ReplayDifference> difference;
   std::string finding;
 };

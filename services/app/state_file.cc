@@ -1,6 +1,5 @@
 #include "services/app/state_file.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -25,19 +24,6 @@ std::optional<std::string> ReadStateFile(const std::string& path) {
   std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw std::runtime_error(Complaint(path, "cannot be read"));
   return bytes;
-}
-
-std::string WriteStateFile(const std::string& path, std::string_view bytes) {
-  const std::string beside = path + ".new";
-  const int file = open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (file < 0) return Complaint(beside, "cannot be written");
-  const ssize_t written = write(file, bytes.data(), bytes.size());
-  const bool whole = written == static_cast<ssize_t>(bytes.size());
-  const std::string complaint = whole ? "" : Complaint(beside, "cannot be written");
-  close(file);
-  if (!whole) return complaint;
-  if (rename(beside.c_str(), path.c_str()) != 0) return Complaint(path, "cannot be replaced");
-  return {};
 }
 
 void RemoveStateFile(const std::string& path) { std::remove(path.c_str()); }

@@ -34,6 +34,13 @@ std::string LogFile(const RunOptions& options, const std::string& name) {
 
 }  // namespace
 
+// As app/log.cc writes them: "12:00:00.000 error   vehicle 2: ...", or an object.
+bool IsErrorLine(std::string_view line) {
+  constexpr std::size_t kTimeChars = 12;
+  if (line.starts_with('{')) return line.find("\"level\":\"error\"") != std::string_view::npos;
+  return line.size() > kTimeChars && line.substr(kTimeChars).starts_with(" error ");
+}
+
 std::uint32_t NewcomerCount(const RunOptions& options, const Scenario& scenario) {
   if (scenario.spawns.empty()) return 0;
   if (options.vehicles) return *options.vehicles;
@@ -63,6 +70,9 @@ std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCom
     if (options.record_folder.empty()) return;
     const auto record = std::filesystem::path(options.record_folder) / (file + ".recording");
     words.insert(words.end(), {"--record", record.string()});
+    if (!options.record_split.empty()) {
+      words.insert(words.end(), {"--record-split", options.record_split});
+    }
   };
   for (const VehicleOptions& vehicle : scenario.vehicles) {
     const std::string id = std::to_string(Number(vehicle.id));
@@ -125,6 +135,17 @@ const ChildProcess* FleetProcesses::FirstBadEnd() const {
     if (child.End()->by_signal || (!is_world && child.End()->number != 0)) return &child;
   }
   return nullptr;
+}
+
+std::vector<std::string> FleetProcesses::TakeErrors() {
+  std::vector<std::string> errors;
+  for (ChildProcess& child : children_) {
+    const bool is_well = child.IsRunning() || child.End() == ProcessEnd{false, 0};
+    for (const std::string& line : child.TakeLines()) {
+      if (is_well && IsErrorLine(line)) errors.push_back(line);
+    }
+  }
+  return errors;
 }
 
 bool FleetProcesses::AnyRunning() const {

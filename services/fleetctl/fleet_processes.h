@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "services/fleetctl/child_process.h"
@@ -32,6 +33,9 @@ std::uint32_t NewcomerCount(const RunOptions& options, const Scenario& scenario)
 std::vector<ChildCommand> MakeCommands(const RunOptions& options, const FleetCommand& command,
                                        const Scenario& scenario);
 
+// A line of a child's log that reports an error.
+bool IsErrorLine(std::string_view line);
+
 class FleetProcesses {
  public:
   FleetProcesses(const std::vector<ChildCommand>& commands, const Scenario& scenario);
@@ -44,6 +48,9 @@ class FleetProcesses {
   // The first child whose end is the end of the run: in a closed fleet any that was not killed by
   // plan, in an open one the world, or a vehicle if none is left. nullptr if there is none.
   const ChildProcess* FirstUnplannedEnd() const;
+  // What children that run, or ended well, reported as errors since the last call: of the others
+  // the caller shows the last lines. Needs children that hand their lines on.
+  std::vector<std::string> TakeErrors();
   // Vehicles of an open fleet that have ended since the last call.
   std::vector<const ChildProcess*> TakeNewlyEnded();
   // The first child that ended by a signal that was not planned, or a vehicle of a closed fleet

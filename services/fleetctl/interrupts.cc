@@ -62,4 +62,8 @@ int Interrupts::Count() {
   return count;
 }
 
+void Interrupts::AllowSeconds(unsigned seconds) {
+  if (interrupt_count > 0 && is_watched) ::alarm(seconds);
+}
+
 }  // namespace giveway::fleetctl

@@ -23,6 +23,8 @@ class Interrupts {
 
   // Asking shows that the verb is alive: its second begins again.
   static int Count();
+  // Where a verb that was interrupted has something to do that takes longer.
+  static void AllowSeconds(unsigned seconds);
 
  private:
   struct sigaction before_int_ {};

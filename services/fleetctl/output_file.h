@@ -2,6 +2,7 @@
 // starts: nobody wants to learn that after a minute's run.
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +18,10 @@ class OutputError : public std::runtime_error {
 void CheckWritable(const std::string& path);
 // Makes the folder if it is missing; throws OutputError unless files can be made in it.
 void CheckFolder(const std::string& folder);
-void WriteFile(const std::string& path, const std::string& text);  // Throws OutputError.
+// Whole or not at all. Throws OutputError.
+void WriteFile(const std::string& path, const std::string& text);
+// For files that come after the verdict, which is printed and stands: what cannot be written is
+// said on stderr. Returns the exit code: `code`, but at least 1 where a file is missing.
+int WriteAfterVerdict(int code, const std::function<void()>& write);
 
 }  // namespace giveway::fleetctl

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <tuple>
 
+#include "services/app/recording_file.h"
 #include "services/fleetctl/decision_trace.h"
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/output_file.h"
@@ -22,14 +24,71 @@ app::ReplayedFile Unreadable(const std::string& why) {
   return outcome;
 }
 
-app::ReplayedFile ReplayFile(const std::string& path, const ReplayWatcher& watch) {
+// The file opened, or why it cannot be read.
+std::string Open(const std::string& path, std::ifstream* stream) {
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) return Unreadable("it is a folder");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return Unreadable(std::strerror(errno));
-  app::ReplayedFile outcome = Replay(&stream, watch);
+  if (std::filesystem::is_directory(path, error)) return "it is a folder";
+  stream->open(path, std::ios::binary);
+  return *stream ? "" : std::strerror(errno);
+}
+
+app::ReplayedFile ReplayFile(const std::string& path, const ReplayWatcher& watch,
+                             Replayer* replayer) {
+  std::ifstream stream;
+  const std::string why = Open(path, &stream);
+  if (!why.empty()) return Unreadable(why);
+  app::ReplayedFile outcome = replayer->Replay(&stream, watch);
   return stream.bad() ? Unreadable(std::strerror(errno)) : outcome;
 }
+
+// Which recording a file is of, and which part of it; a pipe, which is read only once, and what
+// cannot be read is one of its own.
+struct Place {
+  std::uint32_t boot_epoch = 0;
+  std::uint32_t vehicle = 0;
+  std::size_t own = 0;  // the file's number, where it is a recording by itself
+  std::uint32_t part = 1;
+};
+
+Place PlaceOf(const std::string& path, std::size_t number) {
+  const Place by_itself{.own = number + 1};
+  std::error_code error;
+  std::ifstream stream;
+  if (!std::filesystem::is_regular_file(path, error) || !Open(path, &stream).empty()) {
+    return by_itself;
+  }
+  const app::RecordingFile file(&stream);
+  if (file.Life()) return {file.Life()->boot_epoch, Number(file.Life()->options.id), 0, 1};
+  if (!file.Continues()) return by_itself;
+  return {file.Continues()->boot_epoch, Number(file.Continues()->vehicle), 0,
+          file.Continues()->part};
+}
+
+auto RecordingOf(const Place& place) {
+  return std::tuple(place.boot_epoch, place.vehicle, place.own);
+}
+
+// The numbers of the files, the parts of a recording behind each other.
+class ReplayOrder {
+ public:
+  explicit ReplayOrder(const std::vector<std::string>& files) {
+    for (const std::string& path : files) {
+      order_.push_back(places_.size());
+      places_.push_back(PlaceOf(path, places_.size()));
+    }
+    std::ranges::stable_sort(order_, {}, [this](std::size_t file) {
+      return std::tuple(RecordingOf(places_[file]), places_[file].part);
+    });
+  }
+  const std::vector<std::size_t>& Files() const { return order_; }
+  bool IsOneRecording() const {
+    return RecordingOf(places_[order_.front()]) == RecordingOf(places_[order_.back()]);
+  }
+
+ private:
+  std::vector<Place> places_;
+  std::vector<std::size_t> order_;
+};
 
 // Where the vehicle believed it was: its truth is not in its recording.
 class Tracer {
@@ -56,21 +115,27 @@ class Tracer {
 }  // namespace
 
 int RunReplay(const ReplayOptions& options) {
+  const ReplayOrder order(options.files);
+  if (!options.trace_file.empty() && !order.IsOneRecording()) {
+    std::fputs("--trace is of one recording: name the parts of one\n", stderr);
+    return kCouldNotRun;
+  }
   if (!options.trace_file.empty()) CheckWritable(options.trace_file);
   Tracer tracer;
   const ReplayWatcher watch = options.trace_file.empty() ? ReplayWatcher() : tracer.Watcher();
-  std::vector<app::ReplayedFile> files;
-  for (const std::string& path : options.files) {
-    files.push_back(ReplayFile(path, watch));
-    files.back().file = path;
+  std::vector<app::ReplayedFile> files(options.files.size());
+  Replayer replayer;
+  for (const std::size_t file : order.Files()) {
+    files[file] = ReplayFile(options.files[file], watch, &replayer);
+    files[file].file = options.files[file];
   }
-  if (!options.trace_file.empty()) WriteFile(options.trace_file, tracer.Text());
   const std::string text = options.json ? app::ToJson(files) + "\n" : app::ToText(files);
   std::fputs(text.c_str(), stdout);
-  const int code = app::ExitCode(app::Judge(files));
-  if (std::fflush(stdout) == 0) return code;
-  std::fprintf(stderr, "cannot write the verdict to stdout\n");
-  return std::max(code, 1);
+  const bool told = std::fflush(stdout) == 0;
+  if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
+  const int code = std::max(app::ExitCode(app::Judge(files)), told ? 0 : 1);
+  if (options.trace_file.empty()) return code;
+  return WriteAfterVerdict(code, [&] { WriteFile(options.trace_file, tracer.Text()); });
 }
 
 }  // namespace giveway::fleetctl

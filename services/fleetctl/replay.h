@@ -8,8 +8,8 @@
 namespace giveway::fleetctl {
 
 struct ReplayOptions {
-  std::vector<std::string> files;
-  std::string trace_file;  // of a single recording; empty: none
+  std::vector<std::string> files;  // parts of a recording in any order
+  std::string trace_file;          // of a single recording; empty: none
   bool json = false;
 };
 

@@ -9,7 +9,9 @@ namespace {
 constexpr const char* kFooter = R"(
 A recording is what giveway-vehicle --record FILE, or fleetctl run --record FOLDER, writes. A fresh
 brain is told the same inputs; every command, every beacon and the hash of its state must come out
-bit for bit as recorded. A file cut off by kill -9 is replayed up to its last whole record.
+bit for bit as recorded. A file cut off by kill -9, or by a full disk, is replayed up to its last whole
+record. The parts of a recording that was split by size are replayed one after the other: name them all,
+in any order.
 The trace has the columns of fleetctl virtual --trace; places are where the vehicle believed to be.
 
 Examples
@@ -30,12 +32,7 @@ void AddReplayVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_option("FILE", options->files, "Recordings")->required();
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_option("--trace", options->trace_file, "Write every decision of the only recording");
-  verb->callback([options, exit_code] {
-    if (!options->trace_file.empty() && options->files.size() > 1) {
-      throw CLI::ValidationError("--trace", "is of one recording; name one");
-    }
-    *exit_code = RunReplay(*options);
-  });
+  verb->callback([options, exit_code] { *exit_code = RunReplay(*options); });
 }
 
 }  // namespace giveway::fleetctl

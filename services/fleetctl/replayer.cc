@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "services/app/recording_file.h"
+#include <algorithm>
+#include <utility>
 
 namespace giveway::fleetctl {
 namespace {
@@ -15,38 +16,80 @@ std::optional<app::FieldDifference> Compare(const app::RecordedStep& recorded,
                               fmt::format("{:016x}", hash)};
 }
 
+constexpr std::size_t kMostFailureBytes = 200;
+
+// A word from a file that is shown on a terminal.
+std::string Printable(std::string text) {
+  text.resize(std::min(text.size(), kMostFailureBytes));
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
 }  // namespace
 
-app::ReplayedFile Replay(std::istream* recording, const ReplayWatcher& watch) {
-  app::RecordingFile file(recording);
+void Replayer::Begin(const app::RecordingFile& file, app::ReplayedFile* outcome) {
+  if (file.Life()) {
+    const app::RecordedLife& life = *file.Life();
+    brain_.emplace(life.options, life.boot_epoch);
+    next_ = {life.boot_epoch, life.options.id, 1, 0};
+    outcome->vehicle = life.options.id;
+    return;
+  }
+  outcome->vehicle = file.Continues()->vehicle;
+  outcome->part = file.Continues()->part;
+  if (brain_ && *file.Continues() == next_) return;
+  brain_.reset();
+  outcome->finding = fmt::format(
+      "is part {} of a recording: name the parts before it, too, each whole", outcome->part);
+}
+
+app::ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {
+  app::RecordingFile file(part);
   app::ReplayedFile outcome;
   outcome.finding = file.Complaint();
-  if (!file.Life()) return outcome;
-  outcome.vehicle = file.Life()->options.id;
-  Vehicle brain(file.Life()->options, file.Life()->boot_epoch);
-  while (const std::optional<app::Record> record = file.Next()) {
+  if (!file.Life() && !file.Continues()) return outcome;
+  Begin(file, &outcome);
+  if (!brain_) return outcome;
+  Lead(&file, watch, &outcome);
+  const bool continues = file.End() && file.End()->continues && !outcome.difference;
+  if (!continues || !outcome.finding.empty()) brain_.reset();
+  ++next_.part;
+  next_.steps_before += outcome.steps;
+  return outcome;
+}
+
+void Replayer::Lead(app::RecordingFile* file, const ReplayWatcher& watch,
+                    app::ReplayedFile* outcome) {
+  while (const std::optional<app::Record> record = file->Next()) {
     if (const auto* reseat = std::get_if<app::RecordedReseat>(&*record)) {
-      brain.Reseat(reseat->options);
+      brain_->Reseat(reseat->options);
       continue;
     }
     const auto& step = std::get<app::RecordedStep>(*record);
-    const Outputs replayed = brain.Step(step.AsInputs());
-    if (watch) watch(step, brain, replayed);
-    if (auto difference = Compare(step, replayed, brain.Hash())) {
-      outcome.difference = {outcome.steps + 1, brain.State().tick, std::move(*difference)};
-      return outcome;
+    const Outputs replayed = brain_->Step(step.AsInputs());
+    if (watch) watch(step, *brain_, replayed);
+    if (auto difference = Compare(step, replayed, brain_->Hash())) {
+      outcome->difference = {outcome->steps + 1, brain_->State().tick, std::move(*difference)};
+      return;
     }
-    ++outcome.steps;
+    ++outcome->steps;
   }
-  outcome.finding = file.Complaint();
-  outcome.complete = file.End().has_value();
-  outcome.lost = file.End() ? file.End()->lost : 0;
-  if (outcome.steps == 0 && outcome.finding.empty()) {
-    outcome.finding = "holds no step: nothing was compared";
-  } else if (file.End() && file.End()->steps != outcome.steps) {
-    outcome.finding = fmt::format("says it holds {} steps", file.End()->steps);
+  outcome->finding = file->Complaint();
+  const std::optional<app::RecordedEnd>& end = file->End();
+  outcome->complete = end.has_value();
+  outcome->lost = end ? end->lost : 0;
+  outcome->failure = end ? Printable(end->failure) : "";
+  if (outcome->steps == 0 && outcome->finding.empty()) {
+    outcome->finding = "holds no step: nothing was compared";
+    if (!outcome->failure.empty()) outcome->finding += "; " + outcome->failure;
+  } else if (end && end->steps != outcome->steps) {
+    outcome->finding = fmt::format("says it holds {} steps", end->steps);
   }
-  return outcome;
+}
+
+app::ReplayedFile Replay(std::istream* recording, const ReplayWatcher& watch) {
+  return Replayer().Replay(recording, watch);
 }
 
 }  // namespace giveway::fleetctl

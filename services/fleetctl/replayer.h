@@ -1,10 +1,13 @@
 // Leads a fresh brain through a recording and compares, step by step and bit by bit. Pure but for
-// the stream it reads.
+// the streams it reads.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <istream>
+#include <optional>
 
+#include "services/app/recording_file.h"
 #include "services/app/replay_report.h"
 #include "services/vehicle/vehicle.h"
 
@@ -14,8 +17,22 @@ namespace giveway::fleetctl {
 using ReplayWatcher = std::function<void(const app::RecordedStep& recorded, const Vehicle& brain,
                                          const Outputs& replayed)>;
 
-// Stops at the first difference: what a brain does after it says nothing more. The file's name is
-// left to the caller.
+// Replays the parts of one recording, in their order.
+class Replayer {
+ public:
+  // Stops at the first difference: what a brain does after it says nothing more. The file's name is
+  // left to the caller.
+  app::ReplayedFile Replay(std::istream* part, const ReplayWatcher& watch = {});
+
+ private:
+  void Begin(const app::RecordingFile& file, app::ReplayedFile* outcome);
+  void Lead(app::RecordingFile* file, const ReplayWatcher& watch, app::ReplayedFile* outcome);
+
+  std::optional<Vehicle> brain_;    // none where the parts so far did not replay to their end
+  app::RecordedContinuation next_;  // how the next part must begin
+};
+
+// Of a recording that is one file.
 app::ReplayedFile Replay(std::istream* recording, const ReplayWatcher& watch = {});
 
 }  // namespace giveway::fleetctl

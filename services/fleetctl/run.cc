@@ -11,6 +11,7 @@
 #include "services/fleetctl/child_process.h"
 #include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/exit_codes.h"
+#include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/live_screen.h"
 #include "services/fleetctl/output_file.h"
 #include "services/fleetctl/qos_files.h"
@@ -18,6 +19,8 @@
 
 namespace giveway::fleetctl {
 namespace {
+
+constexpr unsigned kDrawing_s = 30;
 
 // False if stdout did not take it: then nobody has the verdict.
 bool Print(const RunOptions& options, const app::Report& report) {
@@ -76,9 +79,10 @@ int StartAndWatch(const RunOptions& options) {
 
   const bool told = Print(options, report);
   if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
-  const int code = app::ExitCode(report.verdict);
-  if (!options.picture_file.empty()) WriteFile(options.picture_file, session.DrawPicture());
-  return told ? code : std::max(code, 1);
+  const int code = std::max(app::ExitCode(report.verdict), told ? 0 : 1);
+  if (options.picture_file.empty()) return code;
+  Interrupts::AllowSeconds(kDrawing_s);
+  return WriteAfterVerdict(code, [&] { WriteFile(options.picture_file, session.DrawPicture()); });
 }
 
 }  // namespace

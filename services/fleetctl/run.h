@@ -30,6 +30,7 @@ struct RunOptions {
   std::string log_level = "info";  // of the world and the vehicles
   std::string logs_folder;         // empty: no logs are kept
   std::string record_folder;       // empty: vehicles record nothing
+  std::string record_split;        // a size, see app/byte_size.h; empty: a recording is one file
   std::string picture_file;        // empty: none is drawn
   bool json = false;               // one JSON object on stdout and nothing else
 };

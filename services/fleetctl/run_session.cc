@@ -25,6 +25,8 @@ constexpr Nanoseconds kNoLimit = std::chrono::hours(24 * 365 * 100);
 constexpr double kLockstepSlowdown =
     10;  // lockstep waits for slow brains: no real time is promised
 
+constexpr std::size_t kMostErrorsShown = 20;
+
 constexpr const char* kInterrupted = "interrupted";
 constexpr int kCouldNotStart = 2;
 constexpr int kCouldNotExec = 127;
@@ -45,6 +47,11 @@ link::LinkOptions ObserverOptions(const RunOptions& options, const Scenario& sce
           false,
           {},
           options.discovery_servers};
+}
+
+std::vector<ChildCommand> WithLines(std::vector<ChildCommand> commands) {
+  for (ChildCommand& command : commands) command.hands_on_lines = true;
+  return commands;
 }
 
 TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWatch& watch) {
@@ -70,7 +77,7 @@ RunSession::RunSession(const RunOptions& options, const Scenario& scenario,
       watch_(scenario, !options.picture_file.empty()),
       invariants_(scenario),
       observer_(ObserverOptions(options, scenario, command)),
-      processes_(MakeCommands(options, command, scenario), scenario),
+      processes_(WithLines(MakeCommands(options, command, scenario)), scenario),
       screen_(!options.json && IsTerminal()) {}
 
 app::Report RunSession::Run() {
@@ -171,12 +178,23 @@ void RunSession::Turn() {
   Drain();
   for (const VehicleId vehicle : watch_.TakeDueKills()) processes_.Kill(vehicle);
   processes_.Poll();
+  ShowErrors();
   for (const ChildProcess* child : processes_.TakeNewlyEnded()) {
     if (!stopping_ && !watch_.HasEnded()) ShowTrouble(*child, "ended");
   }
   TableView view = MakeView(scenario_, domain_, watch_);
   if (stopping_) view.state = "stopping";
   screen_.Show(view, app::SteadyNow());
+}
+
+void RunSession::ShowErrors() {
+  for (const std::string& line : processes_.TakeErrors()) {
+    if (errors_shown_ == kMostErrorsShown) return;
+    screen_.Finish();
+    std::fprintf(stderr, "%s\n", line.c_str());
+    if (++errors_shown_ < kMostErrorsShown) continue;
+    std::fputs("further errors are not shown; --logs FOLDER keeps them\n", stderr);
+  }
 }
 
 void RunSession::ShowTrouble(const ChildProcess& child, const std::string& what) {

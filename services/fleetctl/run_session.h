@@ -42,6 +42,8 @@ class RunSession {
   void Drain();
   // One turn of the loop: sleep, drain, carry out faults, poll, show.
   void Turn();
+  // What a child goes on after, such as a full disk: nothing else would tell the operator.
+  void ShowErrors();
   void ShowTrouble(const ChildProcess& child, const std::string& what);
 
   const Scenario& scenario_;
@@ -54,6 +56,7 @@ class RunSession {
   FleetProcesses processes_;
   LiveScreen screen_;
   bool stopping_ = false;
+  std::size_t errors_shown_ = 0;
 };
 
 }  // namespace giveway::fleetctl

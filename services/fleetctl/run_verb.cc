@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "services/app/byte_size.h"
 #include "services/app/flags.h"
 #include "services/app/impair_text.h"
 #include "services/fleetctl/domain_lock.h"
@@ -26,7 +27,8 @@ Examples
   fleetctl run intersection_yield --impair loss=0.1,delay=20ms,jitter=5ms
   fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
 
-Exit code: 0 passed, 1 failed or interrupted, 2 could not run.
+Exit code: 0 passed, 1 failed or interrupted, or passed and the picture could not be written; 2 could
+not run.
 )";
 
 constexpr std::uint32_t kMostVehicles = 1024;
@@ -37,6 +39,12 @@ std::string CheckImpairment(const std::string& text) {
     wrong += (wrong.empty() ? "" : "\n") + problem.message + "; " + problem.remedy;
   }
   return wrong;
+}
+
+std::string CheckSplit(const std::string& text) {
+  const std::optional<std::uint64_t> bytes = app::ParseByteSize(text);
+  if (bytes && *bytes >= app::kLeastSplitBytes && *bytes <= app::kMostSplitBytes) return {};
+  return "'" + text + "' is no size a recording is split by; " + app::kSplitRemedy;
 }
 
 Behaviour ParseBehaviour(const std::string& name) {
@@ -100,6 +108,10 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
                    "Every vehicle records its inputs and decisions in this folder; see replay")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_RECORD");
+  verb->add_option("--record-split", options->record_split,
+                   "Begin another file of each recording at this size: 64MiB")
+      ->check(CheckSplit)
+      ->envname("GIVEWAY_RECORD_SPLIT");
   verb->add_option("--log-level", options->log_level, "Of the world and the vehicles")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()

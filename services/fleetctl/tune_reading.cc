@@ -111,7 +111,8 @@ VehicleReading ReadVehicle(std::istream* recording, const AliveWindow& window) {
   VehicleReading reading;
   app::RecordingFile file(recording);
   if (!file.Life()) {
-    reading.trouble = file.Complaint().empty() ? "the recording is empty" : file.Complaint();
+    reading.trouble =
+        file.Complaint().empty() ? "it is not the first part of a recording" : file.Complaint();
     return reading;
   }
   const VehicleOptions& options = file.Life()->options;

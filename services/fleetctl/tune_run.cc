@@ -14,6 +14,7 @@
 #include "services/fleetctl/exit_codes.h"
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/json_object.h"
+#include "services/fleetctl/output_file.h"
 #include "services/fleetctl/qos_files.h"
 #include "services/fleetctl/tune_draw.h"
 #include "services/fleetctl/tune_front.h"
@@ -274,16 +275,16 @@ int RunQosTune(const QosTuneOptions& options) {
     const TuneResult result = tuning.Run();
     const TuneStore& store = tuning.Store();
     const std::string& chosen = result.candidates[result.recommended].candidate.name;
-    store.Write("recommended.xml", Headed(tuning.ProfileOf(chosen), result));
-    store.Write("evidence.json", ToJson(result) + "\n");
-    store.Write("report.html", ToHtml(result, Draw(PlotsOf(result), store)));
-    if (!options.json) {
+    const bool told = Print(options.json ? ToJson(result) + "\n" : ToText(result));
+    return WriteAfterVerdict(told && result.IsBetter() ? 0 : 1, [&] {
+      store.Write("recommended.xml", Headed(tuning.ProfileOf(chosen), result));
+      store.Write("evidence.json", ToJson(result) + "\n");
+      store.Write("report.html", ToHtml(result, Draw(PlotsOf(result), store)));
+      if (options.json) return;
       const std::string folder = store.Folder().string();
       std::fprintf(stderr, "written: %s/recommended.xml, evidence.json, report.html\n",
                    folder.c_str());
-    }
-    if (!Print(options.json ? ToJson(result) + "\n" : ToText(result))) return 1;
-    return result.IsBetter() ? 0 : 1;
+    });
   } catch (const TuneInterrupted&) {
     std::fprintf(stderr, "interrupted; the same command goes on from here\n");
     return 1;

@@ -156,12 +156,7 @@ void TuneStore::Keep(const TrialEvidence& evidence) const {
 }
 
 void TuneStore::Write(const std::string& name, const std::string& text) const {
-  const fs::path file = folder_ / name;
-  const fs::path unfinished = folder_ / (name + ".unfinished");
-  WriteFile(unfinished.string(), text);
-  std::error_code error;
-  fs::rename(unfinished, file, error);
-  if (error) throw OutputError("cannot write " + file.string() + ": " + error.message());
+  WriteFile((folder_ / name).string(), text);
 }
 
 }  // namespace giveway::fleetctl

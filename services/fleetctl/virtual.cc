@@ -125,10 +125,11 @@ int RunAll(const VirtualOptions& options) {
     report.verdict = app::Verdict::kFailed;
     report.reason = "interrupted";
   }
-  if (!options.picture_file.empty() || !options.trace_file.empty()) {
+  const int code = Print(options, report);
+  if (options.picture_file.empty() && options.trace_file.empty()) return code;
+  return WriteAfterVerdict(code, [&] {
     ShowRun(maker.Make(options.seeds.low), options.picture_file, options.trace_file);
-  }
-  return Print(options, report);
+  });
 }
 
 int RefuseToRun(const VirtualOptions& options, const char* reason, const std::exception& why) {

@@ -58,8 +58,9 @@ await_health "no world, alive" 1 "$A" live 0 '^live$'
 stops alone
 
 start world giveway-world --health-port "$WORLD"
-start a giveway-vehicle --health-port "$A"
-start b giveway-vehicle --health-port "$B" --hang-on-signal
+start a giveway-vehicle --health-port "$A" --record "$SCRATCH/a.tape" --record-split 64KiB
+start b giveway-vehicle --health-port "$B" --hang-on-signal --record "$SCRATCH/b.tape"
+prlimit --pid "${PID[b]}" --fsize=20000 # b's disk: SIGXFSZ, too
 await_health "the world is ready" 10 "$WORLD" ready 0 '^ready$'
 await_health "a drives" 15 "$A" ready 0 '^ready$'
 await_health "b drives" 15 "$B" ready 0 '^ready$'
@@ -154,6 +155,12 @@ if tail -n "+$((line + 1))" "$SCRATCH/a.log" | grep -E "(stale|lost|missed).*veh
 fi
 [[ $(metric "$A" giveway_vehicle_liveliness_lost_total) == "$lost" ]] || fail "a counted a loss"
 
+# --- b's disk was full: it said so and drove on; so does its recording.
+grep -q 'error .*the recording ends here: .*b.tape: File too large' "$SCRATCH/b.log" ||
+  fail "b did not say that its disk is full"
+"$FLEETCTL" replay "$SCRATCH/b.tape" | grep -q 'could not be written: File too large' ||
+  fail "replay does not say that b's disk was full"
+
 # --- kill -9 is a loss, and leaves neither id nor port taken.
 line=$(lines_of a)
 start c giveway-vehicle --health-port "$C" --id "$id_b" # which is free again
@@ -229,7 +236,15 @@ kill_now world
 await_health "no world any more" 3 "$A" ready 1 'the ranges are [0-9.]+ s old'
 await_health "and yet alive" 1 "$A" live 0 '^live$'
 stops a
-kill_now c2
+[[ -e $SCRATCH/a.2.tape ]] || fail "a's recording was not split"
+"$FLEETCTL" replay "$SCRATCH"/a.*tape || fail "a's recording: exit code $?"
+
+# --- A loop that hangs does not see SIGTERM: the process ends all the same, and says so by its code.
+kill -USR2 "${PID[c2]}"
+await "c2 hangs" 2 c2 'the control loop hangs'
+since=$(date +%s%N)
+kill -TERM "${PID[c2]}"
+ended c2 143 "$since" 1500
 
 # start_unread NAME ARGUMENTS...: a vehicle whose stderr is a full pipe that is never read.
 start_unread() {

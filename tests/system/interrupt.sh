@@ -10,7 +10,11 @@ now_ms() { echo $(($(date +%s%N) / 1000000)); }
 interrupt() {
   local name=$1 delay=$2 run world domain begun code=0 signal
   shift 2
-  "$FLEETCTL" run intersection_yield --json >"$SCRATCH/out.json" 2>"$SCRATCH/err" &
+  # The picture does not fit on the disk: the verdict stands all the same, and is the only one.
+  (
+    ulimit -f 4 # KiB
+    exec "$FLEETCTL" run intersection_yield --json --picture "$SCRATCH/picture.svg"
+  ) >"$SCRATCH/out.json" 2>"$SCRATCH/err" &
   run=$!
   world=$(wait_for_child "$run" world) || {
     fail "$name: never started"
@@ -28,8 +32,11 @@ interrupt() {
   wait "$run" || code=$?
   [[ $took -le 3000 ]] || fail "$name: it took $took ms until all were gone"
   [[ $code -eq 1 ]] || fail "$name: exit code $code"
-  jq -e '.verdict == "failed" and .reason == "interrupted"' "$SCRATCH/out.json" >/dev/null ||
-    fail "$name: the report says $(cat "$SCRATCH/out.json")"
+  jq -se 'length == 1 and (.[0] | .verdict == "failed" and .reason == "interrupted")' \
+    "$SCRATCH/out.json" >/dev/null || fail "$name: the report says $(cat "$SCRATCH/out.json")"
+  grep -q 'picture.svg: cannot be written: File too large' "$SCRATCH/err" ||
+    fail "$name: the picture: $(tail -n 3 "$SCRATCH/err")"
+  [[ -z $(find "$SCRATCH" -name 'picture.svg*') ]] || fail "$name: half a picture"
   if [[ $# -eq 1 ]] && grep -q 'did not leave in good order' "$SCRATCH/err"; then
     fail "$name: $(tail -n 5 "$SCRATCH/err")"
   fi

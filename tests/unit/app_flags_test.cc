@@ -114,6 +114,20 @@ TEST(Flags, OnlyAVehicleRecordsAndOnlyIfAsked) {
   EXPECT_EQ(std::get<ServiceFlags>(World(least)).record, "");
 }
 
+TEST(Flags, ARecordingIsSplitBySizesOfThisWorld) {
+  const std::vector<const char*> least{"--scenario", "s", "--domain", "1", "--record", "tape"};
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(least)).record_split, 0U);
+  std::vector<const char*> words = least;
+  words.insert(words.end(), {"--record-split", "64MiB"});
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(words)).record_split, 64ULL << 20U);
+  for (const char* wrong : {"0", "-1", "1KiB", "64 MiB", "64mib", "1e9", "99999999999GiB", ""}) {
+    words.back() = wrong;
+    EXPECT_THAT(Refusal(words), HasSubstr("--record-split")) << wrong;
+  }
+  const Variable twin("GIVEWAY_RECORD_SPLIT", "100kB");
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(least)).record_split, 100000U);
+}
+
 TEST(Flags, OnlyAVehicleIsImpairedAndOnlyIfAsked) {
   const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
   EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).impair);

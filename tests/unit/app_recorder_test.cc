@@ -1,9 +1,11 @@
 // The recorder never waits, and says what it could not write.
 #include <fcntl.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -12,11 +14,14 @@
 #include "services/app/recorder.h"
 #include "services/app/recording_file.h"
 #include "services/app/slot_ring.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/recorded_crossing.h"
 #include "tests/unit/app_files.h"
 
 namespace giveway::app {
 namespace {
+
+using testing::ElementsAre;
 
 std::string BytesOf(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -60,12 +65,97 @@ TEST(Recorder, WritesWhatItWasGivenInOrder) {
   EXPECT_EQ(BytesOf(file), test::FileOf(expected));
 }
 
-TEST(Recorder, KeepsTheRecordingOfTheLifeBefore) {
+std::vector<std::string> FilesIn(const TempFolder& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.Path())) {
+    names.push_back(entry.path().filename());
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+// A vehicle that restarts, and several that were given one path: nothing is ever written over.
+TEST(Recorder, EveryRecordingWithOnePathIsAFileOfItsOwn) {
   const TempFolder folder;
-  const std::string file = folder.Write("tape", "of the life before");
+  const std::string file = folder.Write("v.tape", "of the life before");
+  {
+    Recorder first(file);
+    Recorder second(file);
+    Drive(test::RecordedCrossing(3), &first);
+    Drive(test::RecordedCrossing(5), &second);
+  }
   Recorder(file).Close();
-  EXPECT_EQ(BytesOf(file + ".old"), "of the life before");
-  EXPECT_EQ(BytesOf(file).substr(0, kRecordingMark.size()), kRecordingMark);
+  EXPECT_THAT(FilesIn(folder), ElementsAre("v.2.tape", "v.3.tape", "v.4.tape", "v.tape"));
+  EXPECT_EQ(BytesOf(file), "of the life before");
+  EXPECT_EQ(StepsIn(BytesOf(folder.Path() + "/v.2.tape")), 3U);
+  EXPECT_EQ(StepsIn(BytesOf(folder.Path() + "/v.3.tape")), 5U);
+}
+
+TEST(Recorder, ALinkIsNotWrittenThrough) {
+  const TempFolder folder;
+  std::filesystem::create_symlink(folder.Path() + "/elsewhere", folder.Path() + "/tape");
+  Recorder(folder.Path() + "/tape").Close();
+  EXPECT_THAT(FilesIn(folder), ElementsAre("tape", "tape.2"));
+}
+
+// The last steps make room for the end, which says why it comes.
+TEST(Recorder, AFullDiskIsToldByTheFile) {
+  const TempFolder folder;
+  const std::string file = folder.Path() + "/tape";
+  RecorderTally tally;
+  {
+    const test::FullDisk full(20000);
+    Recorder recorder(file);
+    Drive(test::RecordedCrossing(100), &recorder);
+    tally = recorder.Close();
+  }
+  EXPECT_GT(tally.steps, 10U);
+  EXPECT_EQ(tally.steps + tally.lost, 100U);
+  std::optional<RecordedEnd> end;
+  EXPECT_EQ(StepsIn(BytesOf(file), &end), tally.steps);
+  ASSERT_TRUE(end.has_value());
+  EXPECT_EQ(end->steps, tally.steps);
+  EXPECT_EQ(end->lost, tally.lost);
+  EXPECT_EQ(end->failure, "File too large");
+}
+
+// A disk that is full when the recording begins: the vehicle drives.
+TEST(Recorder, AFullDiskAtTheBeginningLosesEverythingAndStopsNothing) {
+  const TempFolder folder;
+  const test::FullDisk full(0);
+  Recorder recorder(folder.Path() + "/tape");
+  Drive(test::RecordedCrossing(20), &recorder);
+  EXPECT_EQ(recorder.Close().lost, 20U);
+}
+
+TEST(Recorder, BeginsAnotherFileBeforeOneGrowsBeyondItsSize) {
+  constexpr std::uint64_t kSplit = 10000;
+  const TempFolder folder;
+  const std::string file = folder.Path() + "/tape";
+  {
+    Recorder recorder(file, kSplit);
+    Drive(test::RecordedCrossing(60), &recorder);
+    EXPECT_EQ(recorder.Close().steps, 60U);
+  }
+  const std::vector<std::string> names = FilesIn(folder);
+  EXPECT_GT(names.size(), 3U);
+  std::uint32_t steps = 0;
+  for (std::size_t i = 1; i <= names.size(); ++i) {
+    const std::string bytes = BytesOf(i == 1 ? file : file + "." + std::to_string(i));
+    EXPECT_LE(bytes.size(), kSplit);
+    std::istringstream stream(bytes);
+    RecordingFile part(&stream);
+    EXPECT_EQ(part.Life().has_value(), i == 1);
+    if (i > 1) {
+      ASSERT_TRUE(part.Continues().has_value());
+      EXPECT_EQ(part.Continues()->part, i);
+      EXPECT_EQ(part.Continues()->steps_before, steps);
+    }
+    while (part.Next()) ++steps;
+    ASSERT_TRUE(part.End().has_value());
+    EXPECT_EQ(part.End()->continues, i < names.size());
+  }
+  EXPECT_EQ(steps, 60U);
 }
 
 TEST(Recorder, AFileThatCannotBeMadeIsAnErrorAtTheStart) {

@@ -80,7 +80,7 @@ TEST(RecordingFile, EverySingleFlippedBitIsFoundAndNotTakenForACut) {
 }
 
 TEST(RecordingFile, WhatIsNoRecordingIsSaidInWords) {
-  EXPECT_EQ(Read("").complaint, "is empty");
+  EXPECT_THAT(Read("").complaint, HasSubstr("is empty: its disk was full"));
   EXPECT_THAT(Read("giveway-rec").complaint, HasSubstr("cut off in its first line"));
   EXPECT_THAT(Read("giveway-recording-3\n").complaint, HasSubstr("format 3"));
   EXPECT_THAT(Read("giveway-recording-123456789\n").complaint, HasSubstr("no recording"));

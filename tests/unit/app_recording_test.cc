@@ -108,6 +108,7 @@ TEST(Recording, EveryFieldSurvives) {
   ExpectToSurvive(Filled<RecordedLife>());
   ExpectToSurvive(Filled<RecordedReseat>());
   ExpectToSurvive(Filled<RecordedEnd>());
+  ExpectToSurvive(Filled<RecordedContinuation>());
 }
 
 TEST(Recording, NothingAtAllSurvivesToo) {

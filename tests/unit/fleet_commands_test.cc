@@ -73,6 +73,24 @@ TEST(MakeCommands, EveryVehicleRecordsIntoAFileOfItsOwnIfAsked) {
   }
 }
 
+TEST(MakeCommands, RecordingsAreSplitIfAsked) {
+  RunOptions options;
+  options.record_split = "64MiB";
+  EXPECT_THAT(MakeCommands(options, OnDomainFive(), TwoVehicles())[1].words,
+              Not(Contains("--record-split")));
+  options.record_folder = "tapes";
+  const auto commands = MakeCommands(options, OnDomainFive(), TwoVehicles());
+  EXPECT_THAT(commands[0].words, Not(Contains("--record-split")));
+  EXPECT_TRUE(Says(commands[2], "--record-split", "64MiB"));
+}
+
+TEST(ErrorLines, AreThoseOfTheLogsErrorLevel) {
+  EXPECT_TRUE(IsErrorLine("12:00:00.000 error   vehicle 2: the recording ends here: No space"));
+  EXPECT_TRUE(IsErrorLine(R"({"time":"","steady_ns":1,"level":"error","process":"v","text":""})"));
+  EXPECT_FALSE(IsErrorLine("12:00:00.000 info    vehicle 2: no error here"));
+  EXPECT_FALSE(IsErrorLine(""));
+}
+
 TEST(MakeCommands, EveryVehicleIsImpairedIfAskedAndTheWorldIsNot) {
   RunOptions options;
   options.impair = "loss=0.1";

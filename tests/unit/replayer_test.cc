@@ -117,6 +117,62 @@ TEST_F(ReplayTest, WhoWatchesSeesEveryStep) {
   EXPECT_THAT(trace, HasSubstr("\n60\t0.00\t1\t"));
 }
 
+// The same recording as two parts.
+class SplitReplayTest : public ReplayTest {
+ protected:
+  static constexpr std::uint32_t kFirst = 25;
+  void SetUp() override {
+    const auto middle = records_.begin() + 1 + kFirst;
+    first_.assign(records_.begin(), middle);
+    first_.push_back(app::RecordedEnd{.steps = kFirst, .continues = true});
+    const auto& life = std::get<app::RecordedLife>(records_[0]);
+    second_.push_back(app::RecordedContinuation{life.boot_epoch, life.options.id, 2, kFirst});
+    second_.insert(second_.end(), middle, records_.end());
+    second_.back() = app::RecordedEnd{.steps = kSteps - kFirst};
+  }
+  static app::ReplayedFile Next(const std::vector<app::Record>& part, Replayer* replayer) {
+    std::istringstream stream(test::FileOf(part));
+    return replayer->Replay(&stream);
+  }
+  std::vector<app::Record> first_;
+  std::vector<app::Record> second_;
+};
+
+TEST_F(SplitReplayTest, PartsComeOutTheSameOneAfterTheOther) {
+  Replayer replayer;
+  EXPECT_EQ(Next(first_, &replayer).finding, "");
+  const app::ReplayedFile second = Next(second_, &replayer);
+  EXPECT_EQ(second.finding, "");
+  EXPECT_EQ(second.part, 2U);
+  EXPECT_EQ(second.steps, kSteps - kFirst);
+  EXPECT_FALSE(second.difference.has_value());
+  EXPECT_TRUE(second.complete);
+}
+
+TEST_F(SplitReplayTest, APartWithoutTheOneBeforeSaysWhatIsMissing) {
+  Replayer replayer;
+  EXPECT_THAT(Next(second_, &replayer).finding, HasSubstr("part 2"));
+  EXPECT_EQ(Next(first_, &replayer).finding, "");
+  EXPECT_EQ(Next(second_, &replayer).finding, "");
+  EXPECT_THAT(Next(second_, &replayer).finding, HasSubstr("part 2"));
+}
+
+TEST_F(SplitReplayTest, APartOfAnotherLifeIsNoContinuation) {
+  std::get<app::RecordedContinuation>(second_[0]).boot_epoch ^= 1;
+  Replayer replayer;
+  Next(first_, &replayer);
+  EXPECT_THAT(Next(second_, &replayer).finding, HasSubstr("part 2"));
+}
+
+TEST_F(ReplayTest, AFullDiskIsNamed) {
+  records_.back() = app::RecordedEnd{kSteps, 17, "No space left\x1b on device"};
+  app::ReplayedFile outcome = ReplayOf(records_);
+  EXPECT_EQ(outcome.failure, "No space left? on device");
+  EXPECT_EQ(outcome.lost, 17U);
+  EXPECT_THAT(app::ToText({outcome}), HasSubstr("could not be written: No space left? on device"));
+  EXPECT_THAT(app::ToJson({outcome}), HasSubstr("\"failure\":\"No space left? on device\""));
+}
+
 TEST(ReplayVerdict, UnreadableOutweighsDifferentOutweighsIdentical) {
   app::ReplayedFile same;
   app::ReplayedFile other;
