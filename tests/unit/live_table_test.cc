@@ -45,6 +45,13 @@ TEST(LiveTable, TitleNamesScenarioDomainStateAndTime) {
   EXPECT_EQ(title, "intersection_yield  domain 7  running  12.3 s of at most 60 s");
 }
 
+TEST(LiveTable, TitleOfARunWithoutAnEndSaysSo) {
+  TableView view = ViewOf(2);
+  view.duration_s = 0;
+  EXPECT_EQ(TableLines(view, {120, 24})[0],
+            "intersection_yield  domain 7  running  12.3 s until stopped");
+}
+
 // A killed vehicle stood in the table as cruising at its last speed until the end of the run.
 TEST(LiveTable, ASilentVehicleShowsNoStateItNoLongerHas) {
   TableView view = ViewOf(2);
