@@ -53,6 +53,9 @@ code=0
 wait "${PID[d]}" || code=$?
 unset "PID[d]"
 [[ $code -eq 0 ]] || fail "after the end: exit code $code of d, which does not stay"
+for vehicle in a b c; do
+  await "its run is over: $vehicle" 2 "$vehicle" 'the run has ended: waits for the next world'
+done
 restart world5 "after one that was told to stop" 'started with' --duration 2
 wait "${PID[world5]}" # its run is over
 restart world6 "after one whose run was over" 'started with'
