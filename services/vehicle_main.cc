@@ -8,7 +8,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "services/app/hang_signal.h"
 #include "services/app/process.h"
@@ -28,6 +27,7 @@
 #include "services/vehicle_health.h"
 #include "services/vehicle_join.h"
 #include "services/vehicle_report.h"
+#include "services/world_time.h"
 
 namespace giveway {
 namespace {
@@ -36,6 +36,8 @@ using std::chrono::milliseconds;
 
 constexpr Nanoseconds kStatusPeriod = milliseconds(200);
 constexpr Nanoseconds kFlushTimeout = milliseconds(300);
+// From an order to restart to standing; the world brakes whom it does not hear.
+constexpr Nanoseconds kHaltPatience = std::chrono::seconds(5);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
 
 enum class DriveEnd { kOver, kRefused, kRestarts };
@@ -59,7 +61,9 @@ class Loop {
         boot_epoch_(app::RandomNonZero()),
         vehicle_(options_, boot_epoch_),
         news_(entry) {
-    if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_);
+    std::optional<Handover> handover = flags.resume ? flags.resume->handover : std::nullopt;
+    if (handover && !TakeOver(*handover)) handover.reset();
+    if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_, handover);
     health_.Placed(options_.ranges_age_limit);
   }
 
@@ -67,13 +71,15 @@ class Loop {
   // operator's order takes a restart. Halts and says good-bye if the run goes on without it; for
   // good only in the second case, in the last it keeps its place.
   DriveEnd Drive(const app::StopSignal& stop) {
-    while (!stop.IsSet() && (stays_ || !RunEnded()) && !refused_ && !restarts_) Turn(false);
+    while (!stop.IsSet() && !IsOver() && !restarts_) Turn(false);
+    if (restarts_) Halt(stop);
+    const bool restarts = restarts_ && !IsOver();
     health_.Leaves();
-    const bool goes = stop.IsSet() || restarts_;
+    const bool goes = stop.IsSet() || restarts;
     for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
-    if (restarts_ && !stop.IsSet()) AskForTime();
+    if (restarts && !stop.IsSet()) AskForTime();
     // It may have been told to stop while it asked; then it leaves.
-    if (restarts_ && !stop.IsSet()) return DriveEnd::kRestarts;
+    if (restarts && !stop.IsSet()) return DriveEnd::kRestarts;
     report_.SendFinal(vehicle_, link_);
     // Said before the wait: whoever has died without a word delays both, and may do so only once.
     if (stop.IsSet() && !RunEnded()) link_.SendLeave(place_.session);
@@ -82,8 +88,26 @@ class Loop {
   }
   const SessionId& Session() const { return place_.session; }
   VehicleId Id() const { return options_.id; }
+  std::optional<Handover> HandOver() const { return vehicle_.HandOver(); }
 
  private:
+  // False where it is not to be gone by: then the world's word is.
+  bool TakeOver(const Handover& handover) {
+    if (!IsOfTheSameBody(handover, place_)) {
+      app::LogWarning("stands elsewhere than before its restart: begins where the world says");
+      return false;
+    }
+    return vehicle_.TakeOver(handover);
+  }
+
+  // While it rolls it is not gone from: its peers hear from it until it stands.
+  void Halt(const app::StopSignal& stop) {
+    const SteadyTime give_up = app::SteadyNow() + kHaltPatience;
+    while (!vehicle_.Stands() && !stop.IsSet() && !IsOver() && app::SteadyNow() < give_up) {
+      Turn(false);
+    }
+  }
+
   // To the world a second of silence is a death. Who asks for its place again is given longer,
   // until it speaks; so what it said last must have been taken by then.
   void AskForTime() {
@@ -94,6 +118,7 @@ class Loop {
   }
 
   bool RunEnded() const { return place_.run_state == RunState::kEnded; }
+  bool IsOver() const { return refused_ || (RunEnded() && !stays_); }
 
   // A world that was restarted, or that gives the vehicle another place, says where it stands now.
   void Follow(const RosterEntry& entry) {
@@ -152,9 +177,12 @@ class Loop {
       health_.Joins(asking_->WaitsFor());
     }
     inputs.leaving = leaving;
+    inputs.halting = restarts_;
     if (inputs.scan) last_scan_ = woke;
     const std::span<const QosEvent> events = inputs.events;
-    if (lockstep_ && !leaving && !KeepWorldTime(&inputs)) return Tell(events);
+    if (lockstep_ && !leaving && !world_time_.Keep(&inputs, options_.tick_period)) {
+      return Tell(events);
+    }
 
     inputs.roster = std::exchange(news_, std::nullopt);
     const SteadyTime before = app::SteadyNow();
@@ -168,7 +196,7 @@ class Loop {
     if (recorder_ != nullptr) recorder_->Step(inputs, outputs, vehicle_.Hash());
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
     Tell(events);
-    if (!leaving && admin_.Serve()) restarts_ = true;
+    if (!leaving && !restarts_ && admin_.Serve()) restarts_ = true;
     TellOfBeacons(inputs.now, woke);
     if (outputs.decision_changed || woke >= next_status_) {
       health_.Reported(report_.Send(vehicle_, link_));
@@ -217,23 +245,6 @@ class Loop {
     app::LogInfo("impairment: blackouts are counted from here", *blackouts_since);
   }
 
-  // In lockstep the only clock is the world's tick: the run repeats whatever the machine does, so
-  // nothing that depends on this machine's clock may come in. False if there is no new tick.
-  bool KeepWorldTime(Inputs* inputs) {
-    for (const ReceivedBeacon& beacon : inputs->beacons) held_.push_back(beacon);
-    if (!inputs->scan) return false;
-    inputs->now = Number(inputs->scan->tick) * options_.tick_period;
-    for (ReceivedBeacon& beacon : held_) {
-      beacon.received =
-          std::max(inputs->now, Number(After(beacon.beacon.tick, 1)) * options_.tick_period);
-    }
-    in_lockstep_.swap(held_);
-    held_.clear();
-    inputs->beacons = in_lockstep_;
-    inputs->events = {};
-    return true;
-  }
-
   link::VehicleLink& link_;
   VehicleAdmin& admin_;
   VehicleHealthTeller& health_;
@@ -255,8 +266,7 @@ class Loop {
   SteadyTime last_scan_{0};
   SteadyTime last_beacon_{0};
   SteadyTime next_status_{0};
-  std::vector<ReceivedBeacon> held_;
-  std::vector<ReceivedBeacon> in_lockstep_;
+  WorldTime world_time_;
 };
 
 // Only vehicles hear through it: the world's ears are the wires to the wheels.
@@ -270,7 +280,8 @@ Impairment ImpairmentOf(const app::ServiceFlags& flags, const Scenario& scenario
 app::NewFlags ToComeBack(const Loop& loop, const AdminOrder& order) {
   return {{"--id", std::to_string(Number(loop.Id()))},
           {"--qos", app::HoldText(order.profiles.name, order.profiles.text)},
-          {"--resume", app::ToText({loop.Session(), order.number})}};
+          {"--resume",
+           app::HoldText("resume", app::ToBytes({loop.Session(), order.number, loop.HandOver()}))}};
 }
 
 // From joining to the end of the link. Empty where the process ends with `exit_code`.

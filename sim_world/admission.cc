@@ -84,6 +84,7 @@ Admission::Result Admission::Try(Waiting* waiting) {
     const auto told = told_.find(seat->vehicle);
     if (told != told_.end()) {
       run_.AsksAgain(seat->vehicle);
+      run_.Locate(roster_.OptionsOf(*seat), &told->second);
       return {.waits = false, .tell = told->second};
     }
     const Body* body = run_.BodyOf(seat->vehicle);
@@ -108,8 +109,9 @@ Admission::Result Admission::Try(Waiting* waiting) {
 }
 
 void Admission::LetIn(RosterEntry entry) {
-  run_.Join(roster_.OptionsOf(*roster_.SeatOf(entry.session)));
-  entry.start_world = run_.BodyOf(entry.vehicle)->world_from_body;
+  const VehicleOptions options = roster_.OptionsOf(*roster_.SeatOf(entry.session));
+  run_.Join(options);
+  run_.Locate(options, &entry);
   to_tell_.push_back(entry);
   const auto before = told_.find(entry.vehicle);
   if (before != told_.end()) {
@@ -133,6 +135,9 @@ bool Admission::IsFree(const VehicleOptions& options) const {
 std::vector<RosterEntry> Admission::TellAll(const std::string& reason) {
   std::vector<RosterEntry> entries;
   for (auto& [vehicle, entry] : told_) {
+    if (const Seat* seat = roster_.SeatOf(entry.session)) {
+      run_.Locate(roster_.OptionsOf(*seat), &entry);
+    }
     entry.run_state = run_.State();
     entry.reason = reason;
     entries.push_back(entry);

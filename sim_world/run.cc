@@ -69,6 +69,15 @@ const Body* Run::BodyOf(VehicleId vehicle) const {
   return there ? &*body : nullptr;
 }
 
+void Run::Locate(const VehicleOptions& options, RosterEntry* entry) const {
+  const Body* body = BodyOf(options.id);
+  if (body == nullptr) return;
+  entry->start_world = body->world_from_body;
+  entry->tick = Now();
+  entry->counted = body->counted;
+  entry->task = OnRoute(options.route, body->command.task);
+}
+
 bool Run::EveryoneJoined() const {
   return std::ranges::all_of(world_.Bodies(), [](const Body& body) { return body.joined; });
 }

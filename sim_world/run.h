@@ -78,6 +78,9 @@ class Run {
   // however long they waited.
   std::uint64_t Hash() const;
 
+  // Says in an answer to a vehicle where its body is now, and how far its task; nothing where it
+  // has no body.
+  void Locate(const VehicleOptions& options, RosterEntry* entry) const;
   // Null if no body of the vehicle is in the world.
   const Body* BodyOf(VehicleId vehicle) const;
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }

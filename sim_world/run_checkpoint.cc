@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
 
-constexpr std::string_view kMagic = "giveway-world-3\n";  // the number counts formats
+constexpr std::string_view kMagic = "giveway-world-4\n";  // the number counts formats
 
 template <typename T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -128,7 +128,8 @@ void Visit(Archive& archive, Decision& decision) {
 template <typename Archive>
 void Visit(Archive& archive, MotorCommand& command) {
   archive(command.vehicle, command.epoch, command.tick, command.target, command.decision,
-          command.decision_changed, command.matched_peers);
+          command.decision_changed, command.matched_peers, command.task.waypoint,
+          command.task.waited_ticks);
 }
 
 template <typename Archive>

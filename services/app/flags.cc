@@ -7,6 +7,7 @@
 #include "services/app/byte_size.h"
 #include "services/app/flag_values.h"
 #include "services/app/impair_text.h"
+#include "services/app/text_file.h"
 
 namespace giveway::app {
 namespace {
@@ -46,7 +47,7 @@ class CommandLine {
           "none; the README lists the keys");
       AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
-      Add("--resume", "WORD", "given by a vehicle to itself when an operator's order restarts it");
+      Add("--resume", "FILE", "given by a vehicle to itself when an operator's order restarts it");
       AddSwitch("--hang-on-signal",
                 "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
     } else {
@@ -145,14 +146,18 @@ void ReadRecord(FlagValues* values, ServiceFlags* flags) {
 }
 
 std::optional<Resumed> ReadResumed(FlagValues* values) {
-  const auto text = values->Text("--resume");
-  if (!text) return std::nullopt;
-  const auto resumed = ParseResumed(*text);
-  if (!resumed) {
-    values->Complain("--resume", "\"" + *text + "\" is not what a vehicle gives to itself",
+  const auto file = values->Text("--resume");
+  if (!file) return std::nullopt;
+  try {
+    const auto resumed = ResumedFrom(ReadBytes(*file));
+    LetGo(*file);
+    if (resumed) return resumed;
+    values->Complain("--resume", "\"" + *file + "\" does not hold what a vehicle gives to itself",
                      "leave it out: fleetctl qos apply makes a vehicle restart itself");
+  } catch (const InputError& error) {
+    values->Add(error.Problems());
   }
-  return resumed;
+  return std::nullopt;
 }
 
 void ReadHealth(FlagValues* values, ServiceFlags* flags) {

@@ -94,8 +94,11 @@ void Recorder::ReportLoss() {
   next_report_ = now + kReportPeriod;
 }
 
-void Recorder::Begin(const VehicleOptions& options, std::uint32_t boot_epoch) {
-  Queue([&](Record* slot) { *slot = RecordedLife{boot_epoch, options, GIVEWAY_VERSION}; });
+void Recorder::Begin(const VehicleOptions& options, std::uint32_t boot_epoch,
+                     const std::optional<Handover>& handover) {
+  Queue([&](Record* slot) {
+    *slot = RecordedLife{boot_epoch, options, GIVEWAY_VERSION, handover};
+  });
 }
 
 void Recorder::Reseat(const VehicleOptions& options) {

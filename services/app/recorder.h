@@ -9,8 +9,10 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "services/types/handover.h"
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
 
@@ -32,7 +34,8 @@ class Recorder {
   Recorder& operator=(const Recorder&) = delete;
 
   // The brain is made; first of all, and once.
-  void Begin(const VehicleOptions& options, std::uint32_t boot_epoch);
+  void Begin(const VehicleOptions& options, std::uint32_t boot_epoch,
+             const std::optional<Handover>& handover = std::nullopt);
   void Reseat(const VehicleOptions& options);
   // After each step. `hash` is of the brain's state after it.
   void Step(const Inputs& inputs, const Outputs& outputs, std::uint64_t hash);

@@ -59,6 +59,7 @@ void RecordedStep::Hold(const Inputs& inputs, const Outputs& said, std::uint64_t
   roster = inputs.roster;
   pose_fix = inputs.pose_fix;
   leaving = inputs.leaving;
+  halting = inputs.halting;
   outputs = said;
   hash = state_hash;
 }
@@ -74,7 +75,8 @@ Inputs RecordedStep::AsInputs() const {
           .signals = signals,
           .roster = roster,
           .pose_fix = pose_fix,
-          .leaving = leaving};
+          .leaving = leaving,
+          .halting = halting};
 }
 
 std::string WhyUnusable(const VehicleOptions& options) {

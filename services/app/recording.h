@@ -9,18 +9,20 @@
 #include <variant>
 #include <vector>
 
+#include "services/types/handover.h"
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
 
 namespace giveway::app {
 
 // The first line of a file; the number counts formats.
-inline constexpr std::string_view kRecordingMark = "giveway-recording-2\n";
+inline constexpr std::string_view kRecordingMark = "giveway-recording-3\n";
 
 struct RecordedLife {
   std::uint32_t boot_epoch = 0;
   VehicleOptions options;
   std::string recorded_by;
+  std::optional<Handover> handover;
 };
 
 struct RecordedReseat {
@@ -40,6 +42,7 @@ struct RecordedStep {
   std::optional<RosterEntry> roster;
   std::optional<PoseFix> pose_fix;
   bool leaving = false;
+  bool halting = false;
   Outputs outputs;
   std::uint64_t hash = 0;
 

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "services/app/recording.h"
+#include "services/app/restart.h"
 
 namespace giveway::app {
 
@@ -142,10 +143,21 @@ void Visit(auto& fields, Is<SignalState> auto& signal) {
   fields(id, epoch, tick, line_from, line_to, travel, phase, to_change);
 }
 
+void Visit(auto& fields, Is<TaskProgress> auto& task) {
+  auto& [waypoint, waited_ticks] = task;
+  fields(waypoint, waited_ticks);
+}
+
 void Visit(auto& fields, Is<RosterEntry> auto& entry) {
-  auto& [session, vehicle, accepted, waiting, reason, epoch, start, spawn, run_state, fleet_size] =
-      entry;
-  fields(session, vehicle, accepted, waiting, reason, epoch, start, spawn, run_state, fleet_size);
+  auto& [session, vehicle, accepted, waiting, reason, epoch, start, tick, counted, task, spawn,
+         run_state, fleet_size] = entry;
+  fields(session, vehicle, accepted, waiting, reason, epoch, start, tick, counted, task, spawn,
+         run_state, fleet_size);
+}
+
+void Visit(auto& fields, Is<Handover> auto& handover) {
+  auto& [epoch, tick, counted, pose, covariance, task] = handover;
+  fields(epoch, tick, counted, pose, covariance, task);
 }
 
 void Visit(auto& fields, Is<PoseFix> auto& fix) {
@@ -158,11 +170,11 @@ void Visit(auto& fields, Is<Decision> auto& decision) {
   fields(mode, rule, peer, sensor, cause_tick);
 }
 
-// The last one is the loop's, not the brain's.
+// The count of matched peers is the loop's, not the brain's.
 void Visit(auto& fields, Is<MotorCommand> auto& command) {
-  auto& [vehicle, epoch, tick, target, decision, changed, matched_peers] = command;
+  auto& [vehicle, epoch, tick, target, decision, changed, matched_peers, task] = command;
   static_cast<void>(matched_peers);
-  fields(vehicle, epoch, tick, target, decision, changed);
+  fields(vehicle, epoch, tick, target, decision, changed, task);
 }
 
 void Visit(auto& fields, Is<Outputs> auto& outputs) {
@@ -171,8 +183,13 @@ void Visit(auto& fields, Is<Outputs> auto& outputs) {
 }
 
 void Visit(auto& fields, Is<RecordedLife> auto& life) {
-  auto& [boot_epoch, options, recorded_by] = life;
-  fields(boot_epoch, options, recorded_by);
+  auto& [boot_epoch, options, recorded_by, handover] = life;
+  fields(boot_epoch, options, recorded_by, handover);
+}
+
+void Visit(auto& fields, Is<Resumed> auto& resumed) {
+  auto& [session, order, handover] = resumed;
+  fields(session, order, handover);
 }
 
 void Visit(auto& fields, Is<RecordedReseat> auto& reseat) {
@@ -181,10 +198,10 @@ void Visit(auto& fields, Is<RecordedReseat> auto& reseat) {
 }
 
 void Visit(auto& fields, Is<RecordedStep> auto& step) {
-  auto& [now, scan, beacons, events, radar, lidar, camera, signals, roster, fix, leaving, outputs,
-         hash] = step;
-  fields(now, scan, beacons, events, radar, lidar, camera, signals, roster, fix, leaving, outputs,
-         hash);
+  auto& [now, scan, beacons, events, radar, lidar, camera, signals, roster, fix, leaving, halting,
+         outputs, hash] = step;
+  fields(now, scan, beacons, events, radar, lidar, camera, signals, roster, fix, leaving, halting,
+         outputs, hash);
 }
 
 void Visit(auto& fields, Is<RecordedEnd> auto& end) {

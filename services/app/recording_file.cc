@@ -40,6 +40,10 @@ void RecordingFile::Begin(Record first) {
     complaint_ = "the vehicle has no boot epoch";
     return;
   }
+  if (life->handover && !IsSound(*life->handover)) {
+    complaint_ = "the vehicle takes over what no vehicle hands over";
+    return;
+  }
   complaint_ = WhyUnusable(life->options);
   if (complaint_.empty()) life_ = std::move(*life);
 }

@@ -1,12 +1,15 @@
-// Records as Protobuf and back. Fields of ours and of the schema are paired by their order; a pair
-// that does not fit is our bug, and the first record written shows it.
+// Records as Protobuf and back, and what a restarting process hands over. Fields of ours and of the
+// schema are paired by their order; a pair that does not fit is our bug, and the first record
+// written shows it.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
 #include <limits>
+#include <sstream>
 #include <type_traits>
 
 #include "recording.pb.h"
+#include "services/app/framed_stream.h"
 #include "services/app/recording.h"
 #include "services/app/recording_fields.h"
 #include "services/types/check.h"
@@ -15,6 +18,9 @@ namespace giveway::app {
 namespace {
 
 namespace pb = google::protobuf;
+
+constexpr std::string_view kResumeMark = "giveway-resume-1\n";  // the number counts formats
+constexpr std::size_t kMostResumeBytes = 1024;                  // some 250 are written
 
 // Half of what fits: the difference of any two times does not overflow.
 constexpr std::int64_t kMostTime_ns = std::numeric_limits<std::int64_t>::max() / 2;
@@ -243,6 +249,29 @@ std::optional<Record> RecordFrom(std::string_view bytes) {
       break;
   }
   return std::nullopt;
+}
+
+std::string ToBytes(const Resumed& resumed) {
+  schema::recording::Resumed message;
+  Encoder encoder(&message);
+  Visit(encoder, resumed);
+  return std::string(kResumeMark) + Framed(message.SerializeAsString());
+}
+
+std::optional<Resumed> ResumedFrom(std::string_view bytes) {
+  if (!bytes.starts_with(kResumeMark) || bytes.size() > kMostResumeBytes) return std::nullopt;
+  std::istringstream stream(std::string(bytes.substr(kResumeMark.size())));
+  std::string payload;
+  schema::recording::Resumed message;
+  const bool whole = ReadFrame(stream, &payload) == FrameEnd::kFrame &&
+                     stream.peek() == std::istringstream::traits_type::eof();
+  if (!whole || !message.ParseFromString(payload)) return std::nullopt;
+  bool sound = true;
+  Decoder decoder(message, &sound);
+  Resumed resumed;
+  Visit(decoder, resumed);
+  if (!sound || (resumed.handover && !IsSound(*resumed.handover))) return std::nullopt;
+  return resumed;
 }
 
 }  // namespace giveway::app

@@ -1,7 +1,6 @@
 #include "services/app/restart.h"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -24,12 +23,6 @@ constexpr std::size_t kMostNameBytes = 200;  // the kernel takes 249
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-template <typename Number>
-bool ParseHex(std::string_view text, Number& number) {
-  const auto read = std::from_chars(text.begin(), text.end(), number, 16);
-  return read.ec == std::errc() && read.ptr == text.end() && text.size() == 2 * sizeof(Number);
-}
-
 std::vector<std::string> OwnArguments() {
   std::ifstream stream("/proc/self/cmdline", std::ios::binary);
   std::vector<std::string> arguments;
@@ -47,22 +40,6 @@ int HeldDescriptor(const std::string& path) {
 }
 
 }  // namespace
-
-std::string ToText(const Resumed& resumed) {
-  const SessionId& s = resumed.session;
-  return fmt::format("{:08x}-{:08x}-{:08x}-{:08x}-{:016x}", s[0], s[1], s[2], s[3], resumed.order);
-}
-
-std::optional<Resumed> ParseResumed(std::string_view text) {
-  Resumed resumed;
-  for (std::uint32_t& word : resumed.session) {
-    const std::size_t dash = text.find('-');
-    if (dash == std::string_view::npos || !ParseHex(text.substr(0, dash), word)) return {};
-    text.remove_prefix(dash + 1);
-  }
-  if (!ParseHex(text, resumed.order)) return {};
-  return resumed;
-}
 
 std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments,
                                        const NewFlags& flags) {

@@ -10,20 +10,24 @@
 #include <vector>
 
 #include "services/types/fleet_facts.h"
+#include "services/types/handover.h"
 
 namespace giveway::app {
 
-// What it hands on to itself: the world knows it by its session, the operator by the order.
+// What it hands on to itself: the world knows it by its session, the operator by the order, and its
+// brain goes on from the handover.
 struct Resumed {
   SessionId session{};
   std::uint64_t order = 0;
+  std::optional<Handover> handover;  // none: it had no place yet
 
   friend bool operator==(const Resumed&, const Resumed&) = default;
 };
 
-// "0123abcd-...": four words of the session and the order, hexadecimal.
-std::string ToText(const Resumed& resumed);
-std::optional<Resumed> ParseResumed(std::string_view text);
+// Bytes with a version and a checksum. Nothing where they are not exactly what ToBytes made, or
+// hold what no brain can go on from.
+std::string ToBytes(const Resumed& resumed);
+std::optional<Resumed> ResumedFrom(std::string_view bytes);
 
 // Flags by name, "--qos", and their values.
 using NewFlags = std::map<std::string, std::string>;

@@ -32,6 +32,7 @@ void Replayer::Begin(const app::RecordingFile& file, app::ReplayedFile* outcome)
   if (file.Life()) {
     const app::RecordedLife& life = *file.Life();
     brain_.emplace(life.options, life.boot_epoch);
+    if (life.handover) brain_->TakeOver(*life.handover);
     next_ = {life.boot_epoch, life.options.id, 1, 0};
     outcome->vehicle = life.options.id;
     return;

@@ -185,6 +185,11 @@ void AddFields(const RosterEntry& entry, JsonObject* object) {
   if (!entry.reason.empty()) object->Add("reason", entry.reason);
   object->Add("world_epoch", Number(entry.epoch));
   object->Add("start_world", PoseOf(entry.start_world));
+  object->Add("tick", Number(entry.tick));
+  object->Add("counted_left_rad", entry.counted.left_rad);
+  object->Add("counted_right_rad", entry.counted.right_rad);
+  object->Add("waypoint", entry.task.waypoint);
+  object->Add("waited_ticks", entry.task.waited_ticks);
   if (entry.spawn != 0) object->Add("spawn", entry.spawn);
   object->Add("run_state", Name(entry.run_state));
   object->Add("fleet_size", entry.fleet_size);

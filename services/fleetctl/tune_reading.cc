@@ -118,6 +118,7 @@ VehicleReading ReadVehicle(std::istream* recording, const AliveWindow& window) {
   const VehicleOptions& options = file.Life()->options;
   reading.vehicle = options.id;
   Vehicle brain(options, file.Life()->boot_epoch);
+  if (file.Life()->handover) brain.TakeOver(*file.Life()->handover);
   Reader reader(options, window, &reading);
   while (const std::optional<app::Record> record = file.Next()) {
     if (const auto* reseat = std::get_if<app::RecordedReseat>(&*record)) {

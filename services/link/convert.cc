@@ -191,6 +191,8 @@ wire::MotorCommand ToWire(const MotorCommand& command) {
   sent.decision(ToWirePart(command.decision));
   sent.decision_changed(command.decision_changed);
   sent.matched_peers(command.matched_peers);
+  sent.waypoint(command.task.waypoint);
+  sent.waited_ticks(command.task.waited_ticks);
   return sent;
 }
 
@@ -201,6 +203,7 @@ bool FromWire(const wire::MotorCommand& sample, MotorCommand& command) {
   command.target = {sample.left_rad_s(), sample.right_rad_s()};
   command.decision_changed = sample.decision_changed();
   command.matched_peers = sample.matched_peers();
+  command.task = {sample.waypoint(), sample.waited_ticks()};
   return FromWirePart(sample.decision(), command.decision);
 }
 

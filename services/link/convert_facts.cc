@@ -172,6 +172,11 @@ wire::Roster ToWire(const RosterEntry& entry) {
   sent.reason(CutText(entry.reason));
   sent.world_epoch(Number(entry.epoch));
   sent.start_world(ToWirePart(entry.start_world));
+  sent.tick(Number(entry.tick));
+  sent.counted_left_rad(entry.counted.left_rad);
+  sent.counted_right_rad(entry.counted.right_rad);
+  sent.waypoint(entry.task.waypoint);
+  sent.waited_ticks(entry.task.waited_ticks);
   sent.spawn(entry.spawn);
   sent.run_state(ToWireEnum<wire::RunPhase>(entry.run_state));
   sent.fleet_size(entry.fleet_size);
@@ -186,6 +191,9 @@ bool FromWire(const wire::Roster& sample, RosterEntry& entry) {
   entry.reason = sample.reason().c_str();
   entry.epoch = WorldEpoch{sample.world_epoch()};
   entry.start_world = FromWirePart(sample.start_world());
+  entry.tick = Tick{sample.tick()};
+  entry.counted = {sample.counted_left_rad(), sample.counted_right_rad()};
+  entry.task = {sample.waypoint(), sample.waited_ticks()};
   entry.spawn = sample.spawn();
   entry.fleet_size = sample.fleet_size();
   return FromWirePart(sample.run_state(), entry.run_state);

@@ -13,6 +13,7 @@
 #include "services/types/pose.h"
 #include "services/types/qos_event.h"
 #include "services/types/range_scan.h"
+#include "services/types/task_progress.h"
 
 namespace giveway {
 
@@ -32,7 +33,10 @@ struct RosterEntry {
   bool waiting = false;  // not accepted yet, but may be later: the world keeps the request
   std::string reason;    // why not, or why the run ended; empty otherwise
   WorldEpoch epoch = kNoEpoch;
-  Pose start_world;  // where the body stands as the entry is made: start, spawn or checkpoint pose
+  Pose start_world;  // where the body was at `tick`: start, spawn or checkpoint pose, or under way
+  Tick tick = kNoTick;      // the world's last one as the entry was made
+  WheelAngles counted;      // by the body's encoders at `tick`
+  TaskProgress task;        // as the vehicle said it last with a command; nothing for a new body
   std::uint32_t spawn = 0;  // the scenario's spawn place it drives by, counted from 1; 0: its own
   RunState run_state = RunState::kWaiting;
   std::uint32_t fleet_size = 0;  // vehicles the scenario waits for

@@ -4,6 +4,7 @@
 #include "services/types/decision.h"
 #include "services/types/ids.h"
 #include "services/types/pose.h"
+#include "services/types/task_progress.h"
 
 namespace giveway {
 
@@ -17,6 +18,7 @@ struct MotorCommand {
   bool decision_changed = false;
   // Peers whose beacon writer this vehicle's reader has matched: the world starts on a full mesh.
   std::uint32_t matched_peers = 0;
+  TaskProgress task;  // kept by the world for a new process of the vehicle
 };
 
 }  // namespace giveway

@@ -38,6 +38,7 @@ struct Inputs {
   std::optional<RosterEntry> roster;
   std::optional<PoseFix> pose_fix;  // of the scan's tick
   bool leaving = false;             // the process was asked to stop: halt and say good-bye
+  bool halting = false;             // the process is about to restart itself: halt
 };
 
 struct Outputs {

@@ -9,6 +9,7 @@
 #include "services/types/distance.h"
 #include "services/types/ids.h"
 #include "services/types/profile.h"
+#include "services/types/task_progress.h"
 #include "services/types/time.h"
 
 namespace giveway {
@@ -30,6 +31,14 @@ struct Route {
   bool loop = false;
   double radius_m = 0.3;
 };
+
+// A waypoint that the route does not have, as one of another scenario's, is as good as none: the
+// route begins at its first.
+constexpr TaskProgress OnRoute(const Route& route, TaskProgress task) {
+  const bool has = task.waypoint < route.count || (task.waypoint == route.count && !route.loop);
+  if (!has) task.waypoint = 0;
+  return task;
+}
 
 // Wheel speed = v0 + sum of weight * activation, activation 1 at the near gate and 0 at the far
 // one.

@@ -24,6 +24,13 @@ bool IsUsable(const PoseFix& fix) {
 
 }  // namespace
 
+Odometry::Odometry(const Pose& world_from_body, const PoseCovariance& c)
+    : pose_(world_from_body),
+      heading_{world_from_body.heading_rad, Forward(world_from_body)},
+      covariance_{c.xx_m2,    c.xy_m2,    c.xh_m_rad,  //
+                  c.xy_m2,    c.yy_m2,    c.yh_m_rad,  //
+                  c.xh_m_rad, c.yh_m_rad, c.hh_rad2} {}
+
 void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s, double wheel_error,
                     double guessed_m) {
   const Vec2 before = pose_.position_world;

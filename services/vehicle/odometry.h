@@ -13,9 +13,8 @@ namespace giveway {
 
 class Odometry {
  public:
-  // Knows exactly where it is.
-  explicit Odometry(const Pose& world_from_body = {})
-      : pose_(world_from_body), heading_{world_from_body.heading_rad, Forward(world_from_body)} {}
+  // Knows exactly where it is, or as well as the covariance says.
+  explicit Odometry(const Pose& world_from_body = {}, const PoseCovariance& covariance = {});
 
   // Rolls on for dt_s at the measured wheel speeds, each of which is wrong by a standard deviation
   // of wheel_error times itself, plus guessed_m of way where the speeds are a guess.

@@ -39,6 +39,9 @@ enum class Defect : std::uint8_t {
   kSteersRoundNobody,
   kQueueOvertaken,
   kPatienceDropped,
+  // A new process of a vehicle that is under way.
+  kPlaceForgotten,
+  kRouteForgotten,
 };
 
 #ifdef GIVEWAY_PLANTED_DEFECTS

@@ -45,7 +45,7 @@ std::optional<Proposal> LowestOf(const Situation& s) {
 }  // namespace
 
 std::optional<Proposal> Leaving(const Situation& s) {
-  if (!s.leaving) return std::nullopt;
+  if (!s.leaving && !s.halting) return std::nullopt;
   return DeadStop(Rule::kLeaving);
 }
 

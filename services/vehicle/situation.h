@@ -83,6 +83,7 @@ struct Situation {
   bool new_tick = false;  // a scan came since the last step
   RunState run_state = RunState::kWaiting;
   bool leaving = false;
+  bool halting = false;
   bool arrived = false;
   Pose world_from_body;
   Vec2 forward_world;         // unit vector of the own heading

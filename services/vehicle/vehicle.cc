@@ -1,7 +1,6 @@
 #include "services/vehicle/vehicle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <type_traits>
 
@@ -44,56 +43,8 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
 
-void Vehicle::Reseat(const VehicleOptions& options) {
-  GIVEWAY_CHECK(options.id == options_.id, Number(options.id));
-  options_ = options;
-  cones_ = ConesOf(options.profile);
-  state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
-  state_->placed_in = kNoEpoch;
-}
-
-// What was seen, heard and waited for belongs to the world before.
-void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
-  VehicleState& state = *state_;
-  state.epoch = epoch;
-  state.tick = kNoTick;
-  state.run_state = RunState::kWaiting;
-  state.odometry = Odometry(world_from_body);
-  state.wheels = {};
-  state.waypoint = 0;
-  state.nearest_m = kNoGoal_m;
-  state.aimless_ticks = 0;
-  state.detour_tick = kNoTick;
-  state.away_tick = kNoTick;
-  state.caught_ticks = 0;
-  state.blocked_tick = kNoTick;
-  state.turned_tick = kNoTick;
-  state.decided_tick = kNoTick;
-  state.arrived = false;
-  state.order.waited_ticks = 0;
-  state.waited_ticks = 0;
-  state.let_pass = false;
-  state.deaf = false;
-  state.ranges = {};
-  state.signals.LeaveWorld();
-  state.objects = {};
-  state.last_heard = {};
-  state.peers.LeaveWorld();
-}
-
-// Only the first entry of an epoch says something new: later ones are repeated, or tell of the run.
-void Vehicle::TakeRoster(const RosterEntry& entry) {
-  VehicleState& state = *state_;
-  const Pose& pose = entry.start_world;
-  const bool sound = std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
-                     std::isfinite(pose.heading_rad);
-  if (!entry.accepted || entry.epoch == kNoEpoch || entry.epoch == state.placed_in || !sound)
-    return;
-  EnterWorld(entry.epoch, pose);
-  state.placed_in = entry.epoch;
-}
-
-// Dead reckoning: the encoders give the constant wheel speeds since the last tick.
+// Dead reckoning: the encoders give the constant wheel speeds since the last tick, or what they
+// counted since the pose was true that the vehicle was told.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   VehicleState& state = *state_;
   if (!IsBelievable(scan, options_)) {  // as if none had come: the ranges grow old, and it halts
@@ -103,14 +54,17 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   // A world that has not said where the vehicle stands in it, or one that is gone.
   if (state.placed_in != kNoEpoch && scan.epoch != state.placed_in) return;
   if (scan.epoch != state.epoch) EnterWorld(scan.epoch, options_.start_world);
-  if (state.tick != kNoTick && scan.tick <= state.tick) return;  // out of order: older than known
-  const std::uint32_t ticks = state.tick == kNoTick ? 1 : TicksBetween(state.tick, scan.tick);
+  // Out of order: older than known. The scan of the very tick it was placed at is still to be seen.
+  if (scan.tick < state.reckoned || (state.tick != kNoTick && scan.tick == state.tick)) return;
+  const std::uint32_t ticks =
+      state.reckoned == kNoTick ? 1 : TicksBetween(state.reckoned, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
   const VehicleProfile& profile = options_.profile;
   const WayGone gone = ticks > 1 ? WayOfLostTicks(state.counted, scan, options_, dt_s)
                                  : WayGone{.wheels = scan.wheels};
   state.odometry.Roll(profile.drive, gone.wheels, dt_s, WheelError(profile), gone.guessed_m);
   state.tick = scan.tick;
+  state.reckoned = scan.tick;
   state.counted = scan.counted;
   state.run_state = scan.run_state;
   state.wheels = scan.wheels;
@@ -158,6 +112,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.new_tick = state.tick != state.decided_tick;
   s.run_state = state.run_state;
   s.leaving = inputs.leaving;
+  s.halting = inputs.halting;
   s.world_from_body = state.odometry.WorldFromBody();
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
@@ -302,7 +257,8 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
                       .tick = state.tick,
                       .target = action.target,
                       .decision = action.decision,
-                      .decision_changed = changed},
+                      .decision_changed = changed,
+                      .task = {state.waypoint, state.waited_ticks}},
           .beacon = Say(s),
           .decision_changed = changed};
 }

@@ -7,7 +7,9 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
+#include "services/types/handover.h"
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/decide.h"
@@ -29,6 +31,7 @@ struct VehicleState {
   WorldEpoch placed_in = kNoEpoch;  // the epoch of the last roster entry that said where it stands
   RunState run_state = RunState::kWaiting;
   Odometry odometry;
+  Tick reckoned = kNoTick;     // the tick of odometry's pose; kNoTick: the one before the next scan
   WheelSpeeds wheels;          // as last measured
   WheelAngles counted;         // by the encoders, as last heard
   KnownBearing way;            // to where it drives next
@@ -82,14 +85,22 @@ class Vehicle {
   // Drives by other options of the same vehicle id from its next roster entry on. Peers take it for
   // the same life: sequence numbers go on.
   void Reseat(const VehicleOptions& options);
+  // What the next process of this vehicle needs to go on; nothing before it was placed.
+  std::optional<Handover> HandOver() const;
+  // Goes on where the process before stopped. Before the first step. False, and nothing is done,
+  // where a handover is not sound.
+  bool TakeOver(const Handover& handover);
   std::uint64_t Hash() const;
   // Forward speed as last measured, m/s.
   double SpeedMps() const;
+  // Neither rolls nor turns, as last measured. Until it is told it is taken to.
+  bool Stands() const { return state_->wheels == WheelSpeeds{}; }
   // Peers with a fresh beacon in the last step.
   std::uint32_t PeersHeard() const { return peers_heard_; }
 
  private:
   void EnterWorld(WorldEpoch epoch, const Pose& world_from_body);
+  void GoOn(TaskProgress task);
   void TakeRoster(const RosterEntry& entry);
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakePeers(const Inputs& inputs);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include "services/types/check.h"
 #include "sim_world/ticks.h"
@@ -38,7 +39,6 @@ VirtualFleet::VirtualFleet(const Scenario& scenario, const VirtualPlan& plan)
     run_.Join(options.id);
     Member& member = members_.emplace_back();
     member.id = options.id;
-    member.last_world_from_body = options.start_world;
     member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
   }
   for (const ProcessFault& fault : plan.faults) {
@@ -85,15 +85,17 @@ void VirtualFleet::Break(const ProcessFault& fault, Member* member) {
                                                                          scenario_.tick_period));
 }
 
-// A new process is told by the world's roster where its body stood before the first scan it gets.
+// A new process is told where its body stands and how far its task is, as by the world's roster.
 void VirtualFleet::BringBack(std::size_t index) {
   Member& member = members_[index];
   member.process = Process::kRuns;
   member.back_at_tick = 0;
   if (!member.begins_anew) return;
-  VehicleOptions options = scenario_.vehicles[index];
-  options.start_world = member.last_world_from_body;
+  const VehicleOptions& options = scenario_.vehicles[index];
   member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
+  RosterEntry& entry = member.placed.emplace();
+  entry = {.vehicle = options.id, .accepted = true, .epoch = kVirtualEpoch};
+  run_.Locate(options, &entry);
   member.queued.clear();
 }
 
@@ -102,7 +104,6 @@ void VirtualFleet::TellRadioThePlaces() {
   for (const Truth& truth : run_.Truths()) {
     while (index < members_.size() && members_[index].id != truth.vehicle) ++index;
     if (index == members_.size()) break;
-    members_[index].last_world_from_body = truth.world_from_body;
     places_[index] = {.position_world = truth.world_from_body.position_world,
                       .on_air = truth.present && members_[index].process == Process::kRuns};
   }
@@ -133,6 +134,7 @@ void VirtualFleet::Step(const RangeScan& scan, std::size_t index) {
   }
   radio_.Hear(index, &heard_);
   radio_.Notice(index, &events_);
+  inputs_.roster = std::exchange(member.placed, std::nullopt);
   inputs_.scan = scan;
   inputs_.beacons = heard_;
   inputs_.events = events_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "services/types/scenario.h"
@@ -48,7 +49,7 @@ class VirtualFleet {
     bool begins_anew = false;
     bool answered = false;
     Outputs said;
-    Pose last_world_from_body;           // true, after the last tick
+    std::optional<RosterEntry> placed;   // what a new process is told before its first scan
     std::vector<ReceivedBeacon> queued;  // in the reader of a paused process
   };
   struct DueFault {

@@ -44,7 +44,7 @@ struct RadioSettings {
 enum class ProcessFaultKind : std::uint8_t {
   kCrash,    // silent for ever; the body stays as long as the scenario says
   kPause,    // stands still for a time, then goes on with everything queued
-  kRestart,  // is gone for a time, then begins anew where the body stands
+  kRestart,  // is gone for a time; then a new one goes on as the world tells it: where and whereto
 };
 
 struct ProcessFault {

@@ -112,7 +112,8 @@ TEST(Convert, CommandComesBack) {
                           .target = {kInfinity, -0.5},
                           .decision = {Mode::kSensorOnly, Rule::kDeaf, VehicleId{4}, -1, Tick{5}},
                           .decision_changed = true,
-                          .matched_peers = kMax};
+                          .matched_peers = kMax,
+                          .task = {6, 7}};
   const MotorCommand back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_EQ(back.epoch, sent.epoch);
@@ -120,7 +121,7 @@ TEST(Convert, CommandComesBack) {
   EXPECT_EQ(back.target, sent.target);
   EXPECT_EQ(back.decision, sent.decision);
   EXPECT_TRUE(back.decision_changed);
-  EXPECT_EQ(back.matched_peers, kMax);
+  EXPECT_TRUE(back.matched_peers == kMax && back.task == sent.task);
 }
 
 TEST(Convert, JoinAndRosterComeBack) {
@@ -136,20 +137,22 @@ TEST(Convert, JoinAndRosterComeBack) {
                          .reason = "vehicle 3 is taken",
                          .epoch = WorldEpoch{4},
                          .start_world = {{-1, 2}, 3},
+                         .tick = Tick{7},
+                         .counted = {-8, 9},
+                         .task = {10, 11},
                          .spawn = 6,
                          .run_state = RunState::kRunning,
                          .fleet_size = 5};
   const RosterEntry back = RoundTrip(sent);
   EXPECT_EQ(back.session, sent.session);
   EXPECT_EQ(back.vehicle, sent.vehicle);
-  EXPECT_TRUE(back.accepted);
-  EXPECT_TRUE(back.waiting);
+  EXPECT_TRUE(back.accepted && back.waiting);
   EXPECT_EQ(back.reason, sent.reason);
   EXPECT_EQ(back.epoch, sent.epoch);
   EXPECT_EQ(back.start_world, sent.start_world);
-  EXPECT_EQ(back.spawn, sent.spawn);
+  EXPECT_TRUE(back.tick == sent.tick && back.counted == sent.counted && back.task == sent.task);
+  EXPECT_TRUE(back.spawn == sent.spawn && back.fleet_size == sent.fleet_size);
   EXPECT_EQ(back.run_state, sent.run_state);
-  EXPECT_EQ(back.fleet_size, sent.fleet_size);
 }
 
 TEST(Convert, TruthComesBack) {

@@ -61,6 +61,7 @@ done
   exit 1
 }
 pid=$(find_child "$fleet" 2)
+listen_places two "$domain" 2
 
 apply 0 "dry run" depth.xml --to 1,2,3,4 --domain "$domain" --dry-run
 grep -q 'depth  *4 -> 8  (restart)' out || fail "dry run: $(cat out)"
@@ -106,8 +107,15 @@ for bad in "cut.xml --to 1" "/no/such.xml --to 1" "deadline.xml --to 0" "deadlin
   [[ -s err ]] || fail "refused without a word: $bad"
 done
 
+# Before and after each restart it knew where it was, and it went on to the corner it was driving to.
+end_listening
+places two >two.json
+jq -e 'length >= 2 and all(.[]; .beacons > 20 and .beyond_m < 0.1) and
+  ([range(1; length) as $i | .[$i - 1].last_toward == .[$i].first_toward] | all)' two.json >/dev/null ||
+  fail "where vehicle 2 took itself to be: $(tr -d '\n ' <two.json)"
+
 kill -INT "$fleet"
 wait "$fleet" && fail "an interrupted run passed"
-jq -e '.reason == "interrupted" and .contacts == 0' run.json >/dev/null || fail "run: $(cat run.json)"
+jq -e '.reason == "interrupted" and .contacts == 0 and .violations.pose == 0' run.json >/dev/null || fail "run: $(cat run.json)"
 ((failures == 0)) && echo "qos apply: ok"
 exit $((failures > 0))

@@ -113,3 +113,38 @@ judged_run() {
   done
   return "$code"
 }
+
+LISTENERS=()
+# listen_places NAME DOMAIN VEHICLE: from now on until end_listening, what its beacons say of where it
+# is, and where it is.
+listen_places() {
+  local topic
+  for topic in beacon truth; do
+    "$FLEETCTL" listen "$([[ $topic == beacon ]] && echo fleet || echo world)/$topic" --json \
+      --domain "$2" --vehicle "$3" >"$SCRATCH/$1.$topic" 2>/dev/null &
+    LISTENERS+=("$!")
+  done
+}
+end_listening() {
+  local pid
+  for pid in "${LISTENERS[@]}"; do kill -INT "$pid" 2>/dev/null || true; done
+  for pid in "${LISTENERS[@]}"; do wait "$pid" || true; done
+  LISTENERS=()
+}
+
+# places NAME: of each life of the vehicle in each world, in order of time, as one list: the beacons
+# that could be compared, how far beyond 3 sigma of their own doubt the worst was off, and where the
+# first and the last said it drove to, in millimetres.
+places() {
+  jq -n --slurpfile said "$SCRATCH/$1.beacon" --slurpfile is "$SCRATCH/$1.truth" '
+    def at: "\(.world_epoch):\(.tick)";
+    ($is | map({key: at, value: .world_from_body}) | from_entries) as $true |
+    [$said[] | select($true[at]) | $true[at] as $place |
+      {life: "\(.world_epoch):\(.boot_epoch)", heard_s,
+       toward: ([.toward_x_m, .toward_y_m] | map(. * 1000 | round)),
+       beyond_m: (([.world_from_body.x_m - $place.x_m, .world_from_body.y_m - $place.y_m] |
+           map(. * .) | add | sqrt) - 3 * ([.covariance.xx_m2, .covariance.yy_m2] | max | sqrt))}] |
+    group_by(.life) | sort_by(.[0].heard_s) |
+    map({beacons: length, beyond_m: (map(.beyond_m) | max), first_toward: .[0].toward,
+         last_toward: .[-1].toward})'
+}

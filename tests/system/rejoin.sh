@@ -13,6 +13,11 @@ await "the first two drive (b)" 15 b 'cruise'
 
 # As itself: its id is asked for, and its body still stands where it was left.
 id=$(id_of b)
+listen_places b "$DOMAIN" "$id"
+for _ in $(seq 100); do # until it is on its way
+  (($(wc -l <"$SCRATCH/b.beacon") < 25)) || break
+  sleep 0.05
+done
 kill_now b
 start b2 giveway-vehicle --id "$id"
 await "killed and restarted by its id" 5 b2 'cruise'
@@ -52,5 +57,10 @@ for name in b2 a2 e; do
   unset "PID[$name]"
   [[ $code -eq 0 ]] || fail "after the end: exit code $code of $name"
 done
+# The new process knows where the body was left, and drives on and not back.
+end_listening
+places b | jq -e 'length == 2 and all(.[]; .beacons > 5 and .beyond_m < 0.1) and
+  .[1].first_toward == .[0].last_toward' >/dev/null ||
+  fail "where vehicle $id took itself to be: $(places b | tr -d '\n ')"
 no_contact
 [[ $failures -eq 0 ]]

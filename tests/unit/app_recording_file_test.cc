@@ -82,7 +82,7 @@ TEST(RecordingFile, EverySingleFlippedBitIsFoundAndNotTakenForACut) {
 TEST(RecordingFile, WhatIsNoRecordingIsSaidInWords) {
   EXPECT_THAT(Read("").complaint, HasSubstr("is empty: its disk was full"));
   EXPECT_THAT(Read("giveway-rec").complaint, HasSubstr("cut off in its first line"));
-  EXPECT_THAT(Read("giveway-recording-3\n").complaint, HasSubstr("format 3"));
+  EXPECT_THAT(Read("giveway-recording-4\n").complaint, HasSubstr("format 4"));
   EXPECT_THAT(Read("giveway-recording-123456789\n").complaint, HasSubstr("no recording"));
   EXPECT_THAT(Read("giveway-recording-x\n").complaint, HasSubstr("no recording"));
   EXPECT_THAT(Read(std::string(100000, '\0')).complaint, HasSubstr("no recording"));

@@ -1,6 +1,7 @@
-// A brain that is told by the roster where it stands.
+// A brain that is told by the roster where it stands, and one that goes on for the process before.
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <limits>
 
 #include "tests/support/brain_bench.h"
@@ -74,6 +75,165 @@ TEST(VehicleInARestartedWorld, OnAnotherPlaceItDrivesByOtherOptionsAsTheSameVehi
   EXPECT_EQ(after.beacon.cruise_m_s, options.cruise_m_s);
   EXPECT_EQ(after.beacon.world_from_body.position_world, (Vec2{2, 2}));
   EXPECT_GT(after.beacon.order.speed_bucket, before.beacon.order.speed_bucket);
+}
+
+// A vehicle that rounds a square: wheels that err, so that it is not sure where it is.
+class Rounds {
+ public:
+  static constexpr WorldEpoch kWorld{8};
+
+  Rounds() : options(test::DefaultOptions()) {
+    options.goal.set = false;
+    options.route = {
+        .waypoints_world = {{{2, 0}, {2, 2}, {0, 2}, {0, 0}}}, .count = 4, .loop = true};
+    options.profile.wheel_slip = 0.02;
+  }
+
+  // The next scan, of wheels that do what they were told.
+  RangeScan Scan(WheelSpeeds wheels) {
+    RangeScan scan = ScanOf(kWorld, ++tick);
+    scan.wheels = wheels;
+    counted = CountOn(counted, wheels, 0.05);
+    scan.counted = counted;
+    return scan;
+  }
+  Outputs Step(Vehicle* brain, const RangeScan& scan) {
+    return brain->Step({.now = Number(scan.tick) * options.tick_period, .scan = scan});
+  }
+  // Through the first corner and some way on.
+  Vehicle UnderWay() {
+    Vehicle brain(options, 42);
+    brain.Step({.now = Nanoseconds{0}, .roster = Placed(kWorld, {})});
+    WheelSpeeds wheels;
+    while (brain.State().waypoint < 1 || tick < 200) {
+      wheels = Step(&brain, Scan(wheels)).command.target;
+    }
+    last = wheels;
+    return brain;
+  }
+
+  VehicleOptions options;
+  std::uint32_t tick = 0;
+  WheelAngles counted;
+  WheelSpeeds last;
+};
+
+TEST(VehicleThatRestarts, GoesOnAlongItsRouteFromWhereItBelievedToBe) {
+  Rounds rounds;
+  Vehicle before = rounds.UnderWay();
+  const auto handover = before.HandOver();
+  ASSERT_TRUE(handover.has_value());
+  EXPECT_EQ(handover->task.waypoint, 1U);
+  EXPECT_GT(handover->covariance.yy_m2, 0);
+  Vehicle after(rounds.options, 43);
+  ASSERT_TRUE(after.TakeOver(*handover));
+  // An answer of the world that was made for the process before says nothing new.
+  RosterEntry old = Placed(Rounds::kWorld, {});
+  after.Step({.now = rounds.tick * rounds.options.tick_period, .roster = old});
+  EXPECT_EQ(after.HandOver(), handover);
+  // It rolled on while nobody steered it: what was counted says how far.
+  Outputs is;
+  Outputs should_be;
+  for (int i = 0; i < 10; ++i) {
+    const RangeScan scan = rounds.Scan(rounds.last);
+    should_be = rounds.Step(&before, scan);
+    if (i == 9) is = rounds.Step(&after, scan);
+  }
+  EXPECT_LT(Norm(is.beacon.world_from_body.position_world -
+                 should_be.beacon.world_from_body.position_world),
+            0.01);
+  EXPECT_GE(SigmaPosition(is.beacon.covariance), SigmaPosition(should_be.beacon.covariance));
+  EXPECT_EQ(is.beacon.toward_world, (Vec2{2, 2}));
+  EXPECT_EQ(is.command.task, should_be.command.task);
+  EXPECT_EQ(is.beacon.boot_epoch, 43U);  // to its peers it is another life
+}
+
+TEST(VehicleThatRestarts, KeepsWhatItHasWaitedAndItsPlaceInTheOrder) {
+  const Rounds rounds;
+  Vehicle brain(rounds.options, 42);
+  const auto limit =
+      static_cast<std::uint32_t>(rounds.options.ageing_limit / rounds.options.tick_period);
+  Handover handover{.epoch = Rounds::kWorld, .tick = Tick{5000}, .task = {2, limit + 7}};
+  ASSERT_TRUE(brain.TakeOver(handover));
+  EXPECT_EQ(brain.State().order.waited_ticks, limit);
+  EXPECT_EQ(brain.HandOver(), handover);
+  handover.task = {5, 5001};  // neither has the route so many, nor the world lasted so long
+  ASSERT_TRUE(brain.TakeOver(handover));
+  EXPECT_EQ(brain.HandOver()->task, TaskProgress{});
+}
+
+TEST(VehicleThatRestarts, TakesOverNothingThatIsNotSound) {
+  const Rounds rounds;
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const Handover good{.epoch = Rounds::kWorld, .tick = Tick{9}};
+  for (const auto& spoil : std::initializer_list<void (*)(Handover&)>{
+           [](Handover& h) { h.epoch = kNoEpoch; }, [](Handover& h) { h.tick = kNoTick; },
+           [](Handover& h) { h.counted.left_rad = kNan; },
+           [](Handover& h) { h.world_from_body.position_world.x = kNan; },
+           [](Handover& h) { h.world_from_body.heading_rad = 7; },
+           [](Handover& h) { h.covariance.xx_m2 = -1; },
+           [](Handover& h) { h.covariance.xy_m2 = 1; }}) {
+    Handover bad = good;
+    spoil(bad);
+    Vehicle brain(rounds.options, 42);
+    EXPECT_FALSE(brain.TakeOver(bad));
+    EXPECT_FALSE(brain.HandOver().has_value());
+  }
+  EXPECT_TRUE(IsSound(good));
+}
+
+TEST(VehicleThatRestarts, GoesByTheWorldWhereItsBodyWasPutElsewhereMeanwhile) {
+  const Handover own{.epoch = WorldEpoch{8}, .tick = Tick{50}, .counted = {3, 3}};
+  RosterEntry entry = Placed(WorldEpoch{8}, {});
+  entry.tick = Tick{40};  // of the time before
+  EXPECT_TRUE(IsOfTheSameBody(own, entry));
+  entry.tick = Tick{60};
+  EXPECT_FALSE(IsOfTheSameBody(own, entry));  // one that has never moved
+  entry.counted = {3.5, 3.5};
+  EXPECT_TRUE(IsOfTheSameBody(own, entry));
+  entry.epoch = WorldEpoch{9};
+  EXPECT_FALSE(IsOfTheSameBody(own, entry));
+}
+
+// As after kill -9: the new process knows nothing, and the body may still roll.
+TEST(VehicleThatRestarts, IsToldByTheWorldWhereItIsAndHowFarAndCarriesItOnToItsFirstScan) {
+  Rounds rounds;
+  Vehicle before = rounds.UnderWay();
+  RosterEntry entry = Placed(Rounds::kWorld, before.HandOver()->world_from_body);
+  entry.tick = Tick{rounds.tick};
+  entry.counted = rounds.counted;
+  entry.task = before.HandOver()->task;
+  RangeScan scan;
+  Outputs should_be;
+  for (int i = 0; i < 6; ++i) should_be = rounds.Step(&before, scan = rounds.Scan(rounds.last));
+  Vehicle after(rounds.options, 43);
+  const Outputs is = after.Step(
+      {.now = Number(scan.tick) * rounds.options.tick_period, .scan = scan, .roster = entry});
+  EXPECT_LT(Norm(is.beacon.world_from_body.position_world -
+                 should_be.beacon.world_from_body.position_world),
+            0.005);
+  EXPECT_GT(Norm(is.beacon.world_from_body.position_world - entry.start_world.position_world),
+            0.05);
+  EXPECT_GT(SigmaPosition(is.beacon.covariance), 0);
+  EXPECT_EQ(is.beacon.toward_world, should_be.beacon.toward_world);
+}
+
+TEST(VehicleThatRestarts, StandsBeforeItGoesAndIsHeardUntilThen) {
+  Rounds rounds;
+  Vehicle brain = rounds.UnderWay();
+  EXPECT_FALSE(brain.Stands());
+  const RangeScan rolling = rounds.Scan(rounds.last);
+  const Outputs said = brain.Step(
+      {.now = Number(rolling.tick) * rounds.options.tick_period, .scan = rolling, .halting = true});
+  EXPECT_EQ(said.command.target, WheelSpeeds{});
+  EXPECT_EQ(said.command.decision.rule, Rule::kLeaving);
+  EXPECT_EQ(said.beacon.mode, Mode::kCooperative);  // no good-bye: it is still there
+  EXPECT_FALSE(brain.Stands());
+  const RangeScan standing = rounds.Scan({});
+  brain.Step({.now = Number(standing.tick) * rounds.options.tick_period,
+              .scan = standing,
+              .halting = true});
+  EXPECT_TRUE(brain.Stands());
 }
 
 }  // namespace

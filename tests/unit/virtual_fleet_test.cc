@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim_world/virtual/generators.h"
 #include "sim_world/virtual/virtual_run.h"
 #include "tests/support/crossing.h"
@@ -89,6 +91,33 @@ TEST(VirtualFleet, ARestartedVehicleBeginsANewLifeWhereItStands) {
   EXPECT_NEAR(fleet.Said(1).beacon.world_from_body.position_world.x, truth.x, 1e-6);
   fleet.Finish();
   EXPECT_EQ(fleet.World().EndReason(), "all_arrived");
+}
+
+// It went back to its first waypoint.
+TEST(VirtualFleet, ARestartedVehicleGoesOnAlongItsRoute) {
+  Scenario scenario = ALongRoad();
+  VehicleOptions& two = scenario.vehicles[1];
+  two.route = {.waypoints_world = {{{2, 3}, {4, 3}, {4, 5}}}, .count = 3};
+  two.goal.at_world = {2, 5};
+  VirtualPlan plan;
+  plan.faults = {
+      {.kind = ProcessFaultKind::kRestart, .vehicle = VehicleId{2}, .at_s = 9, .for_s = 0.5}};
+  VirtualFleet fleet(scenario, plan);
+  Advance(&fleet, 178);
+  EXPECT_EQ(fleet.Brain(1).State().waypoint, 1U);
+  const double x_m = fleet.World().Truths()[1].world_from_body.position_world.x;
+  Advance(&fleet, 14);
+  EXPECT_EQ(fleet.Said(1).beacon.boot_epoch, 3U);
+  EXPECT_EQ(fleet.Brain(1).State().waypoint, 1U);
+  double least_x_m = 1e9;
+  while (fleet.Brain(1).State().waypoint == 1) {
+    Advance(&fleet, 1);
+    least_x_m = std::min(least_x_m, fleet.World().Truths()[1].world_from_body.position_world.x);
+  }
+  EXPECT_GE(least_x_m, x_m);
+  const VirtualOutcome outcome = RunVirtually(scenario, plan);
+  EXPECT_TRUE(outcome.held);
+  EXPECT_EQ(outcome.delays_s.size(), 2U);
 }
 
 TEST(VirtualFleet, TheOthersHearOfASilentOneWhatTheMiddlewareWouldSay) {

@@ -45,6 +45,8 @@ constexpr NamedDefect kDefects[] = {
     {"steers_round_nobody", Defect::kSteersRoundNobody},
     {"queue_overtaken", Defect::kQueueOvertaken},
     {"patience_dropped", Defect::kPatienceDropped},
+    {"place_forgotten", Defect::kPlaceForgotten},
+    {"route_forgotten", Defect::kRouteForgotten},
 };
 
 // False where no defect has the name.
