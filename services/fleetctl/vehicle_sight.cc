@@ -94,6 +94,9 @@ bool VehicleSight::AddWords(Tick tick, sim::Observed* seen) const {
   seen->decision = DecisionOf(last->beacon);
   seen->gives_way_to = last->beacon.gives_way_to;
   seen->order = last->beacon.order;
+  seen->stated = last->beacon.tick;
+  seen->stated_position_world = last->beacon.world_from_body.position_world;
+  seen->stated_covariance = last->beacon.covariance;
   return true;
 }
 

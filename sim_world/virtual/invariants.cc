@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kStandstill_m_s = 0.01;
 constexpr std::uint32_t kUnknown = 0xffffffff;
+// How far a vehicle may be from where it says: what it says of its own doubt, and a little.
+constexpr double kPoseSigmas = 3;
+constexpr double kPoseSlack_m = 0.1;
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
 
@@ -29,7 +32,8 @@ double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels) {
 
 std::string_view Name(Invariant invariant) {
   constexpr std::array<std::string_view, kInvariantCount> kNames = {
-      "contact", "stale_motion", "wait_cycle", "wait_bound", "all_halted", "order", "arrival"};
+      "contact",    "stale_motion", "wait_cycle", "wait_bound",
+      "all_halted", "order",        "arrival",    "pose"};
   return kNames[static_cast<std::size_t>(invariant)];
 }
 
@@ -87,7 +91,10 @@ void Invariants::Observe(Tick tick, std::span<const Observed> vehicles,
     const Observed& now = vehicles[i];
     Track& track = tracks_[i];
     track.keys[Number(tick) % kRememberedKeys] = now.order;
+    track.places[Number(tick) % kRememberedKeys] = {now.present ? tick : kNoTick,
+                                                    now.position_world};
     if (now.present) JudgeStaleness(tick, now, &track);
+    if (now.present) JudgePose(tick, now, &track);
     JudgeWait(tick, now, &track);
     track.last_forward_m_s = now.forward_m_s;
     track.last_position_world = now.position_world;
@@ -178,6 +185,17 @@ void Invariants::JudgeOrder(Tick tick, const Observed& now, Track* track) {
   }
   if (!track->order_told) Tell(Invariant::kOrder, tick, now.vehicle, now.decision.peer);
   track->order_told = true;
+}
+
+// Judged by the truth of the tick it speaks of; of one too long ago nothing is known.
+void Invariants::JudgePose(Tick tick, const Observed& now, Track* track) {
+  const Place& place = track->places[Number(now.stated) % kRememberedKeys];
+  if (now.stated == kNoTick || place.tick != now.stated) return;
+  const double off_m = Norm(now.stated_position_world - place.position_world);
+  const bool wrong = !(off_m <= kPoseSlack_m) &&
+                     !(off_m <= kPoseSigmas * SigmaPosition(now.stated_covariance) + kPoseSlack_m);
+  if (wrong && !track->pose_told) Tell(Invariant::kPose, tick, now.vehicle);
+  track->pose_told = wrong;
 }
 
 // Everyone waits for at most one other, so a walk along the edges ends or meets itself.

@@ -23,8 +23,9 @@ enum class Invariant : std::uint8_t {
   kAllHalted,    // never do all who are not there yet halt to give way, each for another
   kOrder,        // who halts to give way comes later in the order, as both published it
   kArrival,      // everyone who lives arrives within the duration
+  kPose,         // where a beacon says its vehicle was, it was: as nearly as the beacon says
 };
-inline constexpr std::size_t kInvariantCount = 7;
+inline constexpr std::size_t kInvariantCount = 8;
 std::string_view Name(Invariant invariant);
 
 struct Violation {
@@ -47,6 +48,9 @@ struct Observed {
   Decision decision;        // as last published, like what follows
   VehicleId gives_way_to = kNobody;
   OrderKey order;
+  Tick stated = kNoTick;  // what its last beacon says of where it was at that tick
+  Vec2 stated_position_world;
+  PoseCovariance stated_covariance;
 };
 
 struct InvariantLimits {
@@ -88,6 +92,11 @@ class Invariants {
   std::span<const Violation> First() const { return first_; }
 
  private:
+  // By the truth.
+  struct Place {
+    Tick tick = kNoTick;
+    Vec2 position_world;
+  };
   struct Track {
     VehicleId vehicle = kNobody;
     double deceleration_m_s2 = 0;
@@ -102,7 +111,9 @@ class Invariants {
     std::uint32_t waited_ticks = 0;
     bool order_told = false;
     std::array<OrderKey, kRememberedKeys> keys{};  // [tick % kRememberedKeys]
-    std::uint32_t walk = 0;                        // scratch of the search for circles
+    std::array<Place, kRememberedKeys> places{};   // the same
+    bool pose_told = false;
+    std::uint32_t walk = 0;  // scratch of the search for circles
   };
 
   static Track TrackOf(const VehicleOptions& options);
@@ -112,6 +123,7 @@ class Invariants {
   void JudgeStaleness(Tick tick, const Observed& now, Track* track);
   void JudgeWait(Tick tick, const Observed& now, Track* track);
   void JudgeOrder(Tick tick, const Observed& now, Track* track);
+  void JudgePose(Tick tick, const Observed& now, Track* track);
   void JudgeCircles(Tick tick, std::span<const Observed> vehicles);
   void JudgeAllHalted(Tick tick, std::span<const Observed> vehicles);
   std::uint32_t IndexOf(VehicleId vehicle) const;

@@ -26,6 +26,9 @@ void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
     now.decision = said.command.decision;
     now.gives_way_to = said.beacon.gives_way_to;
     now.order = said.beacon.order;
+    now.stated = said.beacon.tick;
+    now.stated_position_world = said.beacon.world_from_body.position_world;
+    now.stated_covariance = said.beacon.covariance;
   }
 }
 

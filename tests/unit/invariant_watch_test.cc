@@ -261,5 +261,14 @@ TEST_F(InvariantWatchTest, WhereNobodyWasSeenNothingIsClaimed) {
   EXPECT_THAT(app::ToTable(report, 80), HasSubstr("not judged"));
 }
 
+TEST_F(InvariantWatchTest, AVehicleThatBelievesToBeElsewhereIsFound) {
+  Observe(20);
+  EXPECT_EQ(Count(Invariant::kPose), 0U);
+  Of(one_).beacon.world_from_body.position_world = {3.6, 0};
+  Observe(20);
+  watch_->Finish(false);
+  EXPECT_EQ(Count(Invariant::kPose), 1U);
+}
+
 }  // namespace
 }  // namespace giveway::fleetctl

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -240,6 +241,40 @@ TEST_F(InvariantsTest, WhoLivesAndHasAGoalMustArrive) {
   EXPECT_EQ(Count(Invariant::kArrival), 1U);
   EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{3});
   EXPECT_FALSE(invariants_->Held());
+}
+
+TEST_F(InvariantsTest, WhereABeaconSaysItsVehicleWasItMustHaveBeen) {
+  const auto say = [this](double off_m, double sigma_m) {
+    Observed& one = Vehicle(1);
+    one.position_world.x += 0.02;  // the beacon is of the tick before
+    one.stated = Tick{tick_};
+    one.stated_position_world = {one.position_world.x - 0.02 + off_m, 0};
+    one.stated_covariance.xx_m2 = sigma_m * sigma_m;
+    Observe();
+  };
+  Observe();
+  for (int i = 0; i < 10; ++i) say(0.099, 0);
+  for (int i = 0; i < 10; ++i) say(0.39, 0.1);
+  EXPECT_TRUE(invariants_->Held());
+  for (int i = 0; i < 10; ++i) say(0.41, 0.1);
+  EXPECT_EQ(Count(Invariant::kPose), 1U);  // once, however long
+  say(0, 0);
+  say(std::numeric_limits<double>::quiet_NaN(), 0);
+  EXPECT_EQ(Count(Invariant::kPose), 2U);
+}
+
+TEST_F(InvariantsTest, OfAPlaceToldLongAgoOrBeforeTheFirstScanNothingIsSaid) {
+  Observe(10);
+  Vehicle(1).stated = kNoTick;
+  Vehicle(1).stated_position_world = {50, 50};
+  Observe();
+  Vehicle(1).stated = Tick{tick_};
+  Vehicle(1).stated_position_world = Vehicle(1).position_world;
+  for (std::uint32_t i = 0; i < 2 * Invariants::kRememberedKeys; ++i) {
+    Vehicle(1).position_world.x += 1;
+    Observe();
+  }
+  EXPECT_TRUE(invariants_->Held());
 }
 
 }  // namespace
