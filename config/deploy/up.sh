@@ -5,7 +5,6 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 
 HERE=config/deploy # from the root of the project
-READY_WITHIN_S=${GIVEWAY_READY_WITHIN:-60}
 
 usage() {
   cat <<'TEXT'
@@ -23,7 +22,7 @@ says how to look in, scale and stop.
 What else may be set, GIVEWAY_SCENARIO (default patrol) among it, stands at the head of
 config/deploy/compose.yaml.
 
-Exit code: 0 all are ready, 1 they are not within a minute, 2 could not run.
+Exit code: 0 all are ready, 1 they are not in a minute and a second for each, 2 could not run.
 TEXT
 }
 
@@ -115,7 +114,8 @@ readiness() {
 count_ready() { grep -c '^[^ ]* ready' <<<"$1" || true; }
 
 wait_until_ready() {
-  local deadline=$((SECONDS + READY_WITHIN_S)) said ready=0
+  local patience=$((60 + vehicles)) said ready=0
+  local deadline=$((SECONDS + patience))
   say "waiting until $vehicles vehicles are ready"
   while ((SECONDS < deadline)); do
     said=$(readiness)
@@ -124,7 +124,7 @@ wait_until_ready() {
     sleep 0.5
   done
   printf 'error: %d of %d vehicles are ready after %d s; the others say:\n' "$ready" "$vehicles" \
-    "$READY_WITHIN_S" >&2
+    "$patience" >&2
   grep -v '^[^ ]* ready' <<<"$said" | cut -d' ' -f2- | sort | uniq -c >&2
   exit 1
 }

@@ -28,6 +28,12 @@ up_as_the_readme_says() {
     fail "$README_UP: exit code $?: $(tail -n 5 "$SCRATCH/up.log")"
 }
 
+refuses() { # ARGUMENTS...
+  local code=0
+  bash "$GIVEWAY_ROOT/config/deploy/up.sh" "$@" >"$SCRATCH/up.log" 2>&1 || code=$?
+  [[ $code -eq 2 ]] || fail "up.sh $*: exit code $code"
+}
+
 # Every vehicle was seen driving since the last call of begin_looking: at any one moment some stand
 # to give way.
 begin_looking() { declare -gA DRIVEN=(); }
@@ -110,6 +116,9 @@ judge_memory() { # FROM_SECONDS
   [[ ${PIPESTATUS[0]} -eq 0 ]] || fail "memory grew by more than $KIB_MORE KiB"
 }
 
+refuses --vehicles 0
+refuses --vehicles 9 # of patrol, which has places for 8
+refuses --vehicle 2
 up_as_the_readme_says
 begun=$SECONDS
 drive_again "up"
