@@ -8,7 +8,7 @@
 #   bash tests/bench/comings_and_goings.sh returns [COUNT]    memory of a world over so many kill -9 of
 #       one vehicle that comes back (default 500)
 #   bash tests/bench/comings_and_goings.sh flood [REQUESTS SECONDS]   late ticks and log lines of a
-#       world that is asked for places (default 30000 in 6 s); takes build/<preset>/tests/link/join_flood
+#       world that is asked for places (default 30000 in 6 s); takes the target join_flood
 #
 # GIVEWAY_BIN_DIR says where the programs are, DOMAIN which domain is taken (default 41).
 set -euo pipefail
@@ -67,7 +67,8 @@ cpu() {
 }
 memory_kib() { awk '/^Rss:/ {rss = $2} /^Anonymous:/ {anonymous = $2} END {print anonymous}' /proc/"$1"/smaps_rollup; }
 
-start world giveway-world
+port=18541
+start world giveway-world --health-port "$port"
 world=$pid
 
 case $what in
@@ -107,7 +108,7 @@ case $what in
       : >"$scratch/back.log"
       start back giveway-vehicle --id 2
       for ((i = 0; i < 300; ++i)); do
-        grep -q 'cruise\|hears\|heard\|decides\|matched' "$scratch/back.log" && break
+        grep -q ' cruise' "$scratch/back.log" && break
         sleep 0.05
       done
       kill -9 "$pid"
@@ -116,10 +117,13 @@ case $what in
     done
     ;;
   flood)
-    start staying giveway-vehicle --id 1 --health-port 0
+    start staying giveway-vehicle --id 1
     says world 'started with'
+    late() { curl -s "http://127.0.0.1:$port/metrics" | grep '_late_ticks' | grep -v '#'; }
     lines=$(wc -l <"$scratch/world.log")
-    "$bin/../tests/link/join_flood" "$domain" "${2:-30000}" "${3:-6}" config/qos/default.xml
+    late
+    "$bin/join_flood" "$domain" "${2:-30000}" "${3:-6}" config/qos/default.xml
+    late
     echo "lines logged: $(($(wc -l <"$scratch/world.log") - lines))"
     grep -c 'joined the run' "$scratch/world.log" | sed 's/^/ghosts and others that joined: /'
     kill -TERM "$world"
