@@ -110,10 +110,12 @@ void WorldLoop::RunTick() {
   CountSpeaking();
   if (run.State() == RunState::kWaiting) StartIfReady();
   run.Advance(commands_);
+  for (const VehicleId vehicle : run.Forgotten()) link_.ForgetVehicle(vehicle);
   commands_.clear();
   fleet_->admission.FollowRun();
   Close();
   Publish();
+  SayLeftOut();
 }
 
 void WorldLoop::Admit() {
@@ -121,14 +123,28 @@ void WorldLoop::Admit() {
   Close();
   for (const RosterEntry& entry : fleet_->admission.Answer()) {
     if (!entry.accepted) {
-      app::LogWarning((entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ") +
-                      entry.reason);
+      SayNotIn(entry);
     } else if (const sim::Body* body = fleet_->run.BodyOf(entry.vehicle)) {
       link_.OpenVehicle(entry.vehicle, body->profile);
       next_checkpoint_ = {};
       if (entry.run_state == RunState::kRunning) Welcome(entry);
     }
     link_.SendRoster(entry);
+  }
+}
+
+void WorldLoop::SayNotIn(const RosterEntry& entry) {
+  if (!answer_lines_.Take(app::SteadyNow())) return;
+  app::LogWarning((entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ") + entry.reason);
+}
+
+void WorldLoop::SayLeftOut() {
+  const SteadyTime now = app::SteadyNow();
+  if (const auto more = answer_lines_.TakeLeftOut(now); more > 0) {
+    app::LogWarning("and " + std::to_string(more) + " more such answers to requests to join");
+  }
+  if (const auto more = event_lines_.TakeLeftOut(now); more > 0) {
+    app::LogInfo("and " + std::to_string(more) + " more such events");
   }
 }
 
@@ -248,7 +264,7 @@ bool WorldLoop::MustStand(VehicleId vehicle) const {
 void WorldLoop::SendEvent(const WorldEvent& event) {
   link_.SendEvent(event);
   const std::string line = LogLine(event);
-  if (!line.empty()) app::LogInfo(line);
+  if (!line.empty() && event_lines_.Take(app::SteadyNow())) app::LogInfo(line);
 }
 
 // Lockstep: the tick goes on when everyone who still answers has answered it.
