@@ -53,6 +53,7 @@ class FleetWatch {
   void FoldStatus(const VehicleStatus& status);
   void FoldTruth(const Truth& truth);
   std::vector<VehicleId> VehiclesOf(EventKind kind) const;
+  std::vector<VehicleId> Arrived() const;
 
   const Scenario& scenario_;
   bool open_;
