@@ -29,12 +29,12 @@ double DistanceToLine(Vec2 point_world, const SignalPlan& plan) {
   return Norm(point_world - (plan.line_from_world + share * along));
 }
 
-// From one side of the line onto it or to the other, between its ends.
+// From one side of the line to the other, between its ends; on the line counts as one side.
 bool Crosses(Vec2 from_world, Vec2 to_world, const SignalPlan& plan) {
   const Vec2 line = plan.line_to_world - plan.line_from_world;
   const double before = Cross(line, from_world - plan.line_from_world);
   const double after = Cross(line, to_world - plan.line_from_world);
-  if (before == 0 || (before < 0) == (after < 0)) return false;
+  if ((before > 0) == (after > 0)) return false;
   const Vec2 moved = to_world - from_world;
   const double share = Cross(plan.line_from_world - from_world, moved) / Cross(moved, line);
   return share >= 0 && share <= 1;
