@@ -17,14 +17,15 @@ class SlidingDoor {
   // Takes in what became of the plan.
   void Settle(const Leaf& leaf, double dt_s);
 
+  // What its times say, whatever stands in its way; as Opening.
+  double PlannedOpening(double time_s) const;
+
   // The share of the leaf that is in the jamb: 0 closed, 1 open. Opened wholly it is in nobody's
   // way.
   double Opening() const { return opening_; }
   void Restore(double opening) { opening_ = opening; }
 
  private:
-  double PlannedOpening(double time_s) const;
-
   Door door_;
   double opening_;
 };

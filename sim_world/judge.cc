@@ -12,6 +12,8 @@ constexpr double kStandstill_m_s = 0.01;
 constexpr Nanoseconds kHaltTime{500'000'000};
 constexpr std::size_t kMostTracks = 2048;
 
+bool Stands(const Body& body) { return std::abs(body.ForwardSpeed()) < kStandstill_m_s; }
+
 }  // namespace
 
 Judge::Judge(const Scenario& scenario)
@@ -32,7 +34,7 @@ void Judge::Observe(double time_s, std::span<const Body> bodies, std::span<const
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     Track& track = TrackOf(i, bodies[i].vehicle);
-    if (!bodies[i].present || track.arrived_s) continue;
+    if (!bodies[i].present) continue;
     WatchGoal(time_s, bodies[i], &track, log);
     if (!track.arrived_s) WatchHalt(bodies[i], &track, log);
   }
@@ -58,15 +60,20 @@ void Judge::BeginAnew(VehicleId vehicle) {
   if (track == tracks_.end() || track->vehicle != vehicle) return;
   track->still_ticks = 0;
   track->halted = false;
+  track->arrived_before = track->arrived_before || track->arrived_s.has_value();
   track->arrived_s.reset();
 }
 
 void Judge::WatchGoal(double time_s, const Body& body, Track* track, EventLog* log) const {
   if (!body.goal.set) return;
   const Vec2 position = body.world_from_body.position_world;
-  if (Norm(body.goal.at_world - position) > body.goal.radius_m) return;
+  const bool inside = Norm(body.goal.at_world - position) <= body.goal.radius_m;
+  if (track->arrived_s && !inside) {
+    track->arrived_s.reset();
+    log->Add({.kind = EventKind::kWentOn, .vehicle = body.vehicle, .position_world = position});
+  }
+  if (track->arrived_s || !inside || !body.obeyed || !Stands(body)) return;
   track->arrived_s = time_s;
-  track->arrived_once = true;
   log->Add({.kind = EventKind::kArrived,
             .vehicle = body.vehicle,
             .position_world = position,
@@ -76,7 +83,7 @@ void Judge::WatchGoal(double time_s, const Body& body, Track* track, EventLog* l
 // A vehicle that the world itself brakes stands for want of a command, whatever its last one said.
 void Judge::WatchHalt(const Body& body, Track* track, EventLog* log) const {
   const Vec2 position = body.world_from_body.position_world;
-  const bool stands = std::abs(body.ForwardSpeed()) < kStandstill_m_s;
+  const bool stands = Stands(body);
   if (track->halted) {
     if (stands) return;
     track->halted = false;
@@ -127,7 +134,7 @@ std::vector<Rule> Judge::HaltedFor() const {
 std::vector<VehicleId> Judge::Arrived() const {
   std::vector<VehicleId> arrived;
   for (const Track& track : tracks_) {
-    if (track.arrived_once) arrived.push_back(track.vehicle);
+    if (track.arrived_before || track.arrived_s) arrived.push_back(track.vehicle);
   }
   return arrived;
 }

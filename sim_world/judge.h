@@ -1,5 +1,9 @@
 // Watches a run by the truth and says what happened: who halted to give way, who went on, who
 // arrived, who touched. It decides nothing about the run's end.
+//
+// A vehicle has arrived while it stands in its goal: its process drives it, it came to a standstill
+// with the axle centre within the goal's radius, and it has not left the circle since. Driving
+// through is no arrival, and who leaves again has not arrived. A route that loops has no goal.
 #pragma once
 
 #include <cstdint>
@@ -48,8 +52,8 @@ class Judge {
     bool halted_once = false;
     Rule stopping_for = Rule::kCruise;  // the first of the give-way rules in a row; else kCruise
     std::uint32_t halted_for = 0;       // bit i: rule i began a halt
-    bool arrived_once = false;
-    std::optional<double> arrived_s;
+    bool arrived_before = false;        // and was put on its start pose again since
+    std::optional<double> arrived_s;    // stands in its goal since then
   };
   std::span<const Track> Tracks() const { return tracks_; }
   void Restore(std::span<const Track> tracks) { tracks_.assign(tracks.begin(), tracks.end()); }

@@ -186,6 +186,8 @@ void Run::CheckEnd() {
   if (end_reason_.empty() && state_ == RunState::kRunning) {
     if (!open_ && EveryoneLivingArrived()) {
       end_reason_ = "all_arrived";
+    } else if (!open_ && IsEveryoneSilent()) {
+      end_reason_ = "no_vehicle_lives";
     } else if (duration_ticks_ && ticks_run_ >= *duration_ticks_) {
       end_reason_ = "duration_over";
     }
@@ -202,6 +204,13 @@ bool Run::EveryoneLivingArrived() const {
     anyone = true;
   }
   return anyone;
+}
+
+// Whatever was planned: a run in which no vehicle drives any more shows nothing.
+bool Run::IsEveryoneSilent() const {
+  return std::ranges::all_of(world_.Bodies(), [&](const Body& body) {
+    return !body.joined || attendance_.IsSilent(body.vehicle);
+  });
 }
 
 Outcome Run::TheOutcome() const {

@@ -51,8 +51,8 @@ class Run {
   void End(std::string reason);
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
-  // when the duration is over; a closed run also when everyone living has arrived, or a vehicle
-  // fell silent unplanned. After the end bodies brake, scans go on, and nothing is judged any more.
+  // when the duration is over; a closed run also when everyone living has arrived, when a vehicle
+  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans go on, and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
   Tick Now() const { return world_.Now(); }
@@ -67,7 +67,7 @@ class Run {
   std::span<const SignalState> Signals() const { return signals_.States(); }
   std::span<const Truth> Truths() const { return truths_; }
   std::span<const WorldEvent> Events() const { return log_.Events(); }
-  // "all_arrived", "duration_over", "process_died", "vehicle_left" or what End was given; empty
+  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or what End was given; empty
   // while it runs.
   const std::string& EndReason() const { return end_reason_; }
   // Verdict and figures; complete once State() is kEnded. Reaction times are the caller's.
@@ -114,6 +114,7 @@ class Run {
   void FollowAttendance();
   void CheckEnd();
   bool EveryoneLivingArrived() const;
+  bool IsEveryoneSilent() const;
   void Finish();
   Outcome TheOutcome() const;
   void Publish();

@@ -181,7 +181,7 @@ void Visit(Archive& archive, Checkpoint& world) {
 template <typename Archive>
 void Visit(Archive& archive, Judge::Track& track) {
   archive(track.vehicle, track.still_ticks, track.halted, track.halted_once, track.stopping_for,
-          track.halted_for, track.arrived_once, track.arrived_s);
+          track.halted_for, track.arrived_before, track.arrived_s);
 }
 
 template <typename Archive>

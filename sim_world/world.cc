@@ -60,6 +60,7 @@ void World::Insert(const VehicleOptions& options) {
   body.vehicle = options.id;
   body.profile = options.profile;
   body.goal = options.goal;
+  body.goal.set = HasGoal(options);
   body.start_world = options.start_world;
   const auto at = std::ranges::lower_bound(bodies_, options.id, {}, &Body::vehicle);
   const auto place = at - bodies_.begin();
@@ -96,6 +97,7 @@ void World::Join(const VehicleOptions& options) {
     GIVEWAY_CHECK(!known->present, Number(options.id));
     known->profile = options.profile;
     known->goal = options.goal;
+    known->goal.set = HasGoal(options);
     known->start_world = options.start_world;
     sensing_.Replace(ThingOf(*known), options.profile);
   } else {

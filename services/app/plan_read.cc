@@ -97,10 +97,10 @@ void CheckGoals(const Section& section, const KnownIds& known, const Scenario& s
                      "give it a goal, or leave it out here");
   };
   for (const VehicleOptions& vehicle : scenario.vehicles) {
-    if (!vehicle.goal.set && expected(vehicle.id)) complain(vehicle.id);
+    if (!HasGoal(vehicle) && expected(vehicle.id)) complain(vehicle.id);
   }
   const auto& spawns = scenario.spawns;
-  if (std::any_of(spawns.begin(), spawns.end(), [](const auto& s) { return s.goal.set; })) return;
+  if (std::any_of(spawns.begin(), spawns.end(), HasGoal)) return;
   for (const VehicleId id : known.joining) {
     if (expected(id)) complain(id);
   }

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "services/app/braking_rules.h"
 #include "services/app/impair_fields.h"
 #include "services/app/impair_read.h"
 #include "services/app/place_read.h"
@@ -259,6 +260,7 @@ ReadScenario ReadFrom(const Section& root, const ScenarioOverrides& overrides) {
   ReadPlace(root, &read);
   ReadPlans(root, &read.scenario);
   CheckStarts(read, "");
+  CheckBraking(read);
   return read;
 }
 

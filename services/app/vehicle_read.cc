@@ -131,8 +131,7 @@ VehicleOptions ReadDriver(const Section& section, const VehicleOptions& common,
   if (const auto goal = section.Sub("goal")) {
     vehicle.goal = ReadGoal(*goal, vehicle.cruise_m_s, vehicle.tick_period);
   }
-  vehicle.braitenberg =
-      vehicle.behaviour == Behaviour::kStockAvoid ? StockWeights() : LectureWeights();
+  vehicle.braitenberg = WeightsOf(vehicle.behaviour);
   if (const auto weights = section.Sub("braitenberg")) {
     vehicle.braitenberg = ReadBraitenberg(*weights, vehicle.braitenberg);
   }

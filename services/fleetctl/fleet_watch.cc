@@ -132,6 +132,24 @@ std::vector<VehicleId> FleetWatch::VehiclesOf(EventKind kind) const {
   return {vehicles.begin(), vehicles.end()};
 }
 
+// Vehicles that stand in their goals, or did before they were put on a start pose again. In its
+// goal a vehicle does not halt, so that kWentOn without a halt before says that it left the goal.
+std::vector<VehicleId> FleetWatch::Arrived() const {
+  std::set<VehicleId> arrived;
+  std::set<VehicleId> in_goal;
+  for (const WorldEvent& event : events_) {
+    if (event.kind == EventKind::kArrived) {
+      arrived.insert(event.vehicle);
+      in_goal.insert(event.vehicle);
+    } else if (event.kind == EventKind::kHalted) {
+      in_goal.erase(event.vehicle);
+    } else if (event.kind == EventKind::kWentOn && in_goal.erase(event.vehicle) > 0) {
+      arrived.erase(event.vehicle);
+    }
+  }
+  return {arrived.begin(), arrived.end()};
+}
+
 app::Report FleetWatch::MakeReport(const std::optional<Overruled>& overruled) const {
   app::Report report;
   report.scenario = scenario_.name;
@@ -139,7 +157,7 @@ app::Report FleetWatch::MakeReport(const std::optional<Overruled>& overruled) co
   report.contacts = static_cast<std::uint32_t>(
       std::ranges::count(events_, EventKind::kContact, &WorldEvent::kind));
   report.halted = VehiclesOf(EventKind::kHalted);
-  report.arrived = VehiclesOf(EventKind::kArrived);
+  report.arrived = Arrived();
   for (const auto& [vehicle, status] : statuses_) AddStatus(status, &report);
   if (figures_) AddFigures(*figures_, &report);
   if (overruled) {

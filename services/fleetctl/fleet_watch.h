@@ -70,6 +70,7 @@ class FleetWatch {
   void FoldTruth(const Truth& truth);
   static void Keep(const Truth& truth, KeptTrack* kept);
   std::vector<VehicleId> VehiclesOf(EventKind kind) const;
+  std::vector<VehicleId> Arrived() const;
 
   const Scenario& scenario_;
   bool open_;

@@ -7,26 +7,17 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Arrival is asked of those the scenario expects to arrive.
-Scenario AsJudged(Scenario scenario) {
-  const std::vector<VehicleId>& expected = scenario.expect.arrived;
-  for (VehicleOptions& vehicle : scenario.vehicles) {
-    vehicle.goal.set = vehicle.goal.set && std::ranges::binary_search(expected, vehicle.id);
-  }
-  for (VehicleOptions& spawn : scenario.spawns) spawn.goal.set = false;
-  return scenario;
-}
-
 sim::InvariantLimits LimitsFromOutside(const Scenario& scenario) {
   sim::InvariantLimits limits = sim::LimitsFor(scenario, VehicleSight::kHeldTicks, true);
   limits.stale_ticks = VehicleSight::kHeldTicks;
+  limits.arriving = scenario.expect.arrived;
   return limits;
 }
 
 }  // namespace
 
 InvariantWatch::InvariantWatch(const Scenario& scenario)
-    : scenario_(AsJudged(scenario)), invariants_(scenario_, LimitsFromOutside(scenario_)) {
+    : scenario_(scenario), invariants_(scenario_, LimitsFromOutside(scenario_)) {
   for (const VehicleOptions& vehicle : scenario_.vehicles) {
     sights_.emplace(vehicle.id, VehicleSight(vehicle));
   }
@@ -66,7 +57,11 @@ void InvariantWatch::FoldTruth(const Truth& truth) {
   if (epoch_ == kNoEpoch) epoch_ = truth.epoch;
   if (!IsOfThisWorld(truth.epoch)) return;
   newest_ = std::max(newest_, truth.tick);
-  if (next_ == kNoTick && truth.time_s > 0) next_ = truth.tick;
+  if (next_ == kNoTick && truth.time_s > 0) {
+    next_ = truth.tick;
+    first_time_s_ = truth.time_s;
+    first_ = truth.tick;
+  }
   const auto sight = sights_.find(truth.vehicle);
   if (sight != sights_.end()) sight->second.Take(truth);
 }
@@ -85,6 +80,10 @@ void InvariantWatch::JudgeUntil(Tick last) {
   for (; next_ != kNoTick && next_ <= last; next_ = After(next_, 1)) Judge(next_);
 }
 
+double InvariantWatch::TimeOf(Tick tick) const {
+  return first_time_s_ + TicksBetween(first_, tick) * Seconds(scenario_.tick_period);
+}
+
 void InvariantWatch::Judge(Tick tick) {
   NoteComingsAndGoings(tick);
   if (!Look(tick)) {
@@ -92,7 +91,7 @@ void InvariantWatch::Judge(Tick tick) {
     return;
   }
   ++ticks_judged_;
-  invariants_.Observe(tick, seen_, std::span(events_).first(noted_));
+  invariants_.Observe(tick, TimeOf(tick), seen_, std::span(events_).first(noted_));
   events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(noted_));
   noted_ = 0;
 }

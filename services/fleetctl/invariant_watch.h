@@ -46,6 +46,7 @@ class InvariantWatch {
   bool IsOfThisWorld(WorldEpoch epoch) const { return epoch == epoch_; }
   void JudgeUntil(Tick last);
   void Judge(Tick tick);
+  double TimeOf(Tick tick) const;  // since the start signal
   void NoteComingsAndGoings(Tick tick);
   bool Look(Tick tick);
 
@@ -56,6 +57,8 @@ class InvariantWatch {
   WorldEpoch epoch_ = kNoEpoch;                // of the first world heard
   Tick newest_ = kNoTick;                      // of any truth
   Tick next_ = kNoTick;                        // to be judged; kNoTick before the start
+  Tick first_ = kNoTick;                       // that was judged, and
+  double first_time_s_ = 0;                    // its time since the start signal
   Tick last_ = kNoTick;                        // the run's, once it has ended
   std::vector<WorldEvent> events_;             // not told to the invariants yet
   std::size_t noted_ = 0;                      // of them: who lives was learnt from them

@@ -85,6 +85,7 @@ CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
   app::ScenarioOverrides overrides;
   overrides.seed = 0;
   overrides.duration_s = options.duration_s;
+  overrides.behaviour = options.behaviour;
   loaded_ = app::LoadScenario(options.scenario, overrides);
   if (IsEndless(*loaded_)) loaded_->duration_s = kEndless_s;
   name_ = loaded_->name;
@@ -119,8 +120,11 @@ Scenario CaseMaker::MakeScenario(std::uint32_t seed, Random* dice) const {
     scenario.seed = seed;
     app::PerturbBySeed(&scenario);
   }
-  if (options_.behaviour) {
-    for (VehicleOptions& vehicle : scenario.vehicles) vehicle.behaviour = *options_.behaviour;
+  if (!loaded_ && options_.behaviour) {
+    for (VehicleOptions& vehicle : scenario.vehicles) {
+      vehicle.behaviour = *options_.behaviour;
+      vehicle.braitenberg = WeightsOf(*options_.behaviour);
+    }
   }
   return scenario;
 }

@@ -58,8 +58,8 @@ struct Truth {
 enum class EventKind : std::uint8_t {
   kStarted,   // the run begins; value: fleet size
   kHalted,    // vehicle stood still to give way to other; text: the rule that began it
-  kWentOn,    // vehicle moves again after a halt
-  kArrived,   // value: seconds since the start
+  kWentOn,    // vehicle moves again after a halt, or has left the goal it stood in
+  kArrived,   // vehicle stands in its goal; value: seconds since the start
   kContact,   // vehicle and other began to touch
   kClosest,   // at the end: the closest approach; value: shell-to-shell metres
   kFaultDue,  // a planned fault is due now; text: "kill"

@@ -18,4 +18,8 @@ BraitenbergWeights StockWeights() {
           .right = {-1.6, -1.4, -1.2, -1.0, -0.8, -0.6, -0.4, -0.2}};
 }
 
+BraitenbergWeights WeightsOf(Behaviour behaviour) {
+  return behaviour == Behaviour::kStockAvoid ? StockWeights() : LectureWeights();
+}
+
 }  // namespace giveway

@@ -18,7 +18,7 @@ namespace giveway {
 struct Goal {
   bool set = false;
   Vec2 at_world;          // m
-  double radius_m = 0.1;  // arrived when the axle centre is this near
+  double radius_m = 0.1;  // arrived when it stands with the axle centre this near
 };
 
 inline constexpr std::size_t kMaxWaypoints = 16;
@@ -54,6 +54,9 @@ struct BraitenbergWeights {
 BraitenbergWeights LectureWeights();
 // The stock simulator script: vehicle 3b with braking. Far gate 0.5 m.
 BraitenbergWeights StockWeights();
+// What a vehicle of the behaviour drives with unless its scenario writes weights: the stock
+// script's for kStockAvoid, the lecture's for every other.
+BraitenbergWeights WeightsOf(Behaviour behaviour);
 
 struct VehicleOptions {
   VehicleId id = kNobody;
@@ -79,5 +82,10 @@ struct VehicleOptions {
   double sonar_noise = 0;
   Nanoseconds ageing_limit{20'000'000'000};  // waiting longer moves a vehicle up the order
 };
+
+// False of a loop too, which never comes to the goal it may have.
+inline bool HasGoal(const VehicleOptions& options) {
+  return options.goal.set && !(options.route.loop && options.route.count > 0);
+}
 
 }  // namespace giveway

@@ -32,16 +32,19 @@ double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels) {
 
 std::string_view Name(Invariant invariant) {
   constexpr std::array<std::string_view, kInvariantCount> kNames = {
-      "contact",    "stale_motion", "wait_cycle", "wait_bound",
-      "all_halted", "order",        "arrival",    "pose"};
+      "contact", "stale_motion", "wait_cycle", "wait_bound", "all_halted",
+      "order",   "arrival",      "pose",       "red_light",  "progress"};
   return kNames[static_cast<std::size_t>(invariant)];
 }
 
 Invariants::Invariants(const Scenario& scenario, const InvariantLimits& limits)
     : limits_(limits),
+      open_(!scenario.spawns.empty()),
       dt_s_(Seconds(scenario.tick_period)),
       wait_ticks_(TicksCovering(FromSeconds(limits.wait_s), scenario.tick_period)),
-      watchdog_ticks_(scenario.watchdog_ticks) {
+      watchdog_ticks_(scenario.watchdog_ticks),
+      red_lights_(scenario),
+      progress_(scenario, limits.wedge_s) {
   GIVEWAY_CHECK(limits.key_age_ticks < kRememberedKeys, limits.key_age_ticks);
   for (const VehicleOptions& options : scenario.vehicles) tracks_.push_back(TrackOf(options));
   first_.reserve(kKeptViolations);
@@ -51,7 +54,7 @@ Invariants::Track Invariants::TrackOf(const VehicleOptions& options) {
   return {.vehicle = options.id,
           .deceleration_m_s2 = options.profile.deceleration_m_s2,
           .acceleration_m_s2 = options.profile.acceleration_m_s2,
-          .has_goal = options.goal.set,
+          .has_goal = HasGoal(options),
           .last_position_world = options.start_world.position_world};
 }
 
@@ -62,6 +65,8 @@ void Invariants::Admit(const VehicleOptions& options) {
   } else {
     tracks_.insert(place, TrackOf(options));
   }
+  red_lights_.Admit(options);
+  progress_.Admit(options);
 }
 
 void Invariants::Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other) {
@@ -79,7 +84,7 @@ std::uint32_t Invariants::IndexOf(VehicleId vehicle) const {
   return static_cast<std::uint32_t>(found - tracks_.begin());
 }
 
-void Invariants::Observe(Tick tick, std::span<const Observed> vehicles,
+void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
                          std::span<const WorldEvent> events) {
   GIVEWAY_CHECK(vehicles.size() == tracks_.size());
   if (last_tick_ != kNoTick && tick != After(last_tick_, 1)) NoteGap(tick);
@@ -102,6 +107,7 @@ void Invariants::Observe(Tick tick, std::span<const Observed> vehicles,
   for (std::size_t i = 0; i < vehicles.size(); ++i) JudgeOrder(tick, vehicles[i], &tracks_[i]);
   JudgeCircles(tick, vehicles);
   JudgeAllHalted(tick, vehicles);
+  JudgeWays(tick, time_s, vehicles);
 }
 
 void Invariants::NoteGap(Tick tick) {
@@ -244,12 +250,29 @@ void Invariants::JudgeAllHalted(Tick tick, std::span<const Observed> vehicles) {
   if (halted_ticks_ == limits_.halted_ticks + 1) Tell(Invariant::kAllHalted, tick, first);
 }
 
+void Invariants::JudgeWays(Tick tick, double time_s, std::span<const Observed> vehicles) {
+  for (const std::uint32_t i : red_lights_.Observe(time_s, vehicles)) {
+    Tell(Invariant::kRedLight, tick, vehicles[i].vehicle);
+  }
+  for (const std::uint32_t i : progress_.Observe(tick, time_s, red_lights_.AnyStops(), vehicles)) {
+    Tell(Invariant::kProgress, tick, vehicles[i].vehicle, vehicles[i].decision.peer);
+  }
+}
+
+bool Invariants::MustArrive(const Track& track) const {
+  if (!track.has_goal) return false;
+  return !limits_.arriving || std::ranges::binary_search(*limits_.arriving, track.vehicle);
+}
+
 void Invariants::Finish(Tick tick, std::span<const Observed> vehicles) {
+  bool anyone = open_ || vehicles.empty();
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const Observed& vehicle = vehicles[i];
-    if (!tracks_[i].has_goal || !vehicle.present || !vehicle.lives || vehicle.arrived) continue;
+    anyone = anyone || vehicle.lives || vehicle.arrived;
+    if (!MustArrive(tracks_[i]) || !vehicle.present || !vehicle.lives || vehicle.arrived) continue;
     Tell(Invariant::kArrival, tick, vehicle.vehicle, vehicle.decision.peer);
   }
+  if (!anyone) Tell(Invariant::kArrival, tick, vehicles.front().vehicle);
 }
 
 }  // namespace giveway::sim

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/scenario.h"
+#include "sim_world/virtual/progress.h"
+#include "sim_world/virtual/red_lights.h"
 
 namespace giveway::sim {
 
@@ -22,10 +25,12 @@ enum class Invariant : std::uint8_t {
   kWaitBound,    // nobody halts to give way for longer than a bound
   kAllHalted,    // never do all who are not there yet halt to give way, each for another
   kOrder,        // who halts to give way comes later in the order, as both published it
-  kArrival,      // everyone who lives arrives within the duration
+  kArrival,      // everyone who lives arrives within the duration, and somebody lives
   kPose,         // where a beacon says its vehicle was, it was: as nearly as the beacon says
+  kRedLight,     // nobody drives past a red light: red_lights.h
+  kProgress,     // nobody is wedged: progress.h
 };
-inline constexpr std::size_t kInvariantCount = 8;
+inline constexpr std::size_t kInvariantCount = 10;
 std::string_view Name(Invariant invariant);
 
 struct Violation {
@@ -62,6 +67,9 @@ struct InvariantLimits {
   std::uint32_t key_age_ticks = 6;
   // kStaleMotion: how much later than it is seen the braking may begin.
   std::uint32_t stale_ticks = 0;
+  double wedge_s = 60;  // kProgress: how long a crowd may come no further
+  // kArrival: only of these, ascending; absent: of all that have a goal.
+  std::optional<std::vector<VehicleId>> arriving;
 };
 
 // Of the faster wheel.
@@ -77,10 +85,12 @@ class Invariants {
   // Another vehicle, that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
 
-  // Takes in one tick. Vehicles in order of their ids; events are those since the last one. Ticks
-  // may be missing: what must last from tick to tick to be wrong then begins anew.
-  void Observe(Tick tick, std::span<const Observed> vehicles, std::span<const WorldEvent> events);
-  // At the end of the run: who has not arrived?
+  // Takes in one tick, time_s after the start signal. Vehicles in order of their ids; events are
+  // those since the last one. Ticks may be missing: what must last from tick to tick to be wrong
+  // then begins anew.
+  void Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
+               std::span<const WorldEvent> events);
+  // At the end of the run: who has not arrived? In a closed one, does nobody live?
   void Finish(Tick tick, std::span<const Observed> vehicles);
 
   // Each is counted when it begins, not once a tick.
@@ -126,10 +136,13 @@ class Invariants {
   void JudgePose(Tick tick, const Observed& now, Track* track);
   void JudgeCircles(Tick tick, std::span<const Observed> vehicles);
   void JudgeAllHalted(Tick tick, std::span<const Observed> vehicles);
+  void JudgeWays(Tick tick, double time_s, std::span<const Observed> vehicles);
+  bool MustArrive(const Track& track) const;
   std::uint32_t IndexOf(VehicleId vehicle) const;
   VehicleId MoreAtFault(const WorldEvent& contact) const;
 
   InvariantLimits limits_;
+  bool open_;
   double dt_s_;
   std::uint32_t wait_ticks_;
   std::uint32_t watchdog_ticks_;
@@ -140,6 +153,8 @@ class Invariants {
   std::uint32_t keys_known_at_ = 0;  // the tick from which on enough keys are remembered
   std::uint32_t circle_ticks_ = 0;
   std::uint32_t halted_ticks_ = 0;
+  RedLights red_lights_;
+  Progress progress_;
 };
 
 }  // namespace giveway::sim

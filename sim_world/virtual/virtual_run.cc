@@ -120,7 +120,8 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
   for (bool goes_on = true; goes_on;) {
     goes_on = fleet.Advance();
     Look(fleet, &observed);
-    invariants.Observe(fleet.World().Now(), observed, fleet.World().Events());
+    invariants.Observe(fleet.World().Now(), fleet.World().TimeSeconds(), observed,
+                       fleet.World().Events());
     vehicle_ticks += fleet.World().Scans().size();
     if (watch) watch(fleet);
   }

@@ -130,7 +130,7 @@ void VirtualInvariants(benchmark::State& bench) {
   for (auto _ : bench) {
     ++tick;
     for (Observed& vehicle : observed) vehicle.answered = Tick{tick};
-    invariants.Observe(Tick{tick}, observed, {});
+    invariants.Observe(Tick{tick}, 0.05 * tick, observed, {});
   }
   CountVehicleTicks(bench);
 }

@@ -20,7 +20,7 @@ inline VehicleOptions VehicleAt(std::uint32_t id, Behaviour behaviour, double cr
   options.start_world = {.position_world = from, .heading_rad = Radians(heading_deg)};
   options.goal = {.set = goal_after_m > 0,
                   .at_world = from + goal_after_m * Forward(options.start_world)};
-  options.braitenberg = behaviour == Behaviour::kStockAvoid ? StockWeights() : LectureWeights();
+  options.braitenberg = WeightsOf(behaviour);
   return options;
 }
 

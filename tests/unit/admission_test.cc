@@ -298,12 +298,14 @@ TEST(Admission, AGoodByeEndsAClosedRun) {
 TEST(Admission, AnOpenRunLastsForItsDurationWhoeverArrives) {
   Scenario scenario = OpenScenario();
   scenario.duration_s = 5;
-  scenario.spawns[0].goal = {.set = true, .at_world = {0.5, 0}};
+  scenario.spawns[0].goal = {.set = true, .at_world = {0.5, 0}, .radius_m = 0.2};
   scenario.expect.arrived = {VehicleId{1}};
   Door door(scenario);
   door.Join(Ask(1));
   door.run.Start();
-  door.Tick(99);
+  door.Tick(40);
+  door.speed_rad_s = 0;
+  door.Tick(59);
   EXPECT_EQ(door.Count(EventKind::kArrived), 1U);
   EXPECT_EQ(door.run.State(), RunState::kRunning);
   door.Tick();

@@ -63,9 +63,9 @@ int DecisionsOf(std::size_t index, const Scenario& scenario) {
   return decisions;
 }
 
-// cruise, give way, cruise: the run ends on its arrival
+// cruise, give way, cruise, arrived
 TEST_P(CrossingTest, TheLoserDoesNotFlickerOnceTheWinnerHasPassed) {
-  EXPECT_EQ(DecisionsOf(1, Crossing(GetParam(), 0.4, 0.3)), 3);
+  EXPECT_EQ(DecisionsOf(1, Crossing(GetParam(), 0.4, 0.3)), 4);
 }
 
 // cruise, sensor only, peer lost, cruise, cooperative again or arrived

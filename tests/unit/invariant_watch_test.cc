@@ -55,6 +55,40 @@ TEST_F(InvariantWatchTest, AContactBreaksARunThatHadPassed) {
   EXPECT_THAT(app::ToTable(report, 80), HasSubstr("first contact at tick 6"));
 }
 
+TEST_F(InvariantWatchTest, WhoDrivesPastARedLightBreaksTheRun) {
+  scenario_.signals = {{.id = SignalId{1},
+                        .line_from_world = {0, -1},
+                        .line_to_world = {0, 1},
+                        .green_s = 0,
+                        .yellow_s = 0,
+                        .red_s = 100}};
+  Begin();
+  for (int i = 0; i < 80; ++i) {
+    Of(one_).truth.world_from_body.position_world = {-0.6 + 0.015 * i, 0};
+    Of(two_).truth.world_from_body.position_world = {-0.6, 5 + 0.015 * i};
+    Observe();
+  }
+  watch_->Finish(false);
+  EXPECT_EQ(Count(Invariant::kRedLight), 1U);
+  EXPECT_EQ(watch_->Judged().First()[0].vehicle, one_);
+}
+
+TEST_F(InvariantWatchTest, WhoIsWedgedBreaksTheRunWhateverItIsExpectedTo) {
+  scenario_.expect.arrived.clear();
+  scenario_.vehicles[0].goal.at_world = scenario_.vehicles[1].goal.at_world = {9, 0};
+  Begin();
+  Decide(two_, Rule::kSteerRound, one_);
+  Of(one_).truth.arrived = true;
+  Observe(62 * 20 + 20);
+  watch_->Finish(true);
+  EXPECT_EQ(Count(Invariant::kProgress), 1U);
+  EXPECT_EQ(Count(Invariant::kArrival), 0U);
+  app::Report report;
+  report.verdict = app::Verdict::kPassed;
+  watch_->AddTo(&report);
+  EXPECT_EQ(report.reason, "invariant_broken: progress");
+}
+
 TEST_F(InvariantWatchTest, AVerdictThatWasNotPassedKeepsItsReason) {
   Observe({{.kind = EventKind::kContact, .vehicle = one_, .other = two_}});
   watch_->Finish(false);

@@ -43,7 +43,7 @@ class InvariantsTest : public testing::Test {
       if (answers_) vehicle.answered = Tick{tick_};
       vehicle.rim_m_s = std::max(vehicle.forward_m_s, 0.0) + turning_m_s_;
     }
-    invariants_->Observe(Tick{tick_}, now_, events);
+    invariants_->Observe(Tick{tick_}, tick_ * kTick_s, now_, events);
   }
   void Observe(int ticks) {
     for (int i = 0; i < ticks; ++i) Observe();

@@ -129,7 +129,8 @@ TEST_F(JudgeTest, ADeadVehicleDoesNotHaltToGiveWay) {
   EXPECT_TRUE(judge_.Halted().empty());
 }
 
-TEST_F(JudgeTest, ArrivalIsTheAxleCentreWithinTheGoalsRadiusAndOnlyOnce) {
+TEST_F(JudgeTest, ArrivalIsToStandWithTheAxleCentreWithinTheGoalsRadiusAndOnlyOnce) {
+  SetSpeed(0);
   body_.world_from_body.position_world = {4.89, 0};
   Observe(1);
   EXPECT_FALSE(judge_.HasArrived(kTwo));
@@ -141,6 +142,53 @@ TEST_F(JudgeTest, ArrivalIsTheAxleCentreWithinTheGoalsRadiusAndOnlyOnce) {
   ASSERT_EQ(events_.size(), 1U);
   EXPECT_EQ(events_[0].kind, EventKind::kArrived);
   EXPECT_DOUBLE_EQ(events_[0].value, 0.1);
+}
+
+TEST_F(JudgeTest, DrivingThroughTheGoalIsNoArrival) {
+  for (const double x_m : {4.8, 4.95, 5.0, 5.05, 5.2}) {
+    body_.world_from_body.position_world = {x_m, 0};
+    Observe(1);
+  }
+  SetSpeed(0);
+  Observe(20);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  EXPECT_TRUE(judge_.Arrived().empty());
+  EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(JudgeTest, WhoLeavesItsGoalAgainHasNotArrived) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  Observe(5);
+  ASSERT_TRUE(judge_.HasArrived(kTwo));
+  SetSpeed(0.3);
+  body_.world_from_body.position_world = {5.05, 0};
+  Observe(1);
+  EXPECT_TRUE(judge_.HasArrived(kTwo));
+  body_.world_from_body.position_world = {5.11, 0};
+  Observe(1);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  EXPECT_TRUE(judge_.Arrived().empty());
+  EXPECT_FALSE(judge_.LastArrival());
+  ASSERT_EQ(events_.size(), 2U);
+  EXPECT_EQ(events_[1].kind, EventKind::kWentOn);
+}
+
+TEST_F(JudgeTest, ABodyThatNobodyDrivesDoesNotArrive) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  body_.obeyed = false;
+  Observe(5);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+}
+
+TEST_F(JudgeTest, AnArrivalBeforeANewStartStillCounts) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  Observe(1);
+  judge_.BeginAnew(kTwo);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  EXPECT_EQ(judge_.Arrived(), std::vector{kTwo});
 }
 
 TEST_F(JudgeTest, AfterArrivalNothingIsAHalt) {

@@ -37,11 +37,19 @@ class Driver {
     for (int i = 0; i < ticks; ++i) {
       std::vector<MotorCommand> commands;
       for (const VehicleId vehicle : speaking) {
-        commands.push_back(Drive(Number(vehicle), run.Now(), 4, 4));
+        const double wheels_rad_s = IsThere(vehicle) ? 0 : 4;
+        commands.push_back(Drive(Number(vehicle), run.Now(), wheels_rad_s, wheels_rad_s));
       }
       run.Advance(commands);
       events.insert(events.end(), run.Events().begin(), run.Events().end());
     }
+  }
+  // Near enough to its goal to brake.
+  bool IsThere(VehicleId vehicle) const {
+    constexpr double kBraking_m = 0.15;
+    const Body* const body = run.BodyOf(vehicle);
+    return body != nullptr && body->goal.set &&
+           Norm(body->goal.at_world - body->world_from_body.position_world) <= kBraking_m;
   }
   void AdvanceToEnd() {
     for (int i = 0; i < 4000 && run.State() != RunState::kEnded; ++i) Advance(1);
@@ -256,6 +264,34 @@ TEST(Run, ADeathBeforeItsPlannedTimeIsUnplanned) {
   driver.speaking.erase(kTwo);
   driver.AdvanceToEnd();
   EXPECT_EQ(driver.run.EndReason(), "process_died");
+}
+
+TEST(Run, ARunInWhichNoVehicleLivesAnyMoreEndsAndHasNotPassed) {
+  Scenario scenario = TwoLanes();
+  scenario.faults = {{.vehicle = kOne, .at_s = 0}, {.vehicle = kTwo, .at_s = 0}};
+  scenario.expect.arrived = {};
+  Driver driver(scenario);
+  driver.run.Start();
+  driver.Advance(1);
+  driver.speaking.clear();
+  driver.AdvanceToEnd();
+  EXPECT_EQ(driver.run.EndReason(), "no_vehicle_lives");
+  EXPECT_FALSE(driver.run.Figures().passed);
+  EXPECT_EQ(driver.run.Figures().reason, "no_vehicle_lives");
+}
+
+TEST(Run, ALoopHasNoGoal) {
+  Scenario scenario = TwoLanes();
+  scenario.vehicles[1].route.waypoints_world[0] = {100, 0};
+  scenario.vehicles[1].route.count = 1;
+  scenario.vehicles[1].route.loop = true;
+  scenario.expect.arrived = {kOne};
+  scenario.duration_s = 30;
+  Driver driver(scenario);
+  driver.run.Start();
+  driver.AdvanceToEnd();
+  EXPECT_EQ(driver.run.EndReason(), "duration_over");
+  EXPECT_TRUE(driver.run.Figures().passed) << driver.run.Figures().reason;
 }
 
 TEST(Run, OnceSilentACommandBringsNobodyBack) {

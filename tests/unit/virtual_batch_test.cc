@@ -46,6 +46,51 @@ TEST(VirtualBatch, ComesToTheSameWithAnyNumberOfThreads) {
   EXPECT_NE(RunBatch(maker, {2, 13}, 2, kGoOn).hash, one.hash);
 }
 
+TEST(VirtualBatch, StockAvoidDrivesWithTheStockScriptsWeights) {
+  for (const char* scenario : {"crossing", "four_way", "open_fleet"}) {
+    CaseOptions options;
+    options.scenario = scenario;
+    options.behaviour = Behaviour::kStockAvoid;
+    for (const VehicleOptions& vehicle : CaseMaker(options).Make(1).scenario.vehicles) {
+      EXPECT_EQ(vehicle.behaviour, Behaviour::kStockAvoid);
+      EXPECT_EQ(vehicle.braitenberg.left, StockWeights().left) << scenario;
+      EXPECT_EQ(vehicle.braitenberg.right, StockWeights().right) << scenario;
+      EXPECT_EQ(vehicle.braitenberg.far_gate_m, StockWeights().far_gate_m) << scenario;
+    }
+  }
+}
+
+TEST(VirtualBatch, ARunInWhichEveryVehicleCrashesAtOnceDoesNotPass) {
+  CaseOptions options;
+  options.scenario = "crossing";
+  options.vehicles = WholeRange{3, 3};
+  for (const std::uint32_t id : {1U, 2U, 3U}) {
+    options.faults.push_back({.vehicle = VehicleId{id}, .at_s = 0});
+  }
+  const BatchTotals totals = RunBatch(CaseMaker(options), {1, 2}, 1, kGoOn);
+  EXPECT_EQ(totals.failing_seeds, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_EQ(totals.violations[static_cast<std::size_t>(sim::Invariant::kArrival)], 2U);
+  options.faults.pop_back();
+  EXPECT_TRUE(RunBatch(CaseMaker(options), {1, 2}, 1, kGoOn).failing_seeds.empty());
+}
+
+// In open_fleet the vehicles after the eighth get the places, and so the goals, of those that have
+// parked: `steer_round` for nine minutes, and "passed".
+TEST(VirtualBatch, AVehicleBehindOneParkedOnItsGoalIsWedged) {
+  Scenario scenario = app::LoadScenario("open_fleet", {});
+  VehicleOptions first = scenario.spawns[0];
+  VehicleOptions ninth = first;
+  first.id = VehicleId{1};
+  ninth.id = VehicleId{9};
+  ninth.start_world.position_world.x -= 3;
+  scenario.vehicles = {first, ninth};
+  scenario.spawns.clear();
+  scenario.duration_s = 120;
+  const sim::VirtualOutcome outcome = sim::RunVirtually(scenario, {});
+  EXPECT_EQ(outcome.violations[static_cast<std::size_t>(sim::Invariant::kProgress)], 1U);
+  EXPECT_FALSE(outcome.held);
+}
+
 // Four of these had vehicles that stood for good before one whose process had been paused.
 TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
   CaseOptions options;

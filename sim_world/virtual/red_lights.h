@@ -1,0 +1,60 @@
+// Who drives past a red light, by the truth: the axle centre comes over the stop line, within 45
+// degrees of the direction that the light is for, while it shows red. Excused is who could not have
+// stopped when it turned red: its shell was nearer to the line than it drives until it stands. A
+// light that a fault has put out or silenced is none.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "services/types/scenario.h"
+
+namespace giveway::sim {
+
+struct Observed;  // invariants.h
+
+class RedLights {
+ public:
+  explicit RedLights(const Scenario& scenario);
+
+  // Another vehicle, that the scenario does not name; one of the same id is forgotten.
+  void Admit(const VehicleOptions& options);
+
+  // Takes in one tick, time_s after the start signal. Vehicles in order of their ids, the admitted
+  // ones among them. Those that passed a red light since the last tick, by index; valid until the
+  // next.
+  std::span<const std::uint32_t> Observe(double time_s, std::span<const Observed> vehicles);
+  // True if any light was red or yellow in it.
+  bool AnyStops() const { return any_stops_; }
+
+ private:
+  struct Head {
+    SignalPlan plan;
+    double out_from_s;  // dark or silent from then on
+    Vec2 travel_world;
+    SignalPhase phase = SignalPhase::kDark;
+    bool was_red = false;
+    bool turned_red = false;
+  };
+  struct Track {
+    VehicleId vehicle = kNobody;
+    double radius_m = 0;
+    double deceleration_m_s2 = 0;
+    bool seen = false;
+    Vec2 last_position_world;
+    std::vector<bool> excused;  // by head, until it is red again
+  };
+
+  Track TrackOf(const VehicleOptions& options) const;
+  void Follow(double time_s);
+  bool PassesRed(const Observed& now, Track* track) const;
+
+  Nanoseconds tick_period_;
+  std::vector<Head> heads_;
+  std::vector<Track> tracks_;
+  std::vector<std::uint32_t> passed_;
+  bool any_stops_ = false;
+};
+
+}  // namespace giveway::sim
