@@ -51,7 +51,7 @@ Judge::Track& Judge::TrackOf(std::size_t body, VehicleId vehicle) {
 void Judge::Forget(VehicleId vehicle) {
   const auto track = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
   if (track == tracks_.end() || track->vehicle != vehicle) return;
-  const bool counts = track->halted_once || track->arrived_once;
+  const bool counts = track->halted_once || track->arrived_before || track->arrived_s.has_value();
   if (!counts || tracks_.size() > kMostTracks) tracks_.erase(track);
 }
 

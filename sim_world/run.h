@@ -52,7 +52,8 @@ class Run {
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
   // when the duration is over; a closed run also when everyone living has arrived, when a vehicle
-  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans go on, and nothing is judged any more.
+  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans go on,
+  // and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
   Tick Now() const { return world_.Now(); }
@@ -67,8 +68,8 @@ class Run {
   std::span<const SignalState> Signals() const { return signals_.States(); }
   std::span<const Truth> Truths() const { return truths_; }
   std::span<const WorldEvent> Events() const { return log_.Events(); }
-  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or what End was given; empty
-  // while it runs.
+  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or what End
+  // was given; empty while it runs.
   const std::string& EndReason() const { return end_reason_; }
   // Verdict and figures; complete once State() is kEnded. Reaction times are the caller's.
   RunFigures Figures() const { return figures_; }

@@ -266,34 +266,6 @@ TEST(Run, ADeathBeforeItsPlannedTimeIsUnplanned) {
   EXPECT_EQ(driver.run.EndReason(), "process_died");
 }
 
-TEST(Run, ARunInWhichNoVehicleLivesAnyMoreEndsAndHasNotPassed) {
-  Scenario scenario = TwoLanes();
-  scenario.faults = {{.vehicle = kOne, .at_s = 0}, {.vehicle = kTwo, .at_s = 0}};
-  scenario.expect.arrived = {};
-  Driver driver(scenario);
-  driver.run.Start();
-  driver.Advance(1);
-  driver.speaking.clear();
-  driver.AdvanceToEnd();
-  EXPECT_EQ(driver.run.EndReason(), "no_vehicle_lives");
-  EXPECT_FALSE(driver.run.Figures().passed);
-  EXPECT_EQ(driver.run.Figures().reason, "no_vehicle_lives");
-}
-
-TEST(Run, ALoopHasNoGoal) {
-  Scenario scenario = TwoLanes();
-  scenario.vehicles[1].route.waypoints_world[0] = {100, 0};
-  scenario.vehicles[1].route.count = 1;
-  scenario.vehicles[1].route.loop = true;
-  scenario.expect.arrived = {kOne};
-  scenario.duration_s = 30;
-  Driver driver(scenario);
-  driver.run.Start();
-  driver.AdvanceToEnd();
-  EXPECT_EQ(driver.run.EndReason(), "duration_over");
-  EXPECT_TRUE(driver.run.Figures().passed) << driver.run.Figures().reason;
-}
-
 TEST(Run, OnceSilentACommandBringsNobodyBack) {
   Driver driver(PlannedDeath());
   driver.run.Start();
