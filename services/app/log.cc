@@ -94,8 +94,9 @@ std::shared_ptr<spdlog::logger> MakeLogger(const std::string& name) {
   return logger;
 }
 
+// Never destroyed: the library's log thread lives until after static destruction.
 std::shared_ptr<spdlog::logger>& Logger() {
-  static std::shared_ptr<spdlog::logger> logger = MakeLogger("giveway");
+  static auto& logger = *new std::shared_ptr<spdlog::logger>(MakeLogger("giveway"));
   return logger;
 }
 

@@ -20,7 +20,7 @@ const BeaconQos kBase{.offered = milliseconds(100),
                       .requested = milliseconds(150),
                       .lease = milliseconds(250),
                       .reliable = false,
-                      .depth = 4};
+                      .depth = 5};
 
 std::string DefaultSet() {
   std::ifstream stream(std::filesystem::path(GIVEWAY_QOS_SETS) / "default.xml");
