@@ -276,13 +276,6 @@ class Loop {
   WorldTime world_time_;
 };
 
-// Only vehicles hear through it: the world's ears are the wires to the wheels.
-Impairment ImpairmentOf(const app::ServiceFlags& flags, const Scenario& scenario) {
-  Impairment impairment = flags.impair.value_or(scenario.impairment);
-  if (!impairment.seed) impairment.seed = scenario.seed;
-  return impairment;
-}
-
 // What it takes to come back as the same vehicle with the profiles of an order.
 app::NewFlags ToComeBack(const Loop& loop, const ServiceAdmin& admin) {
   app::NewFlags flags = admin.ToComeBack();

@@ -137,7 +137,8 @@ void WorldLoop::Admit() {
   Close();
   for (const RosterEntry& entry : fleet_->admission.Answer()) {
     if (!entry.accepted) {
-      SayNotIn(entry);
+      const std::string what = entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ";
+      if (answer_lines_.Take(app::SteadyNow())) app::LogWarning(what + entry.reason);
     } else if (const sim::Body* body = fleet_->run.BodyOf(entry.vehicle)) {
       link_.OpenVehicle(entry.vehicle, body->profile);
       next_checkpoint_ = {};
@@ -147,19 +148,12 @@ void WorldLoop::Admit() {
   }
 }
 
-void WorldLoop::SayNotIn(const RosterEntry& entry) {
-  if (!answer_lines_.Take(app::SteadyNow())) return;
-  app::LogWarning((entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ") + entry.reason);
-}
-
 void WorldLoop::SayLeftOut() {
   const SteadyTime now = app::SteadyNow();
-  if (const auto more = answer_lines_.TakeLeftOut(now); more > 0) {
-    app::LogWarning("and " + std::to_string(more) + " more such answers to requests to join");
-  }
-  if (const auto more = event_lines_.TakeLeftOut(now); more > 0) {
-    app::LogInfo("and " + std::to_string(more) + " more such events");
-  }
+  const auto answers = answer_lines_.TakeLeftOut(now);
+  const auto events = event_lines_.TakeLeftOut(now);
+  if (answers > 0) app::LogWarning("and " + std::to_string(answers) + " more such answers");
+  if (events > 0) app::LogInfo("and " + std::to_string(events) + " more such events");
 }
 
 // Somebody new under this id has not been heard yet, even if the last one was.

@@ -66,7 +66,6 @@ class WorldLoop {
   void Resume(const sim::FleetCheckpoint& checkpoint);
   void RunTick();
   void Admit();
-  void SayNotIn(const RosterEntry& entry);
   void SayLeftOut();
   void Welcome(const RosterEntry& entry);
   void Close();

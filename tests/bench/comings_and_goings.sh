@@ -26,10 +26,12 @@ end_all() {
 }
 trap end_all EXIT
 
-# Places for forty, far from each other; who died is taken away after a second.
+# Places for forty, far from each other. Who died is taken away after a second, or comes back to where
+# it stands.
+case $what in returns) removal=30 ;; *) removal=1 ;; esac
 {
   echo 'name: "comings" description: "Vehicles come and go." crossing { x_m: 0 y_m: 0 }'
-  echo 'start_with: 1 duration_s: 86400 remove_after_s: 1 expect {}'
+  echo "start_with: 1 duration_s: 86400 remove_after_s: $removal expect {}"
   for x in 0 12 24 36 48 60 72 84; do
     for y in 0 12 24 36 48; do
       echo "spawn { start { x_m: $x y_m: $y heading_deg: 0 } cruise_m_s: 0.3 }"
@@ -52,7 +54,7 @@ says() { # NAME TEXT: waits until its log has it
   echo "$1 never said: $2" >&2
   exit 2
 }
-cpu_ns() { awk '{all += $1} END {printf "%d\n", all}' /proc/"$1"/task/*/schedstat; }
+cpu_ns() { awk '{all += $1} END {printf "%.0f\n", all}' /proc/"$1"/task/*/schedstat; }
 # cpu SECONDS PID...: ms of processor time a second, of each
 cpu() {
   local seconds=$1 before=() pid i=0

@@ -1,90 +1,11 @@
 #include "sim_world/admission.h"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
-#include <chrono>
-#include <set>
-
-#include "sim_world/line_budget.h"
-#include "tests/unit/sim_scenario.h"
+#include "tests/unit/door.h"
 
 namespace giveway::sim {
 namespace {
-
-VehicleOptions SpawnAt(double x_m) {
-  VehicleOptions options = VehicleAt(0, {{x_m, 0}, 0});
-  options.id = kNobody;
-  return options;
-}
-
-// Vehicle 2 is named; two places for whoever comes.
-Scenario OpenScenario() {
-  Scenario scenario = ScenarioOf({VehicleAt(2, {{0, 10}, 0})});
-  scenario.spawns = {SpawnAt(0), SpawnAt(10)};
-  scenario.remove_after_s = 2;
-  return scenario;
-}
-
-Scenario ClosedScenario() {
-  Scenario scenario = ScenarioOf({VehicleAt(1, {{0, 0}, 0}), VehicleAt(2, {{0, 10}, 0})});
-  scenario.faults = {{.kind = FaultKind::kKill, .vehicle = VehicleId{1}, .at_s = 0.5}};
-  scenario.remove_after_s = 2;
-  return scenario;
-}
-
-JoinRequest Ask(std::uint32_t session, std::uint32_t wanted = 0) {
-  return {.session = {session, 0, 0, 1}, .wanted = VehicleId{wanted}};
-}
-
-// A world, its door, and vehicles that drive straight on as soon as they are in.
-class Door {
- public:
-  explicit Door(const Scenario& scenario, WorldEpoch epoch = kEpoch)
-      : run(scenario, epoch), admission(scenario, epoch, &run), epoch_(epoch) {}
-
-  void Tick(int ticks = 1) {
-    for (int i = 0; i < ticks; ++i) {
-      answers.clear();
-      for (const RosterEntry& entry : admission.Answer()) answers.push_back(entry);
-      std::vector<MotorCommand> commands;
-      for (const auto& [vehicle, entry] : admission.Told()) {
-        if (dead.contains(vehicle)) continue;
-        commands.push_back(Drive(Number(vehicle), run.Now(), speed_rad_s, speed_rad_s));
-        commands.back().epoch = epoch_;
-      }
-      run.Advance(commands);
-      admission.FollowRun();
-      for (const WorldEvent& event : run.Events()) events.push_back(event);
-    }
-  }
-  // The answer of the tick in which it asks.
-  RosterEntry Join(const JoinRequest& request) {
-    admission.Take(request);
-    Tick();
-    for (const RosterEntry& entry : answers) {
-      if (entry.session == request.session) return entry;
-    }
-    return {};
-  }
-  void Leave(std::uint32_t session) {
-    JoinRequest request = Ask(session);
-    request.leaving = true;
-    admission.Take(request);
-  }
-  std::size_t Count(EventKind kind) const {
-    return static_cast<std::size_t>(std::ranges::count(events, kind, &WorldEvent::kind));
-  }
-
-  Run run;
-  Admission admission;
-  std::set<VehicleId> dead;
-  double speed_rad_s = 3;
-  std::vector<RosterEntry> answers;  // of the last tick
-  std::vector<WorldEvent> events;
-
- private:
-  WorldEpoch epoch_;
-};
 
 TEST(Admission, WhoeverComesToAnOpenFleetGetsTheLowestFreeIdAndTheFirstFreePlace) {
   Door door(OpenScenario());
@@ -343,75 +264,6 @@ TEST(Admission, ARestoredWorldKnowsItsSessionsAndWhereTheyStandOnceTheyStand) {
             before.run.BodyOf(VehicleId{1})->world_from_body.position_world.x);
   EXPECT_FALSE(told.contains(VehicleId{2}));
   EXPECT_DOUBLE_EQ(after.run.TimeSeconds(), before.run.TimeSeconds());  // it waits
-}
-
-// Issue 21, number 12: 30 000 requests in 6 s.
-TEST(Admission, AFloodOfRequestsCostsATickNoMoreThanTheWaitingListHolds) {
-  Door door(OpenScenario());
-  door.speed_rad_s = 0;
-  ASSERT_TRUE(door.Join(Ask(1)).accepted);
-  ASSERT_TRUE(door.Join(Ask(2)).accepted);
-  std::size_t answers = 0;
-  for (std::uint32_t tick = 0; tick < 120; ++tick) {
-    for (std::uint32_t i = 0; i < 250; ++i) door.admission.Take(Ask(1000 + tick * 250 + i));
-    door.Tick();
-    EXPECT_LE(door.answers.size(), Admission::kMostWaiting);
-    answers += door.answers.size();
-  }
-  EXPECT_LE(answers, 4 * Admission::kMostWaiting) << "each once in the three seconds it waits";
-  EXPECT_GE(door.admission.PassedOver(), 29'000U);
-  // Who is in is known all the while, and who comes after the flood has its turn.
-  EXPECT_TRUE(door.Join(Ask(2)).accepted);
-  door.Tick(61);
-  door.Leave(2);
-  EXPECT_TRUE(door.Join(Ask(3)).accepted);
-}
-
-TEST(Admission, WhoNeverSpeaksLosesItsPlaceSoonerThanWhoFellSilent) {
-  Scenario scenario = OpenScenario();
-  scenario.remove_after_s = 30;
-  Door door(scenario);
-  door.run.Start();
-  door.dead = {VehicleId{1}};
-  ASSERT_TRUE(door.Join(Ask(1)).accepted);
-  door.Tick(198);
-  EXPECT_NE(door.run.BodyOf(VehicleId{1}), nullptr);
-  door.Tick(6);
-  EXPECT_EQ(door.run.BodyOf(VehicleId{1}), nullptr);
-}
-
-// Issue 21, number 11: of every vehicle that ever was, a body stayed, and a truth was sent each
-// tick.
-TEST(Admission, OfVehiclesThatLeftNothingIsKeptOrTold) {
-  Door door(OpenScenario());
-  door.run.Start();
-  door.speed_rad_s = 0;
-  for (std::uint32_t id = 100; id < 400; ++id) {
-    ASSERT_TRUE(door.Join(Ask(id, id)).accepted);
-    door.Tick();
-    door.Leave(id);
-    door.Tick();
-  }
-  EXPECT_LE(door.run.Truths().size(), 12U) << "those that left within the last second";
-  door.Tick(20);
-  EXPECT_THAT(door.run.Forgotten(), ::testing::ElementsAre(VehicleId{399}));
-  door.Tick();
-  EXPECT_THAT(door.run.Truths(), ::testing::IsEmpty());
-  // One of them comes again, and is told of at once.
-  ASSERT_TRUE(door.Join(Ask(7, 399)).accepted);
-  EXPECT_THAT(door.run.Truths(), ::testing::SizeIs(1));
-}
-
-TEST(LineBudget, LeavesOutWhatIsTooMuchForASecondAndSaysHowMany) {
-  LineBudget budget(2);
-  const SteadyTime start = std::chrono::seconds(5);
-  EXPECT_TRUE(budget.Take(start));
-  EXPECT_TRUE(budget.Take(start));
-  for (int i = 0; i < 10; ++i) EXPECT_FALSE(budget.Take(start + std::chrono::milliseconds(500)));
-  EXPECT_EQ(budget.TakeLeftOut(start + std::chrono::milliseconds(999)), 0U);
-  EXPECT_TRUE(budget.Take(start + std::chrono::milliseconds(1000)));
-  EXPECT_EQ(budget.TakeLeftOut(start + std::chrono::milliseconds(1001)), 10U);
-  EXPECT_EQ(budget.TakeLeftOut(start + std::chrono::milliseconds(1002)), 0U);
 }
 
 }  // namespace
