@@ -6,7 +6,7 @@ set -euo pipefail
 root=${1:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)}
 cd "$root"
 
-LONGEST_FILE=350
+LONGEST_FILE=500
 PURE_ROOMS='types vehicle sim_world virtual qos'
 # Standard headers the pure rooms do without: threads, clocks of the wall, files, and the streams
 # nobody there has anything to say to.
@@ -53,7 +53,7 @@ may_include() {
     fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|qos|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
       [[ $2 == services/@(vehicle|link|qos|app|types)/* ||
-        $2 == services/@(beacon_news|service_admin|vehicle_health|vehicle_hearing|vehicle_join|vehicle_report|service_main|service_run|server_wait|qos_at_start|world_time).h ]]
+        $2 == services/@(beacon_news|deaf_watch|service_admin|vehicle_health|vehicle_hearing|vehicle_join|vehicle_report|service_main|service_run|server_wait|qos_at_start|world_time).h ]]
       ;;
     world_main)
       [[ $2 == services/@(link|qos|app|types)/* || $2 == sim_world/* || $2 == services/@(service_admin|service_main|service_run|server_wait|qos_at_start).h ]]

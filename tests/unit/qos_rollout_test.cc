@@ -79,8 +79,8 @@ TEST(Rollout, GoesByASetBetweenWhereTheOldAndTheNewDoNotMatch) {
   const auto lease = [&](Owner owner, const char* profile) {
     return between.Find(owner, profile)->Number(Policy::kLease);
   };
-  EXPECT_EQ(lease(Owner::kReader, "fleet_beacon_reader"), 500'000'000);  // of lossy_radio
-  EXPECT_EQ(lease(Owner::kWriter, "fleet_beacon_writer"), 250'000'000);  // of default
+  EXPECT_EQ(lease(Owner::kReader, "fleet_beacon_reader"), 500'000'000);       // of lossy_radio
+  EXPECT_EQ(lease(Owner::kWriter, "fleet_beacon_writer"), 250'000'000);       // of default
   EXPECT_EQ(std::ranges::count_if(rollout.steps, &RolloutStep::between), 1);  // then all fit
 }
 

@@ -40,7 +40,7 @@ TEST(RunEnd, ALoopHasNoGoalToEndIn) {
   route.waypoints_world[0] = {9, 0};
   route.count = 1;
   route.loop = true;
-  Run run(scenario, kEpoch);
+  sim::Run run(scenario, kEpoch);
   for (const VehicleOptions& options : scenario.vehicles) run.Join(options.id);
   EXPECT_TRUE(run.BodyOf(VehicleId{1})->goal.set);
   EXPECT_FALSE(run.BodyOf(VehicleId{2})->goal.set);
