@@ -48,6 +48,18 @@ class Variable {
   const char* name_;
 };
 
+TEST(Flags, WhatAVehicleGivesToItselfIsRefusedWhereItIsNone) {
+  const std::string held = HoldText("resume", ToBytes({.session = {1, 2, 3, 4}, .order = 5}));
+  const ParsedFlags parsed =
+      Vehicle({"--scenario", "wall_only", "--domain", "7", "--resume", held.c_str()});
+  EXPECT_EQ(std::get<ServiceFlags>(parsed).resume->order, 5U);
+  const std::string spoilt = HoldText("resume", "giveway-resume-1\nnothing of the kind");
+  for (const char* const file : {spoilt.c_str(), "/no/such/file", "/dev/null"}) {
+    EXPECT_THAT(Refusal({"--scenario", "wall_only", "--domain", "7", "--resume", file}),
+                HasSubstr(file));
+  }
+}
+
 TEST(Flags, TheDefaultsNeedOnlyScenarioAndDomain) {
   const ParsedFlags parsed = Vehicle({"--scenario", "wall_only", "--domain", "7"});
   const ServiceFlags& flags = std::get<ServiceFlags>(parsed);

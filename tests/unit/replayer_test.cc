@@ -77,6 +77,25 @@ TEST_F(ReplayTest, OtherOptionsAreAnotherVehicle) {
   EXPECT_TRUE(ReplayOf(records_).difference.has_value());
 }
 
+TEST_F(ReplayTest, GoesOnFromWhatTheVehicleTookOver) {
+  app::RecordedLife life{
+      42, test::DefaultOptions(), "test",
+      Handover{.epoch = test::kEpoch, .tick = Tick{9}, .world_from_body = {{1, 2}, 0.5}}};
+  Vehicle brain(life.options, life.boot_epoch);
+  ASSERT_TRUE(brain.TakeOver(*life.handover));
+  const Inputs inputs{.now = Nanoseconds{500'000'000}, .scan = test::ClearScan(10)};
+  const Outputs said = brain.Step(inputs);
+  app::RecordedStep step;
+  step.Hold(inputs, said, brain.Hash());
+  const app::ReplayedFile same = ReplayOf({life, step, app::RecordedEnd{1, 0}});
+  EXPECT_EQ(same.steps, 1U);
+  EXPECT_FALSE(same.difference.has_value());
+  life.handover->covariance.xx_m2 = -1;
+  EXPECT_THAT(ReplayOf({life, step, app::RecordedEnd{1, 0}}).finding, HasSubstr("takes over"));
+  life.handover.reset();
+  EXPECT_TRUE(ReplayOf({life, step, app::RecordedEnd{1, 0}}).difference.has_value());
+}
+
 TEST_F(ReplayTest, AnotherPlaceIsTakenFromTheStepOnAtWhichItWasGiven) {
   const VehicleOptions faster = [] {
     VehicleOptions options = test::DefaultOptions();
