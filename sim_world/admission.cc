@@ -30,10 +30,12 @@ void Admission::Take(const JoinRequest& request) {
   if (request.leaving) return Leave(request.session);
   const auto waiting = std::ranges::find_if(
       waiting_, [&](const Waiting& w) { return w.request.session == request.session; });
-  if (waiting == waiting_.end()) {
+  if (waiting != waiting_.end()) {
+    waiting->asked = run_.Now();
+  } else if (waiting_.size() < kMostWaiting || roster_.SeatOf(request.session) != nullptr) {
     waiting_.push_back({request, run_.Now(), run_.Now(), ""});
   } else {
-    waiting->asked = run_.Now();
+    ++passed_over_;
   }
 }
 

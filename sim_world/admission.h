@@ -17,6 +17,10 @@ namespace giveway::sim {
 
 class Admission {
  public:
+  // Sessions that wait at one time; what more ask is passed over until they ask again. A tick's
+  // work is bounded by it.
+  static constexpr std::size_t kMostWaiting = 64;
+
   // `run` outlives this object.
   Admission(const Scenario& scenario, WorldEpoch epoch, Run* run);
 
@@ -34,6 +38,8 @@ class Admission {
 
   // Who was told that they are in, in this epoch.
   const std::map<VehicleId, RosterEntry>& Told() const { return told_; }
+  // Requests that found the waiting list full.
+  std::uint32_t PassedOver() const { return passed_over_; }
   // Seats in use, told or not: after Restore nobody was told yet.
   std::vector<VehicleId> Expected() const;
 
@@ -69,6 +75,7 @@ class Admission {
   std::map<VehicleId, RosterEntry> told_;
   std::vector<VehicleId> gone_;
   std::vector<RosterEntry> to_tell_;
+  std::uint32_t passed_over_ = 0;
 };
 
 }  // namespace giveway::sim

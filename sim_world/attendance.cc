@@ -11,13 +11,17 @@ namespace {
 constexpr Nanoseconds kSilence{1'000'000'000};
 // From joining to the first command: its endpoints must be made and found first.
 constexpr Nanoseconds kFirstWords{5'000'000'000};
+// From then to the end of its body, at most: nobody has driven it, and its place is wanted.
+constexpr Nanoseconds kNeverSpoke{5'000'000'000};
 
 }  // namespace
 
 Attendance::Attendance(const Scenario& scenario)
     : silence_ticks_(TicksCovering(kSilence, scenario.tick_period)),
       removal_ticks_(TicksCovering(FromSeconds(scenario.remove_after_s), scenario.tick_period)),
-      first_words_ticks_(TicksCovering(kFirstWords, scenario.tick_period)) {
+      first_words_ticks_(TicksCovering(kFirstWords, scenario.tick_period)),
+      never_spoke_ticks_(
+          std::min(removal_ticks_, TicksCovering(kNeverSpoke, scenario.tick_period))) {
   entries_.reserve(scenario.vehicles.size());
 }
 
@@ -83,7 +87,8 @@ VehicleId Attendance::TakeNewlySilent(Tick tick) {
 VehicleId Attendance::TakeOverdueBody(Tick tick) {
   for (Entry& entry : entries_) {
     if (!entry.silent_since || entry.removed) continue;
-    if (TicksBetween(*entry.silent_since, tick) < removal_ticks_) continue;
+    const std::uint32_t patience = entry.spoke ? removal_ticks_ : never_spoke_ticks_;
+    if (TicksBetween(*entry.silent_since, tick) < patience) continue;
     entry.removed = true;
     return entry.vehicle;
   }

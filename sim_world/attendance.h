@@ -50,6 +50,7 @@ class Attendance {
   std::uint32_t silence_ticks_;
   std::uint32_t removal_ticks_;
   std::uint32_t first_words_ticks_;
+  std::uint32_t never_spoke_ticks_;
   std::vector<Entry> entries_;  // sorted by id
 };
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kStandstill_m_s = 0.01;
 constexpr Nanoseconds kHaltTime{500'000'000};
+constexpr std::size_t kMostTracks = 2048;
 
 }  // namespace
 
@@ -37,13 +38,19 @@ void Judge::Observe(double time_s, std::span<const Body> bodies, std::span<const
   }
 }
 
-// Bodies may have come among those that are known; none goes from the list.
+// As a rule the body's own place: bodies come among those that are known, and some are forgotten.
 Judge::Track& Judge::TrackOf(std::size_t body, VehicleId vehicle) {
-  if (body == tracks_.size() || tracks_[body].vehicle != vehicle) {
-    const auto place = tracks_.begin() + static_cast<std::ptrdiff_t>(body);
-    return *tracks_.insert(place, Track{.vehicle = vehicle});
-  }
-  return tracks_[body];
+  if (body < tracks_.size() && tracks_[body].vehicle == vehicle) return tracks_[body];
+  const auto place = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
+  if (place != tracks_.end() && place->vehicle == vehicle) return *place;
+  return *tracks_.insert(place, Track{.vehicle = vehicle});
+}
+
+void Judge::Forget(VehicleId vehicle) {
+  const auto track = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
+  if (track == tracks_.end() || track->vehicle != vehicle) return;
+  const bool counts = track->halted_once || track->arrived_once;
+  if (!counts || tracks_.size() > kMostTracks) tracks_.erase(track);
 }
 
 void Judge::BeginAnew(VehicleId vehicle) {

@@ -36,6 +36,10 @@ class Judge {
   // counts among Halted and Arrived.
   void BeginAnew(VehicleId vehicle);
 
+  // The vehicle is gone, for good as it seems. What it did that counts in the verdict is kept, of
+  // so many at most.
+  void Forget(VehicleId vehicle);
+
   // What is remembered of one vehicle.
   struct Track {
     VehicleId vehicle = kNobody;

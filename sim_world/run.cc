@@ -9,7 +9,8 @@
 namespace giveway::sim {
 namespace {
 
-constexpr double kBeforeStart_s = -1;  // Truth::time_s while the start is still to come
+constexpr Nanoseconds kToldGone{1'000'000'000};  // observers hear best effort, once a tick
+constexpr double kBeforeStart_s = -1;            // Truth::time_s while the start is still to come
 
 std::optional<std::uint32_t> DurationTicks(const Scenario& scenario) {
   if (IsEndless(scenario)) return std::nullopt;
@@ -52,7 +53,7 @@ void Run::Leave(VehicleId vehicle) {
   attendance_.Leave(vehicle);
   if (BodyOf(vehicle) == nullptr) return;
   Announce(EventKind::kLeft, vehicle);
-  world_.Remove(vehicle);
+  TakeAway(vehicle);
   if (!open_ && state_ == RunState::kRunning) End("vehicle_left");
 }
 
@@ -96,7 +97,30 @@ void Run::End(std::string reason) {
 
 double Run::TimeSeconds() const { return ticks_run_ * Seconds(scenario_.tick_period); }
 
+void Run::TakeAway(VehicleId vehicle) {
+  world_.Remove(vehicle);
+  std::erase_if(gone_, [&](const Gone& gone) { return gone.vehicle == vehicle; });
+  const bool named =
+      std::ranges::binary_search(scenario_.vehicles, vehicle, {}, &VehicleOptions::id);
+  if (!named) gone_.push_back({vehicle, world_.Now()});
+}
+
+void Run::ForgetGone() {
+  forgotten_.clear();
+  const std::uint32_t told_ticks = TicksCovering(kToldGone, scenario_.tick_period);
+  std::erase_if(gone_, [&](const Gone& gone) {
+    if (BodyOf(gone.vehicle) != nullptr) return true;
+    if (TicksBetween(gone.since, world_.Now()) < told_ticks) return false;
+    world_.Forget(gone.vehicle);
+    attendance_.Leave(gone.vehicle);
+    judge_.Forget(gone.vehicle);
+    forgotten_.push_back(gone.vehicle);
+    return true;
+  });
+}
+
 void Run::Advance(std::span<const MotorCommand> commands) {
+  ForgetGone();
   Take(commands);
   const bool running = state_ == RunState::kRunning;
   world_.Advance(running);
@@ -152,7 +176,7 @@ void Run::FollowAttendance() {
     if (!open_ && !faults_.IsKilled(silent)) end_reason_ = "process_died";
   }
   for (VehicleId gone; (gone = attendance_.TakeOverdueBody(now)) != kNobody;) {
-    world_.Remove(gone);
+    TakeAway(gone);
     log_.Add({.kind = EventKind::kRemoved, .vehicle = gone});
   }
 }

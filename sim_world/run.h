@@ -81,6 +81,10 @@ class Run {
   // Says in an answer to a vehicle where its body is now, and how far its task; nothing where it
   // has no body.
   void Locate(const VehicleOptions& options, RosterEntry* entry) const;
+  // Whom the last Advance forgot, whom nothing more is told of: vehicles that are not the
+  // scenario's, a second after their bodies were taken away.
+  std::span<const VehicleId> Forgotten() const { return forgotten_; }
+
   // Null if no body of the vehicle is in the world.
   const Body* BodyOf(VehicleId vehicle) const;
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
@@ -95,7 +99,14 @@ class Run {
   bool Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined);
 
  private:
+  struct Gone {
+    VehicleId vehicle = kNobody;
+    Tick since = kNoTick;
+  };
+
   void Take(std::span<const MotorCommand> commands);
+  void TakeAway(VehicleId vehicle);
+  void ForgetGone();
   bool MayReturn(VehicleId vehicle) const;
   void Announce(EventKind kind, VehicleId vehicle);
   void Observe();
@@ -122,6 +133,8 @@ class Run {
   bool started_ = false;                         // the start signal was given
   std::uint32_t ticks_run_ = 0;                  // since then, without pauses
   std::vector<WorldEvent> comings_and_goings_;   // since the last tick
+  std::vector<Gone> gone_;                       // still told of, as not present
+  std::vector<VehicleId> forgotten_;
   std::string asked_end_;
   std::string end_reason_;
   RunFigures figures_;

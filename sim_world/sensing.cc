@@ -15,6 +15,11 @@ void Sensing::Replace(std::size_t index, const VehicleProfile& profile) {
   ring_of_[index] = &rings_.Of(profile);
 }
 
+void Sensing::Erase(std::size_t index) {
+  ring_of_.erase(ring_of_.begin() + static_cast<std::ptrdiff_t>(index));
+  at_end_ = false;
+}
+
 void Sensing::Fill(double before_s, double dt_s, const Things& things,
                    std::span<const Body> bodies) {
   scene_.Clear();

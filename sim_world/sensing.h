@@ -23,6 +23,8 @@ class Sensing {
   // A body took its place at `index` in the list: a new one, or another vehicle in an old place.
   void Insert(std::size_t index, const VehicleProfile& profile);
   void Replace(std::size_t index, const VehicleProfile& profile);
+  // The body at `index` left the list.
+  void Erase(std::size_t index);
 
   // Reads every present body's ultrasonics after the tick that `things` made.
   void Sense(Tick tick, double dt_s, const Things& things, const ParallelFor& parallel,

@@ -118,6 +118,18 @@ void World::Remove(VehicleId vehicle) {
   });
 }
 
+// The lists that go by a body's place in bodies_ all close up.
+void World::Forget(VehicleId vehicle) {
+  const Body* body = Find(vehicle);
+  GIVEWAY_CHECK(body != nullptr && !body->present, Number(vehicle));
+  const auto place = static_cast<std::ptrdiff_t>(ThingOf(*body));
+  bodies_.erase(bodies_.begin() + place);
+  things_.motions.erase(things_.motions.begin() + place);
+  things_.present.erase(things_.present.begin() + place);
+  --things_.bodies;
+  sensing_.Erase(static_cast<std::size_t>(place));
+}
+
 bool World::IsFree(const VehicleOptions& options) const {
   const Motion wanted = StandingAt(options.profile, options.start_world);
   const auto touches = [&](const auto& other) { return GapAt(wanted, other, 0) <= kTouch_m; };

@@ -45,6 +45,8 @@ class World {
   void Join(const VehicleOptions& options);
   // Takes the body away: it is no obstacle any more.
   void Remove(VehicleId vehicle);
+  // Nothing is known of the vehicle any more. It is not present.
+  void Forget(VehicleId vehicle);
   // Whether a vehicle could join by these options now: nothing else touches its start pose.
   bool IsFree(const VehicleOptions& options) const;
   // Holds the command until a newer one comes. False: refused, and counted.

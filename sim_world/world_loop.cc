@@ -110,10 +110,12 @@ void WorldLoop::RunTick() {
   CountSpeaking();
   if (run.State() == RunState::kWaiting) StartIfReady();
   run.Advance(commands_);
+  for (const VehicleId vehicle : run.Forgotten()) link_.ForgetVehicle(vehicle);
   commands_.clear();
   fleet_->admission.FollowRun();
   Close();
   Publish();
+  SayLeftOut();
 }
 
 void WorldLoop::Admit() {
@@ -121,8 +123,8 @@ void WorldLoop::Admit() {
   Close();
   for (const RosterEntry& entry : fleet_->admission.Answer()) {
     if (!entry.accepted) {
-      app::LogWarning((entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ") +
-                      entry.reason);
+      const std::string what = entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ";
+      if (answer_lines_.Take(app::SteadyNow())) app::LogWarning(what + entry.reason);
     } else if (const sim::Body* body = fleet_->run.BodyOf(entry.vehicle)) {
       link_.OpenVehicle(entry.vehicle, body->profile);
       next_checkpoint_ = {};
@@ -130,6 +132,14 @@ void WorldLoop::Admit() {
     }
     link_.SendRoster(entry);
   }
+}
+
+void WorldLoop::SayLeftOut() {
+  const SteadyTime now = app::SteadyNow();
+  const auto answers = answer_lines_.TakeLeftOut(now);
+  const auto events = event_lines_.TakeLeftOut(now);
+  if (answers > 0) app::LogWarning("and " + std::to_string(answers) + " more such answers");
+  if (events > 0) app::LogInfo("and " + std::to_string(events) + " more such events");
 }
 
 // Somebody new under this id has not been heard yet, even if the last one was.
@@ -248,7 +258,7 @@ bool WorldLoop::MustStand(VehicleId vehicle) const {
 void WorldLoop::SendEvent(const WorldEvent& event) {
   link_.SendEvent(event);
   const std::string line = LogLine(event);
-  if (!line.empty()) app::LogInfo(line);
+  if (!line.empty() && event_lines_.Take(app::SteadyNow())) app::LogInfo(line);
 }
 
 // Lockstep: the tick goes on when everyone who still answers has answered it.

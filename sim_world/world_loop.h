@@ -14,6 +14,7 @@
 #include "services/link/world_link.h"
 #include "services/types/parallel.h"
 #include "sim_world/admission.h"
+#include "sim_world/line_budget.h"
 #include "sim_world/reaction.h"
 #include "sim_world/run.h"
 
@@ -57,6 +58,7 @@ class WorldLoop {
   void Resume(const sim::FleetCheckpoint& checkpoint);
   void RunTick();
   void Admit();
+  void SayLeftOut();
   void Welcome(const RosterEntry& entry);
   void Close();
   void TakeCommands();
@@ -88,6 +90,8 @@ class WorldLoop {
   std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
   std::size_t speaking_ = 0;                 // of those that are in
   std::vector<MotorCommand> commands_;
+  LineBudget answer_lines_{8};  // of admission
+  LineBudget event_lines_{16};  // of the run
   std::uint32_t overruns_ = 0;
   SteadyTime next_checkpoint_{0};
   app::FaultReminder checkpoint_fault_;  // a full disk is no news at every tick

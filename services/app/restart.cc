@@ -67,11 +67,23 @@ void HoldSignalsBack() {
   sigprocmask(SIG_BLOCK, &stops, nullptr);
 }
 
+void LeaveOpenOnlyHeld() {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (const fs::directory_entry& open : fs::directory_iterator(kHeldFolder, error)) {
+    const int descriptor = HeldDescriptor(open.path());
+    if (descriptor <= STDERR_FILENO) continue;
+    const bool held = fs::read_symlink(open.path(), error).string().starts_with("/memfd:");
+    if (!held) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+  }
+}
+
 void RestartWith(const NewFlags& flags) {
   std::vector<std::string> arguments = ArgumentsWith(OwnArguments(), flags);
   std::vector<char*> words;
   for (std::string& argument : arguments) words.push_back(argument.data());
   words.push_back(nullptr);
+  LeaveOpenOnlyHeld();  // the library opens sockets that outlive an exec
   execv("/proc/self/exe", words.data());
   ThrowErrno("cannot restart itself");
 }

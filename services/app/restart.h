@@ -39,6 +39,9 @@ std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments
 // From now on a stop signal waits for the next process image instead of being forgotten by it. What
 // came before is for the caller to look at.
 void HoldSignalsBack();
+// Of the descriptors open now only the standard ones and held texts outlive an exec.
+void LeaveOpenOnlyHeld();
+
 // Replaces this process. Nothing is destroyed: whatever must be closed is closed before. Throws
 // std::system_error.
 [[noreturn]] void RestartWith(const NewFlags& flags);

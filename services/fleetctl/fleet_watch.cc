@@ -83,9 +83,34 @@ void FleetWatch::FoldStatus(const VehicleStatus& status) {
 void FleetWatch::FoldTruth(const Truth& truth) {
   time_s_ = std::max(time_s_, truth.time_s);
   if (!keep_tracks_) return;
-  app::Track& track = tracks_[truth.vehicle];
-  track.vehicle = truth.vehicle;
-  track.truths.push_back(truth);
+  const auto track = tracks_.find(truth.vehicle);
+  if (track == tracks_.end() && tracks_.size() == kMostTracks) return;
+  Keep(truth, &tracks_[truth.vehicle]);
+}
+
+void FleetWatch::Keep(const Truth& truth, KeptTrack* kept) {
+  std::vector<Truth>& points = kept->track.truths;
+  kept->track.vehicle = truth.vehicle;
+  if (kept->since > 0) points.pop_back();  // it was there only as the newest
+  points.push_back(truth);
+  kept->since = (kept->since + 1) % kept->stride;
+  if (kept->since > 0 || points.size() < kMostPoints) return;
+  std::size_t left = 0;
+  for (std::size_t i = 1; i < points.size(); i += 2) points[left++] = points[i];
+  points.resize(left);
+  kept->stride *= 2;
+}
+
+std::size_t FleetWatch::KeptPoints() const {
+  std::size_t points = 0;
+  for (const auto& [vehicle, kept] : tracks_) points += kept.track.truths.size();
+  return points;
+}
+
+std::optional<Pose> FleetWatch::LastPoint(VehicleId vehicle) const {
+  const auto track = tracks_.find(vehicle);
+  if (track == tracks_.end()) return std::nullopt;
+  return track->second.track.truths.back().world_from_body;
 }
 
 std::vector<VehicleId> FleetWatch::TakeDueKills() { return std::exchange(due_kills_, {}); }
@@ -126,7 +151,7 @@ app::Report FleetWatch::MakeReport(const std::optional<Overruled>& overruled) co
 
 std::string FleetWatch::DrawPicture() const {
   std::vector<app::Track> tracks;
-  for (const auto& [vehicle, track] : tracks_) tracks.push_back(track);
+  for (const auto& [vehicle, kept] : tracks_) tracks.push_back(kept.track);
   return app::DrawRun(scenario_, tracks, events_);
 }
 

@@ -2,6 +2,7 @@
 // vehicle, its track, the events and the figures, and makes the report of it. Pure.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -47,11 +48,27 @@ class FleetWatch {
 
   app::Report MakeReport(const std::optional<Overruled>& overruled) const;
   std::string DrawPicture() const;
+  // For the picture, of all vehicles.
+  std::size_t KeptPoints() const;
+  std::optional<Pose> LastPoint(VehicleId vehicle) const;
 
  private:
   void FoldEvent(const WorldEvent& event);
   void FoldStatus(const VehicleStatus& status);
+  // Of a vehicle's way at most this many points are kept, however long the run: when they are that
+  // many, every other one is left out, and from then on of those that come.
+  static constexpr std::size_t kMostPoints = 8192;
+  static constexpr std::size_t kMostTracks = 1024;
+
+  // One vehicle's way. Its last point is always the newest.
+  struct KeptTrack {
+    app::Track track;
+    std::uint32_t stride = 1;  // of so many points one is kept
+    std::uint32_t since = 0;   // the last one that was kept for good
+  };
+
   void FoldTruth(const Truth& truth);
+  static void Keep(const Truth& truth, KeptTrack* kept);
   std::vector<VehicleId> VehiclesOf(EventKind kind) const;
 
   const Scenario& scenario_;
@@ -62,7 +79,7 @@ class FleetWatch {
   double time_s_ = 0;
   std::set<VehicleId> vehicles_;
   std::map<VehicleId, VehicleStatus> statuses_;
-  std::map<VehicleId, app::Track> tracks_;
+  std::map<VehicleId, KeptTrack> tracks_;
   std::vector<WorldEvent> events_;
   std::vector<VehicleId> due_kills_;
   std::vector<VehicleId> killed_;

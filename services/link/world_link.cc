@@ -113,6 +113,12 @@ void WorldLink::CloseVehicle(VehicleId vehicle) {
   impl_->roster.Retire(vehicle);
 }
 
+void WorldLink::ForgetVehicle(VehicleId vehicle) {
+  wire::Truth truth;
+  truth.vehicle(Number(vehicle));
+  impl_->truth_writer.Retire(truth);
+}
+
 bool WorldLink::IsMatched(VehicleId vehicle) const {
   impl_->FollowDiscovery();
   const auto found = impl_->writers.find(vehicle);
@@ -180,6 +186,10 @@ void WorldLink::Flush(Nanoseconds timeout) {
   impl_->figures_writer.WaitUntilHeard(until);
 }
 
-WorldLinkCounters WorldLink::Counters() const { return impl_->counters; }
+WorldLinkCounters WorldLink::Counters() const {
+  WorldLinkCounters counters = impl_->counters;
+  counters.joins_refused = impl_->joins.Refused();
+  return counters;
+}
 
 }  // namespace giveway::link

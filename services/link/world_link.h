@@ -22,6 +22,7 @@ struct WorldLinkCounters {
   std::uint32_t commands_wrong_name = 0;  // id is not the one of the writer's partition
   std::uint32_t commands_unbound = 0;     // writer's partition not yet known
   std::uint32_t commands_not_finite = 0;  // or with an enumerator unknown here
+  std::uint32_t joins_refused = 0;        // of sessions too many of one process
   std::uint32_t write_failures = 0;
 };
 
@@ -42,6 +43,8 @@ class WorldLink {
   // The vehicle left: ends its writers and takes its roster entry back. It may come again, and may
   // not be sent scans until then. Nothing if it is not open.
   void CloseVehicle(VehicleId vehicle);
+  // Nothing more is told of the vehicle, unless it comes again.
+  void ForgetVehicle(VehicleId vehicle);
   // True once each of the vehicle's writers has a reader and its command writer is matched.
   bool IsMatched(VehicleId vehicle) const;
 

@@ -202,5 +202,26 @@ TEST(FleetWatchOfAnOpenFleet, AFaultOfASignalKillsNobody) {
   EXPECT_TRUE(watch.TakeDueKills().empty());
 }
 
+// Issue 21, number 11: a picture of a long run kept every point, 1.5 GB a day of eight vehicles.
+TEST(FleetWatch, ThinsTheWaysOfALongRunAndKeepsTheirLastPoints) {
+  const Scenario scenario = TwoVehicles();
+  FleetWatch watch(scenario, true);
+  for (std::uint32_t tick = 1; tick <= 50'000; ++tick) {
+    link::Observed observed;
+    for (const VehicleId vehicle : {kOne, kTwo}) {
+      Truth truth;
+      truth.vehicle = vehicle;
+      truth.time_s = tick * 0.05;
+      truth.present = true;
+      truth.world_from_body.position_world = {tick * 0.001, static_cast<double>(Number(vehicle))};
+      observed.truths.push_back(truth);
+    }
+    watch.Fold(observed);
+  }
+  EXPECT_LE(watch.KeptPoints(), 2U * 8192U);
+  EXPECT_GE(watch.KeptPoints(), 2U * 4096U);
+  EXPECT_EQ(watch.LastPoint(kTwo)->position_world.x, 50.0);
+}
+
 }  // namespace
 }  // namespace giveway::fleetctl

@@ -1,0 +1,140 @@
+#!/usr/bin/env bash
+# What comes and goes must cost nothing afterwards. A measurement, not a test: exit code 0 however it
+# comes out, 2 if a process could not be run. On loopback, in a domain of its own.
+#
+#   bash tests/bench/comings_and_goings.sh departed [COUNT]   CPU of a world, and of a vehicle that
+#       stays, before and after so many vehicles (default 64, then 200) came and left; with KILL=1
+#       they die by kill -9
+#   bash tests/bench/comings_and_goings.sh returns [COUNT]    memory of a world over so many kill -9 of
+#       one vehicle that comes back (default 500)
+#   bash tests/bench/comings_and_goings.sh flood [REQUESTS SECONDS]   late ticks and log lines of a
+#       world that is asked for places (default 30000 in 6 s); takes the target join_flood
+#
+# GIVEWAY_BIN_DIR says where the programs are, DOMAIN which domain is taken (default 41).
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+bin=${GIVEWAY_BIN_DIR:?folder of the programs}
+domain=${DOMAIN:-41}
+what=${1:?departed, returns or flood}
+scratch=$(mktemp -d)
+started=()
+# Only what was started here, by its id.
+end_all() {
+  kill -9 "${started[@]}" 2>/dev/null || true
+  wait 2>/dev/null || true
+  rm -rf "$scratch"
+}
+trap end_all EXIT
+
+# Places for forty, far from each other. Who died is taken away after a second, or comes back to where
+# it stands.
+case $what in returns) removal=30 ;; *) removal=1 ;; esac
+{
+  echo 'name: "comings" description: "Vehicles come and go." crossing { x_m: 0 y_m: 0 }'
+  echo "start_with: 1 duration_s: 86400 remove_after_s: $removal expect {}"
+  for x in 0 12 24 36 48 60 72 84; do
+    for y in 0 12 24 36 48; do
+      echo "spawn { start { x_m: $x y_m: $y heading_deg: 0 } cruise_m_s: 0.3 }"
+    done
+  done
+} >"$scratch/comings.textproto"
+
+start() { # NAME PROGRAM FLAG...: its id is in $pid
+  "$bin/$2" --scenario "$scratch/comings.textproto" --domain "$domain" "${@:3}" 2>"$scratch/$1.log" &
+  pid=$!
+  started+=("$pid")
+}
+says() { # NAME TEXT: waits until its log has it
+  local turn
+  for ((turn = 0; turn < 300; ++turn)); do
+    grep -q "$2" "$scratch/$1.log" && return
+    sleep 0.1
+  done
+  tail -3 "$scratch/$1.log" >&2
+  echo "$1 never said: $2" >&2
+  exit 2
+}
+cpu_ns() { awk '{all += $1} END {printf "%.0f\n", all}' /proc/"$1"/task/*/schedstat; }
+# cpu SECONDS PID...: ms of processor time a second, of each
+cpu() {
+  local seconds=$1 before=() pid i=0
+  shift
+  for pid; do before+=("$(cpu_ns "$pid")"); done
+  sleep "$seconds"
+  for pid; do
+    awk -v a="${before[i]}" -v b="$(cpu_ns "$pid")" -v s="$seconds" 'BEGIN {printf "%.1f ", (b - a) / 1e6 / s}'
+    i=$((i + 1))
+  done
+  echo
+}
+memory_kib() { awk '/^Rss:/ {rss = $2} /^Anonymous:/ {anonymous = $2} END {print anonymous}' /proc/"$1"/smaps_rollup; }
+
+port=18541
+start world giveway-world --health-port "$port"
+world=$pid
+
+case $what in
+  departed)
+    start staying giveway-vehicle --id 1
+    staying=$pid
+    says world 'started with'
+    sleep 3
+    echo "ms/s of the world, of the one that stays"
+    echo "before: $(cpu 20 "$world" "$staying")"
+    id=1000
+    for total in ${2:-64 200}; do
+      while ((id < 1000 + total)); do
+        batch=()
+        for ((i = 0; i < 8 && id < 1000 + total; ++i, ++id)); do
+          start "v$id" giveway-vehicle --id "$id"
+          batch+=("$pid")
+        done
+        for ((i = id - ${#batch[@]}; i < id; ++i)); do says world "vehicle $i joined"; done
+        sleep 1
+        if [[ -n ${KILL:-} ]]; then kill -9 "${batch[@]}"; else kill "${batch[@]}"; fi
+        wait "${batch[@]}" 2>/dev/null || true
+      done
+      sleep 15 # the leases of those that died
+      echo "after $total: $(cpu 20 "$world" "$staying")"
+    done
+    ;;
+  returns)
+    start staying giveway-vehicle --id 1
+    says world 'started with'
+    echo "returns, anonymous memory of the world in KiB"
+    for ((n = 0; n <= ${2:-500}; ++n)); do
+      if ((n % 50 == 0)); then
+        sleep 12 # the leases of those that died
+        echo "$n $(memory_kib "$world")"
+      fi
+      : >"$scratch/back.log"
+      start back giveway-vehicle --id 2
+      for ((i = 0; i < 300; ++i)); do
+        grep -q ' cruise' "$scratch/back.log" && break
+        sleep 0.05
+      done
+      kill -9 "$pid"
+      wait "$pid" 2>/dev/null || true
+      unset 'started[-1]'
+    done
+    ;;
+  flood)
+    start staying giveway-vehicle --id 1
+    says world 'started with'
+    late() { curl -s "http://127.0.0.1:$port/metrics" | grep '_late_ticks' | grep -v '#'; }
+    lines=$(wc -l <"$scratch/world.log")
+    late
+    "$bin/join_flood" "$domain" "${2:-30000}" "${3:-6}" config/qos/default.xml
+    late
+    echo "lines logged: $(($(wc -l <"$scratch/world.log") - lines))"
+    grep -c 'joined the run' "$scratch/world.log" | sed 's/^/ghosts and others that joined: /'
+    kill -TERM "$world"
+    wait "$world" 2>/dev/null || true
+    tail -4 "$scratch/world.log"
+    tail -2 "$scratch/staying.log"
+    ;;
+  *)
+    echo "unknown: $what; see the head of $0" >&2
+    exit 2
+    ;;
+esac
