@@ -28,6 +28,13 @@ inline link::LinkOptions LinkOptionsOf(const app::ServiceFlags& flags, const Sce
       .discovery_servers = flags.discovery_servers};
 }
 
+// Only vehicles hear through it: the world's ears are the wires to the wheels.
+inline Impairment ImpairmentOf(const app::ServiceFlags& flags, const Scenario& scenario) {
+  Impairment impairment = flags.impair.value_or(scenario.impairment);
+  if (!impairment.seed) impairment.seed = scenario.seed;
+  return impairment;
+}
+
 // A reader of the log that has stopped delays the end by no more.
 inline constexpr Nanoseconds kFlushLog = std::chrono::milliseconds(200);
 

@@ -47,6 +47,11 @@ VehicleAdmin::VehicleAdmin(link::VehicleLink* link, const link::LinkOptions& opt
       lockstep_(lockstep),
       in_use_(std::move(in_use)) {}
 
+AdminOrder VehicleAdmin::Pending() const {
+  if (pending_) return *pending_;
+  return {.vehicle = vehicle_, .number = 0, .kind = OrderKind::kApply, .profiles = in_use_};
+}
+
 void VehicleAdmin::AnswerResumed(std::uint64_t order) { Answer(order, AnswerState::kInEffect); }
 
 bool VehicleAdmin::Serve() {

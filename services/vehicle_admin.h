@@ -24,8 +24,8 @@ class VehicleAdmin {
   void AnswerResumed(std::uint64_t order);
   // Carries out the orders that have come. True if one takes a restart: those behind it are lost.
   bool Serve();
-  // The order that a restart is for.
-  const AdminOrder& Pending() const { return *pending_; }
+  // The order that a restart is for; where there is none, number 0 and the profiles in use.
+  AdminOrder Pending() const;
 
  private:
   // True if it takes a restart.

@@ -73,6 +73,8 @@ std::optional<RosterEntry> Join(link::VehicleLink* link, const app::StopSignal& 
     app::SleepUntil(app::SteadyNow() + kPoll);
     if (app::SteadyNow() < remind) continue;
     remind += kReminder;
+    const std::string change = link->InterfaceChange();
+    if (!change.empty()) throw link::LinkError(change + "; ends, to be started again");
     if (asking.Answered()) continue;
     const std::string no_servers = link->WhyNobodyIsFound();
     app::LogWarning(!no_servers.empty()

@@ -25,6 +25,7 @@
 #include "services/vehicle/vehicle.h"
 #include "services/vehicle_admin.h"
 #include "services/vehicle_health.h"
+#include "services/vehicle_hearing.h"
 #include "services/vehicle_join.h"
 #include "services/vehicle_report.h"
 #include "services/world_time.h"
@@ -40,7 +41,7 @@ constexpr Nanoseconds kFlushTimeout = milliseconds(300);
 constexpr Nanoseconds kHaltPatience = std::chrono::seconds(5);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
 
-enum class DriveEnd { kOver, kRefused, kRestarts };
+enum class DriveEnd { kOver, kRefused, kRestarts, kDeaf };
 
 // The loop and what it must remember between two turns.
 class Loop {
@@ -71,7 +72,9 @@ class Loop {
   // operator's order takes a restart. Halts and says good-bye if the run goes on without it; for
   // good only in the second case, in the last it keeps its place.
   DriveEnd Drive(const app::StopSignal& stop) {
-    while (!stop.IsSet() && !IsOver() && !restarts_) Turn(false);
+    while (!stop.IsSet() && !IsOver() && !restarts_ && remedy_ == Remedy::kNone) Turn(false);
+    if (remedy_ == Remedy::kNewProcess) return DriveEnd::kDeaf;
+    restarts_ = restarts_ || remedy_ == Remedy::kNewParticipant;
     if (restarts_) Halt(stop);
     const bool restarts = restarts_ && !IsOver();
     health_.Leaves();
@@ -197,6 +200,8 @@ class Loop {
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
     Tell(events);
     if (!leaving && !restarts_ && admin_.Serve()) restarts_ = true;
+    const bool looks = !leaving && !restarts_ && !lockstep_;
+    if (looks) remedy_ = hearing_.Look(woke, inputs.scan.has_value());
     TellOfBeacons(inputs.now, woke);
     if (outputs.decision_changed || woke >= next_status_) {
       health_.Reported(report_.Send(vehicle_, link_));
@@ -260,6 +265,8 @@ class Loop {
   std::optional<Asking> asking_;     // for another place
   bool refused_ = false;
   bool restarts_ = false;
+  Hearing hearing_{&link_};
+  Remedy remedy_ = Remedy::kNone;
   VehicleReport report_;
   BeaconNews beacon_news_;
   bool told_blackouts_ = false;
@@ -268,13 +275,6 @@ class Loop {
   SteadyTime next_status_{0};
   WorldTime world_time_;
 };
-
-// Only vehicles hear through it: the world's ears are the wires to the wheels.
-Impairment ImpairmentOf(const app::ServiceFlags& flags, const Scenario& scenario) {
-  Impairment impairment = flags.impair.value_or(scenario.impairment);
-  if (!impairment.seed) impairment.seed = scenario.seed;
-  return impairment;
-}
 
 // What it takes to come back as the same vehicle with the profiles of an order.
 app::NewFlags ToComeBack(const Loop& loop, const AdminOrder& order) {
@@ -311,7 +311,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   const VehicleOptions options = OptionsOf(scenario, *entry);
   link.Open(options.id, options.profile, !scenario.signals.empty());
   VehicleAdmin admin(&link, link_options, options.id, profiles, flags.lockstep);
-  if (flags.resume) admin.AnswerResumed(flags.resume->order);
+  if (flags.resume && flags.resume->order != 0) admin.AnswerResumed(flags.resume->order);
   std::optional<app::HangSignal> hang;
   if (flags.hang_on_signal) hang.emplace();
   Loop loop(&link, &admin, &health, scenario, *entry, flags, recorder ? &*recorder : nullptr);
@@ -319,6 +319,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   app::LogInfo(Describe(link.Counters()));
   if (const auto impaired = link.Impaired()) app::LogInfo(Describe(*impaired));
   if (end == DriveEnd::kRefused) *exit_code = 2;
+  if (end == DriveEnd::kDeaf) *exit_code = 1;
   if (end != DriveEnd::kRestarts) return {};
   return ToComeBack(loop, admin.Pending());
 }

@@ -27,7 +27,8 @@ std::vector<Interface> Ipv4Interfaces() {
     char text[INET_ADDRSTRLEN];
     if (inet_ntop(AF_INET, &address.sin_addr, text, sizeof(text)) == nullptr) continue;
     const auto says = [at](unsigned flag) { return (at->ifa_flags & flag) != 0; };
-    found.push_back({at->ifa_name, text, says(IFF_UP), says(IFF_LOOPBACK), says(IFF_MULTICAST)});
+    found.push_back({at->ifa_name, text, says(IFF_UP), says(IFF_LOOPBACK), says(IFF_MULTICAST),
+                     if_nametoindex(at->ifa_name)});
   }
   return found;
 }

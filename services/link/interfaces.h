@@ -14,6 +14,7 @@ struct Interface {
   bool up = true;
   bool loopback = false;
   bool says_multicast = true;  // its flag; a loopback has none and carries multicast all the same
+  unsigned index = 0;          // the kernel's; one that is made again has another
 };
 
 // Throws LinkError.

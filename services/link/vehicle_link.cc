@@ -5,6 +5,7 @@
 #include "services/link/beacon_inbox.h"
 #include "services/link/convert.h"
 #include "services/link/impairer.h"
+#include "services/link/interface_watch.h"
 #include "services/link/library_log.h"
 #include "services/link/participant.h"
 #include "services/link/peer_events.h"
@@ -151,6 +152,7 @@ struct VehicleLink::Impl {
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
   LinkOptions options;
+  InterfaceWatch interfaces{options.interface};  // before the participant binds to them
   WriterNames names;  // the library calls these three until the participant is gone, so they are
   ReaderEvents events{&RemoveDeparted<wire::Beacon>};  // declared before it
   std::optional<ReaderEvents> signal_events;
@@ -190,6 +192,22 @@ std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& tol
 }
 
 std::string VehicleLink::WhyNobodyIsFound() const { return impl_->participant.WhyNobodyIsFound(); }
+
+std::string VehicleLink::InterfaceChange() const { return impl_->interfaces.Change(); }
+
+bool VehicleLink::WorldSpeaks() const {
+  if (!impl_->own) return false;
+  dds::DataReader& reader = impl_->own->ranges.Entity();
+  dds::SubscriptionMatchedStatus matched;
+  if (!Ok(reader.get_subscription_matched_status(matched)) || matched.current_count == 0) {
+    return false;
+  }
+  // Without a lease the library keeps no account of who lives.
+  const Duration& lease = reader.get_qos().liveliness().lease_duration;
+  if (NanosecondsOf(lease) == kInfiniteDuration) return true;
+  dds::LivelinessChangedStatus liveliness;
+  return Ok(reader.get_liveliness_changed_status(liveliness)) && liveliness.alive_count > 0;
+}
 
 void VehicleLink::SendJoin(const JoinRequest& request) { impl_->SendJoin(request); }
 

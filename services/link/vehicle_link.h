@@ -61,6 +61,13 @@ class VehicleLink {
   // One sentence while discovery servers are to be used and none has answered; else empty.
   std::string WhyNobodyIsFound() const;
 
+  // What changed of the network interfaces since this link was made, where that leaves it deaf;
+  // else empty. Throws LinkError.
+  std::string InterfaceChange() const;
+  // Whether the writer of this vehicle's ranges is matched and alive, whatever comes of its
+  // samples.
+  bool WorldSpeaks() const;
+
   // Kept for worlds that start later: each of them finds the newest request of a session.
   void SendJoin(const JoinRequest& request);
   // Waits until every matched world has the last request, or `timeout`.

@@ -1,5 +1,5 @@
 giveway_test(unit vehicle
-  SOURCES beacon_news_test.cc ../../services/beacon_news.cc beacon_check_test.cc
+  SOURCES beacon_news_test.cc ../../services/beacon_news.cc beacon_check_test.cc deaf_watch_test.cc
           blocked_test.cc box_test.cc caught_test.cc claim_test.cc conflict_test.cc decide_test.cc
           detour_test.cc doubt_test.cc echoes_test.cc imperfect_sonar_test.cc lecture_test.cc
           look_test.cc objects_test.cc odometry_test.cc peer_table_test.cc range_view_test.cc

@@ -1,0 +1,50 @@
+// What of the interfaces leaves a participant deaf. No interface is touched.
+#include "services/link/interface_watch.h"
+
+#include <gmock/gmock.h>
+
+namespace giveway::link {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+Interface Of(const std::string& name, const std::string& address, unsigned index) {
+  return {.name = name, .address = address, .loopback = name == "lo", .index = index};
+}
+
+const Interface kLo = Of("lo", "127.0.0.1", 1);
+const Interface kEth = Of("eth0", "172.18.0.3", 7);
+
+TEST(InterfaceWatch, SaysNothingWhileAllAreThere) {
+  for (const char* meant : {"any", "eth0", "172.18.0.3"}) {
+    EXPECT_THAT(ChangeOf(meant, {kLo, kEth}, {kLo, kEth}), IsEmpty());
+    EXPECT_THAT(ChangeOf(meant, {kLo, kEth}, {kLo, kEth, Of("eth1", "10.0.0.2", 9)}), IsEmpty());
+  }
+}
+
+TEST(InterfaceWatch, WaitsWhileOneIsAway) {
+  for (const char* meant : {"any", "eth0", "172.18.0.3"}) {
+    EXPECT_THAT(ChangeOf(meant, {kLo, kEth}, {kLo}), IsEmpty()) << meant;
+  }
+}
+
+TEST(InterfaceWatch, SeesOneThatCameBackOtherwise) {
+  const Interface address = Of("eth0", "172.18.0.4", 7);
+  const Interface device = Of("eth0", "172.18.0.3", 9);
+  for (const char* meant : {"any", "eth0", "172.18.0.3"}) {
+    EXPECT_THAT(ChangeOf(meant, {kLo, kEth}, {kLo, address}), HasSubstr("eth0 (172.18.0.4)"))
+        << meant;
+    EXPECT_THAT(ChangeOf(meant, {kLo, kEth}, {kLo, device}), HasSubstr("eth0")) << meant;
+  }
+  EXPECT_THAT(ChangeOf("any", {kLo, kEth}, {kLo, Of("eth1", "172.18.0.4", 9)}), HasSubstr("eth1"));
+  EXPECT_THAT(ChangeOf("any", {kLo}, {kLo, kEth}), HasSubstr("was none"));
+}
+
+TEST(InterfaceWatch, KeepsToTheInterfaceThatIsMeant) {
+  EXPECT_THAT(ChangeOf("lo", {kLo, kEth}, {kLo, Of("eth0", "172.18.0.4", 9)}), IsEmpty());
+  EXPECT_THAT(ChangeOf("eth0", {kLo, kEth}, {kLo, Of("eth1", "10.0.0.2", 9)}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace giveway::link
