@@ -39,8 +39,10 @@ case $what in returns) removal=30 ;; *) removal=1 ;; esac
   done
 } >"$scratch/comings.textproto"
 
-start() { # NAME PROGRAM FLAG...: its id is in $pid
-  "$bin/$2" --scenario "$scratch/comings.textproto" --domain "$domain" "${@:3}" 2>"$scratch/$1.log" &
+start() { # NAME PROGRAM FLAG...: its id is in $pid; NAME_beside is in a fleet apart
+  local there=$domain
+  [[ $1 != *_beside ]] || there=$((domain + 1))
+  "$bin/$2" --scenario "$scratch/comings.textproto" --domain "$there" "${@:3}" 2>"$scratch/$1.log" &
   pid=$!
   started+=("$pid")
 }
@@ -79,8 +81,15 @@ case $what in
     staying=$pid
     says world 'started with'
     sleep 3
-    echo "ms/s of the world, of the one that stays"
-    echo "before: $(cpu 20 "$world" "$staying")"
+    # Where nothing comes or goes: what the machine itself changes meanwhile.
+    start world_beside giveway-world
+    world_beside=$pid
+    start staying_beside giveway-vehicle --id 1
+    beside=("$world_beside" "$pid")
+    says world_beside 'started with'
+    sleep 3
+    echo "ms/s of the world, of the one that stays; and of a world and a vehicle left in peace"
+    echo "before: $(cpu 20 "$world" "$staying" "${beside[@]}")"
     id=1000
     for total in ${2:-64 200}; do
       while ((id < 1000 + total)); do
@@ -95,7 +104,7 @@ case $what in
         wait "${batch[@]}" 2>/dev/null || true
       done
       sleep 15 # the leases of those that died
-      echo "after $total: $(cpu 20 "$world" "$staying")"
+      echo "after $total: $(cpu 20 "$world" "$staying" "${beside[@]}")"
     done
     ;;
   returns)
