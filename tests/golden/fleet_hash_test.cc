@@ -37,10 +37,10 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
-                         testing::Values(Golden{Behaviour::kCooperative, 0x30b95ee0c7faa957ULL},
+                         testing::Values(Golden{Behaviour::kCooperative, 0x177315419dbb48b5ULL},
                                          Golden{Behaviour::kLectureAvoid, 0xfa667c8a15b53f38ULL},
                                          Golden{Behaviour::kStockAvoid, 0xaa467e89e787cc05ULL},
-                                         Golden{Behaviour::kLectureYield, 0xb2bd7845c8cd7fcfULL},
+                                         Golden{Behaviour::kLectureYield, 0xdc5d190684d77a14ULL},
                                          Golden{Behaviour::kLecturePrinted, 0xe3978ff6ef5fa30aULL}),
                          [](const auto& test) { return std::string(Name(test.param.behaviour)); });
 
@@ -61,13 +61,13 @@ TEST_P(ScenarioHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioHash,
-                         testing::Values(GoldenScenario{"head_on", 0x2654d1140322255bULL},
-                                         GoldenScenario{"three_way", 0x0231315cb376c555ULL},
-                                         GoldenScenario{"four_way", 0x17523018fafc9a84ULL},
-                                         GoldenScenario{"deaf", 0xa509b5e239de4019ULL},
+                         testing::Values(GoldenScenario{"head_on", 0xffcdebfcdff7c6ddULL},
+                                         GoldenScenario{"three_way", 0xc6792d79a9da48e3ULL},
+                                         GoldenScenario{"four_way", 0x05161cc1a9dca48dULL},
+                                         GoldenScenario{"deaf", 0xe4986410270e132aULL},
                                          GoldenScenario{"parked_nose_to_nose",
-                                                        0xc76fb8b9625a03aeULL},
-                                         GoldenScenario{"convoy", 0xedfb2a4d9f56cb07ULL}),
+                                                        0x05c004ef78eebef9ULL},
+                                         GoldenScenario{"convoy", 0xe94ddefe951d27c0ULL}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace
