@@ -11,6 +11,7 @@
 #include "services/app/fault_reminder.h"
 #include "services/app/health_service.h"
 #include "services/app/process.h"
+#include "services/app/refusal_log.h"
 #include "services/link/world_link.h"
 #include "services/types/parallel.h"
 #include "sim_world/admission.h"
@@ -73,6 +74,7 @@ class WorldLoop {
   bool TellTheEnd(Nanoseconds patience);
   void TellHealth(app::HealthStage stage);
   void SayIfAlone();
+  void TellOfOldWorld(const MotorCommand& command);
 
   const Scenario& scenario_;
   link::WorldLink& link_;
@@ -86,7 +88,8 @@ class WorldLoop {
   SteadyTime say_alone_;  // when it is next said that no discovery server answers
   std::map<VehicleId, Hearing> heard_;
   std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
-  std::size_t speaking_ = 0;                 // of those that are in
+  app::RefusalLog refusal_log_;
+  std::size_t speaking_ = 0;  // of those that are in
   std::vector<MotorCommand> commands_;
   std::uint32_t overruns_ = 0;
   SteadyTime next_checkpoint_{0};

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "services/app/health_service.h"
+#include "services/app/identity.h"
 #include "services/app/parallel_for.h"
 #include "services/app/process.h"
 #include "services/app/scenario_file.h"
@@ -77,6 +78,7 @@ int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   };
   if (!AwaitServers(link_options, stop, tell)) return 0;
   link::WorldLink link(link_options);
+  app::PublishIdentity({kNobody, link.ParticipantText()});
   const bool passed = WorldLoop(scenario, &link, &health, options).Drive(stop);
   return passed || stop.IsSet() ? 0 : 1;  // to stop when asked to is no failure
 }

@@ -3,6 +3,7 @@
 
 #include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/observer_flags.h"
+#include "services/fleetctl/other_fleets.h"
 #include "services/fleetctl/qos_apply.h"
 #include "services/fleetctl/verbs.h"
 
@@ -62,6 +63,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->callback([options, exit_code] {
     CheckTargets(*options);
+    SayOtherFleets(options->where.domain, options->where.interface);
     *exit_code = RunQosApply(*options);
   });
 }
