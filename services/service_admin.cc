@@ -58,6 +58,7 @@ void ServiceAdmin::AnswerResumed(std::uint64_t order, const std::string& rolled_
 
 bool ServiceAdmin::Serve() {
   if (trial_) return FinishTrial();
+  if (pending_) return false;  // it is about to restart
   for (const AdminOrder& order : link_.TakeOrders()) {
     if (order.vehicle != vehicle_) continue;
     if (order.kind == OrderKind::kTell) {
