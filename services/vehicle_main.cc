@@ -18,12 +18,12 @@
 #include "services/beacon_news.h"
 #include "services/link/library_release.h"
 #include "services/link/vehicle_link.h"
-#include "services/qos_at_start.h"
 #include "services/server_wait.h"
+#include "services/service_admin.h"
 #include "services/service_main.h"
+#include "services/service_run.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/vehicle.h"
-#include "services/vehicle_admin.h"
 #include "services/vehicle_health.h"
 #include "services/vehicle_hearing.h"
 #include "services/vehicle_join.h"
@@ -47,7 +47,7 @@ enum class DriveEnd { kOver, kRefused, kRestarts, kDeaf };
 class Loop {
  public:
   // `recorder` is null where nothing is recorded.
-  Loop(link::VehicleLink* link, VehicleAdmin* admin, VehicleHealthTeller* health,
+  Loop(link::VehicleLink* link, ServiceAdmin* admin, VehicleHealthTeller* health,
        const Scenario& scenario, const RosterEntry& entry, const app::ServiceFlags& flags,
        app::Recorder* recorder)
       : link_(*link),
@@ -251,7 +251,7 @@ class Loop {
   }
 
   link::VehicleLink& link_;
-  VehicleAdmin& admin_;
+  ServiceAdmin& admin_;
   VehicleHealthTeller& health_;
   const Scenario& scenario_;
   const bool lockstep_;
@@ -277,11 +277,12 @@ class Loop {
 };
 
 // What it takes to come back as the same vehicle with the profiles of an order.
-app::NewFlags ToComeBack(const Loop& loop, const AdminOrder& order) {
-  return {{"--id", std::to_string(Number(loop.Id()))},
-          {"--qos", app::HoldText(order.profiles.name, order.profiles.text)},
-          {"--resume",
-           app::HoldText("resume", app::ToBytes({loop.Session(), order.number, loop.HandOver()}))}};
+app::NewFlags ToComeBack(const Loop& loop, const ServiceAdmin& admin) {
+  app::NewFlags flags = admin.ToComeBack();
+  flags["--id"] = std::to_string(Number(loop.Id()));
+  flags["--resume"] =
+      app::HoldText("resume", app::ToBytes({loop.Session(), admin.Order(), loop.HandOver()}));
+  return flags;
 }
 
 // From joining to the end of the link. Empty where the process ends with `exit_code`.
@@ -310,8 +311,11 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   if (flags.id == 0) app::LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   const VehicleOptions options = OptionsOf(scenario, *entry);
   link.Open(options.id, options.profile, !scenario.signals.empty());
-  VehicleAdmin admin(&link, link_options, options.id, profiles, flags.lockstep);
-  if (flags.resume && flags.resume->order != 0) admin.AnswerResumed(flags.resume->order);
+  ServiceAdmin admin(&link, link_options, options.id, profiles, flags.lockstep);
+  if (flags.resume && flags.resume->order != 0) {
+    admin.AnswerResumed(flags.resume->order, flags.rolled_back);
+  }
+  app::LetGo(flags.former_qos);
   std::optional<app::HangSignal> hang;
   if (flags.hang_on_signal) hang.emplace();
   Loop loop(&link, &admin, &health, scenario, *entry, flags, recorder ? &*recorder : nullptr);
@@ -321,7 +325,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   if (end == DriveEnd::kRefused) *exit_code = 2;
   if (end == DriveEnd::kDeaf) *exit_code = 1;
   if (end != DriveEnd::kRestarts) return {};
-  return ToComeBack(loop, admin.Pending());
+  return ToComeBack(loop, admin);
 }
 
 int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
@@ -330,15 +334,8 @@ int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
-  RequireSoundQos(flags.qos, scenario);
-  int exit_code = 0;
-  const auto new_flags = Live(flags, scenario, stop, &exit_code);
-  if (!new_flags) return exit_code;
-  app::HoldSignalsBack();
-  // A stop that came while the link was closed would be forgotten by a new process image.
-  if (stop.IsSet()) return exit_code;
-  app::FlushLog(kFlushLog);
-  app::RestartWith(*new_flags);
+  return RunService(flags, scenario, stop,
+                    [&](int* exit_code) { return Live(flags, scenario, stop, exit_code); });
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/app/state_file.h"
+#include "sim_world/event_line.h"
 #include "sim_world/ticks.h"
 
 namespace giveway {
@@ -25,28 +26,9 @@ constexpr Nanoseconds kDeafStand = seconds(3);
 
 std::string Text(VehicleId vehicle) { return std::to_string(Number(vehicle)); }
 
-// What an operator should read of it; empty for what only observers need.
-std::string LogLine(const WorldEvent& event) {
-  switch (event.kind) {
-    case EventKind::kContact:
-      return "contact: vehicle " + Text(event.vehicle) + " touched " +
-             (event.other == kNobody ? "something" : "vehicle " + Text(event.other));
-    case EventKind::kFaultDue:
-      return "fault due: " + event.text;
-    case EventKind::kSilent:
-      return "vehicle " + Text(event.vehicle) + " fell silent";
-    case EventKind::kRemoved:
-      return "vehicle " + Text(event.vehicle) + " was silent for long: its body is taken away";
-    case EventKind::kJoined:
-      return "vehicle " + Text(event.vehicle) + " joined the run";
-    case EventKind::kLeft:
-      return "vehicle " + Text(event.vehicle) + " left the run";
-    default:
-      return {};
-  }
-}
-
-WorldEpoch NewEpoch(const std::optional<sim::FleetCheckpoint>& checkpoint) {
+WorldEpoch EpochOf(const WorldLoopOptions& options) {
+  const std::optional<sim::FleetCheckpoint>& checkpoint = options.checkpoint;
+  if (checkpoint && options.same_epoch) return checkpoint->run.epoch;
   WorldEpoch epoch{app::RandomNonZero()};
   while (checkpoint && epoch == checkpoint->run.epoch) epoch = WorldEpoch{app::RandomNonZero()};
   return epoch;
@@ -54,20 +36,20 @@ WorldEpoch NewEpoch(const std::optional<sim::FleetCheckpoint>& checkpoint) {
 
 }  // namespace
 
-WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link,
+WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdmin* admin,
                      app::HealthService<app::WorldHealth>* health, const WorldLoopOptions& options)
     : scenario_(scenario),
       link_(*link),
+      admin_(*admin),
       health_(*health),
       options_(options),
-      epoch_(NewEpoch(options.checkpoint)),
+      epoch_(EpochOf(options)),
       fleet_(std::make_unique<Fleet>(scenario, epoch_, options.parallel)),
       start_by_(app::SteadyNow() + FromSeconds(scenario.start_timeout_s)),
       say_alone_(app::SteadyNow() + kReminder) {
   if (options_.checkpoint) Resume(*options_.checkpoint);
   if (options_.checkpoint_file.empty()) return;
-  const std::string complaint = app::WriteStateFile(
-      options_.checkpoint_file, sim::ToBytes(fleet_->admission.Save(options_.scenario_mark)));
+  const std::string complaint = app::WriteStateFile(options_.checkpoint_file, State());
   if (!complaint.empty()) throw std::runtime_error("--checkpoint " + complaint);
 }
 
@@ -87,7 +69,11 @@ void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
                " vehicles, " + std::to_string(fleet_->run.TimeSeconds()) + " s after the start");
 }
 
-bool WorldLoop::Drive(const app::StopSignal& stop) {
+std::string WorldLoop::State() const {
+  return sim::ToBytes(fleet_->admission.Save(options_.scenario_mark));
+}
+
+WorldEnd WorldLoop::Drive(const app::StopSignal& stop) {
   app::Ticker ticker(scenario_.tick_period);
   while (fleet_->run.State() != RunState::kEnded) {
     const std::uint32_t missed = ticker.Wait();
@@ -98,9 +84,16 @@ bool WorldLoop::Drive(const app::StopSignal& stop) {
     KeepCheckpoint();
     TellHealth(app::HealthStage::kUnderWay);
     SayIfAlone();
+    const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
+    if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
+    if (admin_.Serve() && !stop.IsSet()) {
+      link_.FlushAnswer(kFlushTimeout);  // who does not hear the next scan halts
+      return WorldEnd::kRestarts;
+    }
   }
   TellHealth(app::HealthStage::kLeaving);
-  return TellTheEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
+  const bool passed = TellTheEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
+  return passed ? WorldEnd::kPassed : WorldEnd::kFailed;
 }
 
 void WorldLoop::RunTick() {
@@ -289,8 +282,7 @@ void WorldLoop::KeepCheckpoint() {
   const SteadyTime begun = app::SteadyNow();
   if (options_.checkpoint_file.empty() || begun < next_checkpoint_) return;
   next_checkpoint_ = begun + kCheckpointPeriod;
-  const std::string complaint = app::WriteStateFile(
-      options_.checkpoint_file, sim::ToBytes(fleet_->admission.Save(options_.scenario_mark)));
+  const std::string complaint = app::WriteStateFile(options_.checkpoint_file, State());
   const std::string line = checkpoint_fault_.Note(complaint, begun);
   if (!line.empty()) app::LogWarning("checkpoint " + line);
   longest_checkpoint_ = std::max(longest_checkpoint_, app::SteadyNow() - begun);

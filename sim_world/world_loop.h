@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "services/app/health_service.h"
 #include "services/app/process.h"
 #include "services/link/world_link.h"
+#include "services/service_admin.h"
 #include "services/types/parallel.h"
 #include "sim_world/admission.h"
 #include "sim_world/line_budget.h"
@@ -26,15 +28,21 @@ struct WorldLoopOptions {
   std::string checkpoint_file;                     // empty: none is kept
   std::uint64_t scenario_mark = 0;                 // see sim::FleetCheckpoint
   std::optional<sim::FleetCheckpoint> checkpoint;  // to go on from
+  bool same_epoch = false;        // it restarted itself, and nothing has moved since
+  std::function<void()> on_back;  // called once it goes on; may be empty
 };
+
+enum class WorldEnd : std::uint8_t { kPassed, kFailed, kRestarts };
 
 class WorldLoop {
  public:
-  WorldLoop(const Scenario& scenario, link::WorldLink* link,
+  WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdmin* admin,
             app::HealthService<app::WorldHealth>* health, const WorldLoopOptions& options);
 
-  // Runs to the end. True if everything expected came true.
-  bool Drive(const app::StopSignal& stop);
+  // Runs to the end, or until an operator's order takes a restart.
+  WorldEnd Drive(const app::StopSignal& stop);
+  // All that another process needs to go on from here.
+  std::string State() const;
 
  private:
   struct Fleet {
@@ -78,8 +86,9 @@ class WorldLoop {
 
   const Scenario& scenario_;
   link::WorldLink& link_;
+  ServiceAdmin& admin_;
   app::HealthService<app::WorldHealth>& health_;
-  const WorldLoopOptions options_;
+  WorldLoopOptions options_;
   WorldEpoch epoch_;
   std::unique_ptr<Fleet> fleet_;
   std::optional<std::vector<VehicleId>> resumed_with_;  // who must be back before it goes on

@@ -10,13 +10,16 @@
 #include "services/app/health_service.h"
 #include "services/app/parallel_for.h"
 #include "services/app/process.h"
+#include "services/app/restart.h"
 #include "services/app/scenario_file.h"
 #include "services/app/state_file.h"
+#include "services/app/text_file.h"
 #include "services/link/library_release.h"
 #include "services/link/world_link.h"
-#include "services/qos_at_start.h"
 #include "services/server_wait.h"
+#include "services/service_admin.h"
 #include "services/service_main.h"
+#include "services/service_run.h"
 #include "services/types/state_hash.h"
 #include "sim_world/world_loop.h"
 
@@ -54,31 +57,58 @@ std::optional<sim::FleetCheckpoint> ReadCheckpoint(const std::string& file, std:
   return std::nullopt;
 }
 
-int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
-  app::InitLog("world", flags.log_format, flags.log_level);
-  app::HealthService<app::WorldHealth> health(flags);
-  const Scenario scenario = app::LoadScenario(
-      flags.scenario,
-      {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
-  RequireSoundQos(flags.qos, scenario);
-  app::ParallelPool pool(flags.threads);
+WorldLoopOptions LoopOptionsOf(const app::ServiceFlags& flags, const Scenario& scenario) {
   WorldLoopOptions options{.lockstep = flags.lockstep,
-                           .parallel = pool.Function(),
                            .checkpoint_file = flags.checkpoint,
                            .scenario_mark = MarkOf(flags, scenario),
-                           .checkpoint = {}};
-  if (!flags.checkpoint.empty()) {
-    options.checkpoint = ReadCheckpoint(flags.checkpoint, options.scenario_mark);
-  }
+                           .checkpoint = {},
+                           .same_epoch = !flags.go_on_from.empty()};
+  const std::string& file = options.same_epoch ? flags.go_on_from : flags.checkpoint;
+  if (!file.empty()) options.checkpoint = ReadCheckpoint(file, options.scenario_mark);
+  return options;
+}
+
+// From the link's first moment to its last. The flags to come back with where it restarts.
+std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario& scenario,
+                                  const app::StopSignal& stop, int* exit_code) {
+  app::HealthService<app::WorldHealth> health(flags);
+  app::ParallelPool pool(flags.threads);
+  WorldLoopOptions options = LoopOptionsOf(flags, scenario);
+  options.parallel = pool.Function();
   const link::LinkOptions link_options = LinkOptionsOf(flags, scenario);
   const auto tell = [&](const std::string& why) {
     health.Now().waits_for = app::ShortText(why);
     health.Tell();
   };
-  if (!AwaitServers(link_options, stop, tell)) return 0;
+  if (!AwaitServers(link_options, stop, tell)) return {};
   link::WorldLink link(link_options);
-  const bool passed = WorldLoop(scenario, &link, &health, options).Drive(stop);
-  return passed || stop.IsSet() ? 0 : 1;  // to stop when asked to is no failure
+  ServiceAdmin admin(&link, link_options, kNobody,
+                     {app::NameOf(flags.qos), app::ReadBytes(flags.qos)}, flags.lockstep);
+  for (const std::string& held : {flags.qos, flags.former_qos, flags.go_on_from}) app::LetGo(held);
+  if (flags.resume) {
+    options.on_back = [&] { admin.AnswerResumed(flags.resume->order, flags.rolled_back); };
+  }
+  WorldLoop loop(scenario, &link, &admin, &health, options);
+  const WorldEnd end = loop.Drive(stop);
+  if (end == WorldEnd::kRestarts) {
+    app::NewFlags back = admin.ToComeBack();
+    back["--resume"] =
+        app::HoldText("resume", app::ToBytes({SessionId{}, admin.Order(), std::nullopt}));
+    back["--go-on-from"] = app::HoldText("run", loop.State());
+    return back;
+  }
+  // To stop when asked to is no failure.
+  *exit_code = end == WorldEnd::kPassed || stop.IsSet() ? 0 : 1;
+  return {};
+}
+
+int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
+  app::InitLog("world", flags.log_format, flags.log_level);
+  const Scenario scenario = app::LoadScenario(
+      flags.scenario,
+      {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  return RunService(flags, scenario, stop,
+                    [&](int* exit_code) { return Live(flags, scenario, stop, exit_code); });
 }
 
 }  // namespace

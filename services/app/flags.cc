@@ -47,13 +47,20 @@ class CommandLine {
           "none; the README lists the keys");
       AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
-      Add("--resume", "FILE", "given by a vehicle to itself when an operator's order restarts it");
       AddSwitch("--hang-on-signal",
                 "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
     }
+    Add("--try-qos", "FILE",
+        "make every endpoint of this set once, say whether that succeeds, and end");
+    Add("--resume", "FILE",
+        "this and the next are given by a service to itself when an order\n"
+        "restarts it");
+    Add("--former-qos", "FILE", "the set it had before");
+    Add("--rolled-back", "TEXT", "why it came back with that");
+    if (service == Service::kWorld) Add("--go-on-from", "FILE", "the run as it was");
     Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
     Add("--behaviour", "NAME",
         "cooperative, lecture_avoid, stock_avoid, lecture_yield, or\n"
@@ -202,15 +209,19 @@ ServiceFlags Read(Service service, FlagValues* values) {
     flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
     ReadRecord(values, &flags);
     flags.impair = ReadImpairment(values);
-    flags.resume = ReadResumed(values);
     flags.stay = values->Switch("--stay");
     flags.partition_free = values->Switch("--partition-free");
     flags.hang_on_signal = values->Switch("--hang-on-signal");
   }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
+    flags.go_on_from = values->Text("--go-on-from").value_or("");
     if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");
   }
+  flags.try_qos = values->Text("--try-qos").value_or("");
+  flags.resume = ReadResumed(values);
+  flags.former_qos = values->Text("--former-qos").value_or("");
+  flags.rolled_back = values->Text("--rolled-back").value_or("");
   flags.seed = values->Whole("--seed", {0, kMaxWhole});
   const auto behaviour =
       values->OneOf("--behaviour", {Name(Behaviour::kCooperative), Name(Behaviour::kLectureAvoid),

@@ -23,13 +23,6 @@ constexpr std::size_t kMostNameBytes = 200;  // the kernel takes 249
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-std::vector<std::string> OwnArguments() {
-  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
-  std::vector<std::string> arguments;
-  for (std::string word; std::getline(stream, word, '\0');) arguments.push_back(word);
-  return arguments;
-}
-
 // The descriptor of a held text; -1 if the path is none.
 int HeldDescriptor(const std::string& path) {
   int number = -1;
@@ -39,7 +32,24 @@ int HeldDescriptor(const std::string& path) {
   return read.ec == std::errc() && read.ptr == digits.end() ? number : -1;
 }
 
+int MakeHeld(const std::string& name, const std::string& text) {
+  const int descriptor = memfd_create(name.substr(0, kMostNameBytes).c_str(), 0);
+  if (descriptor < 0) ThrowErrno("no memory for the profiles");
+  std::ofstream stream(std::string(kHeldFolder) + std::to_string(descriptor), std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) ThrowErrno("no memory for the profiles");
+  return descriptor;
+}
+
 }  // namespace
+
+std::vector<std::string> OwnArguments() {
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  std::vector<std::string> arguments;
+  for (std::string word; std::getline(stream, word, '\0');) arguments.push_back(word);
+  return arguments;
+}
 
 std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments,
                                        const NewFlags& flags) {
@@ -53,6 +63,7 @@ std::vector<std::string> ArgumentsWith(const std::vector<std::string>& arguments
     }
   }
   for (const auto& [name, value] : flags) {
+    if (value.empty()) continue;
     kept.push_back(name);
     kept.push_back(value);
   }
@@ -89,14 +100,13 @@ void RestartWith(const NewFlags& flags) {
 }
 
 std::string HoldText(const std::string& name, const std::string& text) {
-  const int descriptor = memfd_create(name.substr(0, kMostNameBytes).c_str(), 0);
-  if (descriptor < 0) ThrowErrno("no memory for the profiles");
-  std::ofstream stream(std::string(kHeldFolder) + std::to_string(descriptor), std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) ThrowErrno("no memory for the profiles");
-  return std::string(kHeldFolder) + std::to_string(descriptor);
+  return std::string(kHeldFolder) + std::to_string(MakeHeld(name, text));
 }
+
+HeldText::HeldText(const std::string& name, const std::string& text)
+    : descriptor_(MakeHeld(name, text)) {}
+
+HeldText::~HeldText() { close(descriptor_); }
 
 std::string NameOf(const std::string& path) {
   namespace fs = std::filesystem;

@@ -1,6 +1,7 @@
 #include "services/fleetctl/child_answer.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "services/app/process.h"
 #include "services/fleetctl/child_process.h"
 
 namespace giveway::fleetctl {
@@ -23,10 +25,17 @@ namespace {
   ::_exit(0);  // the library's own goodbye may hang on threads that a fork did not copy
 }
 
-std::string ReadAll(int pipe_end) {
+// Until the other end is closed, or `limit`.
+std::string ReadAll(int pipe_end, SteadyTime limit) {
   std::string text;
   std::array<char, 4096> part{};
   while (true) {
+    pollfd end{pipe_end, POLLIN, 0};
+    const double left_ms = Milliseconds(limit - app::SteadyNow());
+    if (left_ms <= 0) return text;
+    const int ready = ::poll(&end, 1, static_cast<int>(left_ms) + 1);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready <= 0) return text;
     const ssize_t count = ::read(pipe_end, part.data(), part.size());
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) return text;
@@ -36,7 +45,7 @@ std::string ReadAll(int pipe_end) {
 
 }  // namespace
 
-ChildAnswer AskChild(const std::function<std::string()>& tell) {
+ChildAnswer AskChild(const std::function<std::string()>& tell, Nanoseconds patience) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw StartError(std::string("cannot make a pipe: ") + std::strerror(errno));
@@ -51,11 +60,12 @@ ChildAnswer AskChild(const std::function<std::string()>& tell) {
     TellAndExit(tell(), writing.Get());
   }
   writing.Close();
-  ChildAnswer answer{ReadAll(reading.Get())};
+  ChildAnswer answer{ReadAll(reading.Get(), app::SteadyNow() + patience)};
+  ::kill(child, SIGKILL);  // nothing to one that has ended and is not waited for yet
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  answer.whole = WIFEXITED(status);
+  answer.whole = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   return answer;
 }
 

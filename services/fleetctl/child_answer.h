@@ -5,14 +5,17 @@
 #include <functional>
 #include <string>
 
+#include "services/types/time.h"
+
 namespace giveway::fleetctl {
 
 struct ChildAnswer {
   std::string text;
-  bool whole = true;  // false: the child crashed, and the text may be cut off
+  bool whole = true;  // false: it crashed or took too long; the text may be cut off
 };
 
-// `tell` throws nothing. The child dies with this process. Throws StartError.
-ChildAnswer AskChild(const std::function<std::string()>& tell);
+// `tell` throws nothing. The child dies with this process, and after `patience`. Throws StartError.
+ChildAnswer AskChild(const std::function<std::string()>& tell,
+                     Nanoseconds patience = std::chrono::hours(1));
 
 }  // namespace giveway::fleetctl

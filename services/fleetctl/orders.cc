@@ -78,6 +78,16 @@ int SayNoAnswer(VehicleId vehicle) {
   return interrupted ? 1 : kCouldNotRun;
 }
 
+int SayNobodyReached(std::uint32_t domain) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(stderr,
+               interrupted ? "interrupted before anything was heard in domain %u\n"
+                           : "neither a vehicle nor a world is heard in domain %u; give the domain "
+                             "and the interface that its fleet was started with\n",
+               domain);
+  return interrupted ? 1 : kCouldNotRun;
+}
+
 AdminOrder TellOrder(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }
 
 AdminOrder ApplyOrder(VehicleId vehicle, const QosProfiles& profiles) {

@@ -14,6 +14,7 @@
 
 namespace giveway::fleetctl {
 
+// kNobody stands for the world.
 class Orders {
  public:
   explicit Orders(const link::LinkOptions& options) : link_(options) {}
@@ -21,6 +22,7 @@ class Orders {
   // Waits until each is reached; those that are not within `patience` come back.
   std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles,
                               std::chrono::milliseconds patience);
+  std::vector<VehicleId> Announced() { return link_.Announced(); }
   // Sends it to a vehicle that is reached, and waits for the answer in which it says that it is in
   // effect, or refused. Nothing if it does not come within `patience`.
   // Ctrl-C ends the waiting; `insist`: only the second one does.
@@ -36,6 +38,7 @@ class Orders {
 // operator did not wait. The exit code.
 int SayNotReached(VehicleId vehicle, std::uint32_t domain);
 int SayNoAnswer(VehicleId vehicle);
+int SayNobodyReached(std::uint32_t domain);
 
 // An order that asks what the vehicle runs with.
 AdminOrder TellOrder(VehicleId vehicle);

@@ -9,7 +9,8 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr char kComplaint = '!';  // begins the message of an error
+constexpr Nanoseconds kPatience = std::chrono::seconds(10);  // it takes a tenth of one
+constexpr char kComplaint = '!';                             // begins the message of an error
 
 // One line a value, tab between its parts; names have neither.
 std::string Told(const link::LinkOptions& options) {
@@ -45,11 +46,11 @@ std::vector<link::ResolvedEntity> Understood(const std::string& text) {
 
 std::vector<link::ResolvedEntity> ResolveQosApart(const link::LinkOptions& options) {
   RequireSoundQos(options.qos_file);
-  const auto [text, whole] = AskChild([&] { return Told(options); });
+  const auto [text, whole] = AskChild([&] { return Told(options); }, kPatience);
   if (!text.empty() && text.front() == kComplaint) throw link::LinkError(text.substr(1));
   if (!whole || text.empty()) {
     throw link::LinkError("QoS file " + options.qos_file +
-                          ": the library crashed on it; fleetctl "
+                          ": the library crashed or hung on it; fleetctl "
                           "qos check says more");
   }
   return Understood(text);

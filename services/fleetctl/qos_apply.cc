@@ -16,10 +16,11 @@
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/orders.h"
 #include "services/fleetctl/qos_apart.h"
+#include "services/fleetctl/qos_apply_fleet.h"
 #include "services/fleetctl/qos_apply_report.h"
 #include "services/fleetctl/qos_files.h"
 #include "services/qos/order_check.h"
-#include "services/qos/rules.h"
+#include "services/qos/rollout.h"
 #include "services/qos/xml_tree.h"
 #include "services/types/check.h"
 
@@ -28,10 +29,10 @@ namespace {
 
 using std::chrono::seconds;
 
-constexpr auto kFindPatience = seconds(10);
-constexpr auto kTellPatience = seconds(5);
 constexpr auto kApplyPatience = seconds(20);  // a restart takes about one, on a busy machine more
 constexpr auto kHearPatience = seconds(10);
+constexpr auto kQuietOfOthers =
+    std::chrono::milliseconds(400);  // heard since the targets were sought
 
 [[noreturn]] void Refuse(const std::string& file, const std::string& what,
                          const std::string& remedy) {
@@ -60,17 +61,11 @@ qos::XmlElement RootOf(const QosProfiles& profiles) {
   return std::move(*read.root);
 }
 
-// The profiles that a vehicle has endpoints of: what an order to it can change.
-qos::ProfileSet OfAVehicle(qos::ProfileSet set) {
-  std::erase_if(set.profiles, [](const qos::Profile& profile) {
-    const std::string& name = profile.name;
-    const bool reads = name == "fleet_beacon_reader" || name == "fleet_admin_reader" ||
-                       (name.starts_with("world_") && name.ends_with("_reader"));
-    const bool writes = name.starts_with("fleet_") && name.ends_with("_writer");
-    return !reads && !writes;
-  });
-  return set;
-}
+// What the canary, or a set that a vehicle refuses, leaves to be undone.
+struct Undo {
+  VehicleId process = kNobody;
+  QosProfiles profiles;
+};
 
 class Applying {
  public:
@@ -79,19 +74,25 @@ class Applying {
     report_.profile = wanted_.name;
   }
 
-  // Asks every vehicle what it runs with. 0, or the exit code if one does not answer.
+  // Asks every process what it runs with. 0, or the exit code if one of the targets does not
+  // answer.
   int Ask();
   ApplyReport Run();
 
  private:
   std::optional<ApplyVerdict> WhyNot();
-  void CheckAgainstOld();
   void CheckAsOrder();
-  bool ApplyTo(AppliedTo* applied);
+  void CheckAsIs();
+  void Plan();
+  bool ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between);
+  std::optional<ApplyVerdict> Take(const qos::RolloutStep& step);
   std::optional<ApplyVerdict> Try(AppliedTo* canary);
-  // Whether it says that it runs with its old profiles.
-  bool RollBack(VehicleId canary);
-  const AdminAnswer& ToldBy(VehicleId vehicle) const { return told_.at(vehicle); }
+  // Whether each says that it runs with what it had before.
+  bool RollBack();
+  qos::Role RoleOf(VehicleId process) const {
+    return process == kNobody ? qos::Role::kWorld : qos::Role::kVehicle;
+  }
+  QosProfiles Between() const { return {"between-" + wanted_.name, rollout_.between}; }
   void Say(const std::string& text) const {
     if (!options_.json) std::fputs(text.c_str(), stdout);
     std::fflush(stdout);
@@ -101,70 +102,88 @@ class Applying {
   const link::LinkOptions& link_;
   Orders orders_;
   const QosProfiles wanted_;
-  std::map<VehicleId, AdminAnswer> told_;
+  std::map<VehicleId, AdminAnswer> told_;  // by everyone who takes orders, targets or not
+  qos::Rollout rollout_;                   // its processes are report_.vehicles
+  std::vector<Undo> undo_;
   ApplyReport report_;
 };
 
 int Applying::Ask() {
-  std::vector<VehicleId> targets;
-  for (const std::uint32_t id : options_.to) targets.push_back(VehicleId{id});
-  const std::vector<VehicleId> missing = orders_.Seek(targets, kFindPatience);
-  int code = 0;
-  for (const VehicleId vehicle : missing) code = SayNotReached(vehicle, options_.where.domain);
-  if (code != 0) return code;
-  const qos::XmlElement wanted = RootOf(wanted_);
-  for (const VehicleId vehicle : targets) {
-    auto answer = orders_.Give(TellOrder(vehicle), kTellPatience);
-    if (!answer) return SayNoAnswer(vehicle);
-    AppliedTo applied;
-    applied.vehicle = vehicle;
-    applied.before = answer->profiles.name;
-    applied.changes = qos::Changes(RootOf(answer->profiles), wanted);
-    report_.vehicles.push_back(std::move(applied));
-    told_.emplace(vehicle, std::move(*answer));
+  FleetAnswers fleet;
+  const int code = AskFleet(options_, &orders_, &fleet);
+  for (const VehicleId vehicle : fleet.deaf) {
+    Say(NameOf(vehicle) + " takes no orders, and keeps what it has\n");
   }
-  // The canary goes first, whatever the order on the command line.
-  std::ranges::stable_partition(report_.vehicles, [&](const AppliedTo& applied) {
-    return applied.vehicle == VehicleId{options_.canary};
-  });
+  if (code != 0) return code;
+  told_ = std::move(fleet.told);
+  for (const VehicleId process : fleet.targets) {
+    const QosProfiles& before = told_.at(process).profiles;
+    AppliedTo applied;
+    applied.vehicle = process;
+    applied.before = before.name;
+    applied.changes =
+        qos::ChangesFor(RoleOf(process), qos::Changes(RootOf(before), RootOf(wanted_)));
+    report_.vehicles.push_back(std::move(applied));
+  }
   return 0;
 }
 
-// While some run with the old profiles and some with the new, and wherever the world keeps the old,
-// each must still hear the other.
-void Applying::CheckAgainstOld() {
-  const qos::ProfileSet wanted = OfAVehicle(qos::ReadProfiles(RootOf(wanted_), wanted_.name));
-  std::vector<std::string> seen;
-  for (const auto& [vehicle, answer] : told_) {
-    if (std::ranges::find(seen, answer.profiles.text) != seen.end()) continue;
-    seen.push_back(answer.profiles.text);
-    const qos::ProfileSet old =
-        qos::ReadProfiles(RootOf(answer.profiles), "running " + answer.profiles.name);
-    qos::CheckPairs(old, wanted, &report_.findings);
-    qos::CheckPairs(wanted, old, &report_.findings);
+// At each moment each must hear whom it heard, whether it moves or keeps what it has.
+void Applying::Plan() {
+  std::vector<qos::RolloutProcess> processes;
+  const auto add = [&](VehicleId process, bool moves) {
+    const QosProfiles& profiles = told_.at(process).profiles;
+    processes.push_back({NameOf(process), RoleOf(process),
+                         qos::ReadProfiles(RootOf(profiles), profiles.name), moves});
+  };
+  for (const AppliedTo& applied : report_.vehicles) add(applied.vehicle, true);
+  for (const auto& [process, answer] : told_) {
+    const auto is_it = [&](const AppliedTo& applied) { return applied.vehicle == process; };
+    if (std::ranges::none_of(report_.vehicles, is_it)) add(process, false);
   }
+  const auto own = ReadQosFile(link_.qos_file);
+  if (const auto* file = std::get_if<qos::ProfileFile>(&own)) {
+    const QosProfiles profiles{file->name, file->bytes};
+    processes.push_back({"this fleetctl", qos::Role::kOperator,
+                         qos::ReadProfiles(RootOf(profiles), profiles.name), false});
+  }
+  const auto first = options_.canary == 0 ? std::nullopt : std::optional<std::size_t>(0);
+  rollout_ = qos::PlanRollout(processes, wanted_.text, wanted_.name, first);
+  if (!options_.force) return;
+  rollout_ = {};
+  for (std::size_t i = 0; i < report_.vehicles.size(); ++i) rollout_.steps.push_back({i, false});
 }
 
-// The vehicles would refuse it, and this says it before any has changed.
+// The processes would refuse it, and this says it before any has changed.
 void Applying::CheckAsOrder() {
   const qos::XmlElement wanted = RootOf(wanted_);
   std::vector<std::string> seen;
-  for (const auto& [vehicle, answer] : told_) {
-    if (std::ranges::find(seen, answer.profiles.text) != seen.end()) continue;
-    seen.push_back(answer.profiles.text);
-    std::ranges::move(qos::CheckOrder(wanted, RootOf(answer.profiles), wanted_.name),
+  for (const AppliedTo& applied : report_.vehicles) {
+    const QosProfiles& running = told_.at(applied.vehicle).profiles;
+    if (std::ranges::find(seen, running.text) != seen.end()) continue;
+    seen.push_back(running.text);
+    std::ranges::move(qos::CheckOrder(wanted, RootOf(running), wanted_.name),
+                      std::back_inserter(report_.findings));
+  }
+}
+
+void Applying::CheckAsIs() {
+  std::int64_t fleet_size = 1;
+  for (const auto& [process, answer] : told_) {
+    fleet_size = std::max<std::int64_t>(fleet_size, answer.fleet_size);
+  }
+  const qos::Deployment deployment{.vehicles = fleet_size};
+  report_.findings = qos::Check({{wanted_.name, wanted_.text}}, deployment);
+  if (!rollout_.between.empty()) {
+    std::ranges::move(qos::Check({{Between().name, Between().text}}, deployment),
                       std::back_inserter(report_.findings));
   }
 }
 
 std::optional<ApplyVerdict> Applying::WhyNot() {
-  std::int64_t fleet_size = 1;
-  for (const auto& [vehicle, answer] : told_) {
-    fleet_size = std::max<std::int64_t>(fleet_size, answer.fleet_size);
-  }
-  report_.findings = qos::Check({{wanted_.name, wanted_.text}}, {.vehicles = fleet_size});
+  CheckAsIs();
   CheckAsOrder();
-  if (!options_.force) CheckAgainstOld();
+  std::ranges::copy(rollout_.blocked, std::back_inserter(report_.findings));
   std::erase_if(report_.findings, [](const qos::Finding& finding) {
     return finding.severity != qos::Severity::kError;
   });
@@ -191,32 +210,44 @@ void Hold(const AdminAnswer& answer, AppliedTo* applied) {
   }
 }
 
-bool Applying::ApplyTo(AppliedTo* applied) {
+bool Applying::ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between) {
   const SteadyTime begun = app::SteadyNow();
-  const auto answer = orders_.Give(ApplyOrder(applied->vehicle, wanted_), kApplyPatience);
+  AdminAnswer& told = told_.at(applied->vehicle);
+  const auto answer = orders_.Give(ApplyOrder(applied->vehicle, profiles), kApplyPatience);
   applied->seconds = Seconds(app::SteadyNow() - begun);
   applied->answered = answer.has_value();
   applied->in_effect = answer && answer->state == AnswerState::kInEffect;
   if (!answer) applied->refusal = "gave no answer; see its log";
   if (answer && !applied->in_effect) applied->refusal = "refuses it: " + answer->reason;
-  if (applied->in_effect) Hold(*answer, applied);
-  Say(LineOf(*applied));
+  if (applied->in_effect) {
+    if (!between) Hold(*answer, applied);
+    undo_.push_back({applied->vehicle, std::exchange(told.profiles, profiles)});
+  }
+  Say(between && applied->in_effect ? BetweenLine(*applied) : LineOf(*applied));
   return applied->in_effect;
 }
 
-bool Applying::RollBack(VehicleId canary) {
-  const auto answer =
-      orders_.Give(ApplyOrder(canary, ToldBy(canary).profiles), kApplyPatience, true);
-  return answer && answer->state == AnswerState::kInEffect;
+bool Applying::RollBack() {
+  bool all = true;
+  for (; !undo_.empty(); undo_.pop_back()) {
+    const Undo& undo = undo_.back();
+    const auto answer = orders_.Give(ApplyOrder(undo.process, undo.profiles), kApplyPatience, true);
+    all = answer && answer->state == AnswerState::kInEffect && all;
+  }
+  return all;
 }
 
 std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   CanaryWatch watch(link_);
   CanaryTrial trial;
   trial.vehicle = canary->vehicle;
-  if (!ApplyTo(canary)) {
+  if (!ApplyTo(canary, wanted_, false)) {
     // Refused: nothing was changed. Without an answer nobody knows.
-    if (canary->answered) return ApplyVerdict::kRefused;
+    if (canary->answered) {
+      RollBack();
+      return ApplyVerdict::kRefused;
+    }
+    undo_.push_back({canary->vehicle, told_.at(canary->vehicle).profiles});
     trial.worse = canary->refusal;
   } else if (watch.WaitUntilItHears(canary->vehicle, kHearPatience)) {
     const auto both = watch.Watch(canary->vehicle, FromSeconds(options_.watch_s));
@@ -232,24 +263,33 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   report_.trial = trial;
   Say(LineOf(trial));
   if (trial.worse.empty()) return {};
-  return RollBack(canary->vehicle) ? ApplyVerdict::kRolledBack : ApplyVerdict::kNotRolledBack;
+  return RollBack() ? ApplyVerdict::kRolledBack : ApplyVerdict::kNotRolledBack;
+}
+
+std::optional<ApplyVerdict> Applying::Take(const qos::RolloutStep& step) {
+  AppliedTo& applied = report_.vehicles[step.process];
+  const bool is_canary = options_.canary != 0 && Number(applied.vehicle) == options_.canary;
+  if (is_canary && !step.between) return Try(&applied);
+  if (ApplyTo(&applied, step.between ? Between() : wanted_, step.between)) return {};
+  report_.remedy = RollBack() ? "the processes before it run with what they had again"
+                              : "some processes before it may run with the new profiles still";
+  return ApplyVerdict::kRefused;
 }
 
 ApplyReport Applying::Run() {
+  Plan();
+  for (const qos::RolloutStep& step : rollout_.steps) {
+    report_.order.push_back(NameOf(report_.vehicles[step.process].vehicle) +
+                            (step.between ? " (between)" : ""));
+  }
   Say(PlanText(report_));
   if (const auto why_not = WhyNot()) {
     report_.verdict = *why_not;
     return report_;
   }
-  for (AppliedTo& applied : report_.vehicles) {
-    if (Number(applied.vehicle) == options_.canary) {
-      if (const auto ends = Try(&applied)) {
-        report_.verdict = *ends;
-        return report_;
-      }
-    } else if (!ApplyTo(&applied)) {
-      report_.verdict = ApplyVerdict::kRefused;
-      report_.remedy = "the vehicles before it run with the new profiles, the rest with the old";
+  for (const qos::RolloutStep& step : rollout_.steps) {
+    if (const auto ends = Take(step)) {
+      report_.verdict = *ends;
       return report_;
     }
   }
@@ -267,7 +307,8 @@ int RunQosApply(const QosApplyOptions& options) {
   // The library's own word, before this process touches it and before any vehicle depends on it.
   link::LinkOptions tried = link;
   tried.qos_file = ResolveQosFile(options.profile);
-  ResolveQosApart(tried);
+  // Where the rules find errors the report tells them, and the library is not asked.
+  if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
   const Interrupts interrupts;
   Applying applying(options, link, std::move(wanted));
   if (const int code = applying.Ask(); code != 0) return code;

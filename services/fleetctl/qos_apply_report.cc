@@ -61,6 +61,7 @@ std::string JsonOf(const qos::Change& change) {
 std::string JsonOf(const AppliedTo& applied) {
   JsonObject object;
   object.Add("id", Number(applied.vehicle));
+  object.Add("process", NameOf(applied.vehicle));
   object.Add("before", applied.before);
   object.Add("in_effect", applied.in_effect);
   object.Add("refusal", applied.refusal);
@@ -98,6 +99,10 @@ std::string FiguresText(const ServiceFigures& figures) {
 
 }  // namespace
 
+std::string NameOf(VehicleId process) {
+  return process == kNobody ? "the world" : fmt::format("vehicle {}", Number(process));
+}
+
 int ExitCode(ApplyVerdict verdict) {
   return verdict == ApplyVerdict::kApplied || verdict == ApplyVerdict::kNothingToDo ||
                  verdict == ApplyVerdict::kDryRun
@@ -111,22 +116,33 @@ std::string PlanText(const ApplyReport& report) {
     const std::string changes = fmt::format(": {} -> {}\n", Shown(applied.before), report.profile) +
                                 ChangesText(applied.changes);
     auto group = std::ranges::find(groups, changes, &std::pair<std::string, std::string>::first);
-    if (group == groups.end()) group = groups.insert(group, {changes, "vehicle"});
-    group->second += fmt::format(" {}", Number(applied.vehicle));
+    const bool is_world = applied.vehicle == kNobody;
+    if (group == groups.end()) group = groups.insert(group, {changes, is_world ? "" : "vehicle"});
+    group->second += is_world ? "the world" : fmt::format(" {}", Number(applied.vehicle));
   }
   std::string text;
   for (const auto& [changes, whose] : groups) text += whose + changes;
+  // Where no set between is needed, the order is that of the command line.
+  const auto is_between = [](const std::string& step) { return step.ends_with(")"); };
+  if (std::ranges::any_of(report.order, is_between)) {
+    text += fmt::format("in this order: {}\n", fmt::join(report.order, ", "));
+  }
   return text;
 }
 
 std::string LineOf(const AppliedTo& applied) {
   if (!applied.in_effect) {
-    return fmt::format("vehicle {}: {}\n", Number(applied.vehicle), Shown(applied.refusal));
+    return fmt::format("{}: {}\n", NameOf(applied.vehicle), Shown(applied.refusal));
   }
-  return fmt::format("vehicle {}: in effect after {:.2f} s{}; {} of {} values seen in it\n",
-                     Number(applied.vehicle), applied.seconds,
+  return fmt::format("{}: in effect after {:.2f} s{}; {} of {} values seen in it\n",
+                     NameOf(applied.vehicle), applied.seconds,
                      qos::NeedsRestart(applied.changes) ? ", restarted" : "", applied.seen,
                      applied.checked);
+}
+
+std::string BetweenLine(const AppliedTo& applied) {
+  return fmt::format("{}: has the set between after {:.2f} s\n", NameOf(applied.vehicle),
+                     applied.seconds);
 }
 
 std::string LineOf(const CanaryTrial& trial) {
@@ -150,16 +166,19 @@ std::string LineOf(const ApplyReport& report) {
           "NOT rolled back: vehicle {} did not say that it runs with {} again; see its log\n",
           Number(report.trial->vehicle), Shown(report.vehicles.front().before));
     case ApplyVerdict::kNotSeen:
-      return "a vehicle says it is in effect, and its endpoints run with other values\n";
+      return "a process says it is in effect, and its endpoints run with other values\n";
     case ApplyVerdict::kNothingToDo:
-      return "every vehicle runs with it already\n";
+      return "every process named runs with it already\n";
     case ApplyVerdict::kDryRun:
       return "nothing was changed (--dry-run)\n";
     case ApplyVerdict::kApplied:
       break;
   }
-  return fmt::format("{} in effect on {} vehicle{}\n", report.profile, report.vehicles.size(),
-                     report.vehicles.size() == 1 ? "" : "s");
+  const auto vehicles = std::ranges::count_if(
+      report.vehicles, [](const AppliedTo& applied) { return applied.vehicle != kNobody; });
+  const bool world = static_cast<std::size_t>(vehicles) < report.vehicles.size();
+  return fmt::format("{} in effect on {} vehicle{}{}\n", report.profile, vehicles,
+                     vehicles == 1 ? "" : "s", world ? " and the world" : "");
 }
 
 std::string ToJson(const ApplyReport& report) {
@@ -168,6 +187,7 @@ std::string ToJson(const ApplyReport& report) {
   object.Add("verdict", Name(report.verdict));
   object.AddRaw("vehicles",
                 JsonArray(report.vehicles, [](const AppliedTo& one) { return JsonOf(one); }));
+  object.AddRaw("order", JsonArray(report.order, app::JsonString));
   if (report.trial) object.Add("trial", JsonOf(*report.trial));
   object.AddRaw("findings",
                 JsonArray(report.findings, [](const qos::Finding& one) { return ToJson(one); }));

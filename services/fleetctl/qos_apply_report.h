@@ -45,16 +45,21 @@ enum class ApplyVerdict : std::uint8_t {
 struct ApplyReport {
   std::string profile;
   std::vector<AppliedTo> vehicles;
+  std::vector<std::string> order;  // in which they take it
   std::optional<CanaryTrial> trial;
   qos::Findings findings;  // why it was refused
   std::string remedy;      // of a refusal that is no finding
   ApplyVerdict verdict = ApplyVerdict::kApplied;
 };
 
+// "vehicle 3"; of kNobody "the world".
+std::string NameOf(VehicleId process);
 int ExitCode(ApplyVerdict verdict);
 // Which changes, for whom; vehicles with the same ones together.
 std::string PlanText(const ApplyReport& report);
 std::string LineOf(const AppliedTo& applied);
+// Of a step that leads to a set between the old and the new.
+std::string BetweenLine(const AppliedTo& applied);
 std::string LineOf(const CanaryTrial& trial);
 std::string LineOf(const ApplyReport& report);  // the verdict
 std::string ToJson(const ApplyReport& report);

@@ -1,6 +1,7 @@
 #include "services/link/operator_link.h"
 
 #include <map>
+#include <set>
 
 #include "services/link/convert.h"
 #include "services/link/participant.h"
@@ -33,6 +34,15 @@ void OperatorLink::Seek(VehicleId vehicle) {
   GIVEWAY_CHECK(!impl_->writers.contains(vehicle), Number(vehicle));
   impl_->writers.emplace(vehicle,
                          impl_->participant.MakeWriter<wire::Order>(VehiclePartition(vehicle)));
+}
+
+std::vector<VehicleId> OperatorLink::Announced() {
+  impl_->names.Update();
+  std::set<VehicleId> vehicles;
+  impl_->names.ForEach([&](const WriterEntry& entry) {
+    if (!entry.area.empty()) vehicles.insert(entry.vehicle);
+  });
+  return {vehicles.begin(), vehicles.end()};
 }
 
 bool OperatorLink::Reaches(VehicleId vehicle) const { return impl_->To(vehicle).HasReader(); }

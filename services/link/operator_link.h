@@ -16,7 +16,9 @@ class OperatorLink {
   OperatorLink(const OperatorLink&) = delete;
   OperatorLink& operator=(const OperatorLink&) = delete;
 
-  // Begins to look for the vehicle. Once each. Throws LinkError.
+  // The vehicles whose beacons are announced in the domain now, in order. Some may take no orders.
+  std::vector<VehicleId> Announced();
+  // Begins to look for the vehicle; kNobody is the world. Once each. Throws LinkError.
   void Seek(VehicleId vehicle);
   // Whether it would get an order now. It was sought.
   bool Reaches(VehicleId vehicle) const;

@@ -190,7 +190,8 @@ std::string Participant::WhyNobodyIsFound() const {
   return kWhy + servers_ + ")";
 }
 
-dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& name) {
+dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& topic_name) {
+  const std::string name = topic_prefix_ + topic_name;
   if (auto* known = participant_->lookup_topicdescription(name)) {
     return *dynamic_cast<dds::Topic*>(known);
   }

@@ -42,6 +42,8 @@ class Participant {
     return Reader<Wire>(
         MakeReader(MakeTopic<Wire>(), TopicOf<Wire>::kReader, partition, depth, listener, mask));
   }
+  // From now on every topic is another one, that no endpoint of the fleet has.
+  void StandApart() { topic_prefix_ = "qos-trial/"; }
   // Deletes a writer made here, and its publisher. What is left goes with the participant.
   void Delete(dds::DataWriter& writer);
 
@@ -76,7 +78,8 @@ class Participant {
   std::shared_ptr<Impairer> impairer_;
   std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
   const DiscoveryListener* listener_ = nullptr;  // the one that the library tells
-  std::string servers_;                          // of a client, as they were named; else empty
+  std::string topic_prefix_;
+  std::string servers_;  // of a client, as they were named; else empty
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;

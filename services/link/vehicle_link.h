@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "services/link/admin_link.h"
 #include "services/link/link_options.h"
 #include "services/link/resolved_qos.h"
 #include "services/types/admin.h"
@@ -50,7 +51,7 @@ struct EffectiveBeaconQos {
   double lease_ms = 0;
 };
 
-class VehicleLink {
+class VehicleLink final : public AdminLink {
  public:
   // Makes the participant and the joining endpoints. Throws LinkError.
   explicit VehicleLink(const LinkOptions& options);
@@ -95,16 +96,12 @@ class VehicleLink {
   // Waits until every matched observer has the last status, or `timeout`.
   void FlushStatus(Nanoseconds timeout);
 
-  // The orders to this vehicle that have come since the last call.
-  std::vector<AdminOrder> TakeOrders();
-  void SendAnswer(const AdminAnswer& answer);
+  std::vector<AdminOrder> TakeOrders() override;
+  void SendAnswer(const AdminAnswer& answer) override;
   // Waits until every matched operator has the last answer, or `timeout`.
   void FlushAnswer(Nanoseconds timeout);
-  // What the endpoints there are now run with.
-  std::vector<LiveValue> LiveQos() const;
-  // Gives the endpoints of a profile another deadline while they run; one without endpoints here is
-  // passed over. `deadline` in nanoseconds, or kInfiniteDuration. False if the library refused.
-  bool SetDeadline(const std::string& profile, std::int64_t deadline);
+  std::vector<LiveValue> LiveQos() const override;
+  bool SetDeadline(const std::string& profile, std::int64_t deadline) override;
 
   VehicleLinkCounters Counters() const;
   EffectiveBeaconQos BeaconQos() const;

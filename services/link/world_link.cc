@@ -42,6 +42,8 @@ struct WorldLink::Impl {
         truth_writer(participant.MakeWriter<wire::Truth>(kWorld)),
         event_writer(participant.MakeWriter<wire::Event>(kWorld, EventDepth(options.fleet_size))),
         figures_writer(participant.MakeWriter<wire::Figures>(kWorld)),
+        order_reader(participant.MakeReader<wire::Order>(VehiclePartition(kNobody))),
+        answer_writer(participant.MakeWriter<wire::Answer>(VehiclePartition(kNobody))),
         vehicles(names, participant.Prefix(), ""),
         command_wait(command_reader.Entity()) {}
 
@@ -67,6 +69,8 @@ struct WorldLink::Impl {
   Writer<wire::Truth> truth_writer;
   Writer<wire::Event> event_writer;
   Writer<wire::Figures> figures_writer;
+  Reader<wire::Order> order_reader;
+  Writer<wire::Answer> answer_writer;
   std::unordered_map<VehicleId, VehicleWriters> writers;
   PeerEvents vehicles;  // by their command writers
   DataWait command_wait;
@@ -175,6 +179,27 @@ void WorldLink::SendEvent(const WorldEvent& event) {
 
 void WorldLink::SendFigures(const RunFigures& figures) {
   impl_->CountWrite(impl_->figures_writer.Write(ToWire(figures)));
+}
+
+std::vector<AdminOrder> WorldLink::TakeOrders() {
+  std::vector<AdminOrder> orders;
+  impl_->order_reader.TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
+    AdminOrder order;
+    if (FromWire(sample, order)) orders.push_back(std::move(order));
+  });
+  return orders;
+}
+
+void WorldLink::SendAnswer(const AdminAnswer& answer) {
+  impl_->CountWrite(impl_->answer_writer.Write(ToWire(answer)));
+}
+
+void WorldLink::FlushAnswer(Nanoseconds timeout) { impl_->answer_writer.WaitUntilHeard(timeout); }
+
+std::vector<LiveValue> WorldLink::LiveQos() const { return impl_->participant.LiveQos(); }
+
+bool WorldLink::SetDeadline(const std::string& profile, std::int64_t deadline) {
+  return impl_->participant.SetDeadline(profile, ToDuration(deadline));
 }
 
 void WorldLink::Flush(Nanoseconds timeout) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/link/admin_link.h"
 #include "services/link/link_options.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
@@ -26,7 +27,7 @@ struct WorldLinkCounters {
   std::uint32_t write_failures = 0;
 };
 
-class WorldLink {
+class WorldLink final : public AdminLink {
  public:
   explicit WorldLink(const LinkOptions& options);  // Throws LinkError.
   ~WorldLink();
@@ -66,6 +67,13 @@ class WorldLink {
   void SendTruth(const Truth& truth);
   void SendEvent(const WorldEvent& event);
   void SendFigures(const RunFigures& figures);
+  // Orders to the world are addressed to kNobody, and so are its answers from it.
+  std::vector<AdminOrder> TakeOrders() override;
+  void SendAnswer(const AdminAnswer& answer) override;
+  void FlushAnswer(Nanoseconds timeout);
+  std::vector<LiveValue> LiveQos() const override;
+  bool SetDeadline(const std::string& profile, std::int64_t deadline) override;
+
   // Waits until matched readers have every event, roster entry and the figures, or `timeout`.
   void Flush(Nanoseconds timeout);
 

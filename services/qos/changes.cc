@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "services/qos/deployment.h"
+
 namespace giveway::qos {
 namespace {
 
@@ -106,6 +108,28 @@ std::vector<Change> Changes(const XmlElement& from, const XmlElement& to) {
     const std::string& old = before[where];
     if (old != text) changes.push_back({where.first, where.second, old, text, Effect::kRestart, 0});
   }
+  return changes;
+}
+
+bool Concerns(Role role, std::string_view profile) {
+  const Topic* const topic = TopicOfProfile(profile);
+  if (topic == nullptr) return true;
+  const bool writes = profile.ends_with("_writer");
+  if (topic->name == "fleet/admin") return writes == (role == Role::kOperator);
+  if (topic->name == "fleet/answer") return writes != (role == Role::kOperator);
+  if (role == Role::kOperator) return topic->name == "fleet/status" && !writes;
+  const bool of_fleet = topic->name.starts_with("fleet/");
+  if (role == Role::kVehicle) {
+    const bool of_observers = topic->name == "world/truth" || topic->name == "world/event" ||
+                              topic->name == "world/figures";
+    return of_fleet ? writes || topic->name == "fleet/beacon" : !writes && !of_observers;
+  }
+  if (!of_fleet) return writes;
+  return !writes && (topic->name == "fleet/motor_command" || topic->name == "fleet/join");
+}
+
+std::vector<Change> ChangesFor(Role role, std::vector<Change> changes) {
+  std::erase_if(changes, [&](const Change& change) { return !Concerns(role, change.profile); });
   return changes;
 }
 

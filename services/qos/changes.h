@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "services/qos/profile_set.h"
@@ -28,6 +29,14 @@ struct Change {
 // Profiles in the order of their names. A value that is only written down differently, as a default
 // that the other file leaves out, is no change.
 std::vector<Change> Changes(const XmlElement& from, const XmlElement& to);
+
+// Which endpoints a process has.
+enum class Role : std::uint8_t { kVehicle, kWorld, kOperator };
+
+// Whether a process of that role makes an endpoint of the profile; true of all that is no endpoint.
+bool Concerns(Role role, std::string_view profile);
+// Those that concern it.
+std::vector<Change> ChangesFor(Role role, std::vector<Change> changes);
 
 bool NeedsRestart(const std::vector<Change>& changes);
 

@@ -168,14 +168,20 @@ struct Leaf {
   std::string text;
 };
 
-std::vector<Leaf> LeavesOf(const ProfileEdit& edit) {
+// `now` is the element there is; null if there is none.
+std::vector<Leaf> LeavesOf(const ProfileEdit& edit, const XmlElement* now) {
   const PolicyInfo& info = Info(edit.policy);
   const std::string path(info.path);
   if (info.shape != Shape::kDuration) return {{path, Text(edit.policy, edit.value)}};
-  GIVEWAY_CHECK(edit.value >= 0 && edit.value != kInfinite, "durations are finite here");
+  GIVEWAY_CHECK(edit.value >= 0, edit.profile);
+  if (edit.value == kInfinite) return {{path, "DURATION_INFINITY"}};
   constexpr std::int64_t kSecond = 1'000'000'000;
-  return {{path + "/sec", std::to_string(edit.value / kSecond)},
-          {path + "/nanosec", std::to_string(edit.value % kSecond)}};
+  const std::string seconds = std::to_string(edit.value / kSecond);
+  const std::string nanoseconds = std::to_string(edit.value % kSecond);
+  if (now != nullptr && now->children.empty()) {
+    return {{path, "<sec>" + seconds + "</sec><nanosec>" + nanoseconds + "</nanosec>"}};
+  }
+  return {{path + "/sec", seconds}, {path + "/nanosec", nanoseconds}};
 }
 
 }  // namespace
@@ -183,7 +189,11 @@ std::vector<Leaf> LeavesOf(const ProfileEdit& edit) {
 EditedProfiles Edit(std::string bytes, const std::string& file,
                     const std::vector<ProfileEdit>& edits) {
   for (const ProfileEdit& edit : edits) {
-    for (const Leaf& leaf : LeavesOf(edit)) {
+    const XmlRead before = ReadXml(bytes, file);
+    const auto there = before.root ? FindProfile(bytes, *before.root, edit) : std::nullopt;
+    const XmlElement* const now =
+        there ? there->element->Descendant(Info(edit.policy).path) : nullptr;
+    for (const Leaf& leaf : LeavesOf(edit, now)) {
       // Read anew each time: an edit moves all that stands behind it.
       const XmlRead read = ReadXml(bytes, file);
       if (!read.root) return {"", read.findings};

@@ -15,7 +15,7 @@ struct ProfileEdit {
   Owner owner = Owner::kWriter;
   std::string profile;
   Policy policy = Policy::kDeadline;
-  std::int64_t value = 0;  // as Profile::Number gives it; durations are finite
+  std::int64_t value = 0;  // as Profile::Number gives it
 };
 
 // The new text, or findings that say why there is none: no XML, or no such profile.

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "services/link/operator_link.h"
+#include "services/link/world_link.h"
 #include "tests/link/fleet.h"
 
 namespace giveway::test {
@@ -48,6 +49,31 @@ TEST(Admin, AnOrderReachesItsVehicleAloneAndWhole) {
   // What it is sent next is the first that the other hears.
   ASSERT_TRUE(chief.Send(OrderTo(VehicleId{1}, 78)));
   EXPECT_EQ(OrdersOf(one).at(0).number, 78U);
+}
+
+TEST(Admin, AnOrderToTheWorldReachesItAndIsAnswered) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  Beaconing vehicle(OptionsIn(domain), VehicleId{1});
+  link::OperatorLink chief(OptionsIn(domain));
+  chief.Seek(kNobody);
+  ASSERT_TRUE(Eventually([&] { return chief.Reaches(kNobody); }));
+  ASSERT_TRUE(chief.Send(OrderTo(kNobody, 9)));
+  std::vector<AdminOrder> orders;
+  ASSERT_TRUE(Eventually([&] {
+    orders = world.TakeOrders();
+    return !orders.empty();
+  }));
+  EXPECT_EQ(orders[0].number, 9U);
+  world.SendAnswer({.vehicle = kNobody, .order = 9, .profiles = {"mine.xml", "<dds/>"}});
+  std::vector<AdminAnswer> answers;
+  ASSERT_TRUE(Eventually([&] {
+    answers = chief.Take();
+    return !answers.empty();
+  }));
+  EXPECT_EQ(answers[0].vehicle, kNobody);
+  EXPECT_EQ(answers[0].order, 9U);
+  EXPECT_TRUE(Eventually([&] { return chief.Announced() == std::vector{VehicleId{1}}; }));
 }
 
 TEST(Admin, AnOrderIsNotKeptForAVehicleThatComesLater) {

@@ -7,6 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "services/link/fastdds_version.h"
+#include "services/link/qos_trial.h"
+#include "services/link/resolved_qos.h"
 #include "tests/link/fleet.h"
 
 namespace giveway::test {
@@ -22,6 +25,27 @@ using ::testing::ExitedWithCode;
   } catch (const link::LinkError& error) {
     std::fprintf(stderr, "start error: %s\n", error.what());
     std::exit(2);
+  }
+  std::exit(0);
+}
+
+[[noreturn]] void Try(const link::LinkOptions& options) {
+  try {
+    link::TryQos(options);
+  } catch (const link::LinkError& error) {
+    std::fprintf(stderr, "start error: %s\n", error.what());
+    std::exit(2);
+  }
+  std::exit(0);
+}
+
+// Its exit code is the depth that the library reads.
+[[noreturn]] void TellDepth(const link::LinkOptions& options, const std::string& profile) {
+  for (const link::ResolvedEntity& entity : link::ResolveQos(options)) {
+    if (entity.profile != profile) continue;
+    for (const link::ResolvedValue& value : entity.values) {
+      if (value.policy == "depth") std::exit(static_cast<int>(value.number));
+    }
   }
   std::exit(0);
 }
@@ -113,6 +137,29 @@ TEST_F(StartErrors, RefuseAnImpairmentBesideSharedMemory) {
   options_.impairment.rules = {{.loss = 0.5}};
   options_.impairment.seed = 1;
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*names shared memory");
+}
+
+// No rule calls it an error, and the library makes no endpoint of ours with it.
+TEST_F(StartErrors, AreFoundByATrialOfTheSet) {
+  EXPECT_EXIT(Try(options_), ExitedWithCode(0), "^$");
+  const std::string profile = "profile_name=\"fleet_beacon_writer\"";
+  std::string text = DefaultText();
+  const std::size_t at = text.find("<kind>OFF", text.find("<data_sharing>", text.find(profile)));
+  options_.qos_file = Write(text.replace(at, 9, "<kind>ON"));
+  EXPECT_EXIT(Try(options_), ExitedWithCode(2), "start error: .*fleet_beacon_writer");
+}
+
+TEST_F(StartErrors, AreNoneForNumbersThatTheRulesRead) {
+  for (const char* four : {" 4 ", "\n  4\n", "+4", "4.0", "0x4", "4ms"}) {
+    options_.qos_file = Write(DefaultWith("<depth>1<", std::string("<depth>") + four + "<"));
+    EXPECT_EXIT(TellDepth(options_, "fleet_beacon_writer"), ExitedWithCode(4), "^$") << four;
+  }
+}
+
+// As the rule buffer_above_limit says.
+TEST_F(StartErrors, OfABufferOfMinusOneAreThoseOfFastDds3Alone) {
+  options_.qos_file = Write(DefaultWith(">1048576<", ">-1<"));
+  EXPECT_EXIT(Start(options_), ExitedWithCode(link::kLibraryMajor < 3 ? 0 : 2), "");
 }
 
 TEST_F(StartErrors, NameTheInterfacesThereAre) {

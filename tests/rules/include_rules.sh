@@ -53,10 +53,10 @@ may_include() {
     fleetctl) [[ $2 == services/@(fleetctl|vehicle|link|app|qos|types)/* || $2 == sim_world/virtual/* ]] ;;
     vehicle_main)
       [[ $2 == services/@(vehicle|link|qos|app|types)/* ||
-        $2 == services/@(beacon_news|deaf_watch|vehicle_admin|vehicle_health|vehicle_hearing|vehicle_join|vehicle_report|service_main|server_wait|qos_at_start|world_time).h ]]
+        $2 == services/@(beacon_news|deaf_watch|service_admin|vehicle_health|vehicle_hearing|vehicle_join|vehicle_report|service_main|service_run|server_wait|qos_at_start|world_time).h ]]
       ;;
     world_main)
-      [[ $2 == services/@(link|qos|app|types)/* || $2 == sim_world/* || $2 == services/@(service_main|server_wait|qos_at_start).h ]]
+      [[ $2 == services/@(link|qos|app|types)/* || $2 == sim_world/* || $2 == services/@(service_admin|service_main|service_run|server_wait|qos_at_start).h ]]
       ;;
     tests) true ;;
     *) false ;;

@@ -24,7 +24,7 @@ with() {
   ! cmp -s "$file" "$default" || fail "$file is the default"
 }
 with deadline.xml fleet_beacon_reader 's/<nanosec>150000000/<nanosec>180000000/'
-with depth.xml fleet_beacon_reader 's/<depth>4/<depth>8/'
+with depth.xml fleet_beacon_reader 's/<depth>[0-9]*/<depth>9/'
 # First what is offered, then what is requested.
 with offered.xml fleet_beacon_writer 's/<nanosec>100000000/<nanosec>60000000/'
 sed '/profile_name="fleet_beacon_reader"/,/<\/data_/ s/<nanosec>150000000/<nanosec>60000000/' \
@@ -64,7 +64,7 @@ pid=$(find_child "$fleet" 2)
 listen_places two "$domain" 2
 
 apply 0 "dry run" depth.xml --to 1,2,3,4 --domain "$domain" --dry-run
-grep -q 'depth  *4 -> 8  (restart)' out || fail "dry run: $(cat out)"
+grep -q 'depth  *[0-9] -> 9  (restart)' out || fail "dry run: $(cat out)"
 
 apply 0 "a deadline" deadline.xml --to 1,2 --domain "$domain" --json
 says "a deadline" '.verdict == "applied" and all(.vehicles[]; .in_effect and .checked > 0 and
@@ -76,13 +76,45 @@ says "the same again" '.verdict == "nothing_to_do"'
 apply 1 "no restart" depth.xml --to 1 --domain "$domain" --no-restart --json
 says "no restart" '.verdict == "refused"'
 
-apply 0 "a canary" depth.xml --to 1,2,3,4 --domain "$domain" --canary 2 --watch 4 --json
-says "a canary" '.verdict == "applied" and .vehicles[0].id == 2 and .trial.worse == "" and
-  (.vehicles | length == 4) and all(.vehicles[]; .in_effect and .seen == .checked)'
+# The example of the help, as it is printed but for the domain: to every vehicle and the world.
+example=$("$FLEETCTL" qos apply --help | sed -n "s/^ *fleetctl qos apply \(.*--canary.*\)/\1/p" |
+  sed "s/--domain 7/--domain $domain/")
+[[ $example == *"--to all"* ]] || fail "the help has no such example: $example"
+# shellcheck disable=SC2086  # words of a command line
+apply 0 "the example of the help" $example --json
+says "the example of the help" '.verdict == "applied" and .vehicles[0].id == 2 and
+  .trial.worse == "" and (.vehicles | length == 5) and any(.vehicles[]; .process == "the world") and
+  all(.vehicles[]; .in_effect and .checked > 0 and .seen == .checked) and
+  (.order[0] == "vehicle 2 (between)")'
+grep -q 'restarts itself' logs/world.log || fail "the example of the help: the world did not restart"
 grep -q 'restarts itself' logs/vehicle-2.log || fail "a canary: vehicle 2 did not restart"
 [[ $(find_child "$fleet" 2) == "$pid" ]] || fail "a canary: vehicle 2 is another process"
 
 "$FLEETCTL" why 1 2 --domain "$domain" >out 2>err || fail "why, after a restart: $(cat out err)"
+
+apply 0 "back to the default" default --to all --domain "$domain" --json
+says "back to the default" '.verdict == "applied" and (.vehicles | length == 5) and
+  .order[0] == "the world"'
+
+# With data sharing the library makes no endpoint of ours, which no rule calls an error.
+restarts=$(grep -c 'restarts itself' logs/vehicle-1.log)
+with no_participant.xml fleet_beacon_writer '/<data_sharing>/,/<\/data_sharing>/ s/OFF/ON/'
+apply 1 "a set without a participant" no_participant.xml --to 1 --domain "$domain" --json
+says "a set without a participant" '.verdict == "refused" and
+  (.vehicles[0].refusal | contains("a participant with it cannot be made"))'
+[[ $(grep -c 'restarts itself' logs/vehicle-1.log) -eq $restarts ]] ||
+  fail "a set without a participant: vehicle 1 restarted"
+# One that comes back all the same, and finds that its new set does not do, has the former one.
+code=0
+timeout 20 "$GIVEWAY_BIN_DIR/giveway-vehicle" --scenario rounds.textproto --domain "$domain" --id 3 \
+  --qos cut.xml --former-qos "$default" 2>err || code=$?
+if [[ $code -ne 2 ]] || ! grep -q 'comes back with the QoS it had before: .*cut.xml' err ||
+  ! grep -q 'the world refused this vehicle' err; then
+  fail "no way back: exit code $code: $(cat err)"
+fi
+sed '0,/<.transport_id>/ s/<.transport_id>/&<output_port>7777<\/output_port>/' "$default" >door.xml
+apply 1 "an element that is no QoS" door.xml --to 1 --domain "$domain" --json
+says "an element that is no QoS" 'any(.findings[]; .rule == "not_by_order" and .line > 0)'
 
 apply 1 "a mismatch" mismatch.xml --to 1 --domain "$domain" --json
 says "a mismatch" '.verdict == "refused" and any(.findings[]; .rule == "liveliness_lease_mismatch")'

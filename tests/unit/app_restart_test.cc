@@ -65,6 +65,11 @@ TEST(Restart, PutsTheNewFlagsInPlaceOfTheOld) {
                           "--resume", "word"));
 }
 
+TEST(Restart, LeavesAFlagWithoutAValueOut) {
+  EXPECT_THAT(ArgumentsWith({"vehicle", "--resume", "word", "--lockstep"}, {{"--resume", ""}}),
+              ElementsAre("vehicle", "--lockstep"));
+}
+
 TEST(Restart, FindsATextThatItHoldsAndItsName) {
   const std::string path = HoldText("mine.xml", "<dds/>");
   EXPECT_EQ(ReadBytes(path), "<dds/>");

@@ -1,6 +1,7 @@
-#include "services/vehicle_admin.h"
+#include "services/service_admin.h"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,9 @@
 
 namespace giveway {
 namespace {
+
+// A participant takes a tenth of a second; a busy machine more.
+constexpr Nanoseconds kTrialPatience = std::chrono::seconds(8);
 
 // Why these profiles would not do; empty if they would. An operator has looked already: this is for
 // the one that did not.
@@ -39,7 +43,7 @@ std::vector<qos::Change> ChangesBetween(const QosProfiles& from, const QosProfil
 
 }  // namespace
 
-VehicleAdmin::VehicleAdmin(link::VehicleLink* link, const link::LinkOptions& options,
+ServiceAdmin::ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options,
                            VehicleId vehicle, QosProfiles in_use, bool lockstep)
     : link_(*link),
       options_(options),
@@ -47,14 +51,14 @@ VehicleAdmin::VehicleAdmin(link::VehicleLink* link, const link::LinkOptions& opt
       lockstep_(lockstep),
       in_use_(std::move(in_use)) {}
 
-AdminOrder VehicleAdmin::Pending() const {
-  if (pending_) return *pending_;
-  return {.vehicle = vehicle_, .number = 0, .kind = OrderKind::kApply, .profiles = in_use_};
+void ServiceAdmin::AnswerResumed(std::uint64_t order, const std::string& rolled_back) {
+  if (rolled_back.empty()) return Answer(order, AnswerState::kInEffect);
+  Answer(order, AnswerState::kRefused, "came back with what it had: " + rolled_back);
 }
 
-void VehicleAdmin::AnswerResumed(std::uint64_t order) { Answer(order, AnswerState::kInEffect); }
-
-bool VehicleAdmin::Serve() {
+bool ServiceAdmin::Serve() {
+  if (trial_) return FinishTrial();
+  if (pending_) return false;  // it is about to restart
   for (const AdminOrder& order : link_.TakeOrders()) {
     if (order.vehicle != vehicle_) continue;
     if (order.kind == OrderKind::kTell) {
@@ -68,27 +72,67 @@ bool VehicleAdmin::Serve() {
   return false;
 }
 
-bool VehicleAdmin::Apply(const AdminOrder& order) {
-  const std::string wrong = WhatIsWrong(order.profiles, in_use_, options_.fleet_size);
-  if (!wrong.empty()) {
-    app::LogWarning("refused the QoS of " + order.profiles.name + ": " + wrong);
-    Answer(order.number, AnswerState::kRefused, wrong);
+bool ServiceAdmin::Apply(const AdminOrder& order) {
+  if (trial_) {
+    Refuse(order, "it tries the profiles of another order");
     return false;
   }
-  const std::vector<qos::Change> changes = ChangesBetween(in_use_, order.profiles);
-  if (qos::NeedsRestart(changes) || !TakeNow(changes)) {
-    app::LogInfo("restarts itself with the QoS of " + order.profiles.name);
-    Answer(order.number, AnswerState::kRestarting);
-    pending_ = order;
-    return true;
+  const std::string wrong = WhatIsWrong(order.profiles, in_use_, options_.fleet_size);
+  if (!wrong.empty()) {
+    Refuse(order, wrong);
+    return false;
   }
-  in_use_ = order.profiles;
-  app::LogInfo("runs with the QoS of " + in_use_.name + " from now on");
-  Answer(order.number, AnswerState::kInEffect);
+  const std::vector<qos::Change> changes =
+      qos::ChangesFor(vehicle_ == kNobody ? qos::Role::kWorld : qos::Role::kVehicle,
+                      ChangesBetween(in_use_, order.profiles));
+  if (!qos::NeedsRestart(changes) && TakeNow(changes)) {
+    in_use_ = order.profiles;
+    app::LogInfo("runs with the QoS of " + in_use_.name + " from now on");
+    Answer(order.number, AnswerState::kInEffect);
+    return false;
+  }
+  try {
+    trial_ = std::make_unique<app::ProgramTrial>(
+        app::NewFlags{{"--resume", ""}, {"--former-qos", ""}}, "--try-qos", order.profiles.name,
+        order.profiles.text, kTrialPatience);
+    pending_ = order;
+  } catch (const std::system_error& error) {
+    Refuse(order, error.what());
+  }
   return false;
 }
 
-bool VehicleAdmin::TakeNow(const std::vector<qos::Change>& changes) {
+bool ServiceAdmin::FinishTrial() {
+  const std::optional<std::string> result = trial_->Result();
+  if (!result) return false;
+  trial_.reset();
+  if (!result->empty()) {
+    Refuse(*pending_, "a participant with it cannot be made: " + *result);
+    pending_.reset();
+    return false;
+  }
+  app::LogInfo("restarts itself with the QoS of " + pending_->profiles.name);
+  Answer(pending_->number, AnswerState::kRestarting);
+  return true;
+}
+
+app::NewFlags ServiceAdmin::ToComeBack() const {
+  if (!pending_) {
+    return {{"--qos", app::HoldText(in_use_.name, in_use_.text)},
+            {"--former-qos", ""},
+            {"--rolled-back", ""}};
+  }
+  return {{"--qos", app::HoldText(pending_->profiles.name, pending_->profiles.text)},
+          {"--former-qos", app::HoldText(in_use_.name, in_use_.text)},
+          {"--rolled-back", ""}};
+}
+
+void ServiceAdmin::Refuse(const AdminOrder& order, const std::string& why) {
+  app::LogWarning("refused the QoS of " + order.profiles.name + ": " + why);
+  Answer(order.number, AnswerState::kRefused, why);
+}
+
+bool ServiceAdmin::TakeNow(const std::vector<qos::Change>& changes) {
   for (const qos::Change& change : changes) {
     if (link_.SetDeadline(change.profile, change.number)) continue;
     app::LogError("the library refused the deadline " + change.to + " of " + change.profile);
@@ -97,7 +141,7 @@ bool VehicleAdmin::TakeNow(const std::vector<qos::Change>& changes) {
   return true;
 }
 
-void VehicleAdmin::Answer(std::uint64_t order, AnswerState state, const std::string& reason) {
+void ServiceAdmin::Answer(std::uint64_t order, AnswerState state, const std::string& reason) {
   AdminAnswer answer{.vehicle = vehicle_,
                      .order = order,
                      .state = state,

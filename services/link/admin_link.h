@@ -1,0 +1,27 @@
+// What an operator's orders come by and are answered by, of a vehicle or a world.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/types/admin.h"
+
+namespace giveway::link {
+
+class AdminLink {
+ public:
+  // The orders to this process that have come since the last call.
+  virtual std::vector<AdminOrder> TakeOrders() = 0;
+  virtual void SendAnswer(const AdminAnswer& answer) = 0;
+  // What the endpoints there are now run with.
+  virtual std::vector<LiveValue> LiveQos() const = 0;
+  // Gives the endpoints of a profile another deadline while they run; one without endpoints here is
+  // passed over. `deadline` in nanoseconds, or kInfiniteDuration. False if the library refused.
+  virtual bool SetDeadline(const std::string& profile, std::int64_t deadline) = 0;
+
+ protected:
+  ~AdminLink() = default;
+};
+
+}  // namespace giveway::link
