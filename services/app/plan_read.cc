@@ -93,8 +93,10 @@ void CheckGoals(const Section& section, const KnownIds& known, const Scenario& s
     return std::binary_search(arrived.begin(), arrived.end(), id);
   };
   const auto complain = [&](VehicleId id) {
-    section.Complain("arrived", fmt::format("vehicle {} has no goal and never arrives", Number(id)),
-                     "give it a goal, or leave it out here");
+    section.Complain(
+        "arrived",
+        fmt::format("vehicle {} has no goal, or a route that loops, and never arrives", Number(id)),
+        "give it a goal and no loop, or leave it out here");
   };
   for (const VehicleOptions& vehicle : scenario.vehicles) {
     if (!HasGoal(vehicle) && expected(vehicle.id)) complain(vehicle.id);

@@ -16,13 +16,19 @@ std::string WithRoute(const std::string& route) {
 
 TEST(RouteInAFile, IsReadInTurn) {
   const Scenario scenario =
-      Load(WithRoute("waypoint { x_m: 1 y_m: 2 } waypoint { x_m: 3 y_m: -4 } loop: true"));
+      Load(WithRoute("waypoint { x_m: 1 y_m: 2 } waypoint { x_m: 3 y_m: -4 }"));
   const Route& route = scenario.vehicles[0].route;
   ASSERT_EQ(route.count, 2U);
   EXPECT_EQ(route.waypoints_world[0], (Vec2{1, 2}));
   EXPECT_EQ(route.waypoints_world[1], (Vec2{3, -4}));
-  EXPECT_TRUE(route.loop);
+  EXPECT_FALSE(route.loop);
   EXPECT_EQ(scenario.vehicles[1].route.count, 0U);
+}
+
+TEST(RouteInAFile, WhoLoopsIsNotExpectedToArrive) {
+  EXPECT_THAT(
+      ProblemsOf(WithRoute("waypoint { x_m: 1 y_m: 2 } loop: true")),
+      ElementsAre(Is(16, "expect.arrived", "vehicle 1 has no goal, or a route that loops")));
 }
 
 TEST(RouteInAFile, IsReadOfASpawnPlaceToo) {
