@@ -9,9 +9,10 @@ void VehicleHealthTeller::Joins(const std::string& waits_for) {
   service_.Tell();
 }
 
-void VehicleHealthTeller::Placed(Nanoseconds ranges_age_limit) {
+void VehicleHealthTeller::Placed(VehicleId id, Nanoseconds ranges_age_limit) {
   app::VehicleHealth& now = service_.Now();
   now.loop.stage = app::HealthStage::kUnderWay;
+  now.status.vehicle = id;
   now.ranges_age_limit = ranges_age_limit;
   ++now.placements;
   service_.Tell();

@@ -14,8 +14,8 @@ class VehicleHealthTeller {
 
   // It asks for a place; `waits_for` is what the world said last, empty if nothing.
   void Joins(const std::string& waits_for);
-  // It was given a place, and will drive with ranges no older than that.
-  void Placed(Nanoseconds ranges_age_limit);
+  // It was given a place as vehicle `id`, and will drive with ranges no older than that.
+  void Placed(VehicleId id, Nanoseconds ranges_age_limit);
   // The loop has taken what came, at `woke`.
   void Turned(const link::Taken& taken, const link::VehicleLinkCounters& counters,
               const RosterEntry& place, SteadyTime woke);

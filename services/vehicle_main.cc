@@ -8,10 +8,13 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "services/app/hang_signal.h"
+#include "services/app/identity.h"
 #include "services/app/process.h"
 #include "services/app/recorder.h"
+#include "services/app/refusal_log.h"
 #include "services/app/restart.h"
 #include "services/app/scenario_file.h"
 #include "services/app/text_file.h"
@@ -23,6 +26,7 @@
 #include "services/service_main.h"
 #include "services/service_run.h"
 #include "services/types/vehicle_options.h"
+#include "services/vehicle/refused_beacon.h"
 #include "services/vehicle/vehicle.h"
 #include "services/vehicle_health.h"
 #include "services/vehicle_hearing.h"
@@ -65,7 +69,7 @@ class Loop {
     std::optional<Handover> handover = flags.resume ? flags.resume->handover : std::nullopt;
     if (handover && !TakeOver(*handover)) handover.reset();
     if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_, handover);
-    health_.Placed(options_.ranges_age_limit);
+    health_.Placed(options_.id, options_.ranges_age_limit);
   }
 
   // Until the run has ended (unless it stays), `stop` is set, the world refuses it, or an
@@ -141,7 +145,7 @@ class Loop {
     options_ = OptionsOf(scenario_, entry);
     vehicle_.Reseat(options_);
     if (recorder_ != nullptr) recorder_->Reseat(options_);
-    health_.Placed(options_.ranges_age_limit);
+    health_.Placed(options_.id, options_.ranges_age_limit);
     app::LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
   }
 
@@ -183,6 +187,7 @@ class Loop {
     inputs.halting = restarts_;
     if (inputs.scan) last_scan_ = woke;
     const std::span<const QosEvent> events = inputs.events;
+    app::LogNews(taken.refusals, link_.TakeUnfit(woke), woke, &refusal_log_);
     if (lockstep_ && !leaving && !world_time_.Keep(&inputs, options_.tick_period)) {
       return Tell(events);
     }
@@ -199,6 +204,7 @@ class Loop {
     if (recorder_ != nullptr) recorder_->Step(inputs, outputs, vehicle_.Hash());
     if (outputs.decision_changed) app::LogInfo(Describe(outputs.command.decision));
     Tell(events);
+    TellOfRefusals(inputs.beacons, woke);
     if (!leaving && !restarts_ && admin_.Serve()) restarts_ = true;
     const bool looks = !leaving && !restarts_ && !lockstep_;
     if (looks) remedy_ = hearing_.Look(woke, inputs.scan.has_value());
@@ -229,6 +235,16 @@ class Loop {
           app::LogInfo(Describe(event), event.at);
       }
     }
+  }
+
+  // What the brain refused. What is broken or misnamed the link has said, and knows more of it.
+  void TellOfRefusals(std::span<const ReceivedBeacon> beacons, SteadyTime now) {
+    std::vector<Refusal> refusals;
+    for (const RefusedBeacon& refused : vehicle_.Refused()) {
+      if (refused.why == BeaconRefusal::kCrc || refused.why == BeaconRefusal::kWrongName) continue;
+      refusals.push_back(Explain(beacons[refused.index], refused.why, vehicle_.State()));
+    }
+    app::LogNews(refusals, {}, now, &refusal_log_);
   }
 
   bool HasLeft(VehicleId peer) const {
@@ -269,6 +285,7 @@ class Loop {
   Remedy remedy_ = Remedy::kNone;
   VehicleReport report_;
   BeaconNews beacon_news_;
+  app::RefusalLog refusal_log_;
   bool told_blackouts_ = false;
   SteadyTime last_scan_{0};
   SteadyTime last_beacon_{0};
@@ -297,6 +314,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
     return {};
   }
   link::VehicleLink link(link_options);
+  app::PublishIdentity({kNobody, link.ParticipantText()});
   const QosProfiles profiles{app::NameOf(flags.qos), app::ReadBytes(flags.qos)};
   app::LetGo(flags.qos);
   const std::optional<SessionId> session =
@@ -308,6 +326,8 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
     *exit_code = 2;
     return {};
   }
+  app::PublishIdentity({entry->vehicle, link.ParticipantText()});
+  app::SetLogVehicle(entry->vehicle);
   if (flags.id == 0) app::LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   const VehicleOptions options = OptionsOf(scenario, *entry);
   link.Open(options.id, options.profile, !scenario.signals.empty());
@@ -331,6 +351,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
 int Run(const app::ServiceFlags& flags, const app::StopSignal& stop) {
   const std::string name = flags.id == 0 ? "vehicle" : "vehicle " + std::to_string(flags.id);
   app::InitLog(name, flags.log_format, flags.log_level);
+  app::SetLogVehicle(VehicleId{flags.id});
   const Scenario scenario = app::LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});

@@ -84,6 +84,8 @@ WorldEnd WorldLoop::Drive(const app::StopSignal& stop) {
     KeepCheckpoint();
     TellHealth(app::HealthStage::kUnderWay);
     SayIfAlone();
+    app::LogNews(link_.TakeRefusals(), link_.TakeUnfit(app::SteadyNow()), app::SteadyNow(),
+                 &refusal_log_);
     const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
     if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
     if (admin_.Serve() && !stop.IsSet()) {
@@ -159,10 +161,27 @@ void WorldLoop::TakeCommands() {
   const SteadyTime now = app::SteadyNow();
   commands_.insert(commands_.end(), commands.begin(), commands.end());
   for (const MotorCommand& command : commands_) {
-    if (command.epoch != epoch_) continue;
+    if (command.epoch != epoch_) {
+      TellOfOldWorld(command);
+      continue;
+    }
     heard_[command.vehicle] = {command.tick, command.matched_peers, true};
     reactions_.Applied(command, now);
   }
+}
+
+// The run refuses and counts it; the log says why, if it goes on.
+void WorldLoop::TellOfOldWorld(const MotorCommand& command) {
+  const FieldFault fault{"world_epoch", double(Number(command.epoch)), double(Number(epoch_)),
+                         double(Number(epoch_))};
+  const Refusal refusal{.sample = "motor command",
+                        .vehicle = command.vehicle,
+                        .writer = Number(command.vehicle),
+                        .counter = "not obeyed",
+                        .field = fault.field,
+                        .why = Describe(fault),
+                        .passing = true};
+  app::LogNews({&refusal, 1}, {}, app::SteadyNow(), &refusal_log_);
 }
 
 // It is matched with the world, and with the beacons of every other vehicle that lives.
@@ -333,6 +352,7 @@ void WorldLoop::TellHealth(app::HealthStage stage) {
   now.commands_wrong_name = link.commands_wrong_name;
   now.commands_unbound = link.commands_unbound;
   now.commands_not_finite = link.commands_not_finite;
+  now.joins_refused = link.joins_refused;
   now.write_failures = link.write_failures;
   health_.Tell();
 }

@@ -12,6 +12,7 @@
 #include "services/app/fault_reminder.h"
 #include "services/app/health_service.h"
 #include "services/app/process.h"
+#include "services/app/refusal_log.h"
 #include "services/link/world_link.h"
 #include "services/service_admin.h"
 #include "services/types/parallel.h"
@@ -83,6 +84,7 @@ class WorldLoop {
   bool TellTheEnd(Nanoseconds patience);
   void TellHealth(app::HealthStage stage);
   void SayIfAlone();
+  void TellOfOldWorld(const MotorCommand& command);
 
   const Scenario& scenario_;
   link::WorldLink& link_;
@@ -97,7 +99,8 @@ class WorldLoop {
   SteadyTime say_alone_;  // when it is next said that no discovery server answers
   std::map<VehicleId, Hearing> heard_;
   std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
-  std::size_t speaking_ = 0;                 // of those that are in
+  app::RefusalLog refusal_log_;
+  std::size_t speaking_ = 0;  // of those that are in
   std::vector<MotorCommand> commands_;
   LineBudget answer_lines_{8};  // of admission
   LineBudget event_lines_{16};  // of the run

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "services/app/health_service.h"
+#include "services/app/identity.h"
 #include "services/app/parallel_for.h"
 #include "services/app/process.h"
 #include "services/app/restart.h"
@@ -82,6 +83,7 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   };
   if (!AwaitServers(link_options, stop, tell)) return {};
   link::WorldLink link(link_options);
+  app::PublishIdentity({kNobody, link.ParticipantText()});
   ServiceAdmin admin(&link, link_options, kNobody,
                      {app::NameOf(flags.qos), app::ReadBytes(flags.qos)}, flags.lockstep);
   for (const std::string& held : {flags.qos, flags.former_qos, flags.go_on_from}) app::LetGo(held);

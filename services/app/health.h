@@ -70,6 +70,7 @@ struct WorldHealth {
   std::uint32_t commands_wrong_name = 0;
   std::uint32_t commands_unbound = 0;
   std::uint32_t commands_not_finite = 0;
+  std::uint32_t joins_refused = 0;  // unread: without a session, or too many of one writer
   std::uint32_t write_failures = 0;
 };
 

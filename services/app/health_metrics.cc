@@ -215,6 +215,8 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
   metrics.Add({{"reason", "wrong_name"}}, world.commands_wrong_name);
   metrics.Add({{"reason", "unbound"}}, world.commands_unbound);
   metrics.Add({{"reason", "not_finite"}}, world.commands_not_finite);
+  metrics.Counter("joins_rejected", "Requests to join that were not looked at.",
+                  world.joins_refused);
   metrics.Counter("write_failures", "Samples the middleware did not take.", world.write_failures);
   AddLog(process, &metrics);
   return metrics.Text() + Text(process);

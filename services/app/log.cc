@@ -12,6 +12,7 @@
 #include <memory>
 #include <utility>
 
+#include "services/app/identity.h"
 #include "services/app/json_line.h"
 #include "services/app/log_queue.h"
 #include "services/app/process.h"
@@ -23,6 +24,14 @@ namespace {
 // Of the line being written: lines are formatted on the thread that logs.
 thread_local SteadyTime line_at{0};
 
+// 0 before it is known, and in a process that is no vehicle.
+std::atomic<std::uint32_t> log_vehicle{0};
+
+std::string VehicleMember() {
+  const std::uint32_t id = log_vehicle.load(std::memory_order_relaxed);
+  return id == 0 ? "" : fmt::format("\"vehicle\":{},", id);
+}
+
 std::string_view View(spdlog::string_view_t text) { return {text.data(), text.size()}; }
 
 class JsonFormatter : public spdlog::formatter {
@@ -30,20 +39,34 @@ class JsonFormatter : public spdlog::formatter {
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
     const auto time = std::chrono::floor<std::chrono::milliseconds>(message.time);
     const auto second = std::chrono::floor<std::chrono::seconds>(time);
-    fmt::format_to(std::back_inserter(line),
-                   "{{\"time\":\"{:%FT%T}.{:03d}Z\",\"steady_ns\":{},\"level\":{},\"process\":{},"
-                   "\"text\":{}}}\n",
-                   fmt::gmtime(std::chrono::system_clock::to_time_t(second)),
-                   (time - second).count(), line_at.count(),
-                   JsonString(View(spdlog::level::to_string_view(message.level))),
-                   JsonString(View(message.logger_name)), JsonString(View(message.payload)));
+    fmt::format_to(
+        std::back_inserter(line),
+        "{{\"time\":\"{:%FT%T}.{:03d}Z\",\"steady_ns\":{},\"level\":{},\"process\":{},"
+        "{}\"text\":{}}}\n",
+        fmt::gmtime(std::chrono::system_clock::to_time_t(second)), (time - second).count(),
+        line_at.count(), JsonString(View(spdlog::level::to_string_view(message.level))),
+        JsonString(View(message.logger_name)), VehicleMember(), JsonString(View(message.payload)));
   }
   std::unique_ptr<spdlog::formatter> clone() const override {
     return std::make_unique<JsonFormatter>();
   }
 };
 
-constexpr const char* kTextPattern = "%H:%M:%S.%e %-7l %n: %v";
+constexpr const char* kTextPattern = "%H:%M:%S.%e %-7l %n%*: %v";
+
+// "%*" of the pattern: " 3" after the name of a vehicle whose id no flag told.
+class GivenId : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& line) override {
+    const std::uint32_t id = log_vehicle.load(std::memory_order_relaxed);
+    if (id == 0 || View(message.logger_name) != "vehicle") return;
+    fmt::format_to(std::back_inserter(line), " {}", id);
+  }
+  std::unique_ptr<spdlog::custom_flag_formatter> clone() const override {
+    return std::make_unique<GivenId>();
+  }
+};
 constexpr std::size_t kMostWaitingBytes = 256U << 10U;  // some two thousand lines
 
 // Of this process, from InitLog on. Never destroyed: its thread may be held up by a reader that has
@@ -70,7 +93,9 @@ class QueueSink : public spdlog::sinks::base_sink<std::mutex> {
 
 std::unique_ptr<spdlog::formatter> MakeFormatter(const std::string& format) {
   if (format == "json") return std::make_unique<JsonFormatter>();
-  return std::make_unique<spdlog::pattern_formatter>(kTextPattern);
+  auto text = std::make_unique<spdlog::pattern_formatter>();
+  text->add_flag<GivenId>('*').set_pattern(kTextPattern);
+  return text;
 }
 
 LogQueue::Notice MakeNotice(const std::string& process_name, const std::string& format) {
@@ -90,7 +115,7 @@ LogQueue::Notice MakeNotice(const std::string& process_name, const std::string& 
 std::shared_ptr<spdlog::logger> MakeLogger(const std::string& name) {
   auto logger =
       std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->set_pattern(kTextPattern);
+  logger->set_formatter(MakeFormatter("text"));
   return logger;
 }
 
@@ -121,6 +146,8 @@ void InitLog(const std::string& process_name, const std::string& format, const s
 bool FlushLog(Nanoseconds limit) { return queue.load() == nullptr || Queue().Flush(limit); }
 
 std::uint64_t LogLinesDropped() { return queue.load() == nullptr ? 0 : Queue().Dropped(); }
+
+void SetLogVehicle(VehicleId id) { log_vehicle = Number(id); }
 
 void LogDebug(const std::string& text) { Log(spdlog::level::debug, text, SteadyNow()); }
 void LogInfo(const std::string& text) { LogInfo(text, SteadyNow()); }

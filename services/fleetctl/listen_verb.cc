@@ -7,6 +7,7 @@
 #include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/listen.h"
 #include "services/fleetctl/observer_flags.h"
+#include "services/fleetctl/other_fleets.h"
 #include "services/fleetctl/verbs.h"
 
 namespace giveway::fleetctl {
@@ -39,6 +40,7 @@ void Listen(const ListenOptions& options, int* exit_code) {
     throw CLI::ValidationError("--vehicle", "does not go with " + std::string(Name(filter.topic)) +
                                                 ", which is not about vehicles");
   }
+  SayOtherFleets(options.where.domain, options.where.interface);
   *exit_code = RunListen(options);
 }
 

@@ -5,6 +5,7 @@
 
 #include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/observer_flags.h"
+#include "services/fleetctl/other_fleets.h"
 #include "services/fleetctl/qos_apply.h"
 #include "services/fleetctl/verbs.h"
 #include "services/fleetctl/whole_number.h"
@@ -84,6 +85,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
   verb->callback([options, targets, exit_code] {
     ReadTargets(*targets, options.get());
     CheckTargets(*options);
+    SayOtherFleets(options->where.domain, options->where.interface);
     *exit_code = RunQosApply(*options);
   });
 }

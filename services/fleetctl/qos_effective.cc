@@ -65,6 +65,8 @@ std::string Name(QosOrigin origin) {
       return "code";
     case QosOrigin::kEnvironment:
       return "environment";
+    case QosOrigin::kDiscovered:
+      return "discovered";
     case QosOrigin::kFlag:
       break;
   }

@@ -12,7 +12,9 @@
 #include "services/fleetctl/interrupts.h"
 #include "services/fleetctl/json_object.h"
 #include "services/fleetctl/orders.h"
+#include "services/fleetctl/other_fleets.h"
 #include "services/fleetctl/qos_effective.h"
+#include "services/fleetctl/qos_foreign.h"
 #include "services/fleetctl/reading_along.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
@@ -21,6 +23,8 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(10);
+// One of ours is reached in a second; after this it is looked for among the foreign.
+constexpr auto kOwnPatience = std::chrono::seconds(3);
 
 // One live value, and what the file it should run with makes of it; nothing where it has no such
 // endpoint or value.
@@ -32,24 +36,20 @@ struct LiveRow {
   bool AsExpected() const { return !expected || expected->value == live.value; }
 };
 
-// Nothing if there is none: then it is said why, and *exit_code set.
-std::optional<AdminAnswer> AnswerOf(const QosLiveOptions& options, const std::string& file,
-                                    int* exit_code) {
+// What is known of a vehicle: its own answer, or of a foreign one what discovery tells.
+struct LiveQos {
+  std::string runs_with;  // the name of its set; of a foreign one empty
+  std::string foreign;    // whose DDS, if it is another vendor's
+  std::vector<EffectiveEndpoint> endpoints;
+};
+
+link::LinkOptions LinkOptionsOf(const QosLiveOptions& options, const std::string& file) {
   link::LinkOptions link_options;
   link_options.domain = options.domain;
   link_options.interface = options.set.interface;
   link_options.qos_file = file;
   link_options.fleet_size = options.set.vehicles;
-  const Interrupts interrupts;
-  Orders orders(link_options);
-  const VehicleId vehicle{options.vehicle};
-  if (!orders.Seek({vehicle}, kPatience).empty()) {
-    *exit_code = SayNotReached(vehicle, options.domain);
-    return std::nullopt;
-  }
-  auto answer = orders.Give(TellOrder(vehicle), kPatience);
-  if (!answer) *exit_code = SayNoAnswer(vehicle);
-  return answer;
+  return link_options;
 }
 
 // The live endpoints, with the origin of each value in the file that the vehicle has.
@@ -67,6 +67,33 @@ std::vector<EffectiveEndpoint> LiveEndpoints(const AdminAnswer& answer) {
                                           : qos::ProfileSet{});
 }
 
+// Nothing if there is none: then it is said why, and *exit_code set.
+std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::string& file,
+                                 int* exit_code) {
+  const link::LinkOptions link_options = LinkOptionsOf(options, file);
+  SayOtherFleets(options.domain, options.set.interface);
+  const Interrupts interrupts;
+  Orders orders(link_options);
+  const VehicleId vehicle{options.vehicle};
+  bool reached = orders.Seek({vehicle}, kOwnPatience).empty();
+  if (!reached) {
+    if (auto foreign = SeekForeign(link_options, vehicle)) {
+      return LiveQos{"", std::move(foreign->vendor), std::move(foreign->endpoints)};
+    }
+    reached = orders.Seek({vehicle}, kPatience).empty();
+  }
+  if (!reached) {
+    *exit_code = SayNotReached(vehicle, options.domain);
+    return std::nullopt;
+  }
+  const auto answer = orders.Give(TellOrder(vehicle), kPatience);
+  if (!answer) {
+    *exit_code = SayNoAnswer(vehicle);
+    return std::nullopt;
+  }
+  return LiveQos{answer->profiles.name, "", LiveEndpoints(*answer)};
+}
+
 std::optional<QosRow> Expected(const EffectiveSet& set, const std::string& profile,
                                const std::string& policy) {
   const auto endpoint = std::ranges::find(set.endpoints, profile, &EffectiveEndpoint::profile);
@@ -75,16 +102,19 @@ std::optional<QosRow> Expected(const EffectiveSet& set, const std::string& profi
   return row == endpoint->rows.end() ? std::nullopt : std::optional(*row);
 }
 
-std::vector<LiveRow> HoldAgainst(const EffectiveSet& set, const AdminAnswer& answer,
+// The partition of a foreign one is not what the set says of partitions in general.
+std::vector<LiveRow> HoldAgainst(const EffectiveSet& set, const LiveQos& live,
                                  const std::vector<std::string>& wanted) {
   std::vector<LiveRow> all;
-  for (const EffectiveEndpoint& endpoint : LiveEndpoints(answer)) {
+  for (const EffectiveEndpoint& endpoint : live.endpoints) {
     const auto is_it = [&](const std::string& word) {
       return word == endpoint.profile || word == endpoint.topic;
     };
     if (!wanted.empty() && std::ranges::none_of(wanted, is_it)) continue;
     for (const QosRow& row : endpoint.rows) {
-      all.push_back({endpoint.profile, row, Expected(set, endpoint.profile, row.policy)});
+      const bool comparable = live.foreign.empty() || row.policy != "partition";
+      all.push_back({endpoint.profile, row,
+                     comparable ? Expected(set, endpoint.profile, row.policy) : std::nullopt});
     }
   }
   return all;
@@ -108,25 +138,29 @@ std::string ToJson(const LiveRow& told) {
   return json + "}";
 }
 
-std::string Json(const QosLiveOptions& options, const std::string& file, const AdminAnswer& answer,
+std::string Json(const QosLiveOptions& options, const std::string& file, const LiveQos& live,
                  const std::vector<LiveRow>& all) {
   JsonObject object;
   object.Add("vehicle", options.vehicle);
   object.Add("domain", options.domain);
-  object.Add("runs_with", std::string_view(answer.profiles.name));
+  if (live.foreign.empty()) {
+    object.Add("runs_with", std::string_view(live.runs_with));
+  } else {
+    object.Add("foreign", std::string_view(live.foreign));
+  }
   object.Add("file", std::string_view(file));
   object.AddRaw("values", JsonArray(all, [](const LiveRow& told) { return ToJson(told); }));
   return object.Text() + "\n";
 }
 
-std::string Text(const std::string& file, const AdminAnswer& answer,
-                 const std::vector<LiveRow>& all) {
+std::string Text(const std::string& file, const LiveQos& live, const std::vector<LiveRow>& all) {
   std::string text;
+  if (!live.foreign.empty()) text = "foreign (" + live.foreign + "), as discovery tells it\n";
   std::string profile;
   for (const LiveRow& told : all) {
     if (told.profile != profile) text += told.profile + "\n";
     profile = told.profile;
-    text += ToText(told, answer.profiles.name, file);
+    text += ToText(told, live.runs_with, file);
   }
   return text;
 }
@@ -138,11 +172,11 @@ int RunQosLive(const QosLiveOptions& options) {
   const EffectiveSet set =
       EffectiveQosOfFile(options.set.qos_file, options.set.interface, options.set.vehicles);
   int exit_code = 0;
-  const auto answer = AnswerOf(options, set.file, &exit_code);
-  if (!answer) return exit_code;
-  const std::vector<LiveRow> all = HoldAgainst(set, *answer, options.set.wanted);
+  const auto live = LiveQosOf(options, set.file, &exit_code);
+  if (!live) return exit_code;
+  const std::vector<LiveRow> all = HoldAgainst(set, *live, options.set.wanted);
   const std::string text =
-      options.set.json ? Json(options, set.file, *answer, all) : Text(set.file, *answer, all);
+      options.set.json ? Json(options, set.file, *live, all) : Text(set.file, *live, all);
   std::fputs(text.c_str(), stdout);
   if (std::fflush(stdout) != 0) return kCouldNotRun;
   return std::ranges::all_of(all, &LiveRow::AsExpected) ? 0 : 1;

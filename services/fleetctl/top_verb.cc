@@ -2,6 +2,7 @@
 
 #include "services/fleetctl/flag_checks.h"
 #include "services/fleetctl/observer_flags.h"
+#include "services/fleetctl/other_fleets.h"
 #include "services/fleetctl/top.h"
 #include "services/fleetctl/verbs.h"
 
@@ -36,7 +37,10 @@ void AddTopVerb(CLI::App* fleetctl, int* exit_code) {
       ->capture_default_str()
       ->needs(once);
   verb->add_flag("--json", options->json, "Print JSON objects on stdout and nothing else");
-  verb->callback([options, exit_code] { *exit_code = RunTop(*options); });
+  verb->callback([options, exit_code] {
+    SayOtherFleets(options->where.domain, options->where.interface);
+    *exit_code = RunTop(*options);
+  });
 }
 
 }  // namespace giveway::fleetctl

@@ -7,6 +7,7 @@
 #include <exception>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "services/fleetctl/domain_lock.h"
 #include "services/fleetctl/exit_codes.h"
@@ -34,7 +35,11 @@ std::string Listed(const std::vector<FleetMember>& members,
     const std::string who = member.is_world        ? "the world"
                             : member.id == kNobody ? "a vehicle without a given id"
                                                    : fmt::format("vehicle {}", Number(member.id));
-    text += fmt::format("\n  pid:{}  {} in domain {}", member.pid, who, member.domain);
+    text += fmt::format("\n  pid:{}  {} in domain {}, interface {}", member.pid, who, member.domain,
+                        member.interface);
+    if (member.network_namespace) {
+      text += fmt::format(", network namespace {}", *member.network_namespace);
+    }
   }
   if (!text.empty()) return text;
   return domain ? fmt::format(" no process of a fleet in domain {}", *domain)
@@ -68,24 +73,36 @@ bool MayBeNameless(const Named& named, const std::vector<FleetMember>& members,
   return found != members.end() && !found->is_world && found->id == kNobody;
 }
 
-// Names the vehicles of a domain that were given no id, as far as they are heard in the place of
-// the first of them.
-void NameNameless(std::uint32_t domain, std::vector<FleetMember>* members) {
-  std::map<std::uint16_t, FleetMember*> nameless;
+// Names those that publish no id, as far as they are heard in the place of the first of them. Two
+// that discovery cannot tell apart, being the same process id of two containers, stay nameless.
+void NameByEar(const std::vector<FleetMember*>& nameless) {
+  std::map<std::uint16_t, std::vector<FleetMember*>> by_process;
   std::optional<ProcessSituation> place;
-  for (FleetMember& member : *members) {
-    if (member.is_world || member.id != kNobody || member.domain != domain) continue;
-    auto situation = ReadSituation(kProc, member.pid);
+  for (FleetMember* const member : nameless) {
+    auto situation = ReadSituation(kProc, member->pid);
     if (!situation) continue;
-    nameless[static_cast<std::uint16_t>(situation->pid_inside)] = &member;
+    by_process[static_cast<std::uint16_t>(situation->pid_inside)].push_back(member);
     if (!place) place = std::move(situation);
   }
   if (!place) return;
   std::set<std::uint16_t> wanted;
-  for (const auto& [process, member] : nameless) wanted.insert(process);
-  for (const auto& [process, id] : ListenForNames(*place, wanted)) {
-    if (nameless.contains(process)) nameless[process]->id = id;
+  for (const auto& [process, members] : by_process) {
+    if (members.size() == 1) wanted.insert(process);
   }
+  for (const auto& [process, id] : ListenForNames(*place, wanted)) {
+    if (wanted.contains(process)) by_process[process].front()->id = id;
+  }
+}
+
+// Names the vehicles of a domain that were given no id, fleet by fleet: one domain number may be of
+// several, each with a network of its own.
+void NameNameless(std::uint32_t domain, std::vector<FleetMember>* members) {
+  std::map<std::pair<std::uint64_t, std::string>, std::vector<FleetMember*>> nameless;
+  for (FleetMember& member : *members) {
+    if (member.is_world || member.id != kNobody || member.domain != domain) continue;
+    nameless[{member.network_namespace.value_or(0), member.interface}].push_back(&member);
+  }
+  for (const auto& [network, fleet] : nameless) NameByEar(fleet);
 }
 
 std::optional<ProcessSituation> Read(int pid, const std::vector<FleetMember>& members) {
@@ -101,12 +118,15 @@ std::uint32_t VehiclesIn(const std::vector<FleetMember>& members, std::uint32_t 
       members, [&](const FleetMember& one) { return !one.is_world && one.domain == domain; }));
 }
 
+// `foreign`: whose DDS the probe found it to be, if another vendor's.
 void AddNotKnown(const std::optional<ProcessSituation>& process, const Named& named,
-                 WhyReport* report) {
+                 const std::string& foreign, WhyReport* report) {
   if (!process) {
-    report->not_known.push_back(TextOf(named) +
-                                " is no process of this machine: judged by what "
-                                "can be heard");
+    report->not_known.push_back(
+        foreign.empty()
+            ? TextOf(named) + " is no process of a fleet on this machine: judged by what is heard"
+            : fmt::format("{} is foreign ({}): judged by what discovery tells and what is heard",
+                          TextOf(named), foreign));
     return;
   }
   for (const std::string& fact : process->not_known) {
@@ -135,14 +155,16 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
     std::fprintf(stderr, "two worlds do not talk to each other\n");
     return kCouldNotRun;
   }
-  AddNotKnown(hearer, options.hearer, &report);
-  AddNotKnown(speaker, options.speaker, &report);
   report.host_id = speaker ? HostId(*speaker) : std::nullopt;
   if (options.probe) {
-    report.probe =
-        Probe({from, to, report.topics, options.seconds.value_or(ListenSeconds(report.topics))});
+    report.probe = Probe({from, to, hearer.has_value(), report.topics,
+                          options.seconds.value_or(ListenSeconds(report.topics))});
     AddNotJoined(from, to, &report);
+    AddUnfit(&report);
   }
+  const ProbeResult heard = report.probe.value_or(ProbeResult{});
+  AddNotKnown(hearer, options.hearer, heard.hearer_foreign, &report);
+  AddNotKnown(speaker, options.speaker, heard.speaker_foreign, &report);
   const Told told = Tell(options.json ? ToJson(report) : ToText(report));
   return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report);
 }

@@ -100,9 +100,14 @@ class Probing {
   ProbeResult Listen() {
     while (!IsOver()) {
       app::SleepUntil(app::SteadyNow() + kTurn);
-      for (const link::EarProcess& process : ear_->Listen()) {
+      processes_ = ear_->Listen();
+      for (const link::EarProcess& process : processes_) {
         if (IsSpeaker(process)) Note(process);
         if (IsHearer(process)) NoteHearer(process);
+      }
+      for (const TopicOutlook& topic : order_.topics) NoteFit(topic.topic);
+      for (std::string& line : ear_->TakeUnfit(app::SteadyNow())) {
+        result_.unfit.push_back(std::move(line));
       }
       NoteOwnWord(observer_.Take());
     }
@@ -131,8 +136,41 @@ class Probing {
     });
     return all && (OwnWordFits() || seconds >= kOwnWordSeconds);
   }
+  // Whether discovery has told what a hearer that cannot be asked reads.
+  bool HasFits() const {
+    return std::ranges::all_of(order_.topics, [&](const TopicOutlook& topic) {
+      const auto found = result_.topics.find(topic.topic);
+      return found != result_.topics.end() && (found->second.fits || !found->second.unfit.empty());
+    });
+  }
+  // By what discovery tells of the two themselves.
+  void NoteFit(const std::string& topic) {
+    ProbedTopic& probed = result_.topics[topic];
+    for (const link::EarProcess& speaker : processes_) {
+      for (const link::EarProcess& hearer : processes_) {
+        if (!IsSpeaker(speaker) || !IsHearer(hearer)) continue;
+        for (const link::FoundEndpoint& writer : speaker.endpoints) {
+          for (const link::FoundEndpoint& reader : hearer.endpoints) {
+            if (writer.topic != topic || reader.topic != topic) continue;
+            if (writer.writes && !reader.writes) NoteFit(writer, reader, &probed);
+          }
+        }
+      }
+    }
+  }
+  static void NoteFit(const link::FoundEndpoint& writer, const link::FoundEndpoint& reader,
+                      ProbedTopic* probed) {
+    const std::string unfit = link::PartitionsMatch(writer, reader)
+                                  ? link::Misfit(writer, reader)
+                                  : "partition: written in " + link::PartitionText(writer) +
+                                        ", read in " + link::PartitionText(reader);
+    probed->fits |= unfit.empty();
+    probed->unfit = probed->fits ? "" : unfit;
+  }
+
   // It said something, and of a hearer of beacons that it took some: else it is given time to.
   bool OwnWordFits() const {
+    if (!order_.hearer_here) return HasFits();
     if (order_.hearer.told.is_world) return true;
     return result_.own_word && (order_.speaker.told.is_world || result_.own_word->taken > 0);
   }
@@ -142,21 +180,25 @@ class Probing {
     return meant.told.id == kNobody || process.vehicle == kNobody ||
            meant.told.id == process.vehicle;
   }
-  bool IsSpeaker(const link::EarProcess& process) const {
-    if (!MayBe(order_.speaker, process)) return false;
-    if (order_.speaker.pid_inside != 0) {
-      return process.process == static_cast<std::uint16_t>(order_.speaker.pid_inside);
+  static bool Is(const ProcessSituation& meant, const link::EarProcess& process) {
+    if (!meant.participant.empty()) {
+      return meant.participant == link::ParticipantText(process.guid);
     }
-    if (!order_.speaker.told.is_world) return process.vehicle == order_.speaker.told.id;
+    if (!MayBe(meant, process)) return false;
+    if (meant.pid_inside != 0) {
+      return process.process == static_cast<std::uint16_t>(meant.pid_inside);
+    }
+    if (!meant.told.is_world) return process.vehicle == meant.told.id;
     return std::ranges::find(process.partitions, "world") != process.partitions.end();
   }
-
-  bool IsHearer(const link::EarProcess& process) const {
-    return order_.hearer.pid_inside != 0 && MayBe(order_.hearer, process) &&
-           process.process == static_cast<std::uint16_t>(order_.hearer.pid_inside);
+  bool IsSpeaker(const link::EarProcess& process) const { return Is(order_.speaker, process); }
+  bool IsHearer(const link::EarProcess& process) const { return Is(order_.hearer, process); }
+  static std::string ForeignVendor(const link::EarProcess& process) {
+    return link::IsOurVendor(process.guid) ? "" : link::VendorOf(process.guid);
   }
   void NoteHearer(const link::EarProcess& process) {
     result_.hearer_discovered = true;
+    result_.hearer_foreign = ForeignVendor(process);
     result_.hearer_joined |= process.vehicle != kNobody;
   }
 
@@ -164,6 +206,7 @@ class Probing {
     result_.discovered = true;
     result_.joined |= process.vehicle != kNobody;
     result_.host_id = process.host_id;
+    result_.speaker_foreign = ForeignVendor(process);
     for (const auto& [name, count] : process.topics) {
       ProbedTopic& topic = result_.topics[name];
       topic.matched |= count.matched;
@@ -190,6 +233,7 @@ class Probing {
   const SteadyTime since_;
   std::optional<SteadyTime> run_began_;
   std::optional<link::Ear> ear_;
+  std::vector<link::EarProcess> processes_;
   ProbeResult result_;
 };
 
@@ -205,6 +249,17 @@ std::string Written(const ProbeResult& result) {
   for (const auto& [name, topic] : result.topics) {
     text += fmt::format("topic {} {} {} {}\n", name, topic.matched ? 1 : 0, topic.samples,
                         topic.first_ms.value_or(-1));
+  }
+  for (const auto& [name, topic] : result.topics) {
+    if (topic.fits) text += fmt::format("fits {}\n", name);
+    if (!topic.unfit.empty()) text += fmt::format("misfit {} {}\n", name, topic.unfit);
+  }
+  for (const std::string& line : result.unfit) text += fmt::format("unfit {}\n", line);
+  if (!result.hearer_foreign.empty()) {
+    text += fmt::format("hearer_foreign {}\n", result.hearer_foreign);
+  }
+  if (!result.speaker_foreign.empty()) {
+    text += fmt::format("speaker_foreign {}\n", result.speaker_foreign);
   }
   if (const auto& word = result.own_word) {
     text += fmt::format("word {} {} {} {} {} {}\n", word->peers_heard, word->taken, word->accepted,
@@ -226,6 +281,17 @@ ProbeResult Understood(const std::string& text) {
     }
     if (kind == "hearer") result.hearer_discovered = bool(words >> result.hearer_joined);
     if (kind == "trouble") std::getline(words >> std::ws, result.trouble);
+    const auto rest = [&words] {
+      std::string line_end;
+      std::getline(words >> std::ws, line_end);
+      return line_end;
+    };
+    std::string of;
+    if (kind == "fits" && words >> of) result.topics[of].fits = true;
+    if (kind == "misfit" && words >> of) result.topics[of].unfit = rest();
+    if (kind == "unfit") result.unfit.push_back(rest());
+    if (kind == "hearer_foreign") result.hearer_foreign = rest();
+    if (kind == "speaker_foreign") result.speaker_foreign = rest();
     if (kind == "topic") {
       std::string name;
       ProbedTopic topic;

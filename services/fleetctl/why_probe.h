@@ -16,6 +16,10 @@ struct ProbedTopic {
   bool matched = false;
   std::uint64_t samples = 0;
   std::optional<double> first_ms;  // since the probe began
+  // Whether a reader of the hearer's own matches a writer of the speaker's, by what discovery tells
+  // of both, and if not, why; neither where it tells nothing of one of them.
+  bool fits = false;
+  std::string unfit;
 };
 
 // What the hearer's own status says, if one came.
@@ -39,13 +43,19 @@ struct ProbeResult {
   std::optional<std::uint16_t> host_id;       // as its participant tells it
   std::map<std::string, ProbedTopic> topics;  // by name
   std::optional<OwnWord> own_word;
+  // Whose DDS they are, where it is another vendor's than ours.
+  std::string hearer_foreign;
+  std::string speaker_foreign;
+  // Writers and readers that should match one of the hearer's and do not, and why.
+  std::vector<std::string> unfit;
 };
 
 struct ProbeOrder {
-  // Known by their process ids; where pid_inside is 0, by the vehicle's id: it is not on this
-  // machine.
+  // Known by their participants, else by their process ids; where pid_inside is 0, by the vehicle's
+  // id: it is no process that can be seen.
   const ProcessSituation& hearer;
   const ProcessSituation& speaker;
+  bool hearer_here = true;  // as itself; else only its place is known
   const std::vector<TopicOutlook>& topics;
   double seconds = 0;  // at most
 };

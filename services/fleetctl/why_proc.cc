@@ -11,6 +11,7 @@
 #include <map>
 #include <set>
 
+#include "services/app/identity.h"
 #include "services/fleetctl/qos_files.h"
 #include "services/fleetctl/whole_number.h"
 #include "services/fleetctl/why_proc_text.h"
@@ -45,6 +46,10 @@ class Reading {
     to_.pid = pid;
     to_.environment = started.environment;
     to_.told = ReadTold(started, &to_.not_known);
+    if (auto identity = app::ReadIdentity(process_)) {
+      to_.participant = std::move(identity->participant);
+      if (identity->vehicle != kNobody) to_.told.id = identity->vehicle;
+    }
     if (!ReadText(process_ / "environ")) NotKnown("environment");
   }
 
@@ -241,8 +246,13 @@ std::vector<FleetMember> FindFleet(const fs::path& proc) {
     const auto started = ReadStarted(proc / std::to_string(pid));
     if (!started) continue;
     std::vector<std::string> ignored;
+    const fs::path process = proc / std::to_string(pid);
     const Instructions told = ReadTold(*started, &ignored);
-    members.push_back({pid, told.is_world, told.id, told.domain});
+    const auto identity = app::ReadIdentity(process);
+    const bool given = identity && identity->vehicle != kNobody;
+    const auto network = ReadLink(process / "ns/net");
+    members.push_back({pid, told.is_world, given ? identity->vehicle : told.id, told.domain,
+                       told.interface, network ? ParseBracketed(*network, "net") : std::nullopt});
   }
   return members;
 }

@@ -15,8 +15,10 @@ namespace giveway::fleetctl {
 struct FleetMember {
   int pid = 0;
   bool is_world = false;
-  VehicleId id = kNobody;  // of a vehicle that asked for one, or was heard to have one
+  VehicleId id = kNobody;  // that the world gave, or that it asked for, or was heard to have
   std::uint32_t domain = 0;
+  std::string interface;
+  std::optional<std::uint64_t> network_namespace;
 };
 
 // A whole file; nothing, and errno, if it cannot be opened.

@@ -95,6 +95,18 @@ std::string OwnWordText(const WhyReport& report) {
       word.rejected, word.incompatible, word.incompatible == 1 ? "" : "s");
 }
 
+Cause UnfitCause(const std::string& line) {
+  return {{qos::Severity::kError,
+           "endpoint_unfit",
+           {},
+           "as discovered",
+           line,
+           "The two never match, and nothing that the one writes reaches the other.",
+           "the partitions and QoS of idl/FOREIGN.md"},
+          Weight::kPrevents,
+          true};
+}
+
 std::string HostIdText(const WhyReport& report) {
   if (!Probed(report) || !report.probe->host_id || !report.host_id) return {};
   if (*report.probe->host_id == *report.host_id) return {};
@@ -116,6 +128,7 @@ std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
     object.Add("matched", probed.matched);
     object.Add("samples", probed.samples);
     object.Add("first_ms", probed.first_ms);
+    if (!report.hearer_here) object.Add("fits", probed.fits);
   }
   object.Add("disagree", verdict.disagree);
   std::vector<std::string> reasons;
@@ -178,14 +191,34 @@ void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speake
   }
 }
 
+void AddUnfit(WhyReport* report) {
+  if (!Probed(*report) || report->foretold) return;
+  for (TopicOutlook& topic : report->topics) {
+    const ProbedTopic probed = ProbedOf(*report, topic.topic);
+    if (!report->hearer_here && !probed.unfit.empty()) {
+      topic.causes.push_back(UnfitCause(fmt::format("{}: {}", topic.topic, probed.unfit)));
+    }
+    if (!report->hearer_here || probed.samples > 0) continue;
+    for (const std::string& line : report->probe->unfit) {
+      if (line.find(" of " + topic.topic + " ") == line.npos) continue;
+      topic.causes.push_back(UnfitCause(line));
+    }
+  }
+}
+
 TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
   TopicVerdict verdict;
   const bool heard = ProbedOf(report, topic.topic).samples > 0;
   const bool own = IsItselfDeaf(report, topic);
   if (Probed(report)) {
     verdict.verdict = heard && !own ? Verdict::kHears : Verdict::kDoesNot;
-    // Who is elsewhere may stand otherwise than the probe did.
-    if (!report.hearer_here) verdict.verdict = Verdict::kNotKnown;
+    // Who is elsewhere may stand otherwise than the probe did: discovery tells of its own readers.
+    if (!report.hearer_here) {
+      const ProbedTopic probed = ProbedOf(report, topic.topic);
+      verdict.verdict = !probed.unfit.empty()  ? Verdict::kDoesNot
+                        : heard && probed.fits ? Verdict::kHears
+                                               : Verdict::kNotKnown;
+    }
     verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
     // That could not be foretold.
@@ -247,6 +280,12 @@ std::string ToJson(const WhyReport& report) {
     object.Add("trouble", std::string_view(report.probe->trouble));
   }
   if (Probed(report)) object.Add("listened_ms", report.probe->listened_ms);
+  if (Probed(report) && !report.probe->hearer_foreign.empty()) {
+    object.Add("hearer_foreign", std::string_view(report.probe->hearer_foreign));
+  }
+  if (Probed(report) && !report.probe->speaker_foreign.empty()) {
+    object.Add("speaker_foreign", std::string_view(report.probe->speaker_foreign));
+  }
   if (Probed(report) && report.probe->own_word) {
     const OwnWord& word = *report.probe->own_word;
     JsonObject own;
@@ -269,10 +308,13 @@ std::string ToJson(const WhyReport& report) {
 
 int ExitCode(const WhyReport& report) {
   if (!report.foretold && !Probed(report)) return 2;
-  const bool all = std::ranges::all_of(report.topics, [&](const TopicOutlook& topic) {
-    return VerdictOf(report, topic).verdict == Verdict::kHears;
-  });
-  return all && !AnyDisagrees(report) ? 0 : 1;
+  const auto any = [&](Verdict verdict) {
+    return std::ranges::any_of(report.topics, [&](const TopicOutlook& topic) {
+      return VerdictOf(report, topic).verdict == verdict;
+    });
+  };
+  if (any(Verdict::kDoesNot) || AnyDisagrees(report)) return 1;
+  return any(Verdict::kNotKnown) ? 2 : 0;
 }
 
 }  // namespace giveway::fleetctl

@@ -42,6 +42,10 @@ double ListenSeconds(const std::vector<TopicOutlook>& topics);
 void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
                   WhyReport* report);
 
+// Adds what discovery tells of endpoints that will not match, where that could not be foretold
+// because one of the two is no process that can be seen.
+void AddUnfit(WhyReport* report);
+
 TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic);
 // What the hearer's own status says against the verdict; empty if it agrees or says nothing.
 std::string Contradiction(const WhyReport& report);

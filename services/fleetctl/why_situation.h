@@ -50,6 +50,7 @@ struct Instructions {
 
 struct ProcessSituation {
   int pid = 0;
+  std::string participant;  // the first twelve bytes of its GUIDs, hexadecimal; empty: not known
   int pid_inside = 0;  // in its own namespace of process ids: what its GUID holds; 0: not known
   Instructions told;
   std::optional<qos::ProfileSet> profiles;  // the set as the file is now

@@ -19,12 +19,14 @@ std::uint32_t WholeOr(std::uint32_t otherwise, const std::optional<std::string>&
   return text ? WholeNumber<std::uint32_t>(*text).value_or(otherwise) : otherwise;
 }
 
-// The vehicle's own options; a newcomer's are those of a place the world chooses, so any fitted
-// sensor counts.
+// The vehicle's own options; those of one that is not named are of a place the world chose, so any
+// fitted sensor counts.
 void AddSensors(const Scenario& scenario, Instructions* told) {
+  const bool named = std::ranges::find(scenario.vehicles, told->id, &VehicleOptions::id) !=
+                     scenario.vehicles.end();
   for (const auto* list : {&scenario.vehicles, &scenario.spawns}) {
     for (const VehicleOptions& options : *list) {
-      const bool own = list == &scenario.vehicles ? options.id == told->id : told->id == kNobody;
+      const bool own = list == &scenario.vehicles ? options.id == told->id : !named;
       if (!own) continue;
       told->radar |= options.profile.radar;
       told->lidar |= options.profile.lidar;

@@ -1,10 +1,14 @@
 #include "services/link/beacon_inbox.h"
 
 #include <algorithm>
-
-#include "services/link/convert.h"
+#include <string>
 
 namespace giveway::link {
+namespace {
+
+constexpr std::size_t kMostRefusals = 8;  // a drain; the counters have all
+
+}  // namespace
 
 BeaconInbox::BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names,
                          const rtps::GuidPrefix_t& own)
@@ -12,6 +16,7 @@ BeaconInbox::BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names,
 
 void BeaconInbox::Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons,
                         std::vector<QosEvent>* lost) {
+  refused_.clear();
   reader_.TakeEach([&](const wire::Beacon& sample, const dds::SampleInfo& info) {
     Receive(sample, info, now, beacons, lost);
   });
@@ -39,11 +44,41 @@ void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& inf
   received.crc_valid = arrival.crc_valid;
   received.name_valid = entry->vehicle != kNobody && entry->vehicle == received.beacon.vehicle;
   received.writer = entry->identity;
+  const bool sound = arrival.crc_valid && arrival.readable && received.name_valid;
+  if (!sound) NoteRefusal(sample, *entry, received, arrival);
   // A broken beacon is told as broken whatever it says; a sound one that says what this build does
   // not know cannot be told at all.
   if (arrival.crc_valid && !arrival.readable) {
     ++unreadable_;
     beacons.pop_back();
+  }
+}
+
+void BeaconInbox::NoteRefusal(const wire::Beacon& sample, const WriterEntry& entry,
+                              const ReceivedBeacon& received, const Arrival& arrival) {
+  if (refused_.size() == kMostRefusals) return;
+  Refusal& refusal = refused_.emplace_back();
+  refusal.sample = "beacon";
+  refusal.vehicle = received.beacon.vehicle;
+  refusal.writer = received.writer;
+  if (!received.name_valid) {
+    refusal.counter = "rejected_wrong_name";
+    refusal.field = "vehicle";
+    refusal.why =
+        "vehicle is " + std::to_string(sample.vehicle()) +
+        (entry.vehicle == kNobody ? ", and its writer's partition names none: must be AREA/vID"
+                                  : ", must be " + std::to_string(Number(entry.vehicle)) +
+                                        " as its writer's partition says");
+  } else if (!arrival.crc_valid) {
+    refusal.counter = "rejected_crc";
+    refusal.field = "crc";
+    refusal.why = "crc is " + std::to_string(sample.crc()) + ", must be " +
+                  std::to_string(arrival.crc) + " for its fields as they arrived";
+  } else {
+    const FieldFault fault = FaultOf(sample);
+    refusal.counter = "unreadable_samples";
+    refusal.field = fault.field;
+    refusal.why = Describe(fault);
   }
 }
 

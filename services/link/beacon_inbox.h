@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "services/link/anchored_reader.h"
+#include "services/link/convert.h"
 #include "services/link/writer_names.h"
 #include "services/types/beacon.h"
 #include "services/types/qos_event.h"
+#include "services/types/refusal.h"
 
 namespace giveway::link {
 
@@ -25,12 +27,16 @@ class BeaconInbox {
   // Samples overwritten in the reader before they were drained: gaps in the writers' sequence
   // numbers less those the library reports as lost on the way.
   std::uint32_t Superseded();
-  std::uint32_t Unbound() const { return unbound_; }        // writer not known: dropped
+  std::uint32_t Unbound() const { return unbound_; }  // writer not known: dropped
+  // The first few that the last Drain refused, or found broken or misnamed.
+  const std::vector<Refusal>& Refused() const { return refused_; }
   std::uint32_t Unreadable() const { return unreadable_; }  // unknown enumerator: dropped
 
  private:
   void Receive(const wire::Beacon& sample, const dds::SampleInfo& info, SteadyTime now,
                std::vector<ReceivedBeacon>& beacons, std::vector<QosEvent>* lost);
+  void NoteRefusal(const wire::Beacon& sample, const WriterEntry& entry,
+                   const ReceivedBeacon& received, const Arrival& arrival);
 
   AnchoredReader<wire::Beacon> reader_;
   WriterNames& names_;
@@ -39,6 +45,7 @@ class BeaconInbox {
   std::uint32_t superseded_ = 0;
   std::uint32_t unbound_ = 0;
   std::uint32_t unreadable_ = 0;
+  std::vector<Refusal> refused_;
 };
 
 }  // namespace giveway::link

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <optional>
 
 #include "services/link/convert_parts.h"
 #include "services/link/crc32c.h"
@@ -86,6 +88,15 @@ std::uint32_t Crc(const Beacon& beacon, wire::DriveMode mode, wire::DriveRule ru
   return Crc32c(packer.Bytes());
 }
 
+// An enumerator that this build does not know, where there is one.
+template <typename Wire, typename Ours>
+std::optional<FieldFault> EnumFault(const char* field, Wire sent, Ours last) {
+  const auto number = static_cast<std::uint32_t>(sent);
+  const auto most = static_cast<std::uint32_t>(last);
+  if (number <= most) return std::nullopt;
+  return FieldFault{field, static_cast<double>(number), 0, static_cast<double>(most)};
+}
+
 }  // namespace
 
 wire::Beacon ToWire(const Beacon& beacon) {
@@ -141,8 +152,15 @@ Arrival FromWire(const wire::Beacon& sample, Beacon& beacon) {
   beacon.order = {sample.order_waited_ticks(), sample.order_speed_bucket(),
                   VehicleId{sample.order_vehicle()}};
   const bool mode_known = FromWirePart(mode, beacon.mode);
-  return {.crc_valid = sample.crc() == Crc(beacon, mode, rule),
-          .readable = FromWirePart(rule, beacon.rule) && mode_known};
+  const std::uint32_t crc = Crc(beacon, mode, rule);
+  return {.crc_valid = sample.crc() == crc,
+          .readable = FromWirePart(rule, beacon.rule) && mode_known,
+          .crc = crc};
+}
+
+FieldFault FaultOf(const wire::Beacon& sample) {
+  if (const auto fault = EnumFault("mode", sample.mode(), Mode::kLeaving)) return *fault;
+  return EnumFault("rule", sample.rule(), Rule::kLeaving).value_or(FieldFault{});
 }
 
 wire::RangeScan ToWire(const RangeScan& scan) {
@@ -205,6 +223,19 @@ bool FromWire(const wire::MotorCommand& sample, MotorCommand& command) {
   command.matched_peers = sample.matched_peers();
   command.task = {sample.waypoint(), sample.waited_ticks()};
   return FromWirePart(sample.decision(), command.decision);
+}
+
+FieldFault FaultOf(const wire::MotorCommand& sample) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  if (!std::isfinite(sample.left_rad_s())) {
+    return {"left_rad_s", sample.left_rad_s(), -kMost, kMost};
+  }
+  if (!std::isfinite(sample.right_rad_s())) {
+    return {"right_rad_s", sample.right_rad_s(), -kMost, kMost};
+  }
+  const wire::DecisionRecord& decision = sample.decision();
+  if (const auto fault = EnumFault("decision.mode", decision.mode(), Mode::kLeaving)) return *fault;
+  return EnumFault("decision.rule", decision.rule(), Rule::kLeaving).value_or(FieldFault{});
 }
 
 wire::Truth ToWire(const Truth& truth) {

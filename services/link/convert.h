@@ -10,6 +10,7 @@
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
+#include "services/types/refusal.h"
 #include "services/types/sensor_scan.h"
 #include "services/types/signal.h"
 
@@ -35,9 +36,13 @@ wire::Figures ToWire(const RunFigures& figures);
 struct Arrival {
   bool crc_valid = false;  // the checksum of fleet.idl, set by ToWire(Beacon)
   bool readable = false;   // as the other conversions' result
+  std::uint32_t crc = 0;   // that its fields have
 };
 
 Arrival FromWire(const wire::Beacon& sample, Beacon& beacon);
+// What FromWire found of a sample it refused, for the log; an empty field if nothing.
+FieldFault FaultOf(const wire::Beacon& sample);
+FieldFault FaultOf(const wire::MotorCommand& sample);
 bool FromWire(const wire::RangeScan& sample, RangeScan& scan);
 bool FromWire(const wire::RadarScan& sample, RadarScan& scan);
 bool FromWire(const wire::LidarScan& sample, LidarScan& scan);

@@ -26,6 +26,7 @@ using Processes = std::map<Prefix, EarProcess>;
 
 EarProcess& ProcessOf(Processes& processes, const Prefix& prefix) {
   EarProcess& process = processes[prefix];
+  std::ranges::copy(prefix, process.guid.begin());
   // Bytes 0 and 1 name the vendor.
   process.host_id = static_cast<std::uint16_t>(prefix[2] | prefix[3] << 8U);
   process.process = static_cast<std::uint16_t>(prefix[4] | prefix[5] << 8U);
@@ -136,8 +137,19 @@ void Ear::StartImpairment(SteadyTime start) {
   if (Impairer* const impairer = impl_->participant.ImpairerOrNull()) impairer->Start(start);
 }
 
+std::vector<std::string> Ear::TakeUnfit(SteadyTime now) {
+  return impl_->participant.TakeUnfit(now);
+}
+
 std::vector<EarProcess> Ear::Listen() {
   impl_->discovered.MoveTo(impl_->processes);
+  for (const FoundEndpoint& found : impl_->participant.TakeFound()) {
+    Prefix prefix;
+    std::copy_n(found.guid.begin(), prefix.size(), prefix.begin());
+    auto& known = ProcessOf(impl_->processes, prefix).endpoints;
+    std::erase_if(known, [&](const FoundEndpoint& one) { return one.guid == found.guid; });
+    known.push_back(found);
+  }
   for (const auto& listener : impl_->listeners) listener->Listen(impl_->processes);
   std::vector<EarProcess> all;
   for (const auto& [prefix, process] : impl_->processes) all.push_back(process);

@@ -2,12 +2,14 @@
 // process, what was discovered, what matched and what came. Writes nothing, understands no sample.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "services/link/found_endpoint.h"
 #include "services/link/link_options.h"
 #include "services/types/ids.h"
 #include "services/types/time.h"
@@ -26,11 +28,13 @@ struct EarCount {
 
 // What a participant's GUID and its writers say.
 struct EarProcess {
-  std::uint16_t host_id = 0;    // as Fast DDS made it from the machine's addresses
+  std::array<std::uint8_t, 16> guid{};  // the first twelve bytes of all that it owns
+  std::uint16_t host_id = 0;            // as Fast DDS made it from the machine's addresses
   std::uint16_t process = 0;    // the low half of its process id, in its own namespace of ids
   VehicleId vehicle = kNobody;  // whom a partition of its writers names
   std::vector<std::string> partitions;     // of its writers; "" is the default one
   std::map<std::string, EarCount> topics;  // by name
+  std::vector<FoundEndpoint> endpoints;    // as discovery tells them
 };
 
 class Ear {
@@ -44,6 +48,9 @@ class Ear {
 
   // Blackouts of the impairment count from here; only the first call counts.
   void StartImpairment(SteadyTime start);
+  // Of endpoints found about a second ago, those that match none of the readers here, though their
+  // topic is the same, and why: a line each.
+  std::vector<std::string> TakeUnfit(SteadyTime now);
   // Everyone found so far, and all that came of them.
   std::vector<EarProcess> Listen();
 

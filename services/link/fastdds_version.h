@@ -5,6 +5,7 @@
 
 #include <fastcdr/exceptions/Exception.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -26,7 +27,10 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include "services/link/found_endpoint.h"
 
 namespace giveway::link {
 
@@ -42,6 +46,7 @@ struct Respelt {
 #include <fastdds/rtps/common/Guid.h>
 #include <fastdds/rtps/common/InstanceHandle.h>
 #include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
 #include <fastdds/rtps/transport/ChainingTransport.h>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
@@ -111,6 +116,7 @@ inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*
 #else
 #include <fastdds/config.hpp>
 #include <fastdds/rtps/builtin/data/PublicationBuiltinTopicData.hpp>
+#include <fastdds/rtps/builtin/data/SubscriptionBuiltinTopicData.hpp>
 #include <fastdds/rtps/common/Guid.hpp>
 #include <fastdds/rtps/common/InstanceHandle.hpp>
 #include <fastdds/rtps/transport/ChainingTransport.hpp>
@@ -186,6 +192,49 @@ inline bool IsWhole(dds::TopicDataType& type, const rtps::SerializedPayload_t& f
 
 namespace giveway::link {
 
+inline std::int64_t ToNanoseconds(const Duration& duration) {
+  constexpr std::int32_t kEndlessSeconds = 0x7fffffff;
+  if (duration.seconds == kEndlessSeconds) return kEndless;
+  return duration.seconds * std::int64_t{1'000'000'000} + duration.nanosec;
+}
+
+template <typename Partition, typename Reliability, typename Durability, typename Deadline,
+          typename Liveliness>
+FoundEndpoint MakeEndpoint(bool writes, const rtps::GUID_t& guid, std::string topic,
+                           std::string type, const Partition& partition,
+                           const Reliability& reliability, const Durability& durability,
+                           const Deadline& deadline, const Liveliness& liveliness) {
+  FoundEndpoint found;
+  std::copy_n(guid.guidPrefix.value, 12, found.guid.begin());
+  std::copy_n(guid.entityId.value, 4, found.guid.begin() + 12);
+  found.writes = writes;
+  found.topic = std::move(topic);
+  found.type = std::move(type);
+  found.partitions = partition.names();
+  found.reliable = reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
+  found.durability = static_cast<int>(durability.kind);
+  found.deadline_ns = ToNanoseconds(deadline.period);
+  found.liveliness = static_cast<int>(liveliness.kind);
+  found.lease_ns = ToNanoseconds(liveliness.lease_duration);
+  return found;
+}
+
+// One of our own.
+inline FoundEndpoint Described(const dds::DataWriter& writer) {
+  const auto& qos = writer.get_qos();
+  return MakeEndpoint(true, writer.guid(), writer.get_topic()->get_name(),
+                      writer.get_topic()->get_type_name(),
+                      writer.get_publisher()->get_qos().partition(), qos.reliability(),
+                      qos.durability(), qos.deadline(), qos.liveliness());
+}
+inline FoundEndpoint Described(const dds::DataReader& reader) {
+  const auto& qos = reader.get_qos();
+  return MakeEndpoint(false, reader.guid(), reader.get_topicdescription()->get_name(),
+                      reader.get_topicdescription()->get_type_name(),
+                      reader.get_subscriber()->get_qos().partition(), qos.reliability(),
+                      qos.durability(), qos.deadline(), qos.liveliness());
+}
+
 // Tells of every writer in the domain that this participant discovers, its own included, and
 // whether it has found any other participant yet.
 class DiscoveryListener : public dds::DomainParticipantListener {
@@ -196,6 +245,9 @@ class DiscoveryListener : public dds::DomainParticipantListener {
   virtual void OnWriter(Change change, const rtps::GUID_t& writer,
                         const std::vector<std::string>& partitions) = 0;
 
+  // The endpoints of others found, or found changed, since the last call; of too many, the first.
+  std::vector<FoundEndpoint> TakeEndpoints() { return endpoints_.Take(); }
+
   bool HasFoundAnybody() const { return has_found_anybody_.load(std::memory_order_relaxed); }
 
 #if __has_include(<fastrtps/config.h>)
@@ -203,6 +255,10 @@ class DiscoveryListener : public dds::DomainParticipantListener {
     const bool gone = found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
     OnWriter(gone ? Change::kGone : Change::kFound, found.info.guid(),
              found.info.m_qos.m_partition.names());
+    if (!gone) NoteEndpoint(true, found.info);
+  }
+  void on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) final {
+    if (found.status != rtps::ReaderDiscoveryInfo::REMOVED_READER) NoteEndpoint(false, found.info);
   }
   void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&&) final {
     has_found_anybody_.store(true, std::memory_order_relaxed);
@@ -212,6 +268,11 @@ class DiscoveryListener : public dds::DomainParticipantListener {
                                 const dds::PublicationBuiltinTopicData& found, bool&) final {
     const bool gone = status == rtps::WriterDiscoveryStatus::REMOVED_WRITER;
     OnWriter(gone ? Change::kGone : Change::kFound, found.guid, found.partition.names());
+    if (!gone) NoteEndpoint(true, found);
+  }
+  void on_data_reader_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryStatus status,
+                                const dds::SubscriptionBuiltinTopicData& found, bool&) final {
+    if (status != rtps::ReaderDiscoveryStatus::REMOVED_READER) NoteEndpoint(false, found);
   }
   void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus,
                                 const dds::ParticipantBuiltinTopicData&, bool&) final {
@@ -220,6 +281,24 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 #endif
 
  private:
+#if __has_include(<fastrtps/config.h>)
+  template <typename ProxyData>
+  void NoteEndpoint(bool writes, const ProxyData& found) {
+    const auto& qos = found.m_qos;
+    endpoints_.Add(MakeEndpoint(writes, found.guid(), found.topicName().to_string(),
+                                found.typeName().to_string(), qos.m_partition, qos.m_reliability,
+                                qos.m_durability, qos.m_deadline, qos.m_liveliness));
+  }
+#else
+  template <typename TopicData>
+  void NoteEndpoint(bool writes, const TopicData& found) {
+    endpoints_.Add(MakeEndpoint(writes, found.guid, found.topic_name.to_string(),
+                                found.type_name.to_string(), found.partition, found.reliability,
+                                found.durability, found.deadline, found.liveliness));
+  }
+#endif
+
+  EndpointQueue endpoints_;
   std::atomic<bool> has_found_anybody_{false};
 };
 

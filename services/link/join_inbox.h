@@ -10,6 +10,7 @@
 #include "services/link/anchored_reader.h"
 #include "services/link/writer_names.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/refusal.h"
 
 namespace giveway::link {
 
@@ -18,13 +19,15 @@ class JoinInbox {
   explicit JoinInbox(Reader<wire::Join> reader) : reader_(reader) {}
 
   // The newest request of each session, those that leave first: a newcomer may want their ids.
-  // `names` must be updated first.
-  std::vector<JoinRequest> Take(const WriterNames& names);
+  // `names` must be updated first. Appends the first few that were refused to `refusals`.
+  std::vector<JoinRequest> Take(const WriterNames& names, std::vector<Refusal>& refusals);
 
-  std::uint32_t Refused() const { return refused_; }  // of sessions too many of one writer
+  // Of sessions too many of one writer, or without a session.
+  std::uint32_t Refused() const { return refused_; }
 
  private:
   bool MayAsk(std::uint64_t writer, const JoinRequest& request);
+  void Refuse(const JoinRequest& request, std::uint64_t writer, std::vector<Refusal>& refusals);
   void ForgetDeparted(const WriterNames& names);
 
   AnchoredReader<wire::Join> reader_;

@@ -190,6 +190,32 @@ std::string Participant::WhyNobodyIsFound() const {
   return kWhy + servers_ + ")";
 }
 
+std::string Participant::PrefixText() const {
+  std::array<std::uint8_t, 16> guid{};
+  std::copy_n(Prefix().value, 12, guid.begin());
+  return ParticipantText(guid);
+}
+
+std::vector<FoundEndpoint> Participant::TakeFound() {
+  std::vector<FoundEndpoint> found = listener_->TakeEndpoints();
+  std::erase_if(found, [this](const FoundEndpoint& one) {
+    return std::equal(one.guid.begin(), one.guid.begin() + 12, Prefix().value);
+  });
+  found_.insert(found_.end(), found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::string> Participant::TakeUnfit(SteadyTime now) {
+  TakeFound();
+  for (FoundEndpoint& found : found_) unfit_.Add(std::move(found), now);
+  found_.clear();
+  if (!unfit_.IsDue(now)) return {};
+  std::vector<FoundEndpoint> own;
+  for (const auto& [profile, writer] : writers_) own.push_back(Described(*writer));
+  for (const auto& [profile, reader] : readers_) own.push_back(Described(*reader));
+  return unfit_.Judge(own, now);
+}
+
 dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& topic_name) {
   const std::string name = topic_prefix_ + topic_name;
   if (auto* known = participant_->lookup_topicdescription(name)) {

@@ -12,6 +12,7 @@
 #include "services/link/endpoint.h"
 #include "services/link/link_options.h"
 #include "services/link/topics.h"
+#include "services/link/unfit_endpoints.h"
 #include "services/types/admin.h"
 #include "services/types/ids.h"
 
@@ -56,6 +57,12 @@ class Participant {
   const rtps::GuidPrefix_t& Prefix() const { return participant_->guid().guidPrefix; }
   // One sentence while this participant is a client whose servers have not answered; else empty.
   std::string WhyNobodyIsFound() const;
+  // The same in words: "010f45d2a3b1000001000000".
+  std::string PrefixText() const;
+  // Of endpoints found about a second ago, those that do not match one of ours, and why.
+  std::vector<std::string> TakeUnfit(SteadyTime now);
+  // The endpoints of others found since the last call. They are judged by TakeUnfit all the same.
+  std::vector<FoundEndpoint> TakeFound();
   // Null where no impairment was asked for.
   Impairer* ImpairerOrNull() const { return impairer_.get(); }
 
@@ -77,12 +84,14 @@ class Participant {
 
   std::shared_ptr<Impairer> impairer_;
   std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
-  const DiscoveryListener* listener_ = nullptr;  // the one that the library tells
+  DiscoveryListener* listener_ = nullptr;      // the one that the library tells
   std::string topic_prefix_;
   std::string servers_;  // of a client, as they were named; else empty
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;
+  std::vector<FoundEndpoint> found_;  // taken, and to be judged
+  UnfitEndpoints unfit_;
 };
 
 // What an entity is made with: its profile as the library read it, and what code adds. Throw

@@ -191,6 +191,8 @@ std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& tol
   return entry;
 }
 
+std::string VehicleLink::ParticipantText() const { return impl_->participant.PrefixText(); }
+
 std::string VehicleLink::WhyNobodyIsFound() const { return impl_->participant.WhyNobodyIsFound(); }
 
 std::string VehicleLink::InterfaceChange() const { return impl_->interfaces.Change(); }
@@ -238,6 +240,10 @@ void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals
   if (link.joined && link.joined->wanted != id) link.SendJoin({link.joined->session, id});
 }
 
+std::vector<std::string> VehicleLink::TakeUnfit(SteadyTime now) {
+  return impl_->participant.TakeUnfit(now);
+}
+
 bool VehicleLink::WaitForScan(Nanoseconds timeout) { return impl_->Own().scan_wait.Wait(timeout); }
 
 Taken VehicleLink::Take(SteadyTime now) {
@@ -266,6 +272,7 @@ Taken VehicleLink::Take(SteadyTime now) {
   link.peers.Watch(now, own.BeaconDeadline(), link.qos_events);
   taken.inputs.beacons = link.taken_beacons;
   taken.inputs.events = link.qos_events;
+  taken.refusals = own.beacons.Refused();
   return taken;
 }
 

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "services/types/admin.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/impairment.h"
+#include "services/types/refusal.h"
 #include "services/types/vehicle_io.h"
 
 namespace giveway::link {
@@ -22,6 +24,8 @@ namespace giveway::link {
 struct Taken {
   Inputs inputs;
   std::uint32_t scans_skipped = 0;  // scans overwritten by a newer one in the same drain
+  // The first few beacons that are broken, misnamed or unreadable, with what is wrong with them.
+  std::span<const Refusal> refusals;
 };
 
 // Counters of the link alone; the brain counts what it accepts and refuses.
@@ -59,6 +63,8 @@ class VehicleLink final : public AdminLink {
   VehicleLink(const VehicleLink&) = delete;
   VehicleLink& operator=(const VehicleLink&) = delete;
 
+  // The first twelve bytes of the GUIDs of all that is made here, hexadecimal.
+  std::string ParticipantText() const;
   // One sentence while discovery servers are to be used and none has answered; else empty.
   std::string WhyNobodyIsFound() const;
 
@@ -85,6 +91,10 @@ class VehicleLink final : public AdminLink {
   // kept for later worlds asks for `id`, and Take tells what the world says about the session.
   void Open(VehicleId id, const VehicleProfile& profile, bool signals);
   void Open(VehicleId id) { Open(id, VehicleProfile{}, false); }
+
+  // Of endpoints found about a second ago, those that should match one of ours and do not, and why:
+  // a line each. Meant for the log.
+  std::vector<std::string> TakeUnfit(SteadyTime now);
 
   // Waits until a scan is there or `timeout` has passed. True if a scan is there.
   bool WaitForScan(Nanoseconds timeout);

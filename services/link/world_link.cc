@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "services/link/anchored_reader.h"
 #include "services/link/convert.h"
@@ -22,6 +23,8 @@ namespace {
 
 constexpr char kWorld[] = "world";
 constexpr std::uint32_t kForgetEvery = 32;  // turns; of vehicles that are gone
+
+constexpr std::size_t kMostRefusals = 8;  // kept for the log; the counters have all
 
 bool IsFinite(const MotorCommand& command) {
   return std::isfinite(command.target.left_rad_s) && std::isfinite(command.target.right_rad_s);
@@ -57,6 +60,9 @@ struct WorldLink::Impl {
   void ForgetDeparted();
   template <typename Scan>
   void Send(const Scan& scan);
+  void NoteRefusal(Refusal refusal) {
+    if (refusals.size() < kMostRefusals) refusals.push_back(std::move(refusal));
+  }
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
   WriterNames names;  // the library calls these two until the participant is gone, so they are
@@ -76,6 +82,7 @@ struct WorldLink::Impl {
   DataWait command_wait;
   std::vector<MotorCommand> commands;
   std::vector<QosEvent> discarded;
+  std::vector<Refusal> refusals;
   WorldLinkCounters counters;
   std::uint32_t turns = 0;
 };
@@ -88,8 +95,25 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
     ++counters.commands_unbound;
   } else if (entry->vehicle == kNobody || entry->vehicle != VehicleId{sample.vehicle()}) {
     ++counters.commands_wrong_name;
+    const std::string wanted =
+        entry->vehicle == kNobody ? "none" : std::to_string(Number(entry->vehicle));
+    NoteRefusal({.sample = "motor command",
+                 .vehicle = VehicleId{sample.vehicle()},
+                 .writer = entry->identity,
+                 .counter = "commands_wrong_name",
+                 .field = "vehicle",
+                 .why = "vehicle is " + std::to_string(sample.vehicle()) +
+                        ", and its writer's partition names " + wanted + ": must be v" +
+                        std::to_string(sample.vehicle())});
   } else if (!FromWire(sample, command) || !IsFinite(command)) {
     ++counters.commands_not_finite;
+    const FieldFault fault = FaultOf(sample);
+    NoteRefusal({.sample = "motor command",
+                 .vehicle = entry->vehicle,
+                 .writer = entry->identity,
+                 .counter = "commands_not_finite",
+                 .field = fault.field,
+                 .why = Describe(fault)});
   } else {
     commands.push_back(command);
   }
@@ -97,6 +121,8 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
 
 WorldLink::WorldLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 WorldLink::~WorldLink() = default;
+
+std::string WorldLink::ParticipantText() const { return impl_->participant.PrefixText(); }
 
 std::string WorldLink::WhyNobodyIsFound() const { return impl_->participant.WhyNobodyIsFound(); }
 
@@ -132,7 +158,7 @@ bool WorldLink::IsMatched(VehicleId vehicle) const {
 
 std::vector<JoinRequest> WorldLink::TakeJoins() {
   impl_->FollowDiscovery();
-  return impl_->joins.Take(impl_->names);
+  return impl_->joins.Take(impl_->names, impl_->refusals);
 }
 
 // Of a reader with a deadline its listener removes them, which alone knows when it may.
@@ -152,6 +178,12 @@ std::span<const MotorCommand> WorldLink::TakeCommands() {
         impl_->Receive(sample, info);
       });
   return impl_->commands;
+}
+
+std::vector<Refusal> WorldLink::TakeRefusals() { return std::exchange(impl_->refusals, {}); }
+
+std::vector<std::string> WorldLink::TakeUnfit(SteadyTime now) {
+  return impl_->participant.TakeUnfit(now);
 }
 
 bool WorldLink::WaitForCommands(Nanoseconds timeout) { return impl_->command_wait.Wait(timeout); }

@@ -12,6 +12,7 @@
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
+#include "services/types/refusal.h"
 #include "services/types/sensor_scan.h"
 #include "services/types/signal.h"
 #include "services/types/time.h"
@@ -23,7 +24,7 @@ struct WorldLinkCounters {
   std::uint32_t commands_wrong_name = 0;  // id is not the one of the writer's partition
   std::uint32_t commands_unbound = 0;     // writer's partition not yet known
   std::uint32_t commands_not_finite = 0;  // or with an enumerator unknown here
-  std::uint32_t joins_refused = 0;        // of sessions too many of one process
+  std::uint32_t joins_refused = 0;        // without a session, or too many of one writer
   std::uint32_t write_failures = 0;
 };
 
@@ -34,6 +35,8 @@ class WorldLink final : public AdminLink {
   WorldLink(const WorldLink&) = delete;
   WorldLink& operator=(const WorldLink&) = delete;
 
+  // The first twelve bytes of the GUIDs of all that is made here, hexadecimal.
+  std::string ParticipantText() const;
   // One sentence while discovery servers are to be used and none has answered; else empty.
   std::string WhyNobodyIsFound() const;
 
@@ -54,6 +57,11 @@ class WorldLink final : public AdminLink {
   // Everything that came since the last call, each vehicle's in order of arrival; the span holds
   // until the next call.
   std::span<const MotorCommand> TakeCommands();
+  // The first few requests and commands refused since the last call, with what is wrong with them.
+  std::vector<Refusal> TakeRefusals();
+  // Of endpoints found about a second ago, those that should match one of ours and do not, and why:
+  // a line each. Meant for the log.
+  std::vector<std::string> TakeUnfit(SteadyTime now);
   // Waits until a command is there or `timeout` has passed. For lockstep.
   bool WaitForCommands(Nanoseconds timeout);
 

@@ -103,6 +103,15 @@ bool AreWithin(const Numbers& numbers) {
   return true;
 }
 
+constexpr std::array<const char*, kNumbers> kNames = {
+    "left_rad_s",          "right_rad_s",         "cruise_m_s",
+    "world_from_body.x_m", "world_from_body.y_m", "world_from_body.heading_rad",
+    "covariance.xx_m2",    "covariance.xy_m2",    "covariance.yy_m2",
+    "covariance.xh_m_rad", "covariance.yh_m_rad", "covariance.hh_rad2",
+    "body_radius_m",       "wheel_radius_m",      "axle_m",
+    "acceleration_m_s2",   "deceleration_m_s2",   "toward_x_m",
+    "toward_y_m"};
+
 // Nearly all numbers are well within, and that the upper half of each tells: it holds the sign, the
 // exponent and the first digits, and as a whole number it grows with the number it is of. Four of
 // them are looked at as one: of all that a step does with a far peer's beacon this is the most.
@@ -149,6 +158,8 @@ template <std::size_t First>
   return x | (x - least) | std::bit_cast<Halves>(above);
 }
 
+double MostCovariance(const PoseCovariance& c) { return (c.xx_m2 + c.yy_m2) / 2 + kRounding_m2; }
+
 bool AreNumbersInRange(const Beacon& b) {
   const Halves outside =
       Outside<0>(b) | Outside<4>(b) | Outside<8>(b) | Outside<12>(b) | Outside<15>(b);
@@ -157,8 +168,18 @@ bool AreNumbersInRange(const Beacon& b) {
   const bool all_well_within = (halves[0] | halves[1]) == 0;
   if (!all_well_within && !AreWithin(NumbersOf(b))) return false;
   const PoseCovariance& c = b.covariance;
-  const double mean_m2 = (c.xx_m2 + c.yy_m2) / 2 + kRounding_m2;
-  return Magnitude(c.xy_m2) <= mean_m2;
+  return Magnitude(c.xy_m2) <= MostCovariance(c);
+}
+
+std::optional<FieldFault> NumberFault(const Beacon& b) {
+  const Numbers numbers = NumbersOf(b);
+  for (std::size_t i = 0; i < kNumbers; ++i) {
+    if (numbers[i] >= kLowest[i] && numbers[i] <= kHighest[i]) continue;
+    return FieldFault{kNames[i], numbers[i], kLowest[i], kHighest[i]};
+  }
+  const double most_m2 = MostCovariance(b.covariance);
+  if (Magnitude(b.covariance.xy_m2) <= most_m2) return std::nullopt;
+  return FieldFault{"covariance.xy_m2", b.covariance.xy_m2, -most_m2, most_m2};
 }
 
 }  // namespace
@@ -173,6 +194,34 @@ bool IsInRange(const Beacon& b) {
          b.order.waited_ticks <= Number(b.tick) &&
          b.order.speed_bucket <= SpeedBucket(kMaxSpeed_m_s) &&
          (b.order.vehicle != b.vehicle || b.order.speed_bucket == SpeedBucket(b.cruise_m_s));
+}
+
+std::optional<FieldFault> FaultOf(const Beacon& b) {
+  constexpr double kMostWhole = std::numeric_limits<std::uint32_t>::max();
+  const auto fault = [](const char* field, std::uint32_t value, double least, double most) {
+    return FieldFault{field, static_cast<double>(value), least, most};
+  };
+  if (b.vehicle == kNobody) return fault("vehicle", 0, 1, kMostWhole);
+  if (b.boot_epoch == 0) return fault("boot_epoch", 0, 1, kMostWhole);
+  if (b.seq == 0) return fault("seq", 0, 1, kMostWhole);
+  if (const auto number = NumberFault(b)) return number;
+  const auto mode = static_cast<std::uint32_t>(b.mode);
+  const auto rule = static_cast<std::uint32_t>(b.rule);
+  if (b.mode > Mode::kLeaving) return fault("mode", mode, 0, double(Mode::kLeaving));
+  if (b.rule > Rule::kLeaving) return fault("rule", rule, 0, double(Rule::kLeaving));
+  const OrderKey& order = b.order;
+  if (order.waited_ticks > Number(b.tick)) {
+    return fault("order_waited_ticks", order.waited_ticks, 0, Number(b.tick));
+  }
+  // Its own key says its own cruise speed, rounded; a key it was lent, that of another.
+  const bool own = order.vehicle == b.vehicle;
+  const double least = own ? SpeedBucket(b.cruise_m_s) : 0;
+  const double most = SpeedBucket(own ? b.cruise_m_s : kMaxSpeed_m_s);
+  if (order.speed_bucket < least || order.speed_bucket > most) {
+    return fault("order_speed_bucket", order.speed_bucket, least, most);
+  }
+  if (order.vehicle == kNobody) return fault("order_vehicle", 0, 1, kMostWhole);
+  return std::nullopt;
 }
 
 }  // namespace giveway

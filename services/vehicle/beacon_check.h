@@ -1,7 +1,10 @@
 // Whether a beacon's numbers can be believed at all, before anything is concluded from them.
 #pragma once
 
+#include <optional>
+
 #include "services/types/beacon.h"
+#include "services/types/refusal.h"
 
 namespace giveway {
 
@@ -11,6 +14,10 @@ bool IsFinite(const Beacon& beacon);
 // True if every field lies where a vehicle of this fleet can be: see the limits in the .cc. What is
 // in range is finite too.
 bool IsInRange(const Beacon& beacon);
+
+// The first field, in the order of fleet.idl, that is not finite or not in range, and what it may
+// be; nothing if and only if the beacon is in range. For the log: it takes its time.
+std::optional<FieldFault> FaultOf(const Beacon& beacon);
 
 // The speed bucket of the order: round(cruise / 0.05 m/s).
 constexpr std::uint32_t SpeedBucket(double cruise_m_s) {

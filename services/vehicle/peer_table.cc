@@ -101,30 +101,33 @@ void PeerTable::Store(Peer* peer, const ReceivedBeacon& received, Tick tick) {
   ++peer->waiting_count;
 }
 
-void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
-                     const VehicleOptions& options, BeaconCounters* counters,
-                     TrustCounters* trust) {
+BeaconRefusal PeerTable::Take(const ReceivedBeacon& received, const Self& self,
+                              const VehicleOptions& options, BeaconCounters* counters,
+                              TrustCounters* trust) {
   const Beacon& beacon = received.beacon;
   ++counters->taken;
-  const auto refuse = [&](std::uint32_t BeaconCounters::*counter) {
+  const auto refuse = [&](std::uint32_t BeaconCounters::*counter, BeaconRefusal why) {
     ++(counters->*counter);
     last_rejected_ = beacon.vehicle;
+    return why;
   };
   const bool own = beacon.vehicle == self.id && !Has(Defect::kOwnBeaconHeard);
-  if (own) return refuse(&BeaconCounters::rejected_own);
-  if (!received.name_valid) return refuse(&BeaconCounters::rejected_wrong_name);
-  if (!received.crc_valid) return refuse(&BeaconCounters::rejected_crc);
+  if (own) return refuse(&BeaconCounters::rejected_own, BeaconRefusal::kOwn);
+  if (!received.name_valid)
+    return refuse(&BeaconCounters::rejected_wrong_name, BeaconRefusal::kWrongName);
+  if (!received.crc_valid) return refuse(&BeaconCounters::rejected_crc, BeaconRefusal::kCrc);
   if (!received.in_range && !IsInRange(beacon)) {
-    return refuse(IsFinite(beacon) ? &BeaconCounters::rejected_out_of_range
-                                   : &BeaconCounters::rejected_not_finite);
+    return IsFinite(beacon)
+               ? refuse(&BeaconCounters::rejected_out_of_range, BeaconRefusal::kOutOfRange)
+               : refuse(&BeaconCounters::rejected_not_finite, BeaconRefusal::kNotFinite);
   }
   // Before either has heard the world, positions have no common frame to be near in.
   const bool elsewhere = beacon.world_epoch != self.epoch;
   if (self.epoch == kNoEpoch || (elsewhere && beacon.world_epoch == kNoEpoch)) {
     ++counters->not_heard;
-    return;
+    return BeaconRefusal::kNone;
   }
-  if (elsewhere) return refuse(&BeaconCounters::rejected_wrong_epoch);
+  if (elsewhere) return refuse(&BeaconCounters::rejected_wrong_epoch, BeaconRefusal::kWrongEpoch);
 
   const Vec2 apart = beacon.world_from_body.position_world - self.position_world;
   const bool heard = SquaredNorm(apart) <= options.emission_radius_m * options.emission_radius_m;
@@ -136,14 +139,16 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
       peer->spoke = received.received;
       peer->last_seq = beacon.seq;
     }
-    return;
+    return BeaconRefusal::kNone;
   }
   Peer* peer = FindOrInsert(beacon.vehicle);
-  if (peer == nullptr) return refuse(&BeaconCounters::rejected_table_full);
-  if (!BelongsTo(peer, received)) return refuse(&BeaconCounters::rejected_duplicate_id);
+  if (peer == nullptr)
+    return refuse(&BeaconCounters::rejected_table_full, BeaconRefusal::kTableFull);
+  if (!BelongsTo(peer, received))
+    return refuse(&BeaconCounters::rejected_duplicate_id, BeaconRefusal::kDuplicateId);
   if (peer->boot_epoch != 0) {  // it has spoken before
     const bool replayed = beacon.boot_epoch != peer->boot_epoch || beacon.seq <= peer->last_seq;
-    if (replayed) return refuse(&BeaconCounters::rejected_replayed);
+    if (replayed) return refuse(&BeaconCounters::rejected_replayed, BeaconRefusal::kReplayed);
     counters->lost += beacon.seq - peer->last_seq - 1;
   }
   ++counters->accepted;
@@ -151,6 +156,7 @@ void PeerTable::Take(const ReceivedBeacon& received, const Self& self,
     JudgeBeacon(*before, received, options, &peer->trust, trust);
   }
   Store(peer, received, self.tick);
+  return BeaconRefusal::kNone;
 }
 
 void PeerTable::Note(const QosEvent& event, QosCounters* counters) {

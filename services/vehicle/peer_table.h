@@ -55,6 +55,20 @@ struct Peer {
   std::array<SteadyTime, 2> waiting_received{};
 };
 
+// Why a beacon was not taken in; in the order of BeaconCounters.
+enum class BeaconRefusal : std::uint8_t {
+  kNone,
+  kNotFinite,
+  kOutOfRange,
+  kCrc,
+  kReplayed,
+  kOwn,
+  kWrongName,
+  kDuplicateId,
+  kWrongEpoch,
+  kTableFull,
+};
+
 // What the table needs to know of its owner.
 struct Self {
   VehicleId id = kNobody;
@@ -69,8 +83,8 @@ class PeerTable {
 
   // Takes one beacon in or refuses it; exactly one counter of `counters` beside `taken` moves. One
   // that does not fit the one before is taken, counted in `trust`, and its sender doubted.
-  void Take(const ReceivedBeacon& received, const Self& self, const VehicleOptions& options,
-            BeaconCounters* counters, TrustCounters* trust);
+  BeaconRefusal Take(const ReceivedBeacon& received, const Self& self,
+                     const VehicleOptions& options, BeaconCounters* counters, TrustCounters* trust);
   // Notes what the middleware says. Only ever makes a peer less believed.
   void Note(const QosEvent& event, QosCounters* counters);
   // Moves waiting beacons of ticks before `tick` up, and drops peers silent for kForgetAfter.

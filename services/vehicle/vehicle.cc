@@ -83,8 +83,12 @@ void Vehicle::TakePeers(const Inputs& inputs) {
   const Self self{options_.id, state.epoch, state.tick,
                   state.odometry.WorldFromBody().position_world};
   state.peers.Advance(inputs.now, state.tick);
-  for (const ReceivedBeacon& received : inputs.beacons) {
-    state.peers.Take(received, self, options_, &state.beacons, &state.trust);
+  refused_count_ = 0;
+  for (std::uint32_t i = 0; i < inputs.beacons.size(); ++i) {
+    const BeaconRefusal why =
+        state.peers.Take(inputs.beacons[i], self, options_, &state.beacons, &state.trust);
+    if (why == BeaconRefusal::kNone || refused_count_ == refused_.size()) continue;
+    refused_[refused_count_++] = {i, why};
   }
   for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
 }

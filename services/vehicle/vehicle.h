@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 
 #include "services/types/handover.h"
 #include "services/types/vehicle_io.h"
@@ -71,6 +72,12 @@ struct VehicleState {
   TrustCounters trust;
 };
 
+// A beacon of the last step's inputs that was refused.
+struct RefusedBeacon {
+  std::uint32_t index = 0;  // into Inputs::beacons
+  BeaconRefusal why = BeaconRefusal::kNone;
+};
+
 class Vehicle {
  public:
   // `boot_epoch` is random and not 0: it tells two lives of one vehicle apart.
@@ -97,6 +104,8 @@ class Vehicle {
   bool Stands() const { return state_->wheels == WheelSpeeds{}; }
   // Peers with a fresh beacon in the last step.
   std::uint32_t PeersHeard() const { return peers_heard_; }
+  // The first few of the last step, for the log; the counters have all.
+  std::span<const RefusedBeacon> Refused() const { return {refused_.data(), refused_count_}; }
 
  private:
   void EnterWorld(WorldEpoch epoch, const Pose& world_from_body);
@@ -127,6 +136,8 @@ class Vehicle {
   std::unique_ptr<VehicleState> state_;
   std::unique_ptr<std::array<PeerView, kMaxPeers>> views_;  // scratch of one step
   std::uint32_t peers_heard_ = 0;
+  std::array<RefusedBeacon, 8> refused_;
+  std::uint32_t refused_count_ = 0;
 };
 
 }  // namespace giveway

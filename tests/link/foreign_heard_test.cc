@@ -1,6 +1,7 @@
 // What our vehicles hear of Cyclone DDS.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -11,8 +12,10 @@ namespace giveway::test {
 namespace {
 
 using std::chrono::milliseconds;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::Each;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
@@ -220,6 +223,49 @@ TEST_F(ForeignWriter, WithAutomaticLivelinessIsRefusedAndTold) {
   ForeignQos qos = AsRequested();
   qos.liveliness = DDS_LIVELINESS_AUTOMATIC;
   ExpectRefused(qos, DDS_LIVELINESS_QOS_POLICY_ID);
+}
+
+// DDS reports no partition, and a policy only by a counter of the reader: our log says both.
+TEST_F(ForeignWriter, ThatDoesNotMatchIsToldWithWhatItOffers) {
+  ForeignQos slow = AsRequested();
+  slow.deadline_ms = 200;
+  stranger_->MakeWriter(slow);
+  ForeignQos lost = AsRequested("main/v6");
+  lost.partition = std::nullopt;
+  stranger_->MakeWriter(lost);
+  stranger_->MakeWriter(AsRequested("north/v7"));
+  stranger_->MakeWriter(AsRequested("main/v8"));
+  std::vector<std::string> lines;
+  SteadyTime now{0};
+  ASSERT_TRUE(Eventually([&] {
+    now += std::chrono::seconds(2);
+    for (std::string& line : listener_.TakeUnfit(now)) lines.push_back(std::move(line));
+    return lines.size() >= 2;
+  }));
+  std::ranges::sort(lines);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_THAT(lines[0], AllOf(HasSubstr("a writer of fleet/beacon in main/v5 (Eclipse Cyclone DDS"),
+                              HasSubstr("deadline offered 200 ms, requested 150 ms")));
+  EXPECT_THAT(lines[1], AllOf(HasSubstr("a writer of fleet/beacon with no partition"),
+                              HasSubstr("ours is in main/*")));
+}
+
+TEST_F(ForeignWriter, WithABrokenSumIsToldWhatItShouldBe) {
+  const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
+  ForeignBeacon broken = BeaconOf(kFive, 1);
+  const std::uint32_t right = broken.crc;
+  broken.crc ^= 4U;
+  std::vector<Refusal> refusals;
+  ASSERT_TRUE(Eventually([&] {
+    Write(writer, broken);
+    for (const Refusal& refusal : listener_.Take(SteadyTime{0}).refusals) {
+      refusals.push_back(refusal);
+    }
+    return !refusals.empty();
+  }));
+  EXPECT_EQ(refusals[0].why, "crc is " + std::to_string(broken.crc) + ", must be " +
+                                 std::to_string(right) + " for its fields as they arrived");
+  EXPECT_STREQ(refusals[0].counter, "rejected_crc");
 }
 
 TEST_F(ForeignWriter, OfAnotherAreaIsNotHeard) {

@@ -65,13 +65,17 @@ TEST(Joining, IsAnsweredBySessionAndARefusalLeavesTheOwnersEntryAlone) {
   link::VehicleLink second(OptionsIn(domain));
   const SessionId owner_session{1, 2, 3, 4};
   const SessionId second_session{5, 6, 7, 8};
+  second.SendJoin({SessionId{}, kSeven});  // no 128 random bits: refused, and said
   owner.SendJoin({owner_session, kSeven});
   second.SendJoin({second_session, kSeven});
   std::vector<JoinRequest> joins;
+  std::vector<Refusal> refusals;
   ASSERT_TRUE(Eventually([&] {
     for (const JoinRequest& join : world.TakeJoins()) joins.push_back(join);
-    return joins.size() == 2;
+    for (const Refusal& refusal : world.TakeRefusals()) refusals.push_back(refusal);
+    return joins.size() == 2 && !refusals.empty();
   }));
+  EXPECT_EQ(refusals[0].why, "session is 0, must be 128 random bits");
   EXPECT_EQ(joins[0].wanted, kSeven);
   EXPECT_EQ(joins[1].wanted, kSeven);
 

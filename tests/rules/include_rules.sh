@@ -6,7 +6,7 @@ set -euo pipefail
 root=${1:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)}
 cd "$root"
 
-LONGEST_FILE=350
+LONGEST_FILE=500
 PURE_ROOMS='types vehicle sim_world virtual qos'
 # Standard headers the pure rooms do without: threads, clocks of the wall, files, and the streams
 # nobody there has anything to say to.

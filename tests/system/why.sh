@@ -146,7 +146,7 @@ hears "a vehicle without a given id" "$(id_of twelve)" 1 --domain "$DOMAIN"
 # Who is not here is judged by what can be heard, and what makes no sense is said.
 why 1 "nobody of that name" 1 77 --domain "$DOMAIN" --seconds 1 --json
 says "nobody of that name" '.topics[0].samples == 0 and (.not_known[0] | test("vehicle 77"))'
-why 1 "no such hearer" 77 1 --domain "$DOMAIN" --seconds 8 --json
+why 2 "no such hearer" 77 1 --domain "$DOMAIN" --seconds 8 --json
 says "no such hearer" '.topics[0].samples > 0 and .topics[0].verdict == "may hear"'
 why 2 "neither" 77 78
 grep -q "pid:${PID[one]} *vehicle 1 in domain $DOMAIN" err || fail "neither: $(cat err)"

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/app/identity.h"
 #include "services/app/json_line.h"
 #include "services/app/process.h"
 
@@ -53,6 +54,25 @@ TEST(Log, TextNamesLevelAndProcess) {
   InitLog("world", "text", "info");
   LogWarning("tick late");
   EXPECT_THAT(GetCapturedStderr(), HasSubstr("warning world: tick late\n"));
+}
+
+// Of three vehicles without --id every line said "process":"vehicle".
+TEST(Log, NamesAVehicleByTheIdThatTheWorldGave) {
+  CaptureStderr();
+  InitLog("vehicle", "json", "info");
+  LogInfo("before");
+  SetLogVehicle(VehicleId{3});
+  LogInfo("after");
+  InitLog("vehicle", "text", "info");
+  LogInfo("cruise");
+  SetLogVehicle(kNobody);
+  LogInfo("over");
+  FlushLog(std::chrono::seconds(5));
+  const std::string lines = GetCapturedStderr();
+  EXPECT_THAT(lines, HasSubstr("\"process\":\"vehicle\",\"text\":\"before\""));
+  EXPECT_THAT(lines, HasSubstr("\"process\":\"vehicle\",\"vehicle\":3,\"text\":\"after\""));
+  EXPECT_THAT(lines, HasSubstr(" vehicle 3: cruise"));
+  EXPECT_THAT(lines, HasSubstr(" vehicle: over"));
 }
 
 TEST(Log, LevelsBelowTheOneAskedForAreSilent) {

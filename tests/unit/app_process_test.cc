@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "services/app/hang_signal.h"
+#include "services/app/identity.h"
 #include "services/app/process.h"
 
 namespace giveway::app {
@@ -19,6 +20,28 @@ TEST(HangSignal, TheFirstMakesTheLoopHangAndTheNextLetsItGo) {
   EXPECT_TRUE(HangSignal::IsUp());
   std::raise(SIGUSR2);
   EXPECT_FALSE(HangSignal::IsUp());
+}
+
+TEST(Identity, IsReadFromTheProcessThatPublishesIt) {
+  const Identity before{kNobody, "010f45d2a3b1000001000000"};
+  const Identity after{VehicleId{4'000'000'000}, "010f45d2a3b1000001000000"};
+  EXPECT_EQ(ParseIdentity(ToText(after)), after);
+  PublishIdentity(before);
+  EXPECT_EQ(ReadIdentity("/proc/self"), before);
+  PublishIdentity(after);
+  EXPECT_EQ(ReadIdentity("/proc/self"), after);
+  PublishIdentity(before);
+  EXPECT_EQ(ReadIdentity("/proc/self"), before);
+}
+
+TEST(Identity, ThatIsNotWholeIsNone) {
+  const std::string whole = ToText({VehicleId{7}, "010f45d2a3b1000001000000"});
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    EXPECT_FALSE(ParseIdentity(whole.substr(0, length))) << length;
+  }
+  EXPECT_FALSE(ParseIdentity("vehicle 99999999999\nparticipant 010f45d2a3b1000001000000\n"));
+  EXPECT_FALSE(ParseIdentity("vehicle 7\nparticipant 010f45d2a3b100000100000x\n"));
+  EXPECT_FALSE(ReadIdentity("/proc/self/task"));
 }
 
 TEST(Ticker, OnTimeNothingIsMissed) {

@@ -2,7 +2,7 @@ giveway_test(unit vehicle
   SOURCES beacon_news_test.cc ../../services/beacon_news.cc beacon_check_test.cc deaf_watch_test.cc
           blocked_test.cc box_test.cc caught_test.cc claim_test.cc conflict_test.cc decide_test.cc
           detour_test.cc doubt_test.cc echoes_test.cc imperfect_sonar_test.cc lecture_test.cc
-          look_test.cc objects_test.cc odometry_test.cc peer_table_test.cc range_view_test.cc
+          look_test.cc objects_test.cc odometry_test.cc peer_table_test.cc range_view_test.cc refused_beacon_test.cc
           signals_obeyed_test.cc steering_test.cc trust_test.cc unsure_distances_test.cc
           vehicle_rejoin_test.cc vehicle_test.cc waiting_test.cc
   LINK giveway::vehicle)

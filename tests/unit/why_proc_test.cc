@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <fstream>
 
+#include "services/fleetctl/other_fleets.h"
 #include "services/fleetctl/why_proc_text.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -121,6 +123,29 @@ TEST_F(MadeProc, ServicesAreFoundByTheirProgramAndNothingElseIs) {
   EXPECT_TRUE(members[1].is_world);
 }
 
+// Three vehicles without --id were told apart by ear alone, and in containers, where all are
+// process 1, not at all.
+TEST_F(MadeProc, AVehicleIsKnownByTheIdThatTheWorldGaveIt) {
+  for (const char* pid : {"51", "52"}) {
+    Write(std::string(pid) + "/cmdline", Zeros({"giveway-vehicle", "--domain", "7"}));
+    Write(std::string(pid) + "/status", "Name:\tgiveway-vehicle\nNSpid:\t51\t1\n");
+    Link(std::string(pid) + "/ns/net", std::string("net:[40265319") + pid + "]");
+    Link(std::string(pid) + "/fd/9", "memfd:giveway-identity (deleted)");
+  }
+  Write("51/fd/memfd:giveway-identity (deleted)",
+        "vehicle 3\nparticipant 010f45d2a3b1000001000000\n");
+  Write("52/fd/memfd:giveway-identity (deleted)", "vehicle 4\npart");  // being written
+  const auto members = FindFleet(folder_);
+  ASSERT_EQ(members.size(), 4U);
+  EXPECT_EQ(members[2].id, VehicleId{3});
+  EXPECT_EQ(members[2].network_namespace, 4026531951U);
+  EXPECT_EQ(members[3].id, kNobody);
+  const auto situation = ReadSituation(folder_, 51);
+  ASSERT_TRUE(situation);
+  EXPECT_EQ(situation->told.id, VehicleId{3});
+  EXPECT_EQ(situation->participant, "010f45d2a3b1000001000000");
+}
+
 // A bridge of a container engine without a container: the library's host id is without it.
 TEST_F(MadeProc, AnInterfaceWithoutCarrierHasNoAddressForTheLibrary) {
   const auto all = ReadSituation(folder_, 42)->addresses;
@@ -215,6 +240,23 @@ TEST(ProcText, NonsenseIsNothing) {
   EXPECT_THAT(ParseUdp("1: nonsense\n  1: 0100007F:XYZ a b c d e f g 7\n"), IsEmpty());
   EXPECT_THAT(ParseAddresses("     |-- 300.0.0.1\n        /32 host LOCAL\n", "", ""), IsEmpty());
   EXPECT_THAT(ZeroEnded(""), IsEmpty());
+}
+
+// Of two fleets in one domain number the one that could be heard was taken without a word.
+TEST(OtherFleetsTest, AreNamedWithWhatChoosesThem) {
+  std::vector<FleetMember> members;
+  members.push_back({.pid = 1, .domain = 7, .interface = "127.0.0.1", .network_namespace = 100});
+  members.push_back({.pid = 2, .domain = 7, .interface = "lo", .network_namespace = 100});
+  EXPECT_THAT(OtherFleets(members, 7, "127.0.0.1", 100), IsEmpty());
+  members.push_back({.pid = 3, .domain = 8, .interface = "eth0", .network_namespace = 100});
+  members.push_back({.pid = 4, .domain = 7, .interface = "eth0", .network_namespace = 100});
+  members.push_back({.pid = 5, .domain = 7, .interface = "127.0.0.1", .network_namespace = 200});
+  members.push_back({.pid = 6, .domain = 7, .interface = "127.0.0.1", .network_namespace = 200});
+  EXPECT_THAT(OtherFleets(members, 7, "127.0.0.1", 100),
+              ElementsAre(AllOf(HasSubstr("interface eth0 (processes pid:4)"),
+                                HasSubstr("choose it by --interface eth0")),
+                          AllOf(HasSubstr("network namespace 200 (processes pid:5 pid:6)"),
+                                HasSubstr("nsenter"))));
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(WhyReport, AHearerElsewhereMayStandOtherwise) {
   WhyReport report = Made(Vehicle(1), Vehicle(2), Heard(40));
   report.foretold = report.hearer_here = false;
   EXPECT_EQ(Verdict1(report).verdict, Verdict::kNotKnown);
-  EXPECT_EQ(ExitCode(report), 1);
+  EXPECT_EQ(ExitCode(report), 2);
 }
 
 TEST(WhyNames, AnIdTheWorldOrAProcessAndNothingElse) {
@@ -192,6 +192,43 @@ TEST_F(WhyChoice, WhoIsNotHereIsNobodyAndTwoOfThemAreTooMany) {
 
 TEST_F(WhyChoice, NobodyHearsItself) {
   EXPECT_THAT(Complaint({kThree, Named{.pid = 23}, {}}), HasSubstr("nobody hears itself"));
+}
+
+// A foreign vehicle that heard 36 samples was "no process of this machine", and the exit code 1.
+TEST(WhyReport, AForeignHearerIsJudgedByItsOwnReadersAsDiscovered) {
+  ProbeResult probe = Heard(36);
+  probe.hearer_foreign = "Eclipse Cyclone DDS";
+  probe.topics["fleet/beacon"].fits = true;
+  WhyReport report = Made(Vehicle(2), Vehicle(1), probe);
+  report.foretold = report.hearer_here = false;
+  report.topics = TopicsBetween(Vehicle(2).told, Vehicle(1).told);
+  AddUnfit(&report);
+  EXPECT_EQ(Verdict1(report).verdict, Verdict::kHears);
+  EXPECT_EQ(ExitCode(report), 0);
+  EXPECT_THAT(ToJson(report), HasSubstr(R"("hearer_foreign":"Eclipse Cyclone DDS")"));
+
+  report.probe->topics["fleet/beacon"].fits = false;
+  report.probe->topics["fleet/beacon"].unfit = "deadline offered 100 ms, requested 50 ms";
+  AddUnfit(&report);
+  EXPECT_EQ(Verdict1(report).verdict, Verdict::kDoesNot);
+  EXPECT_EQ(ExitCode(report), 1);
+  EXPECT_THAT(ToText(report), HasSubstr("endpoint_unfit: as discovered: fleet/beacon: deadline"));
+}
+
+TEST(WhyReport, AForeignSpeakerThatDoesNotMatchIsToldWhy) {
+  ProbeResult probe = Heard(0);
+  probe.joined = probe.discovered = false;
+  probe.unfit = {
+      "a writer of fleet/beacon with no partition (Eclipse Cyclone DDS, participant "
+      "0110) does not match: ours is in main/*",
+      "a writer of fleet/join in fleet (X) does not match: durability"};
+  WhyReport report = Made(Vehicle(1), Vehicle(2), probe);
+  report.foretold = false;
+  report.topics = TopicsBetween(Vehicle(1).told, Vehicle(2).told);
+  AddUnfit(&report);
+  EXPECT_EQ(ExitCode(report), 1);
+  EXPECT_THAT(ToText(report), HasSubstr("a writer of fleet/beacon with no partition"));
+  EXPECT_THAT(ToText(report), Not(HasSubstr("fleet/join")));  // of another topic than is asked for
 }
 
 }  // namespace

@@ -1,0 +1,31 @@
+#include "services/types/refusal.h"
+
+#include <array>
+#include <charconv>
+
+namespace giveway {
+namespace {
+
+// As short as it can be and still the same number.
+std::string Text(double number) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+  return {text.data(), end};
+}
+
+}  // namespace
+
+std::string Describe(const FieldFault& fault) {
+  std::string text = std::string(fault.field) + " is " + Text(fault.value) + ", must be ";
+  text += Text(fault.least);
+  if (fault.least != fault.most) text += " to " + Text(fault.most);
+  return text;
+}
+
+std::string Describe(const Refusal& refusal) {
+  std::string text = std::string("refuses a ") + refusal.sample;
+  if (refusal.vehicle != kNobody) text += " of vehicle " + std::to_string(Number(refusal.vehicle));
+  return text + ": " + refusal.why + " (" + refusal.counter + ')';
+}
+
+}  // namespace giveway
