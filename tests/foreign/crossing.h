@@ -1,0 +1,34 @@
+/* What two vehicles must agree on at a crossing, by idl/FOREIGN.md: the check sum, the order, and
+ * where their ways come too near. Pure. */
+#pragma once
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "fleet.h"
+
+struct point {
+  double x_m, y_m;
+};
+
+struct way { /* straight */
+  struct point from, to;
+};
+
+struct stretch { /* of the own way, from its beginning */
+  bool exists;
+  double begin_m, end_m;
+};
+
+struct order_key {
+  uint32_t waited_ticks, speed_bucket, vehicle;
+};
+
+/* The CRC-32C that fleet.idl asks for. */
+uint32_t BeaconCrc(const giveway_wire_Beacon* beacon);
+
+/* True if `a`, which vehicle id_a acts by, goes before `b`. */
+bool ComesFirst(struct order_key a, uint32_t id_a, struct order_key b, uint32_t id_b);
+
+/* Where the own way is nearer than reach_m to any point of the other one. */
+struct stretch CrossingOf(struct way own, struct way other, double reach_m);
