@@ -31,7 +31,8 @@ struct Crossed {
   std::uint32_t vehicles = 0;
   std::uint32_t contacts = 0;
   std::uint32_t arrived = 0;
-  // Beyond the time alone, of everyone; who never arrives counts until the run's end.
+  // Beyond the time alone, of everyone; one that never arrives counts until the run's end. To
+  // arrive is to come within the goal's radius, as for a pilot that passes it at cruise speed.
   std::vector<double> delays_s;
   double took_s = 0;                   // until the last arrival, or the run's end
   std::optional<double> separation_m;  // the closest two shells ever came

@@ -41,6 +41,13 @@ double BeyondLine(const SmallFleet& fleet, std::size_t i) {
   return (i == 0 ? at.x : at.y) + 0.25 + kLine_m;
 }
 
+// It brakes there before it has arrived.
+bool InGoal(const SmallFleet& fleet, std::size_t i) {
+  const Truth& truth = fleet.World().Truths()[i];
+  const Goal& goal = fleet.World().BodyOf(truth.vehicle)->goal;
+  return Norm(goal.at_world - truth.world_from_body.position_world) <= goal.radius_m;
+}
+
 struct Seen {
   bool stood_on_green = false;    // vehicle 1, while 2 had red
   double went_over_at_s[2] = {};  // when the shell came over the line
@@ -63,7 +70,8 @@ Seen Drive(SmallFleet* fleet, const std::function<void(double time_s)>& each_tic
     const bool red = fleet->Said(1).command.decision.rule == Rule::kSignal;
     seen.red_s += red ? 0.05 : 0;
     const Truth& first = fleet->World().Truths()[0];
-    seen.stood_on_green |= red && time_s > 2 && !first.arrived && first.forward_m_s < 0.1;
+    seen.stood_on_green |=
+        red && time_s > 2 && !first.arrived && !InGoal(*fleet, 0) && first.forward_m_s < 0.1;
   }
   return seen;
 }
