@@ -116,12 +116,12 @@ judged_run() {
 
 LISTENERS=()
 # listen_places NAME DOMAIN VEHICLE: from now on until end_listening, what its beacons say of where it
-# is, and where it is.
+# is, and where it is. By the set that requests least: it goes on hearing a fleet that takes another.
 listen_places() {
   local topic
   for topic in beacon truth; do
     "$FLEETCTL" listen "$([[ $topic == beacon ]] && echo fleet || echo world)/$topic" --json \
-      --domain "$2" --vehicle "$3" >"$SCRATCH/$1.$topic" 2>/dev/null &
+      --domain "$2" --vehicle "$3" --qos lossy_radio >"$SCRATCH/$1.$topic" 2>/dev/null &
     LISTENERS+=("$!")
   done
 }
