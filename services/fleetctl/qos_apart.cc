@@ -4,7 +4,6 @@
 #include <string>
 
 #include "services/fleetctl/child_answer.h"
-#include "services/fleetctl/qos_files.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -45,7 +44,6 @@ std::vector<link::ResolvedEntity> Understood(const std::string& text) {
 }  // namespace
 
 std::vector<link::ResolvedEntity> ResolveQosApart(const link::LinkOptions& options) {
-  RequireSoundQos(options.qos_file);
   const auto [text, whole] = AskChild([&] { return Told(options); }, kPatience);
   if (!text.empty() && text.front() == kComplaint) throw link::LinkError(text.substr(1));
   if (!whole || text.empty()) {

@@ -14,6 +14,7 @@
 #include "services/fleetctl/orders.h"
 #include "services/fleetctl/other_fleets.h"
 #include "services/fleetctl/qos_effective.h"
+#include "services/fleetctl/qos_files.h"
 #include "services/fleetctl/qos_foreign.h"
 #include "services/fleetctl/reading_along.h"
 #include "services/qos/deployment.h"
@@ -49,6 +50,7 @@ link::LinkOptions LinkOptionsOf(const QosLiveOptions& options, const std::string
   link_options.interface = options.set.interface;
   link_options.qos_file = file;
   link_options.fleet_size = options.set.vehicles;
+  RequireSoundQos(file);
   return link_options;
 }
 
