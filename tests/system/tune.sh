@@ -60,7 +60,7 @@ grep -q 'No pictures' small/report.html || fail "without gnuplot: report.html sa
 rm small/trials/base-0.json
 tune "0 1" "one is missing" "${small[@]}" --out small
 [[ -s small/trials/base-0.json ]] || fail "one is missing: it was not measured anew"
-cmp -s {before,small}/trials/d190_l250_be_h4-0.json || fail "one is missing: another changed"
+cmp -s {before,small}/trials/d190_l250_be_h5-0.json || fail "one is missing: another changed"
 tune 2 "another search there" "${small[@]}" --seed 9 --out small
 grep -q 'another' err || fail "another search there: $(cat err)"
 
