@@ -1,7 +1,6 @@
 // What our vehicles hear of Cyclone DDS.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -30,6 +29,19 @@ ForeignQos AsRequested(const char* partition = "main/v5") {
 class ForeignWriter : public ::testing::Test {
  protected:
   ForeignWriter() : listener_(OptionsIn(domain_)) { listener_.Open(kListener); }
+
+  // The first line about an endpoint that will not match. Its clock runs fast: an endpoint is
+  // judged a second after it was found.
+  std::string UnfitLine() {
+    std::string line;
+    SteadyTime now{0};
+    Eventually([&] {
+      now += std::chrono::seconds(2);
+      for (std::string& unfit : listener_.TakeUnfit(now)) line = std::move(unfit);
+      return !line.empty();
+    });
+    return line;
+  }
 
   static ForeignBeacon BeaconOf(VehicleId id, std::uint32_t seq) {
     return ForeignFrom(BeaconFrom(id, seq).beacon);
@@ -225,29 +237,25 @@ TEST_F(ForeignWriter, WithAutomaticLivelinessIsRefusedAndTold) {
   ExpectRefused(qos, DDS_LIVELINESS_QOS_POLICY_ID);
 }
 
-// DDS reports no partition, and a policy only by a counter of the reader: our log says both.
-TEST_F(ForeignWriter, ThatDoesNotMatchIsToldWithWhatItOffers) {
+// DDS reports a policy only by a counter of the reader, and a partition not at all: our log says
+// both.
+TEST_F(ForeignWriter, ThatOffersTooLittleIsReportedWithWhatItOffers) {
   ForeignQos slow = AsRequested();
   slow.deadline_ms = 200;
   stranger_->MakeWriter(slow);
-  ForeignQos lost = AsRequested("main/v6");
-  lost.partition = std::nullopt;
-  stranger_->MakeWriter(lost);
   stranger_->MakeWriter(AsRequested("north/v7"));
   stranger_->MakeWriter(AsRequested("main/v8"));
-  std::vector<std::string> lines;
-  SteadyTime now{0};
-  ASSERT_TRUE(Eventually([&] {
-    now += std::chrono::seconds(2);
-    for (std::string& line : listener_.TakeUnfit(now)) lines.push_back(std::move(line));
-    return lines.size() >= 2;
-  }));
-  std::ranges::sort(lines);
-  ASSERT_EQ(lines.size(), 2U);
-  EXPECT_THAT(lines[0], AllOf(HasSubstr("a writer of fleet/beacon in main/v5 (Eclipse Cyclone DDS"),
-                              HasSubstr("deadline offered 200 ms, requested 150 ms")));
-  EXPECT_THAT(lines[1], AllOf(HasSubstr("a writer of fleet/beacon with no partition"),
-                              HasSubstr("ours is in main/*")));
+  EXPECT_THAT(UnfitLine(),
+              AllOf(HasSubstr("a writer of fleet/beacon in main/v5 (Eclipse Cyclone DDS"),
+                    HasSubstr("deadline offered 200 ms, requested 150 ms")));
+}
+
+TEST_F(ForeignWriter, WithoutAPartitionIsReported) {
+  ForeignQos lost = AsRequested();
+  lost.partition = std::nullopt;
+  stranger_->MakeWriter(lost);
+  EXPECT_THAT(UnfitLine(), AllOf(HasSubstr("a writer of fleet/beacon with no partition"),
+                                 HasSubstr("ours is in main/*")));
 }
 
 TEST_F(ForeignWriter, WithABrokenSumIsToldWhatItShouldBe) {

@@ -46,8 +46,9 @@ hears() { # NAME A B: on every topic, foretold and probed, and nothing else is t
 } >many.textproto
 sed 's/^name: .*/&\narea: "north"/' many.textproto >north.textproto
 LANES=$SCRATCH/many.textproto
-# A beacon offered less often than the others request it.
-sed '/profile_name="fleet_beacon_writer"/,/data_writer>/s/100000000/400000000/' \
+# A beacon offered less often than the others request it; its own reader would take it.
+sed -e '/profile_name="fleet_beacon_writer"/,/data_writer>/s/100000000/400000000/' \
+  -e '/profile_name="fleet_beacon_reader"/,/data_reader>/s/150000000/400000000/' \
   "$REPOSITORY/config/qos/default.xml" >slow.xml
 
 start world giveway-world
