@@ -297,7 +297,13 @@ TEST(Leaving, AndComingAThousandTimesLeavesNothingBehind) {
   come_and_go(300);
   const long before = MemoryKb();
   come_and_go(1000);
-  EXPECT_LT(MemoryKb() - before, 4096);
+  // The thread sanitizer's shadow of what was touched is resident too.
+#ifdef __SANITIZE_THREAD__
+  constexpr long kMostKb = 3 * 4096;
+#else
+  constexpr long kMostKb = 4096;
+#endif
+  EXPECT_LT(MemoryKb() - before, kMostKb);
 }
 
 }  // namespace
