@@ -1,6 +1,7 @@
 #include "sim_world/reaction.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace giveway::sim {
 namespace {
@@ -13,8 +14,6 @@ double NearestRank_ms(const std::vector<Nanoseconds>& samples, std::size_t perce
 
 }  // namespace
 
-ReactionMeter::ReactionMeter() { samples_.reserve(kKeptSamples); }
-
 void ReactionMeter::Published(Tick tick, SteadyTime at) {
   publications_[Number(tick) % kRememberedTicks] = {tick, at};
 }
@@ -25,19 +24,15 @@ void ReactionMeter::Applied(const MotorCommand& command, SteadyTime at) {
   const Publication& publication = publications_[Number(cause) % kRememberedTicks];
   if (publication.tick != cause) return;
   const Nanoseconds sample = at - publication.at;
-  if (samples_.size() < kKeptSamples) {
-    samples_.push_back(sample);
-  } else {
-    samples_[count_ % kKeptSamples] = sample;
-  }
-  ++count_;
+  samples_[count_++ % kKeptSamples] = sample;
   longest_ = std::max(longest_, sample);
 }
 
 ReactionFigures ReactionMeter::Figures() const {
   ReactionFigures figures{.count = count_, .p50_ms = {}, .p99_ms = {}, .max_ms = {}};
-  if (samples_.empty()) return figures;
-  std::vector<Nanoseconds> sorted = samples_;
+  if (count_ == 0) return figures;
+  const auto kept = std::min<std::size_t>(count_, kKeptSamples);
+  std::vector<Nanoseconds> sorted(samples_.begin(), samples_.begin() + kept);
   std::sort(sorted.begin(), sorted.end());
   figures.p50_ms = NearestRank_ms(sorted, 50);
   figures.p99_ms = NearestRank_ms(sorted, 99);

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "services/types/motor_command.h"
 #include "services/types/time.h"
@@ -24,9 +23,8 @@ struct ReactionFigures {
 class ReactionMeter {
  public:
   static constexpr std::size_t kRememberedTicks = 64;
-  static constexpr std::size_t kKeptSamples = 100'000;
-
-  ReactionMeter();
+  // 64 KiB, a part of the object: a run of many hours takes no more memory than one of a minute.
+  static constexpr std::size_t kKeptSamples = 8192;
 
   // The scans of `tick` went out at `at`. Only ticks of the running run are told, so that nothing
   // before the start signal counts as a cause.
@@ -45,7 +43,7 @@ class ReactionMeter {
   };
 
   std::array<Publication, kRememberedTicks> publications_{};  // [tick % kRememberedTicks]
-  std::vector<Nanoseconds> samples_;                          // a ring once it is full
+  std::array<Nanoseconds, kKeptSamples> samples_{};           // [count % kKeptSamples]
   std::uint32_t count_ = 0;
   Nanoseconds longest_{0};
 };

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <type_traits>
+
 namespace giveway::sim {
 namespace {
 
@@ -69,6 +71,27 @@ TEST(Reaction, MemoryIsBoundedAndTheLongestIsNeverForgotten) {
   EXPECT_EQ(figures.count, ReactionMeter::kKeptSamples + 1);
   EXPECT_DOUBLE_EQ(figures.p99_ms.value(), 20);
   EXPECT_DOUBLE_EQ(figures.max_ms.value(), 500);
+}
+
+// Issue 21, number 11: 800 KB were reserved, and taken from the system page by page while vehicles
+// decided: the world's memory grew for hours.
+TEST(Reaction, ARunOfManyHoursTakesNoMoreMemoryThanOneOfAMinute) {
+  static_assert(sizeof(ReactionMeter) <= 72 * 1024);
+  static_assert(std::is_trivially_copyable_v<ReactionMeter>);
+}
+
+// The ring has no place for the oldest any more, and all others count.
+TEST(Reaction, PercentilesAreOfTheNewest) {
+  ReactionMeter meter;
+  meter.Published(Tick{1}, milliseconds{0});
+  for (std::size_t i = 0; i < ReactionMeter::kKeptSamples; ++i) {
+    meter.Applied(ChangedBecauseOf(1), milliseconds{10});
+  }
+  EXPECT_DOUBLE_EQ(meter.Figures().p50_ms.value(), 10);
+  for (std::size_t i = 0; i <= ReactionMeter::kKeptSamples / 2; ++i) {
+    meter.Applied(ChangedBecauseOf(1), milliseconds{30});
+  }
+  EXPECT_DOUBLE_EQ(meter.Figures().p50_ms.value(), 30);
 }
 
 }  // namespace
