@@ -24,6 +24,8 @@ class UnfitEndpoints {
   bool IsDue(SteadyTime now) const;
   // Lines for the log, one an endpoint; each endpoint is judged once.
   std::vector<std::string> Judge(const std::vector<FoundEndpoint>& own, SteadyTime now);
+  // Endpoints that are kept, judged or not.
+  std::size_t Known() const { return found_.size(); }
 
  private:
   std::deque<FoundEndpoint> found_;  // those due first; then some that were judged

@@ -6,9 +6,11 @@
 namespace giveway::link {
 namespace {
 
-// Writers that left stay known this long, because their last samples and the event that they left
-// are drained after the news of it.
-constexpr std::size_t kGoneKept = 1024;
+// Writers that left stay known, because their last samples and the event that they left are drained
+// after the news of it: for two updates, however many leave at once, and the last few until others
+// follow, so that one that is found again goes on counting where it was. Some 110 bytes each.
+constexpr std::uint64_t kGoneUpdates = 2;
+constexpr std::size_t kGoneKept = 256;
 
 constexpr std::uint64_t Mix(std::uint64_t bits) {
   bits = (bits ^ (bits >> 32U)) * 0xd6e8feb86659fd93ULL;
@@ -67,6 +69,7 @@ void WriterNames::OnWriter(Change change, const rtps::GUID_t& writer,
 const rtps::GUID_t& WriterNames::FoundByThisThread() { return found_by_this_thread; }
 
 void WriterNames::Update() {
+  ++updates_;
   batch_.clear();
   {
     const std::scoped_lock lock(mutex_);
@@ -78,14 +81,19 @@ void WriterNames::Update() {
     if (entry.found == 0) entry.found = ++found_;
     entry.gone = queued.change == Change::kGone;
     if (entry.gone) {
-      gone_.push_back(queued.identity);
+      gone_.push_back({queued.identity, updates_});
     } else {
       entry.vehicle = queued.vehicle;
       entry.area = queued.area;
     }
   }
-  for (; gone_.size() > kGoneKept; gone_.pop_front()) {
-    const auto oldest = writers_.find(gone_.front());
+  ForgetGone();
+}
+
+void WriterNames::ForgetGone() {
+  const auto is_old = [this](const Gone& gone) { return updates_ - gone.update > kGoneUpdates; };
+  for (; gone_.size() > kGoneKept && is_old(gone_.front()); gone_.pop_front()) {
+    const auto oldest = writers_.find(gone_.front().identity);
     if (oldest != writers_.end() && oldest->second.gone) writers_.erase(oldest);
   }
 }

@@ -63,18 +63,25 @@ class WriterNames final : public DiscoveryListener {
   }
 
  private:
+  struct Gone {
+    std::uint64_t identity;
+    std::uint64_t update;  // the one that applied it
+  };
   struct Queued {
     Change change;
     std::uint64_t identity;
     VehicleId vehicle;
     std::string area;
   };
+  void ForgetGone();
+
   std::mutex mutex_;
   std::vector<Queued> queue_;  // guarded by mutex_
   std::vector<Queued> batch_;
   std::unordered_map<std::uint64_t, WriterEntry> writers_;  // by identity
   std::uint64_t found_ = 0;                                 // writers ever discovered
-  std::deque<std::uint64_t> gone_;                          // still in writers_, oldest first
+  std::uint64_t updates_ = 0;
+  std::deque<Gone> gone_;  // still in writers_, oldest first
 };
 
 }  // namespace giveway::link

@@ -94,5 +94,22 @@ TEST_F(Unfit, AReaderThatAsksForMoreThanItsOwnWriterOffersIsTold) {
               ElementsAre(HasSubstr("reliability offered BEST_EFFORT, requested RELIABLE")));
 }
 
+// Issue 21, number 11: 512 endpoints of vehicles that had come stayed, 150 KB of a world.
+TEST_F(Unfit, OfThoseThatCameLongAgoFewAreKnown) {
+  SteadyTime now = seconds(10);
+  for (std::uint32_t vehicle = 1; vehicle <= 500; ++vehicle, now += seconds(1)) {
+    for (int i = 0; i < 10; ++i) unfit_.Add(JoinWriter(), now);
+    EXPECT_THAT(unfit_.Judge(own_, now), IsEmpty());
+  }
+  EXPECT_LE(unfit_.Known(), 150U);
+  // What a vehicle has beside is known all the same, with eleven others between.
+  own_.push_back(Endpoint(false, "fleet/beacon", "main/*", 0));
+  unfit_.Add(Endpoint(true, "fleet/beacon", "main/v5", 8), now);
+  for (int i = 0; i < 110; ++i) unfit_.Add(JoinWriter(), now);
+  EXPECT_THAT(unfit_.Judge(own_, now += seconds(1)), IsEmpty());
+  unfit_.Add(Endpoint(true, "fleet/beacon", "", 8), now);
+  EXPECT_THAT(unfit_.Judge(own_, now + seconds(1)), IsEmpty());
+}
+
 }  // namespace
 }  // namespace giveway::link
