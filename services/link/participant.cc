@@ -138,6 +138,9 @@ dds::DataWriterQos WriterQos(dds::Publisher& publisher, const std::string& profi
   dds::DataWriterQos qos;
   if (!Ok(publisher.get_datawriter_qos_from_profile(profile, qos))) ThrowMissingProfile(profile);
   SetDepth(qos, depth);
+  // All of a deep history is taken from the system at once: a world's memory would grow for as long
+  // as it fills with events, which in a quiet fleet is hours.
+  if (depth != Participant::kProfileDepth) qos.resource_limits().allocated_samples = depth;
   SetHeartbeatPeriod(qos, kHeartbeatPeriod);
   return qos;
 }

@@ -1,6 +1,7 @@
 // Vehicle, world and observer together: joining, ranges, commands, and what a latecomer still
 // learns.
 #include <gmock/gmock.h>
+#include <malloc.h>
 
 #include <cmath>
 #include <limits>
@@ -116,6 +117,25 @@ TEST(Joining, ALateVehicleFindsTheWholeRoster) {
     for (const RosterEntry& entry : late.Take().roster) roster.push_back(entry);
     return roster.size() == 12;
   })) << roster.size();
+}
+
+// Issue 21, number 11: each event took 600 bytes more, until 256 + 32 a vehicle had happened.
+TEST(Events, FillTheirHistoryWithoutTakingMoreMemory) {
+  const DomainLock domain;
+  link::LinkOptions options = OptionsIn(domain);
+  options.fleet_size = 16;
+  link::WorldLink world(options);
+  const auto send = [&](int events) {
+    for (int i = 0; i < events; ++i) {
+      WorldEvent event;
+      event.text = "vehicle 7";
+      world.SendEvent(event);
+    }
+  };
+  send(32);
+  const std::size_t before = mallinfo2().uordblks;
+  send(800);
+  EXPECT_LT(mallinfo2().uordblks, before + 64 * 1024);
 }
 
 TEST_F(Pair, TheWaitEndsWithAScanAndWithoutOneAtItsTimeout) {
