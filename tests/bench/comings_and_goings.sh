@@ -6,7 +6,7 @@
 #       stays, before and after so many vehicles (default 64, then 200) came and left; with KILL=1
 #       they die by kill -9
 #   bash tests/bench/comings_and_goings.sh returns [COUNT]    memory of a world over so many kill -9 of
-#       one vehicle that comes back (default 500)
+#       vehicles that come back (default 700), four at a time
 #   bash tests/bench/comings_and_goings.sh flood [REQUESTS SECONDS]   late ticks and log lines of a
 #       world that is asked for places (default 30000 in 6 s); takes the target join_flood
 #
@@ -26,13 +26,14 @@ end_all() {
 }
 trap end_all EXIT
 
-# Places for forty, far from each other. Who died is taken away after a second, or comes back to where
-# it stands.
-case $what in returns) removal=30 ;; *) removal=1 ;; esac
+# Places far from each other; at most 32, because above that a participant that died is spoken to for
+# twenty seconds instead of ten. Who died is taken away after a second, or comes back to where it
+# stands.
+case $what in returns) removal=30 columns="0" ;; *) removal=1 columns="0 12 24 36 48 60" ;; esac
 {
   echo 'name: "comings" description: "Vehicles come and go." crossing { x_m: 0 y_m: 0 }'
   echo "start_with: 1 duration_s: 86400 remove_after_s: $removal expect {}"
-  for x in 0 12 24 36 48 60 72 84; do
+  for x in $columns; do
     for y in 0 12 24 36 48; do
       echo "spawn { start { x_m: $x y_m: $y heading_deg: 0 } cruise_m_s: 0.3 }"
     done
@@ -71,7 +72,7 @@ cpu() {
 }
 memory_kib() { awk '/^Rss:/ {rss = $2} /^Anonymous:/ {anonymous = $2} END {print anonymous}' /proc/"$1"/smaps_rollup; }
 
-port=18541
+port=$((18500 + domain))
 start world giveway-world --health-port "$port"
 world=$pid
 
@@ -110,21 +111,29 @@ case $what in
   returns)
     start staying giveway-vehicle --id 1
     says world 'started with'
+    # What is kept of those that were there fills within the first 200: 64 refusals in the roster,
+    # 256 writers, 128 endpoints, and the proxies of as many participants as are ever known at once.
     echo "returns, anonymous memory of the world in KiB"
-    for ((n = 0; n <= ${2:-500}; ++n)); do
-      if ((n % 50 == 0)); then
-        sleep 12 # the leases of those that died
+    for ((n = 0; n <= ${2:-700}; n += 4)); do
+      if ((n % 100 == 0)); then
+        sleep 14 # the leases of those that died
         echo "$n $(memory_kib "$world")"
       fi
-      : >"$scratch/back.log"
-      start back giveway-vehicle --id 2
-      for ((i = 0; i < 300; ++i)); do
-        grep -q ' cruise' "$scratch/back.log" && break
-        sleep 0.05
+      back=()
+      for id in 2 3 4 5; do
+        : >"$scratch/back$id.log"
+        start "back$id" giveway-vehicle --id "$id"
+        back+=("$pid")
       done
-      kill -9 "$pid"
-      wait "$pid" 2>/dev/null || true
-      unset 'started[-1]'
+      for id in 2 3 4 5; do
+        for ((i = 0; i < 300; ++i)); do
+          grep -q ' cruise' "$scratch/back$id.log" && break
+          sleep 0.05
+        done
+      done
+      kill -9 "${back[@]}"
+      wait "${back[@]}" 2>/dev/null || true
+      started=("${started[@]:0:${#started[@]}-4}")
     done
     ;;
   flood)
