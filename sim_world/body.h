@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "services/types/ids.h"
+#include "services/types/math/pose.h"
 #include "services/types/motor_command.h"
-#include "services/types/pose.h"
 #include "services/types/vehicle_options.h"
-#include "sim_world/sonar.h"
+#include "sim_world/sensors/sonar.h"
 
 namespace giveway::sim {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "services/types/ids.h"
+#include "services/types/math/pose.h"
 #include "services/types/motor_command.h"
-#include "services/types/pose.h"
-#include "sim_world/obstacles.h"
+#include "sim_world/dynamics/obstacles.h"
 #include "sim_world/separation.h"
 #include "sim_world/touching.h"
 

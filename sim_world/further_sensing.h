@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "services/types/sensor_scan.h"
-#include "sim_world/sensor.h"
+#include "sim_world/sensors/sensor.h"
 #include "sim_world/world.h"
 
 namespace giveway::sim {

@@ -9,10 +9,10 @@
 #include "services/types/parallel.h"
 #include "services/types/scenario.h"
 #include "sim_world/body.h"
-#include "sim_world/scene.h"
-#include "sim_world/sensor.h"
-#include "sim_world/sonar.h"
-#include "sim_world/things.h"
+#include "sim_world/dynamics/things.h"
+#include "sim_world/sensors/scene.h"
+#include "sim_world/sensors/sensor.h"
+#include "sim_world/sensors/sonar.h"
 
 namespace giveway::sim {
 

@@ -5,6 +5,8 @@
 #include <limits>
 #include <tuple>
 
+#include "sim_world/geometry/approach.h"
+
 namespace giveway::sim {
 namespace {
 

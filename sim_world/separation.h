@@ -9,8 +9,8 @@
 
 #include "services/types/ids.h"
 #include "sim_world/body.h"
-#include "sim_world/neighbours.h"
-#include "sim_world/things.h"
+#include "sim_world/dynamics/things.h"
+#include "sim_world/geometry/neighbours.h"
 
 namespace giveway::sim {
 

@@ -14,13 +14,13 @@
 #include "services/types/state_hash.h"
 #include "sim_world/body.h"
 #include "sim_world/checkpoint.h"
-#include "sim_world/contacts.h"
-#include "sim_world/doors.h"
-#include "sim_world/neighbours.h"
-#include "sim_world/obstacles.h"
+#include "sim_world/dynamics/contacts.h"
+#include "sim_world/dynamics/doors.h"
+#include "sim_world/dynamics/obstacles.h"
+#include "sim_world/dynamics/things.h"
+#include "sim_world/geometry/neighbours.h"
 #include "sim_world/sensing.h"
 #include "sim_world/separation.h"
-#include "sim_world/things.h"
 #include "sim_world/touching.h"
 
 namespace giveway::sim {

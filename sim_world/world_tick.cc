@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "sim_world/drive.h"
+#include "sim_world/dynamics/drive.h"
 #include "sim_world/world.h"
 
 namespace giveway::sim {

@@ -4,10 +4,10 @@
 #include <exception>
 #include <string>
 
-#include "services/fleetctl/exit_codes.h"
-#include "services/fleetctl/library_lines.h"
-#include "services/fleetctl/verbs.h"
-#include "services/link/library_release.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/output/library_lines.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/link/fastdds/library_release.h"
 
 namespace {
 

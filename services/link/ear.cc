@@ -4,11 +4,11 @@
 #include <array>
 #include <mutex>
 
-#include "services/link/anchored_reader.h"
-#include "services/link/impairer.h"
+#include "services/link/fastdds/anchored_reader.h"
+#include "services/link/fastdds/reader_events.h"
+#include "services/link/fastdds/writer_names.h"
+#include "services/link/impairment/impairer.h"
 #include "services/link/participant.h"
-#include "services/link/reader_events.h"
-#include "services/link/writer_names.h"
 
 namespace giveway::link {
 namespace {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "services/link/found_endpoint.h"
-#include "services/link/link_options.h"
+#include "services/link/fastdds/found_endpoint.h"
+#include "services/link/fastdds/link_options.h"
 #include "services/types/ids.h"
 #include "services/types/time.h"
 

@@ -1,15 +1,14 @@
 #include "services/link/observer_link.h"
 
-#include "services/link/beacon_inbox.h"
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
+#include "services/link/fastdds/reader_events.h"
+#include "services/link/fastdds/writer_names.h"
+#include "services/link/inbox/beacon_inbox.h"
 #include "services/link/participant.h"
-#include "services/link/reader_events.h"
-#include "services/link/writer_names.h"
 
 namespace giveway::link {
 namespace {
 
-constexpr char kWorld[] = "world";
 constexpr std::int32_t kBeaconDepth = 32;  // an observer that looks once a second misses none
 
 // Appends every sample that this build can read.
@@ -31,11 +30,12 @@ struct ObserverLink::Impl {
             participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth, &beacon_events,
                                                  dds::StatusMask::requested_deadline_missed()),
             names, participant.Prefix()),
-        truth_reader(participant.MakeReader<wire::Truth>(kWorld)),
-        event_reader(participant.MakeReader<wire::Event>(kWorld, EventDepth(options.fleet_size))),
-        roster_reader(participant.MakeReader<wire::Roster>(kWorld)),
-        signal_reader(participant.MakeReader<wire::SignalState>(kWorld)),
-        figures_reader(participant.MakeReader<wire::Figures>(kWorld)) {}
+        truth_reader(participant.MakeReader<wire::Truth>(kWorldPartition)),
+        event_reader(
+            participant.MakeReader<wire::Event>(kWorldPartition, EventDepth(options.fleet_size))),
+        roster_reader(participant.MakeReader<wire::Roster>(kWorldPartition)),
+        signal_reader(participant.MakeReader<wire::SignalState>(kWorldPartition)),
+        figures_reader(participant.MakeReader<wire::Figures>(kWorldPartition)) {}
 
   void TakeStatuses(Observed& observed) {
     status_reader.TakeEach([&](const wire::Status& sample, const dds::SampleInfo& info) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "services/link/link_options.h"
+#include "services/link/fastdds/link_options.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/signal.h"

@@ -3,9 +3,9 @@
 #include <map>
 #include <set>
 
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
+#include "services/link/fastdds/writer_names.h"
 #include "services/link/participant.h"
-#include "services/link/writer_names.h"
 #include "services/types/check.h"
 
 namespace giveway::link {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "services/link/link_options.h"
+#include "services/link/fastdds/link_options.h"
 #include "services/types/admin.h"
 
 namespace giveway::link {

@@ -4,11 +4,11 @@
 #include <array>
 #include <regex>
 
-#include "services/link/impaired_transport.h"
-#include "services/link/interfaces.h"
-#include "services/link/library_log.h"
-#include "services/link/profiles.h"
-#include "services/link/server_addresses.h"
+#include "services/link/fastdds/interfaces.h"
+#include "services/link/fastdds/library_log.h"
+#include "services/link/fastdds/profiles.h"
+#include "services/link/fastdds/server_addresses.h"
+#include "services/link/impairment/impaired_transport.h"
 
 namespace giveway::link {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "services/link/endpoint.h"
-#include "services/link/link_options.h"
-#include "services/link/topics.h"
-#include "services/link/unfit_endpoints.h"
+#include "services/link/fastdds/endpoint.h"
+#include "services/link/fastdds/link_options.h"
+#include "services/link/fastdds/topics.h"
+#include "services/link/inbox/unfit_endpoints.h"
 #include "services/types/admin.h"
 #include "services/types/ids.h"
 

@@ -1,7 +1,7 @@
 // Whether the library makes the participant and the endpoints of a profile set, here and now.
 #pragma once
 
-#include "services/link/link_options.h"
+#include "services/link/fastdds/link_options.h"
 
 namespace giveway::link {
 

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "services/link/library_log.h"
+#include "services/link/fastdds/library_log.h"
+#include "services/link/fastdds/profiles.h"
 #include "services/link/participant.h"
-#include "services/link/profiles.h"
 #include "services/link/resolved_values.h"
 
 namespace giveway::link {

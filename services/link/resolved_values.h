@@ -1,10 +1,10 @@
-// QoS objects of the library as named numbers; see resolved_qos.h.
+// QoS objects of the library as named numbers; see resolved_value.h.
 #pragma once
 
 #include <vector>
 
-#include "services/link/fastdds_version.h"
-#include "services/link/resolved_qos.h"
+#include "services/link/fastdds/fastdds_version.h"
+#include "services/link/resolved_value.h"
 
 namespace giveway::link {
 

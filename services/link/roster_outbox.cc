@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
 
 namespace giveway::link {
 namespace {

@@ -5,7 +5,7 @@
 #include <deque>
 #include <unordered_map>
 
-#include "services/link/endpoint.h"
+#include "services/link/fastdds/endpoint.h"
 #include "services/types/fleet_facts.h"
 
 namespace giveway::link {

@@ -2,25 +2,24 @@
 
 #include <chrono>
 
-#include "services/link/beacon_inbox.h"
-#include "services/link/convert.h"
-#include "services/link/impairer.h"
-#include "services/link/interface_watch.h"
-#include "services/link/library_log.h"
+#include "services/link/convert/convert.h"
+#include "services/link/fastdds/interface_watch.h"
+#include "services/link/fastdds/library_log.h"
+#include "services/link/fastdds/reader_events.h"
+#include "services/link/fastdds/writer_names.h"
+#include "services/link/impairment/impairer.h"
+#include "services/link/inbox/beacon_inbox.h"
+#include "services/link/inbox/peer_events.h"
+#include "services/link/inbox/roster_inbox.h"
+#include "services/link/inbox/scan_inbox.h"
+#include "services/link/inbox/signal_inbox.h"
 #include "services/link/participant.h"
-#include "services/link/peer_events.h"
-#include "services/link/reader_events.h"
 #include "services/link/resolved_values.h"
-#include "services/link/roster_inbox.h"
-#include "services/link/scan_inbox.h"
-#include "services/link/signal_inbox.h"
-#include "services/link/writer_names.h"
 #include "services/types/check.h"
 
 namespace giveway::link {
 namespace {
 
-constexpr char kWorld[] = "world";
 constexpr std::size_t kExpectedBeacons = 256;  // a drain; more only costs an allocation, once
 
 // Closing waits for the good-bye to have been heard, until this long after it was said.
@@ -30,7 +29,7 @@ template <typename Wire, typename Ours>
 using OptionalInbox = std::optional<ScanInbox<Wire, Ours>>;
 
 template <typename Wire, typename Ours>
-OptionalInbox<Wire, Ours> MakeIf(bool fitted, Participant& participant, VehicleId id) {
+OptionalInbox<Wire, Ours> MakeInboxIf(bool fitted, Participant& participant, VehicleId id) {
   if (!fitted) return std::nullopt;
   return ScanInbox<Wire, Ours>(participant.MakeReader<Wire>(VehiclePartition(id)), id);
 }
@@ -44,9 +43,9 @@ const Ours* NewestOf(OptionalInbox<Wire, Ours>& inbox, const WriterNames& names)
 // The sensors beside the ultrasonics.
 struct FittedSensors {
   FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant)
-      : radar(MakeIf<wire::RadarScan, RadarScan>(profile.radar, participant, id)),
-        lidar(MakeIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id)),
-        camera(MakeIf<wire::CameraScan, CameraScan>(profile.camera, participant, id)) {}
+      : radar(MakeInboxIf<wire::RadarScan, RadarScan>(profile.radar, participant, id)),
+        lidar(MakeInboxIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id)),
+        camera(MakeInboxIf<wire::CameraScan, CameraScan>(profile.camera, participant, id)) {}
 
   void Take(const WriterNames& names, Inputs& inputs) {
     inputs.radar = NewestOf(radar, names);
@@ -127,7 +126,7 @@ struct VehicleLink::Impl {
       : options(link_options),
         participant(options, "giveway-vehicle", names),
         join_writer(participant.MakeWriter<wire::Join>("fleet")),
-        roster(participant.MakeReader<wire::Roster>(kWorld)),
+        roster(participant.MakeReader<wire::Roster>(kWorldPartition)),
         peers(names, participant.Prefix(), options.area) {
     taken_beacons.reserve(kExpectedBeacons);
     qos_events.reserve(kExpectedBeacons);
@@ -177,7 +176,7 @@ VehicleLink::~VehicleLink() = default;
 // An endpoint that every world discovers: not made where no signal is.
 void VehicleLink::Impl::OpenSignals() {
   auto reader = participant.MakeReader<wire::SignalState>(
-      kWorld, Participant::kProfileDepth, &signal_events.emplace(),
+      kWorldPartition, Participant::kProfileDepth, &signal_events.emplace(),
       dds::StatusMask::requested_deadline_missed());
   signals.emplace(reader, *signal_events);
 }

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "services/link/admin_link.h"
-#include "services/link/link_options.h"
+#include "services/link/fastdds/link_options.h"
 #include "services/link/resolved_qos.h"
 #include "services/types/admin.h"
 #include "services/types/fleet_facts.h"

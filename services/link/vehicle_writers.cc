@@ -4,7 +4,7 @@ namespace giveway::link {
 namespace {
 
 template <typename Wire>
-std::optional<Writer<Wire>> MakeIf(bool fitted, Participant& participant, VehicleId vehicle) {
+std::optional<Writer<Wire>> MakeWriterIf(bool fitted, Participant& participant, VehicleId vehicle) {
   if (!fitted) return std::nullopt;
   return participant.MakeWriter<Wire>(VehiclePartition(vehicle));
 }
@@ -20,9 +20,9 @@ VehicleWriters::VehicleWriters(Participant& participant, VehicleId vehicle,
                                const VehicleProfile& profile)
     : participant_(participant),
       ranges_(participant.MakeWriter<wire::RangeScan>(VehiclePartition(vehicle))),
-      radar_(MakeIf<wire::RadarScan>(profile.radar, participant, vehicle)),
-      lidar_(MakeIf<wire::LidarScan>(profile.lidar, participant, vehicle)),
-      camera_(MakeIf<wire::CameraScan>(profile.camera, participant, vehicle)) {}
+      radar_(MakeWriterIf<wire::RadarScan>(profile.radar, participant, vehicle)),
+      lidar_(MakeWriterIf<wire::LidarScan>(profile.lidar, participant, vehicle)),
+      camera_(MakeWriterIf<wire::CameraScan>(profile.camera, participant, vehicle)) {}
 
 VehicleWriters::~VehicleWriters() {
   participant_.Delete(ranges_.Entity());

@@ -6,22 +6,21 @@
 #include <unordered_map>
 #include <utility>
 
-#include "services/link/anchored_reader.h"
-#include "services/link/convert.h"
-#include "services/link/join_inbox.h"
+#include "services/link/convert/convert.h"
+#include "services/link/fastdds/anchored_reader.h"
+#include "services/link/fastdds/reader_events.h"
+#include "services/link/fastdds/writer_names.h"
+#include "services/link/inbox/join_inbox.h"
+#include "services/link/inbox/peer_events.h"
 #include "services/link/participant.h"
-#include "services/link/peer_events.h"
-#include "services/link/reader_events.h"
 #include "services/link/resolved_values.h"
 #include "services/link/roster_outbox.h"
 #include "services/link/vehicle_writers.h"
-#include "services/link/writer_names.h"
 #include "services/types/check.h"
 
 namespace giveway::link {
 namespace {
 
-constexpr char kWorld[] = "world";
 constexpr std::uint32_t kForgetEvery = 32;  // turns; of vehicles that are gone
 
 constexpr std::size_t kMostRefusals = 8;  // kept for the log; the counters have all
@@ -40,11 +39,12 @@ struct WorldLink::Impl {
             "v*", Participant::kProfileDepth, &events,
             dds::StatusMask::subscription_matched()
                 << dds::StatusMask::requested_deadline_missed())),
-        roster(participant.MakeWriter<wire::Roster>(kWorld)),
-        signal_writer(participant.MakeWriter<wire::SignalState>(kWorld)),
-        truth_writer(participant.MakeWriter<wire::Truth>(kWorld)),
-        event_writer(participant.MakeWriter<wire::Event>(kWorld, EventDepth(options.fleet_size))),
-        figures_writer(participant.MakeWriter<wire::Figures>(kWorld)),
+        roster(participant.MakeWriter<wire::Roster>(kWorldPartition)),
+        signal_writer(participant.MakeWriter<wire::SignalState>(kWorldPartition)),
+        truth_writer(participant.MakeWriter<wire::Truth>(kWorldPartition)),
+        event_writer(
+            participant.MakeWriter<wire::Event>(kWorldPartition, EventDepth(options.fleet_size))),
+        figures_writer(participant.MakeWriter<wire::Figures>(kWorldPartition)),
         order_reader(participant.MakeReader<wire::Order>(VehiclePartition(kNobody))),
         answer_writer(participant.MakeWriter<wire::Answer>(VehiclePartition(kNobody))),
         vehicles(names, participant.Prefix(), ""),

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "services/link/admin_link.h"
-#include "services/link/link_options.h"
+#include "services/link/fastdds/link_options.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"

@@ -6,7 +6,8 @@
 namespace giveway::qos {
 namespace {
 
-// As services/link/topics.h names them; tests/link/qos_resolved_test.cc holds the two together.
+// As services/link/fastdds/topics.h names them; tests/link/qos_resolved_test.cc holds the two
+// together.
 constexpr std::array kTopics = {
     Topic{.name = "fleet/beacon",
           .stem = "fleet_beacon",

@@ -1,4 +1,4 @@
-// Every QoS policy this room knows, as one table: its name, where the XML says it, how a value is
+// Every QoS policy this module knows, as one table: its name, where the XML says it, how a value is
 // written, and what the library takes where nothing is said. Values are plain numbers, so that
 // reading, showing, comparing and predicting are loops over the table.
 #pragma once

@@ -6,7 +6,7 @@
 
 #include "services/types/decision.h"
 #include "services/types/ids.h"
-#include "services/types/pose.h"
+#include "services/types/math/pose.h"
 #include "services/types/time.h"
 
 namespace giveway {

@@ -31,8 +31,8 @@ struct BeaconCounters {
   }
 };
 
-// What did not fit, by kind (services/vehicle/trust.h). The first three count its beginnings,
-// whatever it lasts; the others each beacon. All wrap at 2^32, which takes years.
+// What did not fit, by kind (services/vehicle/estimation/trust.h). The first three count its
+// beginnings, whatever it lasts; the others each beacon. All wrap at 2^32, which takes years.
 struct TrustCounters {
   std::uint32_t beacon_without_echo = 0;  // a body was said to be where the ultrasonics hear none
   std::uint32_t echo_without_beacon = 0;  // something near moved by itself, and nobody said so

@@ -10,7 +10,7 @@
 #include "services/types/counters.h"
 #include "services/types/decision.h"
 #include "services/types/ids.h"
-#include "services/types/pose.h"
+#include "services/types/math/pose.h"
 #include "services/types/qos_event.h"
 #include "services/types/range_scan.h"
 #include "services/types/task_progress.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 
 namespace giveway {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "services/types/fleet_facts.h"
 #include "services/types/ids.h"
-#include "services/types/pose.h"
+#include "services/types/math/pose.h"
 #include "services/types/task_progress.h"
 
 namespace giveway {

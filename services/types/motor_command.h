@@ -3,7 +3,7 @@
 
 #include "services/types/decision.h"
 #include "services/types/ids.h"
-#include "services/types/pose.h"
+#include "services/types/math/pose.h"
 #include "services/types/task_progress.h"
 
 namespace giveway {

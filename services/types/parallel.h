@@ -1,5 +1,5 @@
-// How a pure room is lent threads: as a function that runs a body over [0, count) in any order and
-// in any number of pieces. The result must not depend on how it was cut.
+// How a pure module is lent threads: as a function that runs a body over [0, count) in any order
+// and in any number of pieces. The result must not depend on how it was cut.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 #include "services/types/profile.h"
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 
 namespace giveway {
 

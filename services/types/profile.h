@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "services/types/pose.h"
+#include "services/types/math/pose.h"
 
 namespace giveway {
 

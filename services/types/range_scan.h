@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "services/types/ids.h"
-#include "services/types/pose.h"
+#include "services/types/math/pose.h"
 #include "services/types/profile.h"
 
 namespace giveway {

@@ -1,5 +1,5 @@
 // A scenario: the place, the vehicles in it, what is planned to go wrong and what is expected.
-// A value; app loads and checks it, everyone else reads it.
+// A value; config loads and checks it, everyone else reads it.
 #pragma once
 
 #include <cstdint>

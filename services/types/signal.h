@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "services/types/ids.h"
-#include "services/types/vec2.h"
+#include "services/types/math/vec2.h"
 
 namespace giveway {
 

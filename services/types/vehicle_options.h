@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "services/types/decision.h"
-#include "services/types/distance.h"
 #include "services/types/ids.h"
+#include "services/types/math/distance.h"
 #include "services/types/profile.h"
 #include "services/types/task_progress.h"
 #include "services/types/time.h"

@@ -1,5 +1,5 @@
 // What moves by itself near the vehicle, though no fresh beacon says who it is: critical but deaf.
-#include "services/vehicle/echoes.h"
+#include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {

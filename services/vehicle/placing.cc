@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "services/types/check.h"
-#include "services/vehicle/beacon_check.h"
-#include "services/vehicle/planted.h"
+#include "services/vehicle/estimation/beacon_check.h"
+#include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {

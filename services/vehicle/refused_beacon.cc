@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "services/vehicle/beacon_check.h"
+#include "services/vehicle/estimation/beacon_check.h"
 
 namespace giveway {
 namespace {

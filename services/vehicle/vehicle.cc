@@ -5,17 +5,18 @@
 #include <type_traits>
 
 #include "services/types/check.h"
-#include "services/types/math.h"
-#include "services/vehicle/beacon_check.h"
-#include "services/vehicle/blocked.h"
-#include "services/vehicle/box.h"
-#include "services/vehicle/decide.h"
-#include "services/vehicle/echoes.h"
-#include "services/vehicle/encounter.h"
-#include "services/vehicle/look.h"
-#include "services/vehicle/lost_ticks.h"
-#include "services/vehicle/planted.h"
-#include "services/vehicle/scan_check.h"
+#include "services/types/math/math.h"
+#include "services/vehicle/decision/decide.h"
+#include "services/vehicle/estimation/beacon_check.h"
+#include "services/vehicle/estimation/lost_ticks.h"
+#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/estimation/scan_check.h"
+#include "services/vehicle/situation/blocked.h"
+#include "services/vehicle/situation/box.h"
+#include "services/vehicle/situation/echo_trust.h"
+#include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/encounter.h"
+#include "services/vehicle/situation/look.h"
 
 namespace giveway {
 namespace {
@@ -187,6 +188,24 @@ void Vehicle::LookAtPeers(Situation* s) {
   s->peers = views;
 }
 
+// The printed scripts look at nobody: they know neither places nor ways, only the one variable.
+void Vehicle::LookAround(Situation* s) {
+  if (options_.behaviour != Behaviour::kLecturePrinted) {
+    NoteTurning(s);
+    LookAtPeers(s);
+    ListenForMovers(s);
+    Detour(s);
+    return;
+  }
+  const std::span<const Peer> peers = state_->peers.Peers();
+  peers_heard_ =
+      static_cast<std::uint32_t>(std::count_if(peers.begin(), peers.end(), [&](const Peer& peer) {
+        return IsFresh(peer, s->now, s->tick, options_);
+      }));
+  HearTheLast(peers, &state_->last_heard);
+  s->last_heard = state_->last_heard;
+}
+
 // What the next step must know.
 void Vehicle::Remember(const Situation& s, const Action& action) {
   const Decision& decision = action.decision;
@@ -200,7 +219,7 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
     state.away_rad = *action.away_rad;
     state.away_tick = s.tick;
   }
-  KeepBlocked(BlockedBy(s, action), s);
+  KeepBlocked(BlockedBy(s, decision, action.blocked_by), s);
 }
 
 // What is in the way now and then is in the way: the order it is lent must not come and go.

@@ -13,11 +13,11 @@
 #include "services/types/handover.h"
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
-#include "services/vehicle/decide.h"
-#include "services/vehicle/odometry.h"
-#include "services/vehicle/peer_table.h"
-#include "services/vehicle/range_view.h"
-#include "services/vehicle/situation.h"
+#include "services/vehicle/decision/decide.h"
+#include "services/vehicle/estimation/odometry.h"
+#include "services/vehicle/estimation/peer_table.h"
+#include "services/vehicle/estimation/range_view.h"
+#include "services/vehicle/situation/situation.h"
 
 namespace giveway {
 

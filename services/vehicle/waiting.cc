@@ -1,5 +1,5 @@
 // How waiting moves a vehicle up in the order, and when it is forgotten.
-#include "services/vehicle/planted.h"
+#include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <array>
 
-#include "services/vehicle/blocked.h"
-#include "services/vehicle/detour.h"
-#include "services/vehicle/planted.h"
+#include "services/vehicle/decision/detour.h"
+#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "sim_world/virtual/layout.h"
 
 namespace giveway::sim {

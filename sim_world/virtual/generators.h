@@ -9,16 +9,9 @@
 #include <string_view>
 
 #include "services/types/scenario.h"
+#include "sim_world/virtual/layout.h"
 
 namespace giveway::sim {
-
-// No starts and no goals are nearer to each other than this, centre to centre.
-inline constexpr double kRoom_m = 2.0;
-
-struct Size {
-  std::uint32_t vehicles = 6;  // 2 to 1000
-  std::uint32_t seed = 1;
-};
 
 struct Generator {
   std::string_view name;

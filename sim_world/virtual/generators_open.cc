@@ -2,15 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "sim_world/virtual/layout.h"
 
 namespace giveway::sim {
 namespace {
 
-constexpr double kLane_m = 1.0;    // from a road's middle to the middle of its right lane
-constexpr double kQueue_m = 2.5;   // between vehicles of one lane
-constexpr double kParked_m = 2.1;  // between goals of one lane
+constexpr double kRoadLane_m = 1.0;   // from a road's middle to the middle of its right lane
+constexpr double kLaneQueue_m = 2.5;  // between vehicles of one lane
+constexpr double kParked_m = 2.1;     // between goals of one lane
 
 }  // namespace
 
@@ -30,8 +30,8 @@ Scenario MakeCrossing(Size size) {
     const std::uint32_t place = i / 4;
     const double heading = kPi / 2 * (i % 4);
     const Vec2 along{Cos(heading), Sin(heading)};
-    const Vec2 lane = -kLane_m * Left(along);
-    const double start_m = kBefore_m + kQueue_m * place + layout.Dice().Uniform(-0.2, 0.2);
+    const Vec2 lane = -kRoadLane_m * Left(along);
+    const double start_m = kBefore_m + kLaneQueue_m * place + layout.Dice().Uniform(-0.2, 0.2);
     const double goal_m = kBefore_m + kParked_m * (in_lane - 1 - place);
     layout.Add(lane - start_m * along, {}, lane + goal_m * along);
   }
@@ -65,8 +65,8 @@ Scenario MakeConvoy(Size size) {
   Layout layout("convoy", size);
   constexpr double kWay_m = 12;
   for (std::uint32_t i = 0; i < size.vehicles; ++i) {
-    const double start_m = -kQueue_m * i + layout.Dice().Uniform(-0.2, 0.2);
-    layout.Add({start_m, 0}, {}, {kWay_m - kQueue_m * i, 0});
+    const double start_m = -kLaneQueue_m * i + layout.Dice().Uniform(-0.2, 0.2);
+    layout.Add({start_m, 0}, {}, {kWay_m - kLaneQueue_m * i, 0});
   }
   return layout.Take();
 }

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "sim_world/virtual/layout.h"
 
 namespace giveway::sim {

@@ -19,10 +19,10 @@
 namespace giveway::sim {
 namespace {
 
-constexpr double kLane_m = 0.42;   // from an aisle's middle to its lanes'
-constexpr double kStrip_m = 1.35;  // from an aisle's middle to those who stand in it
-constexpr double kRack_m = 1.9;    // from an aisle's middle to its racks
-constexpr double kPitch_m = 4.8;   // from aisle to aisle
+constexpr double kAisleLane_m = 0.42;  // from an aisle's middle to its lanes'
+constexpr double kStrip_m = 1.35;      // from an aisle's middle to those who stand in it
+constexpr double kRack_m = 1.9;        // from an aisle's middle to its racks
+constexpr double kPitch_m = 4.8;       // from aisle to aisle
 constexpr std::uint32_t kSlots = 4;
 constexpr double kFirstSlot_m = 1.6;
 constexpr double kAisle_m = 2 * kFirstSlot_m + (kSlots - 1) * kBay_m;
@@ -81,7 +81,7 @@ void AddFetching(std::uint32_t i, std::uint32_t slot, Layout* layout) {
   const double start_y = kTurn_m * (i / kRowDepth) + 2 * kBay_m;
   const double start_x =
       kRows_m - kRowQueue_m * (i % kRowDepth) + layout->Dice().Uniform(-0.15, 0.15);
-  const double lane_y = AisleY(slot) - kLane_m;
+  const double lane_y = AisleY(slot) - kAisleLane_m;
   const double road_x = WestLane(start_y, lane_y);
   const std::array way = {Vec2{road_x, start_y}, Vec2{road_x, lane_y}, Vec2{0.6, lane_y},
                           Vec2{SlotX(slot), lane_y}};
@@ -90,7 +90,7 @@ void AddFetching(std::uint32_t i, std::uint32_t slot, Layout* layout) {
 
 void AddLeavingWest(std::uint32_t goal, std::uint32_t slot, Layout* layout) {
   const double goal_y = kTurn_m * (goal / 2) + kBay_m * (goal % 2);
-  const double lane_y = AisleY(slot) + kLane_m;
+  const double lane_y = AisleY(slot) + kAisleLane_m;
   const double road_x = WestLane(lane_y, goal_y);
   const std::array way = {Vec2{SlotX(slot), lane_y}, Vec2{road_x, lane_y}, Vec2{road_x, goal_y}};
   layout->Add({SlotX(slot), AisleY(slot) + kStrip_m}, way, {kGoals_m, goal_y});
@@ -98,7 +98,7 @@ void AddLeavingWest(std::uint32_t goal, std::uint32_t slot, Layout* layout) {
 
 void AddLeavingEast(std::uint32_t goal, std::uint32_t slot, Layout* layout) {
   const double goal_y = kBay_m * goal;
-  const double lane_y = AisleY(slot) - kLane_m;
+  const double lane_y = AisleY(slot) - kAisleLane_m;
   const double road_x = EastLane(lane_y, goal_y);
   const std::array way = {Vec2{SlotX(slot), lane_y}, Vec2{road_x, lane_y}, Vec2{road_x, goal_y}};
   layout->Add({SlotX(slot), AisleY(slot) + kStrip_m}, way, {kEastGoals_m, goal_y});

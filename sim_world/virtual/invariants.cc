@@ -3,13 +3,12 @@
 #include <algorithm>
 
 #include "services/types/check.h"
-#include "services/types/math.h"
-#include "sim_world/ticks.h"
+#include "services/types/math/math.h"
+#include "sim_world/geometry/ticks.h"
 
 namespace giveway::sim {
 namespace {
 
-constexpr double kStandstill_m_s = 0.01;
 constexpr std::uint32_t kUnknown = 0xffffffff;
 // How far a vehicle may be from where it says: what it says of its own doubt, and a little.
 constexpr double kPoseSigmas = 3;
@@ -24,11 +23,6 @@ bool Waits(const Observed& vehicle) {
 }
 
 }  // namespace
-
-double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels) {
-  return drive.wheel_radius_m *
-         std::max({wheels.left_rad_s, -wheels.left_rad_s, wheels.right_rad_s, -wheels.right_rad_s});
-}
 
 std::string_view Name(Invariant invariant) {
   constexpr std::array<std::string_view, kInvariantCount> kNames = {

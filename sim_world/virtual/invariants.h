@@ -13,6 +13,7 @@
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/scenario.h"
+#include "sim_world/virtual/observed.h"
 #include "sim_world/virtual/progress.h"
 #include "sim_world/virtual/red_lights.h"
 
@@ -40,24 +41,6 @@ struct Violation {
   VehicleId other = kNobody;    // the other one, where there is one
 };
 
-// One vehicle at one tick.
-struct Observed {
-  VehicleId vehicle = kNobody;
-  bool present = false;  // its body stands in the world
-  bool lives = false;    // its process runs
-  bool arrived = false;
-  Vec2 position_world;
-  double forward_m_s = 0;
-  double rim_m_s = 0;       // of the faster wheel: what brakes is a wheel, not the middle
-  Tick answered = kNoTick;  // the scan its last command answers
-  Decision decision;        // as last published, like what follows
-  VehicleId gives_way_to = kNobody;
-  OrderKey order;
-  Tick stated = kNoTick;  // what its last beacon says of where it was at that tick
-  Vec2 stated_position_world;
-  PoseCovariance stated_covariance;
-};
-
 struct InvariantLimits {
   double wait_s = 120;             // kWaitBound
   std::uint32_t halted_ticks = 2;  // kAllHalted; lost and late beacons need more
@@ -71,9 +54,6 @@ struct InvariantLimits {
   // kArrival: only of these, ascending; absent: of all that have a goal.
   std::optional<std::vector<VehicleId>> arriving;
 };
-
-// Of the faster wheel.
-double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels);
 
 class Invariants {
  public:

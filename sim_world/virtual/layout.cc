@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "services/types/check.h"
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::sim {

@@ -1,15 +1,23 @@
 // What the generators share: a scenario under construction, with vehicles put in one by one.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string_view>
 #include <vector>
 
-#include "services/types/random.h"
+#include "services/types/math/random.h"
 #include "services/types/scenario.h"
-#include "sim_world/virtual/generators.h"
 
 namespace giveway::sim {
+
+// No starts and no goals are nearer to each other than this, centre to centre.
+inline constexpr double kRoom_m = 2.0;
+
+struct Size {
+  std::uint32_t vehicles = 6;  // 2 to 1000
+  std::uint32_t seed = 1;
+};
 
 class Layout {
  public:

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "services/types/math.h"
-#include "sim_world/doors.h"
-#include "sim_world/ticks.h"
-#include "sim_world/virtual/invariants.h"
+#include "services/types/math/math.h"
+#include "sim_world/dynamics/doors.h"
+#include "sim_world/geometry/ticks.h"
 namespace giveway::sim {
 namespace {
 
@@ -17,8 +16,7 @@ constexpr double kNearerTime_s =
 constexpr double kPassed_m = 1.3;
 // Centre to centre: from a door or a dead vehicle, of which nobody says that it waits for them.
 constexpr double kNear_m = 1.7;
-constexpr double kStandstill_m_s = 0.01;
-constexpr std::uint32_t kUnknown = 0xffffffff;
+constexpr std::uint32_t kNoTrack = 0xffffffff;
 
 double DistanceToDoor(Vec2 point_world, const Door& door) {
   const Vec2 along = door.to_world - door.from_world;
@@ -58,7 +56,7 @@ void Progress::Admit(const VehicleOptions& options) {
 
 std::uint32_t Progress::IndexOf(VehicleId vehicle) const {
   const auto found = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
-  if (found == tracks_.end() || found->vehicle != vehicle) return kUnknown;
+  if (found == tracks_.end() || found->vehicle != vehicle) return kNoTrack;
   return static_cast<std::uint32_t>(found - tracks_.begin());
 }
 
@@ -119,7 +117,7 @@ void Progress::FindCrowds(std::span<const Observed> vehicles) {
     if (!IsInCrowd(vehicles[i])) continue;
     for (const VehicleId other : {vehicles[i].decision.peer, vehicles[i].gives_way_to}) {
       const std::uint32_t named = IndexOf(other);
-      if (named != kUnknown && IsInCrowd(vehicles[named])) Join(i, named);
+      if (named != kNoTrack && IsInCrowd(vehicles[named])) Join(i, named);
     }
     if (vehicles[i].lives) continue;
     for (std::uint32_t j = 0; j < count; ++j) {

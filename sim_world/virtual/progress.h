@@ -18,10 +18,9 @@
 #include <vector>
 
 #include "services/types/scenario.h"
+#include "sim_world/virtual/observed.h"
 
 namespace giveway::sim {
-
-struct Observed;  // invariants.h
 
 class Progress {
  public:

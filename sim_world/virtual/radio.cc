@@ -4,8 +4,8 @@
 #include <array>
 
 #include "services/types/check.h"
-#include "services/vehicle/beacon_check.h"
-#include "sim_world/ticks.h"
+#include "services/vehicle/estimation/beacon_check.h"
+#include "sim_world/geometry/ticks.h"
 
 namespace giveway::sim {
 namespace {

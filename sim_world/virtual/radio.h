@@ -11,7 +11,7 @@
 #include "services/types/beacon.h"
 #include "services/types/qos_event.h"
 #include "services/types/scenario.h"
-#include "sim_world/grid.h"
+#include "sim_world/geometry/grid.h"
 #include "sim_world/virtual/virtual_plan.h"
 
 namespace giveway::sim {

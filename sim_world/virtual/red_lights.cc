@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "services/types/signal_plan.h"
-#include "sim_world/signals.h"
-#include "sim_world/virtual/invariants.h"
+#include "sim_world/run/signals.h"
 
 namespace giveway::sim {
 namespace {

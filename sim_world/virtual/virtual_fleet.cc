@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "services/types/check.h"
-#include "sim_world/ticks.h"
+#include "sim_world/geometry/ticks.h"
 
 namespace giveway::sim {
 namespace {

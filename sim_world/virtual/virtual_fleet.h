@@ -9,7 +9,7 @@
 
 #include "services/types/scenario.h"
 #include "services/vehicle/vehicle.h"
-#include "sim_world/run.h"
+#include "sim_world/run/run.h"
 #include "sim_world/virtual/radio.h"
 #include "sim_world/virtual/virtual_plan.h"
 

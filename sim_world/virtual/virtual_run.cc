@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "services/types/state_hash.h"
-#include "sim_world/ticks.h"
+#include "sim_world/geometry/ticks.h"
 
 namespace giveway::sim {
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "services/link/impaired_transport.h"
+#include "services/link/impairment/impaired_transport.h"
 #include "tests/bench/measure.h"
 
 namespace giveway::link {

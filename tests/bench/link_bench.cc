@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "services/link/beacon_inbox.h"
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
+#include "services/link/inbox/beacon_inbox.h"
 #include "services/link/participant.h"
 #include "tests/bench/measure.h"
 #include "tests/support/domain_lock.h"

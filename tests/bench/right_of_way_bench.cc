@@ -13,11 +13,11 @@
 #include <thread>
 #include <vector>
 
-#include "services/app/parallel_for.h"
+#include "services/runtime/parallel_for.h"
 #include "sim_world/virtual/generators.h"
-#include "tests/bench/baseline_pilot.h"
-#include "tests/bench/baseline_reservation.h"
-#include "tests/bench/baseline_rvo.h"
+#include "tests/bench/baseline/pilot.h"
+#include "tests/bench/baseline/reservation.h"
+#include "tests/bench/baseline/rvo.h"
 
 namespace giveway::bench {
 namespace {
@@ -105,7 +105,7 @@ void Count(const Sums& sums, const std::string& ending, benchmark::State* state)
 
 void Compare(benchmark::State& state, std::string_view place) {
   const sim::Generator& generator = *sim::FindGenerator(place);
-  app::ParallelPool pool(std::thread::hardware_concurrency());
+  ParallelPool pool(std::thread::hardware_concurrency());
   const ParallelFor parallel = pool.Function();
   for (auto _ : state) {
     Sums all;

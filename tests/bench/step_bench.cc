@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "tests/support/brain_bench.h"
 
 namespace giveway {

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "sim_world/virtual/virtual_fleet.h"
 #include "sim_world/virtual/virtual_run.h"
 

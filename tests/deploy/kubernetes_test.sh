@@ -15,7 +15,8 @@ planted=0
 # lay_out TREE: a copy of what the checks read.
 lay_out() {
   mkdir "$1"
-  (cd "$project" && cp -r --parents config services/app services/link services/fleetctl/plan_costs.h \
+  (cd "$project" && cp -r --parents config services/config services/health services/runtime services/link \
+    services/fleetctl/plan/plan_costs.h \
     tests/deploy/fleet_scenario.sh CMakeLists.txt "$1")
 }
 
@@ -96,7 +97,7 @@ expect files_the_projects "a file of another content" $O/20/kustomization.yaml \
 # What the services are told.
 expect variables_known "a variable no service knows" $B/kustomization.yaml 's/GIVEWAY_LOG_FORMAT/GIVEWAY_LOGFORMAT/'
 expect variables_known "the world's variable given to all" $B/kustomization.yaml 's/^( *- )GIVEWAY_LOG_FORMAT=json/&\n\1GIVEWAY_THREADS=2/'
-expect variables_known "a flag that goes out of use" services/app/flags.cc 's/"--log-format", "text/"--log-shape", "text/'
+expect variables_known "a flag that goes out of use" services/config/flags.cc 's/"--log-format", "text/"--log-shape", "text/'
 expect "variables_agree" "a world in another domain" $B/world.yaml \
   's/^( *)- name: GIVEWAY_CHECKPOINT/\1- {name: GIVEWAY_DOMAIN, value: "9"}\n&/'
 expect "arguments_filled" "an argument that stays unfilled" $B/discovery.yaml 's/"0.0.0.0"/"$(ADDRESS)"/'

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
 #include "services/types/check.h"
 #include "tests/fuzz/outputs.h"
 #include "tests/fuzz/wire_bytes.h"

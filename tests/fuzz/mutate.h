@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "services/types/random.h"
+#include "services/types/math/random.h"
 #include "tests/fuzz/target.h"
 
 namespace giveway::fuzz {

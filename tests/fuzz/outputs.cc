@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "services/types/check.h"
-#include "services/vehicle/beacon_check.h"
+#include "services/vehicle/estimation/beacon_check.h"
 
 namespace giveway::fuzz {
 namespace {

@@ -4,7 +4,7 @@
 // first, so that what they guard is spoilt too.
 #include <sstream>
 
-#include "services/fleetctl/replayer.h"
+#include "services/fleetctl/replay/replayer.h"
 #include "services/types/check.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/recorded_crossing.h"
@@ -23,11 +23,11 @@ std::uint32_t LengthAt(const Input& file, std::size_t at) {
 
 // The same frames with right sums; the last takes what is left.
 Input Resealed(const Input& file) {
-  Input sealed(app::kRecordingMark);
+  Input sealed(kRecordingMark);
   for (std::size_t at = sealed.size(); at + kHeadBytes <= file.size();) {
     const std::size_t length =
         std::min<std::size_t>(LengthAt(file, at), file.size() - at - kHeadBytes);
-    sealed += app::Framed(std::string_view(file).substr(at + kHeadBytes, length));
+    sealed += Framed(std::string_view(file).substr(at + kHeadBytes, length));
     at += kHeadBytes + length;
   }
   return sealed;
@@ -35,26 +35,26 @@ Input Resealed(const Input& file) {
 
 std::string Replayed(const Input& file) {
   std::istringstream stream(file);
-  const app::ReplayedFile outcome = fleetctl::Replay(&stream);
+  const ReplayedFile outcome = fleetctl::Replay(&stream);
   GIVEWAY_CHECK(outcome.vehicle != kNobody || !outcome.finding.empty());
   GIVEWAY_CHECK(outcome.complete || outcome.difference || !outcome.finding.empty() ||
                 outcome.steps > 0);
-  return app::ToJson({outcome});
+  return ToJson({outcome});
 }
 
 }  // namespace
 
 std::vector<Input> Samples() {
-  std::vector<app::Record> records = test::RecordedCrossing(20);
+  std::vector<Record> records = test::RecordedCrossing(20);
   const std::string plain = test::FileOf(records);
-  auto& step = std::get<app::RecordedStep>(records[2]);
+  auto& step = std::get<RecordedStep>(records[2]);
   step.radar.emplace();
   step.lidar.emplace();
   step.camera.emplace();
   step.signals.resize(2);
   step.roster.emplace().accepted = true;
   step.pose_fix.emplace();
-  const app::Record reseat = app::RecordedReseat{test::DefaultOptions()};
+  const Record reseat = RecordedReseat{test::DefaultOptions()};
   records.insert(records.begin() + 8, reseat);
   const std::string full = test::FileOf(records);
   return {std::string("\0", 1) + plain, "\1" + plain, "\1" + full};

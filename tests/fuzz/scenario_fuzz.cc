@@ -8,7 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "services/app/scenario_file.h"
+#include "services/config/problem.h"
+#include "services/config/scenario_file.h"
 #include "services/types/check.h"
 #include "sim_world/virtual/virtual_fleet.h"
 #include "tests/fuzz/outputs.h"
@@ -38,14 +39,14 @@ class MemoryFile {
   int descriptor_;
 };
 
-void CheckProblems(const app::InputError& error) {
+void CheckProblems(const InputError& error) {
   GIVEWAY_CHECK(!error.Problems().empty());
-  const std::string text = app::Format(error.Problems());
+  const std::string text = Format(error.Problems());
   GIVEWAY_CHECK(IsUtf8(text), text);
   GIVEWAY_CHECK(text == error.what());
   const auto lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
   GIVEWAY_CHECK(lines == error.Problems().size(), lines, text);
-  for (const app::Problem& problem : error.Problems()) {
+  for (const Problem& problem : error.Problems()) {
     GIVEWAY_CHECK(!problem.message.empty() && !problem.remedy.empty() && problem.line >= 0, text);
   }
 }
@@ -92,10 +93,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static fuzz::MemoryFile file;
   file.Hold(data, size);
   try {
-    const Scenario scenario = app::LoadScenario(file.Path(), {});
+    const Scenario scenario = LoadScenario(file.Path(), {});
     fuzz::CheckScenario(scenario);
     fuzz::CheckDrives(scenario);
-  } catch (const app::InputError& error) {
+  } catch (const InputError& error) {
     fuzz::CheckProblems(error);
   }
   return 0;

@@ -5,7 +5,7 @@
 #include <cwchar>
 
 #include "services/types/check.h"
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 
 namespace giveway::fuzz {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <span>
 
-#include "services/link/topics.h"
+#include "services/link/fastdds/topics.h"
 #include "tests/fuzz/target.h"
 
 namespace giveway::fuzz {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "services/types/math.h"
-#include "services/types/random.h"
+#include "services/types/math/math.h"
+#include "services/types/math/random.h"
 #include "sim_world/world.h"
-#include "tests/unit/cuts.h"
+#include "tests/unit/sim_world/cuts.h"
 
 namespace giveway::sim {
 namespace {

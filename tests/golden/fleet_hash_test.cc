@@ -4,7 +4,7 @@
 
 #include <ostream>
 
-#include "services/app/scenario_file.h"
+#include "services/config/scenario_file.h"
 #include "services/types/state_hash.h"
 #include "tests/support/crossing.h"
 
@@ -54,9 +54,9 @@ struct GoldenScenario {
 class ScenarioHash : public testing::TestWithParam<GoldenScenario> {};
 
 TEST_P(ScenarioHash, IsTheSameEverywhere) {
-  app::ScenarioOverrides overrides;
+  ScenarioOverrides overrides;
   overrides.seed = 1;
-  const std::uint64_t hash = HashOf(app::LoadScenario(GetParam().name, overrides));
+  const std::uint64_t hash = HashOf(LoadScenario(GetParam().name, overrides));
   EXPECT_EQ(hash, GetParam().hash) << std::hex << "got 0x" << hash;
 }
 

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "services/types/math.h"
-#include "sim_world/run.h"
+#include "services/types/math/math.h"
+#include "sim_world/run/run.h"
 
 namespace giveway::sim {
 namespace {

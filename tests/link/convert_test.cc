@@ -1,6 +1,6 @@
 // Every type goes to the wire and back unchanged. Each wire sample is also serialized, because the
 // generated code is part of the way.
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "services/link/crc32c.h"
+#include "services/link/convert/crc32c.h"
 
 #include <gtest/gtest.h>
 
 #include <string_view>
 #include <vector>
 
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
 
 namespace giveway::link {
 namespace {

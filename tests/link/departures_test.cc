@@ -1,7 +1,7 @@
 // Vehicles that fall silent, leave and come back: each is named, and a gone one stays gone.
 #include <gmock/gmock.h>
 
-#include "services/link/library_log.h"
+#include "services/link/fastdds/library_log.h"
 #include "tests/link/fleet.h"
 #include "tests/link/raw_vehicle.h"
 

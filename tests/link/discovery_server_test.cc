@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
-#include "services/link/fastdds_version.h"
-#include "services/link/server_addresses.h"
+#include "services/link/fastdds/fastdds_version.h"
+#include "services/link/fastdds/server_addresses.h"
 #include "tests/link/fleet.h"
 
 namespace giveway::test {

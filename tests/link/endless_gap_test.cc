@@ -1,4 +1,4 @@
-#include "services/link/endless_gap.h"
+#include "services/link/impairment/endless_gap.h"
 
 #include <gtest/gtest.h>
 

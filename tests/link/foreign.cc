@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
 #include "services/types/check.h"
 
 namespace giveway::test {

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
 #include "services/link/participant.h"
 #include "services/link/world_link.h"
 #include "tests/link/fleet.h"

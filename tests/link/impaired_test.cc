@@ -1,5 +1,5 @@
 // What an impaired vehicle hears of others over real sockets. The model itself is tested in
-// tests/unit/channel_model_test.cc; here is whether the transport obeys it.
+// tests/unit/link/channel_model_test.cc; here is whether the transport obeys it.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "services/link/impairer.h"
+#include "services/link/impairment/impairer.h"
 #include "services/link/world_link.h"
 #include "tests/link/fleet.h"
 #include "tests/link/raw_vehicle.h"

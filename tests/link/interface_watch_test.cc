@@ -1,5 +1,5 @@
 // What of the interfaces leaves a participant deaf. No interface is touched.
-#include "services/link/interface_watch.h"
+#include "services/link/fastdds/interface_watch.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // Who floods the world with requests to join crowds nobody out.
-#include "services/link/join_inbox.h"
+#include "services/link/inbox/join_inbox.h"
 
 #include <gmock/gmock.h>
 

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include "services/link/interfaces.h"
-#include "services/link/link_options.h"
-#include "services/link/writer_names.h"
+#include "services/link/fastdds/interfaces.h"
+#include "services/link/fastdds/link_options.h"
+#include "services/link/fastdds/writer_names.h"
 
 namespace giveway::link {
 namespace {

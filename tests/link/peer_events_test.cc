@@ -1,6 +1,6 @@
 // Whom an event of a reader is told to be about. No participant is made: the library's callbacks
 // are called by hand, in the orders its threads call them.
-#include "services/link/peer_events.h"
+#include "services/link/inbox/peer_events.h"
 
 #include <gmock/gmock.h>
 

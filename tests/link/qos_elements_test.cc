@@ -4,9 +4,9 @@
 
 #include <cstdlib>
 
-#include "services/link/fastdds_version.h"
-#include "services/link/library_log.h"
-#include "services/link/profile_words.h"
+#include "services/link/fastdds/fastdds_version.h"
+#include "services/link/fastdds/library_log.h"
+#include "services/link/fastdds/profile_words.h"
 #include "services/qos/check.h"
 #include "services/qos/schema.h"
 

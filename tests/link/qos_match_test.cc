@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "services/link/fastdds/profiles.h"
 #include "services/link/participant.h"
-#include "services/link/profiles.h"
 #include "services/qos/check.h"
 #include "services/qos/request_offered.h"
 #include "services/qos/xml_tree.h"

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <set>
 
-#include "services/fleetctl/qos_apart.h"
-#include "services/fleetctl/qos_effective.h"
+#include "services/fleetctl/qos/qos_apart.h"
+#include "services/fleetctl/qos/qos_effective.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
 

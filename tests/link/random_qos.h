@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "services/types/random.h"
+#include "services/types/math/random.h"
 
 namespace giveway::test {
 

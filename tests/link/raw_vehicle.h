@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "services/link/beacon_inbox.h"
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
+#include "services/link/fastdds/reader_events.h"
+#include "services/link/inbox/beacon_inbox.h"
+#include "services/link/inbox/peer_events.h"
 #include "services/link/participant.h"
-#include "services/link/peer_events.h"
-#include "services/link/reader_events.h"
 
 namespace giveway::test {
 

@@ -4,11 +4,11 @@
 
 #include <limits>
 
-#include "services/link/convert.h"
+#include "services/link/convert/convert.h"
+#include "services/link/fastdds/writer_names.h"
 #include "services/link/observer_link.h"
 #include "services/link/participant.h"
 #include "services/link/world_link.h"
-#include "services/link/writer_names.h"
 #include "tests/link/fleet.h"
 
 namespace giveway::test {

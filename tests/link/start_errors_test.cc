@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "services/link/fastdds_version.h"
+#include "services/link/fastdds/fastdds_version.h"
 #include "services/link/qos_trial.h"
 #include "services/link/resolved_qos.h"
 #include "tests/link/fleet.h"

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "services/link/convert.h"
-#include "services/link/topics.h"
+#include "services/link/convert/convert.h"
+#include "services/link/fastdds/topics.h"
 
 namespace giveway::test {
 

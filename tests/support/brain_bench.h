@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "services/types/math.h"
-#include "services/vehicle/beacon_check.h"
+#include "services/types/math/math.h"
+#include "services/vehicle/estimation/beacon_check.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway::test {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "services/types/math.h"
+#include "services/types/math/math.h"
 #include "services/types/scenario.h"
 #include "sim_world/virtual/virtual_fleet.h"
 

@@ -2,8 +2,8 @@
 // within a tick. It has no tables and takes no steps.
 #pragma once
 
-#include "services/vehicle/echoes.h"
-#include "services/vehicle/look.h"
+#include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/look.h"
 #include "tests/support/brain_bench.h"
 
 namespace giveway::test {

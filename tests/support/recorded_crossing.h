@@ -5,18 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "services/app/framed_stream.h"
-#include "services/app/recording.h"
+#include "services/recording/framed_stream.h"
+#include "services/recording/recording.h"
 #include "tests/support/brain_bench.h"
 
 namespace giveway::test {
 
 // The records of a whole recording: a life, `steps` steps, its end.
-inline std::vector<app::Record> RecordedCrossing(std::uint32_t steps) {
+inline std::vector<Record> RecordedCrossing(std::uint32_t steps) {
   constexpr std::uint32_t kBoot = 42;
   const VehicleOptions options = DefaultOptions();
   Vehicle brain(options, kBoot);
-  std::vector<app::Record> records{app::RecordedLife{kBoot, options, "test"}};
+  std::vector<Record> records{RecordedLife{kBoot, options, "test"}};
   for (std::uint32_t tick = 1; tick <= steps; ++tick) {
     RangeScan scan = ClearScan(tick);
     scan.wheels = {2, 2.25};
@@ -28,16 +28,16 @@ inline std::vector<app::Record> RecordedCrossing(std::uint32_t steps) {
     Inputs inputs{.now = tick * options.tick_period, .scan = scan, .beacons = heard};
     if (tick == 1) inputs.events = events;
     const Outputs outputs = brain.Step(inputs);
-    std::get<app::RecordedStep>(records.emplace_back(app::RecordedStep{}))
+    std::get<RecordedStep>(records.emplace_back(RecordedStep{}))
         .Hold(inputs, outputs, brain.Hash());
   }
-  records.emplace_back(app::RecordedEnd{steps, 0});
+  records.emplace_back(RecordedEnd{steps, 0});
   return records;
 }
 
-inline std::string FileOf(const std::vector<app::Record>& records) {
-  std::string bytes(app::kRecordingMark);
-  for (const app::Record& record : records) bytes += app::Framed(app::ToBytes(record));
+inline std::string FileOf(const std::vector<Record>& records) {
+  std::string bytes(kRecordingMark);
+  for (const Record& record : records) bytes += Framed(ToBytes(record));
   return bytes;
 }
 

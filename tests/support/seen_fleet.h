@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "services/fleetctl/invariant_watch.h"
+#include "services/fleetctl/run/invariant_watch.h"
 
 namespace giveway::fleetctl {
 

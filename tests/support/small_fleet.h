@@ -11,10 +11,10 @@
 
 #include "services/types/fleet_facts.h"
 #include "services/vehicle/vehicle.h"
-#include "sim_world/run.h"
-#include "sim_world/sensor.h"
-#include "sim_world/signals.h"
-#include "sim_world/sonar.h"
+#include "sim_world/run/run.h"
+#include "sim_world/run/signals.h"
+#include "sim_world/sensors/sensor.h"
+#include "sim_world/sensors/sonar.h"
 
 namespace giveway::test {
 

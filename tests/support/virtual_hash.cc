@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "services/app/scenario_file.h"
+#include "services/config/scenario_file.h"
 #include "sim_world/virtual/virtual_fleet.h"
 
 int main(int argc, char** argv) {
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   }
   try {
     const auto seed = static_cast<std::uint32_t>(std::strtoul(argv[2], nullptr, 10));
-    giveway::sim::VirtualFleet fleet(giveway::app::LoadScenario(argv[1], {.seed = seed}));
+    giveway::sim::VirtualFleet fleet(giveway::LoadScenario(argv[1], {.seed = seed}));
     fleet.Finish();
     std::printf("%016llx\n", static_cast<unsigned long long>(fleet.World().Figures().state_hash));
     return 0;

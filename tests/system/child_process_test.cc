@@ -1,5 +1,5 @@
 // Real processes and real time: what a pure test cannot say of ChildProcess.
-#include "services/fleetctl/child_process.h"
+#include "services/fleetctl/process/child_process.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

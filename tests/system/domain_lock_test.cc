@@ -1,4 +1,4 @@
-#include "services/fleetctl/domain_lock.h"
+#include "services/fleetctl/process/domain_lock.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -21,7 +21,7 @@ tune 2 "one vehicle" --vehicles 1
 tune 2 "no time" --trial-seconds 0
 tune 2 "no such base" --base no_such.xml
 grep -q 'no_such.xml' err || fail "no such base: $(cat err)"
-tune 2 "a base with an error" --base "$REPOSITORY/tests/unit/bad_qos/deadline_offered_longer.xml"
+tune 2 "a base with an error" --base "$REPOSITORY/tests/unit/qos/bad_qos/deadline_offered_longer.xml"
 grep -q 'qos check' err || fail "a base with an error: $(cat err)"
 touch a_file
 tune 2 "a folder that is none" --out a_file

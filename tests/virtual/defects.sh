@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Plants every defect of services/vehicle/planted.h and sees it caught by an invariant of the virtual
+# Plants every defect of services/vehicle/estimation/planted.h and sees it caught by an invariant of the virtual
 # fleet. Each line of defects.txt names a defect, what it is planted beside, the invariants of which
 # one at least must break, and the run that shows it: a generator, a shipped scenario, or one of the
 # folder scenarios. Without the defect the same run must pass, and where nothing else is planted end

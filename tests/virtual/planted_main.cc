@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "services/fleetctl/verbs.h"
-#include "services/vehicle/planted.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/vehicle/estimation/planted.h"
 
 namespace giveway {
 namespace {

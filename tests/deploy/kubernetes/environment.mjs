@@ -8,7 +8,7 @@ const upper = (flag) => `GIVEWAY_${flag.toUpperCase().replaceAll('-', '_')}`;
 // besides; and which of them only a vehicle or only the world takes.
 function known(root) {
   const services = join(root, 'services');
-  const flags = readFileSync(join(services, 'app/flags.cc'), 'utf8');
+  const flags = readFileSync(join(services, 'config/flags.cc'), 'utf8');
   const added = /Add(?:Optional|Switch)?\("--([a-z-]+)"/g;
   const all = new Set([...flags.matchAll(added)].map((found) => upper(found[1])));
   for (const file of readdirSync(services, { recursive: true }).filter((name) => name.endsWith('.cc'))) {

@@ -83,9 +83,9 @@ export function fleetIsPut(fleet) {
 // a node is charged with them. Measured: 38.6 MiB resident of a vehicle among twenty, 19.4 its own.
 const SHARED_MIB = 19;
 
-// Milliseconds of processor a second, and MiB, of services/fleetctl/plan_costs.h.
+// Milliseconds of processor a second, and MiB, of services/fleetctl/plan/plan_costs.h.
 export function plannedForIsRequested(fleet) {
-  const text = readFileSync(join(fleet.root, 'services/fleetctl/plan_costs.h'), 'utf8');
+  const text = readFileSync(join(fleet.root, 'services/fleetctl/plan/plan_costs.h'), 'utf8');
   const cost = (name) => Number(new RegExp(`double ${name} = ([0-9.]+);`).exec(text)[1]);
   const vehicles = fleet.workload('vehicle').replicas;
   const plan = {

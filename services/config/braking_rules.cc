@@ -1,0 +1,160 @@
+#include "services/config/braking_rules.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace giveway {
+namespace {
+
+// A seed makes a vehicle faster by up to so much (perturb.cc).
+constexpr double kSeedSpread = 1.02;
+
+double Fastest(const VehicleOptions& vehicle) {
+  return std::min(kSeedSpread * vehicle.cruise_m_s, vehicle.profile.max_speed_m_s);
+}
+
+// From cruise speed.
+double BrakingDistance(const VehicleOptions& vehicle) {
+  return Fastest(vehicle) * Fastest(vehicle) / (2 * vehicle.profile.deceleration_m_s2);
+}
+
+// From what a scan or a beacon shows until the brakes act, without the beacon's way: the decision
+// of one tick acts in the next, on readings that may be older by the ultrasonics' refresh.
+double ReactionSeconds(const VehicleOptions& vehicle) {
+  return 2 * Seconds(vehicle.tick_period) + Seconds(vehicle.sonar_refresh);
+}
+
+// A refused number is a problem already.
+bool IsSound(const VehicleOptions& vehicle) {
+  const double sum = vehicle.cruise_m_s + vehicle.profile.body_radius_m +
+                     vehicle.profile.deceleration_m_s2 + vehicle.emission_radius_m +
+                     vehicle.gate_enter_m;
+  return std::isfinite(sum) && vehicle.profile.deceleration_m_s2 > 0;
+}
+
+double LongestDelay(const Scenario& scenario) {
+  double longest_s = 0;
+  for (const ImpairmentRule& rule : scenario.impairment.rules) {
+    const double delay_s = rule.delay_s + rule.jitter_s;
+    if (rule.from != ImpairedSender::kWorld && std::isfinite(delay_s)) {
+      longest_s = std::max(longest_s, delay_s);
+    }
+  }
+  return longest_s;
+}
+
+// Everyone who drives, in the order of the file's kinds.
+struct Driver {
+  const VehicleOptions* options;
+  const Section* section;
+  std::string name;
+};
+
+std::vector<Driver> DriversOf(const ReadScenario& read) {
+  std::vector<Driver> drivers;
+  const auto add = [&](const VehicleOptions& options, const Section& section, std::string name) {
+    if (IsSound(options)) drivers.push_back({&options, &section, std::move(name)});
+  };
+  const Scenario& scenario = read.scenario;
+  for (std::size_t i = 0; i < read.vehicles.size(); ++i) {
+    const VehicleOptions& vehicle = scenario.vehicles[i];
+    add(vehicle, read.vehicles[i], fmt::format("vehicle {}", Number(vehicle.id)));
+  }
+  for (std::size_t i = 0; i < read.spawns.size(); ++i) {
+    add(scenario.spawns[i], read.spawns[i], fmt::format("spawn[{}]", i));
+  }
+  return drivers;
+}
+
+void ComplainOfPair(const Driver& own, const Driver& peer, const BrakingSum& sum) {
+  own.section->Complain(
+      "cruise_m_s",
+      fmt::format("{} at {:.3g} m/s and {} at {:.3g} m/s (a seed's 2 % included) could not stop "
+                  "before they touch: braking {:.2f} "
+                  "+ {:.2f} m (at {:.3g} and {:.3g} m/s^2), {:.2f} m in the {:.0f} ms until both "
+                  "brake, and "
+                  "{:.2f} m of bodies are {:.2f} m, but they hear each other within {:.2f} m "
+                  "(emission_radius_m), and ultrasonics stop them {:.2f} m apart (gate_enter_m)",
+                  own.name, Fastest(*own.options), peer.name, Fastest(*peer.options), sum.own_m,
+                  sum.peer_m, own.options->profile.deceleration_m_s2,
+                  peer.options->profile.deceleration_m_s2, sum.reaction_m, 1000 * sum.reaction_s,
+                  sum.bodies_m, sum.NeededCentres(), sum.radio_m, sum.sonar_m),
+      fmt::format(
+          "lower cruise_m_s, raise profile.deceleration_m_s2, or raise emission_radius_m to "
+          "at least {:.2f}",
+          std::ceil(100 * sum.NeededCentres()) / 100));
+}
+
+// A vehicle is blamed on account of one that needs no more than itself, so that one that is too
+// fast is not blamed on all others.
+void CheckPairs(const std::vector<Driver>& drivers, double delay_s) {
+  const auto alone_m = [&](const Driver& driver) {
+    return SumOf(*driver.options, *driver.options, delay_s).NeededCentres();
+  };
+  std::vector<double> needs_m;
+  for (const Driver& driver : drivers) needs_m.push_back(alone_m(driver));
+  std::vector<std::size_t> order(drivers.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::greater<>{}, [&](std::size_t i) { return needs_m[i]; });
+  for (std::size_t k = 0; k + 1 < order.size(); ++k) {
+    const Driver& own = drivers[order[k]];
+    // Where two of the faster can stop for each other, so can any two of the rest.
+    if (SumOf(*own.options, *own.options, delay_s).NeededCentres() <=
+        own.options->emission_radius_m) {
+      break;
+    }
+    for (std::size_t j = k + 1; j < order.size(); ++j) {
+      const BrakingSum sum = SumOf(*own.options, *drivers[order[j]].options, delay_s);
+      if (sum.ComesOut()) continue;
+      ComplainOfPair(own, drivers[order[j]], sum);
+      break;
+    }
+  }
+}
+
+void CheckStanding(const Driver& driver) {
+  const VehicleOptions& own = *driver.options;
+  const double reaction_s = ReactionSeconds(own);
+  const double needed_m = BrakingDistance(own) + Fastest(own) * reaction_s;
+  if (needed_m <= own.profile.sonar_max_range_m) return;
+  driver.section->Complain(
+      "cruise_m_s",
+      fmt::format("{} at {:.3g} m/s (a seed's 2 % included) could not stop before a wall or an "
+                  "obstacle: braking "
+                  "{:.2f} m (at {:.3g} m/s^2) and {:.2f} m in the {:.0f} ms until it brakes "
+                  "are {:.2f} m, but its ultrasonics reach {:.2f} m",
+                  driver.name, Fastest(own), BrakingDistance(own), own.profile.deceleration_m_s2,
+                  Fastest(own) * reaction_s, 1000 * reaction_s, needed_m,
+                  own.profile.sonar_max_range_m),
+      "lower cruise_m_s, or raise profile.deceleration_m_s2");
+}
+
+}  // namespace
+
+BrakingSum SumOf(const VehicleOptions& own, const VehicleOptions& peer, double delay_s) {
+  BrakingSum sum;
+  sum.own_m = BrakingDistance(own);
+  sum.peer_m = BrakingDistance(peer);
+  sum.reaction_s =
+      std::max(ReactionSeconds(own), ReactionSeconds(peer)) + Seconds(own.tick_period) + delay_s;
+  sum.reaction_m = (Fastest(own) + Fastest(peer)) * sum.reaction_s;
+  sum.bodies_m = own.profile.body_radius_m + peer.profile.body_radius_m;
+  sum.radio_m = std::min(own.emission_radius_m, peer.emission_radius_m);
+  sum.sonar_m = std::min({own.gate_enter_m, peer.gate_enter_m, own.profile.sonar_max_range_m,
+                          peer.profile.sonar_max_range_m});
+  return sum;
+}
+
+void CheckBraking(const ReadScenario& read) {
+  const std::vector<Driver> drivers = DriversOf(read);
+  CheckPairs(drivers, LongestDelay(read.scenario));
+  const Scenario& scenario = read.scenario;
+  if (scenario.walls.empty() && scenario.obstacles.empty() && scenario.doors.empty()) return;
+  for (const Driver& driver : drivers) CheckStanding(driver);
+}
+
+}  // namespace giveway

@@ -1,0 +1,73 @@
+#include "services/config/config_dir.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "services/config/problem.h"
+
+namespace giveway {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kEnding = ".textproto";
+
+// Both are beside the running binary, so that a moved tree or an installed one still works.
+std::vector<fs::path> Candidates() {
+  std::error_code error;
+  const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) return {};
+  return {bin / "../share/giveway", bin / "../../../config"};  // installed; build/<preset>/bin
+}
+
+bool HoldsConfig(const fs::path& folder) {
+  std::error_code error;
+  return fs::is_directory(folder / "scenarios", error);
+}
+
+std::string ShippedNames(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == kEnding) names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::string ConfigDir() {
+  const char* given = std::getenv("GIVEWAY_CONFIG_DIR");
+  if (given != nullptr && *given != '\0') {
+    if (HoldsConfig(given)) return given;
+    throw InputError({{given, 0, "GIVEWAY_CONFIG_DIR", given, "holds no folder scenarios/",
+                       "name the folder with qos/ and scenarios/, or unset it"}});
+  }
+  std::vector<std::string> tried;
+  for (const fs::path& candidate : Candidates()) {
+    tried.push_back(candidate.lexically_normal());
+    if (HoldsConfig(candidate)) return tried.back();
+  }
+  throw InputError({{"config", 0, "", "", fmt::format("not found in {}", fmt::join(tried, ", ")),
+                     "set GIVEWAY_CONFIG_DIR to the folder with qos/ and scenarios/"}});
+}
+
+std::string ResolveScenario(const std::string& argument) {
+  std::error_code error;
+  if (!argument.empty() && fs::exists(argument, error)) return argument;
+  const fs::path shipped = fs::path(ConfigDir()) / "scenarios";
+  const fs::path named = shipped / (argument + kEnding);
+  if (!argument.empty() && fs::exists(named, error)) return named;
+  throw InputError({{argument.empty() ? "\"\"" : argument, 0, "", "",
+                     fmt::format("no such file, and no shipped scenario {}", named.string()),
+                     fmt::format("name a file or one of: {}", ShippedNames(shipped))}});
+}
+
+}  // namespace giveway

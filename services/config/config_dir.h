@@ -1,0 +1,16 @@
+// Where the shipped profile sets and scenarios are.
+#pragma once
+
+#include <string>
+
+namespace giveway {
+
+// The file a scenario argument means: itself if it exists, else the shipped one of that name.
+// Throws InputError naming both places and listing the shipped scenarios.
+std::string ResolveScenario(const std::string& argument);
+
+// The folder holding qos/ and scenarios/: $GIVEWAY_CONFIG_DIR, else beside the installed binary
+// (../share/giveway), else the source tree the binary was built in. Throws InputError.
+std::string ConfigDir();
+
+}  // namespace giveway

@@ -1,0 +1,99 @@
+#include "services/config/flag_values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+namespace giveway {
+namespace {
+
+// The whole of `text` as a number, or nothing.
+template <typename T>
+std::optional<T> Parse(const std::string& text) {
+  T value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+std::string TwinOf(std::string_view flag) {
+  std::string name = "GIVEWAY_";
+  for (const char c : flag.substr(2)) {
+    name += c == '-' ? '_' : static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  }
+  return name;
+}
+
+std::optional<std::string> FlagValues::Text(const std::string& flag) const {
+  if (const auto found = given_.find(flag); found != given_.end()) return found->second;
+  const char* twin = std::getenv(TwinOf(flag).c_str());
+  if (twin == nullptr || *twin == '\0') return std::nullopt;
+  return twin;
+}
+
+std::string FlagValues::TextOr(const std::string& fallback, const std::string& flag) {
+  const std::string text = Text(flag).value_or(fallback);
+  if (text.empty()) Complain(flag, "must not be empty", "write a value or leave the flag out");
+  return text;
+}
+
+std::string FlagValues::RequiredText(const std::string& flag, const std::string& remedy) {
+  const std::string text = Text(flag).value_or("");
+  if (text.empty()) Complain(flag, "is required and missing", remedy);
+  return text;
+}
+
+std::optional<std::uint32_t> FlagValues::Whole(const std::string& flag, const Allowed& allowed) {
+  const auto text = Text(flag);
+  if (!text) return std::nullopt;
+  const auto value = Parse<std::uint32_t>(*text);
+  if (value && allowed.Contains(*value)) return value;
+  // Printed as whole numbers: 4294967295 would come out as 4.29e9.
+  const std::string range = fmt::format("between {:.0f} and {:.0f}", allowed.low, allowed.high);
+  Complain(flag, "must be a whole number " + range, "write one in that range");
+  return std::nullopt;
+}
+
+std::optional<double> FlagValues::Number(const std::string& flag, const Allowed& allowed) {
+  const auto text = Text(flag);
+  if (!text) return std::nullopt;
+  const auto value = Parse<double>(*text);
+  if (value && std::isfinite(*value) && allowed.Contains(*value)) return value;
+  Complain(flag, "must be a number " + Describe(allowed), "write one in that range");
+  return std::nullopt;
+}
+
+std::optional<std::string> FlagValues::OneOf(const std::string& flag,
+                                             std::initializer_list<std::string_view> names) {
+  const auto text = Text(flag);
+  if (!text || std::find(names.begin(), names.end(), *text) != names.end()) return text;
+  Complain(flag, fmt::format("must be one of {}", fmt::join(names, ", ")),
+           "write one of these names");
+  return std::nullopt;
+}
+
+bool FlagValues::Switch(const std::string& flag) {
+  const std::string text = OneOf(flag, {"0", "1", "false", "true"}).value_or("0");
+  return text == "1" || text == "true";
+}
+
+void FlagValues::Complain(const std::string& flag, std::string message, std::string remedy) {
+  const auto value = Text(flag);
+  const bool from_environment = value && !given_.contains(flag);
+  problems_.push_back({from_environment ? "environment" : "command line", 0,
+                       from_environment ? TwinOf(flag) : flag,
+                       value && value->empty() ? "\"\"" : value.value_or(""), std::move(message),
+                       std::move(remedy)});
+}
+
+void FlagValues::Add(const std::vector<Problem>& problems) {
+  problems_.insert(problems_.end(), problems.begin(), problems.end());
+}
+
+}  // namespace giveway

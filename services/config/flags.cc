@@ -1,0 +1,278 @@
+#include "services/config/flags.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <list>
+
+#include "services/config/byte_size.h"
+#include "services/config/config_dir.h"
+#include "services/config/flag_values.h"
+#include "services/config/impair.h"
+#include "services/config/problem.h"
+#include "services/config/text_file.h"
+#include "services/runtime/restart.h"
+
+namespace giveway {
+namespace {
+
+constexpr int kUsageError = 2;
+enum class Service { kVehicle, kWorld };
+
+constexpr const char* kFooter =
+    "Every flag has a twin in the environment: --log-level is also GIVEWAY_LOG_LEVEL. The flag\n"
+    "wins; an empty variable counts as unset. GIVEWAY_CONFIG_DIR names the folder with qos/ and\n"
+    "scenarios/.\n\nExit code 2: a flag, a file or the network was not usable; stderr says which.";
+
+// CLI11 splits the command line and prints the help. The values stay text: judging them is ours, so
+// that a flag and its twin are refused with the same words.
+class CommandLine {
+ public:
+  CommandLine(Service service, const std::string& name, const std::string& description,
+              std::string_view library)
+      : app_(description, name) {
+    app_.set_version_flag("--version", name + " " + GIVEWAY_VERSION + ", " + std::string(library));
+    app_.footer(kFooter);
+    Add("--scenario", "FILE|NAME", "scenario file, or the name of a shipped one (required)");
+    Add("--domain", "1..99", "DDS domain (required)");
+    Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
+    Add("--discovery-server", "HOST[:PORT],...",
+        "find everyone through these servers, and not by what --qos says;\n"
+        "the first has the id 0, the next 1 (port 11811)");
+    Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
+    if (service == Service::kVehicle) {
+      Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
+      Add("--record", "FILE",
+          "write all the brain is told and says, for fleetctl replay; where FILE is\n"
+          "there already, into the first free of FILE with a number");
+      Add("--record-split", "SIZE", "begin another file of the recording at this size: 64MiB");
+      Add("--impair", "RULES",
+          "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
+          "none; the README lists the keys");
+      AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
+      AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
+      AddSwitch("--hang-on-signal",
+                "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
+    } else {
+      Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
+      Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
+    }
+    Add("--try-qos", "FILE",
+        "make every endpoint of this set once, say whether that succeeds, and end");
+    Add("--resume", "FILE",
+        "this and the next are given by a service to itself when an order\n"
+        "restarts it");
+    Add("--former-qos", "FILE", "the set it had before");
+    Add("--rolled-back", "TEXT", "why it came back with that");
+    if (service == Service::kWorld) Add("--go-on-from", "FILE", "the run as it was");
+    Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
+    Add("--behaviour", "NAME",
+        "cooperative, lecture_avoid, stock_avoid, lecture_yield, or\n"
+        "lecture_printed, which shows the flaws of the printed scripts: it collides");
+    Add("--duration", "SECONDS", "end after this time instead of the scenario's");
+    AddSwitch("--lockstep", "the world waits for every command of a tick");
+    Add("--health-port", "0..65535", "serves /livez, /readyz, /metrics; 0, the default: nowhere");
+    Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
+    AddOptional("--health", "live|ready|metrics",
+                "asks the service at --health-port, prints the answer, and ends:\n"
+                "0 yes, 1 no, 2 nobody answered (ready if no word follows)");
+    Add("--log-format", "text|json", "of the lines on stderr (default text)");
+    Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
+  }
+
+  // The flags given and their values. Throws CLI::ParseError.
+  std::map<std::string, std::string> Parse(int argc, const char* const* argv) {
+    app_.parse(argc, argv);
+    std::map<std::string, std::string> given;
+    for (const auto& [option, value] : options_) {
+      if (option->count() > 0) given.emplace(option->get_name(), value);
+    }
+    for (const CLI::Option* given_switch : switches_) {
+      if (given_switch->count() > 0) given.emplace(given_switch->get_name(), "1");
+    }
+    return given;
+  }
+
+  // Prints help or version and gives 0, or what is wrong and gives 2.
+  int Exit(const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app_.exit(error);
+    std::fprintf(stderr, "command line: %s; see %s --help\n", error.what(),
+                 app_.get_name().c_str());
+    return kUsageError;
+  }
+
+ private:
+  void Add(const std::string& flag, const std::string& value_name, const std::string& help) {
+    auto& [option, value] = options_.emplace_back();
+    option = app_.add_option(flag, value, help)->type_name(value_name);
+  }
+
+  // Its value may be left out.
+  void AddOptional(const std::string& flag, const std::string& value_name,
+                   const std::string& help) {
+    Add(flag, value_name, help);
+    options_.back().first->expected(0, 1);
+  }
+
+  void AddSwitch(const std::string& flag, const std::string& help) {
+    switches_.push_back(app_.add_flag(flag));
+    switches_.back()->description(help);
+  }
+
+  CLI::App app_;
+  std::list<std::pair<CLI::Option*, std::string>> options_;  // a list: CLI11 keeps references
+  std::vector<CLI::Option*> switches_;
+};
+
+std::string DefaultQos(FlagValues* values) {
+  try {
+    return ConfigDir() + "/qos/default.xml";
+  } catch (const InputError& error) {
+    values->Add(error.Problems());
+    return "";
+  }
+}
+
+std::optional<Impairment> ReadImpairment(FlagValues* values) {
+  const auto text = values->Text("--impair");
+  if (!text) return std::nullopt;
+  ParsedImpairment parsed = ParseImpairment(*text);
+  for (ImpairTextProblem& problem : parsed.problems) {
+    values->Complain("--impair", std::move(problem.message), std::move(problem.remedy));
+  }
+  return std::move(parsed.impairment);
+}
+
+void ReadRecord(FlagValues* values, ServiceFlags* flags) {
+  if (values->Text("--record")) flags->record = values->TextOr("", "--record");
+  const auto split = values->Text("--record-split");
+  if (!split) return;
+  const auto bytes = ParseByteSize(*split);
+  if (!bytes || *bytes < kLeastSplitBytes || *bytes > kMostSplitBytes) {
+    values->Complain("--record-split", "\"" + *split + "\" is no size a recording is split by",
+                     kSplitRemedy);
+    return;
+  }
+  flags->record_split = *bytes;
+}
+
+std::optional<Resumed> ReadResumed(FlagValues* values) {
+  const auto file = values->Text("--resume");
+  if (!file) return std::nullopt;
+  try {
+    const auto resumed = ResumedFrom(ReadBytes(*file));
+    LetGo(*file);
+    if (resumed) return resumed;
+    values->Complain("--resume", "\"" + *file + "\" does not hold what a vehicle gives to itself",
+                     "leave it out: fleetctl qos apply makes a vehicle restart itself");
+  } catch (const InputError& error) {
+    values->Add(error.Problems());
+  }
+  return std::nullopt;
+}
+
+void ReadHealth(FlagValues* values, ServiceFlags* flags) {
+  flags->health_port = values->Whole("--health-port", {0, 65535}).value_or(0);
+  flags->health_address = values->TextOr(flags->health_address, "--health-address");
+  const auto what = values->Text("--health");
+  if (what) {
+    const bool is_silent = what->empty();
+    flags->ask_health =
+        is_silent ? "ready" : values->OneOf("--health", {"live", "ready", "metrics"}).value_or("");
+  }
+  if (!flags->ask_health.empty() && flags->health_port == 0) {
+    values->Complain("--health", "asks at --health-port, and there is none",
+                     "write --health-port with the port of the service");
+  }
+}
+
+void ReadDiscoveryServers(FlagValues* values, ServiceFlags* flags) {
+  const auto text = values->Text("--discovery-server");
+  if (!text) return;
+  ParsedDiscoveryServers parsed = ParseDiscoveryServers(*text);
+  flags->discovery_servers = std::move(parsed.servers);
+  if (parsed.fault.empty()) return;
+  values->Complain("--discovery-server", parsed.fault,
+                   "write HOST or HOST:PORT, several with commas between them");
+}
+
+ServiceFlags Read(Service service, FlagValues* values) {
+  constexpr double kMaxWhole = 4294967295.0;
+  ServiceFlags flags;
+  ReadHealth(values, &flags);
+  if (values->Text("--health")) return flags;  // what a service needs, a question does not
+  flags.scenario = values->RequiredText("--scenario", "name a file or a shipped scenario");
+  if (!values->Text("--domain")) {
+    values->Complain("--domain", "is required and missing", "write --domain with a number 1..99");
+  }
+  flags.domain = values->Whole("--domain", {1, 99}).value_or(0);
+  flags.interface = values->TextOr(flags.interface, "--interface");
+  ReadDiscoveryServers(values, &flags);
+  flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
+  if (service == Service::kVehicle) {
+    flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
+    ReadRecord(values, &flags);
+    flags.impair = ReadImpairment(values);
+    flags.stay = values->Switch("--stay");
+    flags.partition_free = values->Switch("--partition-free");
+    flags.hang_on_signal = values->Switch("--hang-on-signal");
+  }
+  if (service == Service::kWorld) {
+    flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
+    flags.go_on_from = values->Text("--go-on-from").value_or("");
+    if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");
+  }
+  flags.try_qos = values->Text("--try-qos").value_or("");
+  flags.resume = ReadResumed(values);
+  flags.former_qos = values->Text("--former-qos").value_or("");
+  flags.rolled_back = values->Text("--rolled-back").value_or("");
+  flags.seed = values->Whole("--seed", {0, kMaxWhole});
+  const auto behaviour =
+      values->OneOf("--behaviour", {Name(Behaviour::kCooperative), Name(Behaviour::kLectureAvoid),
+                                    Name(Behaviour::kStockAvoid), Name(Behaviour::kLectureYield),
+                                    Name(Behaviour::kLecturePrinted)});
+  if (behaviour) flags.behaviour = BehaviourNamed(*behaviour);
+  flags.duration_s = values->Number("--duration", {0, 86400, "s", true});
+  flags.lockstep = values->Switch("--lockstep");
+  flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);
+  flags.log_level =
+      values->OneOf("--log-level", {"debug", "info", "warning", "error"}).value_or(flags.log_level);
+  return flags;
+}
+
+ParsedFlags ParseFlags(Service service, const std::string& name, const std::string& description,
+                       std::string_view library, int argc, const char* const* argv) {
+  CommandLine line(service, name, description, library);
+  try {
+    FlagValues values(line.Parse(argc, argv));
+    ServiceFlags flags = Read(service, &values);
+    if (values.Problems().empty()) return flags;
+    std::fprintf(stderr, "%s\n", Format(values.Problems()).c_str());
+    return kUsageError;
+  } catch (const CLI::ParseError& error) {
+    return line.Exit(error);
+  }
+}
+
+}  // namespace
+
+ParsedFlags ParseVehicleFlags(int argc, const char* const* argv, std::string_view library) {
+  return ParseFlags(Service::kVehicle, "giveway-vehicle",
+                    "One vehicle of a fleet: beacons, decides, drives.", library, argc, argv);
+}
+
+ParsedFlags ParseWorldFlags(int argc, const char* const* argv, std::string_view library) {
+  return ParseFlags(Service::kWorld, "giveway-world",
+                    "The simulated world a fleet shares: bodies, walls, ultrasonics, the judge.",
+                    library, argc, argv);
+}
+
+std::optional<Behaviour> BehaviourNamed(std::string_view name) {
+  for (const Behaviour behaviour :
+       {Behaviour::kCooperative, Behaviour::kLectureAvoid, Behaviour::kStockAvoid,
+        Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {
+    if (Name(behaviour) == name) return behaviour;
+  }
+  return std::nullopt;
+}
+
+}  // namespace giveway

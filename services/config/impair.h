@@ -1,0 +1,63 @@
+// What is to go wrong with the packets vehicles hear, as configuration: the numbers of a rule, how
+// a scenario and the flag --impair name them, their ranges, and what must hold between them. One
+// table serves reading either and writing. As one word of a command line:
+//
+//   loss=0.1,delay=20ms,jitter=5ms,seed=7
+//   loss=0.05;from=3,to=2,blackout=5s..7s;from=world
+//
+// Rules are separated by ';', the last that fits a packet counts. Keys are those of the scenario
+// without their units; times carry one of us, ms, s. `from` is anyone, vehicles, world or an id,
+// `to` an id; `blackout` may be repeated. "none" is no impairment.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/config/plan_read.h"
+#include "services/config/section.h"
+#include "services/types/impairment.h"
+
+namespace giveway {
+
+struct ImpairField {
+  std::string_view field;  // in a scenario: delay_ms
+  std::string_view key;    // in --impair: delay
+  double ImpairmentRule::*member;
+  Allowed allowed;       // in the unit of the scenario
+  double per_si = 1;     // of that unit in one of the member's
+  bool is_time = false;  // in --impair: with its unit
+};
+
+inline constexpr Allowed kBlackoutTime{0, 86400, "s"};
+inline constexpr int kMaxImpairRules = 64;
+inline constexpr int kMaxBlackouts = 64;
+
+std::span<const ImpairField> ImpairFields();
+
+// A number that is in its range and does not go with another.
+struct RuleConflict {
+  std::string_view field;  // as in a scenario
+  std::string message;
+  std::string remedy;
+};
+// Says nothing about numbers that are not finite: they are problems already.
+std::vector<RuleConflict> ConflictsIn(const ImpairmentRule& rule);
+
+ImpairmentRule ReadImpairmentRule(const Section& section, const KnownIds& known);
+
+// One thing wrong with the text: names key and value.
+struct ImpairTextProblem {
+  std::string message;
+  std::string remedy;
+};
+
+struct ParsedImpairment {
+  Impairment impairment;
+  std::vector<ImpairTextProblem> problems;  // empty: the impairment is good
+};
+
+ParsedImpairment ParseImpairment(std::string_view text);
+
+}  // namespace giveway

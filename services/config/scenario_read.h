@@ -1,0 +1,27 @@
+// A parsed scenario file as a Scenario. Finds every problem it can; the Scenario is meant for use
+// only if there was none.
+#pragma once
+
+#include <vector>
+
+#include "services/config/scenario_overrides.h"
+#include "services/config/section.h"
+#include "services/types/scenario.h"
+
+namespace giveway {
+
+inline constexpr Allowed kDuration{0, 86400, "s", true};
+
+struct ReadScenario {
+  Scenario scenario;
+  // Where scenario.vehicles[i] and so on were written.
+  std::vector<Section> vehicles;
+  std::vector<Section> spawns;
+  std::vector<Section> obstacles;
+  std::vector<Section> doors;
+};
+
+// `root` is of the message giveway.schema.Scenario. Problems go to `root`.
+ReadScenario ReadFrom(const Section& root, const ScenarioOverrides& overrides);
+
+}  // namespace giveway

@@ -1,0 +1,23 @@
+#include "services/fleetctl/args/observer_flags.h"
+
+#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/process/domain_lock.h"
+
+namespace giveway::fleetctl {
+void AddObserverFlags(CLI::App* verb, ObserverOptions* options) {
+  verb->add_option("--domain", options->domain, "DDS domain of the fleet")
+      ->required()
+      ->check(CLI::Range(kFirstDomain, kLastDomain))
+      ->envname("GIVEWAY_DOMAIN");
+  AddInterfaceFlag(verb, &options->interface);
+  AddDiscoveryFlag(verb, &options->discovery_servers);
+  verb->add_option("--area", options->area, "Whose beacons; the scenario names it")
+      ->check(CheckNotEmpty)
+      ->capture_default_str();
+  verb->add_option("--qos", options->qos_file,
+                   "Fast DDS XML profiles: a file, or a shipped set; those of the fleet")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_QOS");
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,40 @@
+// What `fleetctl top` and `fleetctl listen` share: they join a fleet that was started elsewhere as
+// observers, start and stop nothing, and tell stdout what they hear.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/link/fastdds/link_options.h"
+
+namespace giveway::fleetctl {
+
+// Where to listen.
+struct ObserverOptions {
+  std::uint32_t domain = 0;
+  std::string interface = "127.0.0.1";
+  std::vector<DiscoveryServer> discovery_servers;  // none: as the QoS file says
+  std::string area = "main";
+  std::string qos_file;  // empty: the shipped one
+};
+
+// Throws LinkError where the profile set is unsound.
+link::LinkOptions LinkOptionsOf(const ObserverOptions& options);
+
+enum class Told : std::uint8_t {
+  kYes,
+  kNobodyReads,  // the reader has gone, as `| head -3` does: no reason to complain
+  kFailed,       // a full disk: errno says why
+};
+
+// Writes to stdout at once.
+Told Tell(const std::string& text);
+// Whether stdout was given at all. To be asked before any socket is opened: a socket that takes the
+// free descriptor's place would be written to.
+bool HasStdout();
+
+// The exit code for it; says on stderr why, where it failed. 0 for nobody reads.
+int ExitCodeOf(Told told);
+
+}  // namespace giveway::fleetctl

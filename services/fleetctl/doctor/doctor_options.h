@@ -1,0 +1,20 @@
+// What the operator asked of `fleetctl doctor`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace giveway::fleetctl {
+
+struct DoctorOptions {
+  std::optional<std::uint32_t> domain;  // its processes alone; without it all, else the first
+  std::uint32_t vehicles = 2;           // that are to run
+  std::string qos;                      // a file, or a shipped set; empty: the default
+  std::string interface = "127.0.0.1";
+  bool fix = false;  // remove files in shared memory that nobody uses
+  bool json = false;
+  bool quiet = false;  // the exit code alone
+};
+
+}  // namespace giveway::fleetctl

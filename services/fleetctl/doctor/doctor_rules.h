@@ -1,0 +1,30 @@
+// What is wrong with a host a fleet is to run on, or runs on. Pure: facts in, findings out; each
+// rule adds its own, and none depends on another having run.
+#pragma once
+
+#include "services/fleetctl/doctor/doctor_facts.h"
+#include "services/qos/finding.h"
+
+namespace giveway::fleetctl {
+
+// Of /dev/shm: files nobody uses, files of others, room.
+void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings);
+void CheckForeignFiles(const HostFacts& host, qos::Findings* findings);
+void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings);
+// Of pairs of living processes: one host and two memories, one memory and two hosts.
+void CheckMemoryShared(const HostFacts& host, qos::Findings* findings);
+void CheckHostIds(const HostFacts& host, qos::Findings* findings);
+
+void CheckMulticast(const HostFacts& host, qos::Findings* findings);
+void CheckReceiveBuffer(const HostFacts& host, qos::Findings* findings);
+void CheckPorts(const HostFacts& host, qos::Findings* findings);
+void CheckEphemeralPorts(const HostFacts& host, qos::Findings* findings);
+
+void CheckSurroundings(const HostFacts& host, qos::Findings* findings);
+void CheckClock(const HostFacts& host, qos::Findings* findings);
+void CheckDescriptors(const HostFacts& host, qos::Findings* findings);
+
+// All of them, errors first.
+qos::Findings Examine(const HostFacts& host);
+
+}  // namespace giveway::fleetctl

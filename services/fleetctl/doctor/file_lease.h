@@ -1,0 +1,32 @@
+// Asks the kernel whether anybody has a file open or mapped: a lease for writing is granted to none
+// but the only one (fcntl(2), F_SETLEASE). Unlike a look at /proc this sees processes of other
+// users and of other namespaces, and holds: whoever opens the file meanwhile waits until the lease
+// ends.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "services/fleetctl/process/file_descriptor.h"
+
+namespace giveway::fleetctl {
+
+class FileLease {
+ public:
+  enum class Answer : std::uint8_t {
+    kAlone,    // the lease is ours
+    kUsed,     // somebody has it open or mapped
+    kNotSaid,  // only its owner and root may ask, and not on every file system
+  };
+
+  explicit FileLease(const std::filesystem::path& file);
+
+  Answer Said() const { return said_; }
+  const FileDescriptor& File() const { return file_; }
+
+ private:
+  FileDescriptor file_;  // closing it ends the lease
+  Answer said_ = Answer::kNotSaid;
+};
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,25 @@
+// Removes the files of segments and ports that nobody uses any more. What was examined may have
+// changed since: nothing is removed that the kernel does not grant us alone, and a port only behind
+// the lock that participants take to open it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/doctor/shared_memory.h"
+
+namespace giveway::fleetctl {
+
+struct Removal {
+  std::string file;  // its path
+  std::string left;  // why it was left; empty: it was removed
+
+  friend bool operator==(const Removal&, const Removal&) = default;
+};
+
+// `memory` as read from `memory.folder`. Only what IsGone(), and of those only what `user` owns,
+// unless `user` is 0. Those left for another reason than being in use are told of, too.
+std::vector<Removal> RemoveGone(const SharedMemory& memory, std::uint32_t user);
+
+}  // namespace giveway::fleetctl

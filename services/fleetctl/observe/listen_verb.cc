@@ -1,0 +1,73 @@
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/observer_flags.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/observe/listen.h"
+#include "services/fleetctl/survey/other_fleets.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kListenFooter = R"(
+One line a sample, headed by the seconds since it began to listen and by the vehicle; with --json one
+object, with every field. Topics that are kept for latecomers (world/roster, world/event,
+world/figures) begin with what was. Ends by --count, --duration, Ctrl-C, or when nobody reads stdout.
+Begin it after the fleet: fleetctl run takes no domain in which somebody already listens.
+
+Examples
+  fleetctl listen fleet/beacon --domain 7
+  fleetctl listen fleet/status --domain 7 --vehicle 2 --json | jq .qos
+  fleetctl listen world/event --domain 7 | head -3
+
+Exit code: 0 heard, or ended by Ctrl-C; 1 nothing heard within --duration; 2 could not run.
+)";
+
+ListenTopic ParseTopic(const std::string& name) {
+  const auto topic = ListenTopicNamed(name);
+  if (topic) return *topic;
+  throw CLI::ValidationError("TOPIC",
+                             "must be one of " + ListenTopicNames() + ", not '" + name + "'");
+}
+
+void Listen(const ListenOptions& options, int* exit_code) {
+  const ListenFilter& filter = options.filter;
+  if (!filter.vehicles.empty() && !IsAboutVehicles(filter.topic)) {
+    throw CLI::ValidationError("--vehicle", "does not go with " + std::string(Name(filter.topic)) +
+                                                ", which is not about vehicles");
+  }
+  SayOtherFleets(options.where.domain, options.where.interface);
+  *exit_code = RunListen(options);
+}
+
+}  // namespace
+
+void AddListenVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<ListenOptions>();
+  CLI::App* verb = fleetctl->add_subcommand("listen", "Print what travels on a topic of a fleet");
+  verb->footer(kListenFooter);
+  verb->add_option_function<std::string>(
+          "TOPIC", [options](const std::string& name) { options->filter.topic = ParseTopic(name); },
+          ListenTopicNames())
+      ->required();
+  AddObserverFlags(verb, &options->where);
+  verb->add_option_function<std::vector<std::uint32_t>>(
+          "--vehicle",
+          [options](const std::vector<std::uint32_t>& ids) {
+            for (const std::uint32_t id : ids) options->filter.vehicles.insert(VehicleId{id});
+          },
+          "Only samples about these vehicles")
+      ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
+  verb->add_flag("--json", options->filter.json, "Print one JSON object a sample");
+  verb->add_option("--count", options->count, "End after so many samples")
+      ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()));
+  verb->add_option("--duration", options->duration_s, "End after so many seconds")
+      ->check(CheckSeconds);
+  verb->callback([options, exit_code] { Listen(*options, exit_code); });
+}
+
+}  // namespace giveway::fleetctl

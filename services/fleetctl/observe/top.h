@@ -1,0 +1,20 @@
+// The verb `fleetctl top`: a table of a fleet that was started elsewhere. Values in; the exit code
+// out.
+#pragma once
+
+#include "services/fleetctl/args/reading_along.h"
+
+namespace giveway::fleetctl {
+
+struct TopOptions {
+  ObserverOptions where;
+  bool once = false;
+  double wait_s = 5;  // with `once`: how long somebody may take to be heard
+  bool json = false;
+};
+
+// 0 shown, or ended by Ctrl-C or by whoever read stdout; 1 nobody was heard (with `once`); 2 could
+// not run.
+int RunTop(const TopOptions& options);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,28 @@
+// A fleet that was started elsewhere as a table, and as a JSON object. Pure: what was heard, the
+// time and the size of the terminal go in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/observe/heard_fleet.h"
+#include "services/fleetctl/output/live_table.h"
+
+namespace giveway::fleetctl {
+
+// Where the observer listens, and since when.
+struct ListeningPost {
+  std::uint32_t domain = 0;
+  std::string interface;
+  std::string area;
+  SteadyTime since{0};
+};
+
+// Fits the terminal as TableLines does.
+std::vector<std::string> TopLines(const HeardFleet& fleet, const ListeningPost& post,
+                                  SteadyTime now, TerminalSize size);
+std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTime now);
+// What to look at where nobody is heard.
+std::string NobodyHeard(const ListeningPost& post, SteadyTime now);
+
+}  // namespace giveway::fleetctl

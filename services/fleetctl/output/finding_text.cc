@@ -1,0 +1,66 @@
+#include "services/fleetctl/output/finding_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/runtime/json_line.h"
+#include "services/runtime/utf8.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+std::string Name(qos::Severity severity) {
+  return severity == qos::Severity::kError ? "error" : "warning";
+}
+
+std::size_t Count(const qos::Findings& findings, qos::Severity severity) {
+  return static_cast<std::size_t>(std::ranges::count(findings, severity, &qos::Finding::severity));
+}
+
+}  // namespace
+
+std::string Shown(std::string text) {
+  text = WellFormed(text);
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
+std::string ToText(const qos::Finding& finding, const std::string& nowhere) {
+  std::string where = finding.place.file.empty() ? nowhere : finding.place.file;
+  if (finding.place.line > 0) where += fmt::format(":{}", finding.place.line);
+  const std::string subject = finding.subject.empty() ? "" : finding.subject + ": ";
+  return fmt::format("{}\n    {}\n    Remedy: {}\n",
+                     Shown(fmt::format("{}: {}: {}: {}{}", where, Name(finding.severity),
+                                       finding.rule, subject, finding.values)),
+                     Shown(finding.consequence), Shown(finding.remedy));
+}
+
+std::string ToJson(const qos::Finding& finding) {
+  return fmt::format(
+      R"({{"severity":"{}","rule":"{}","file":{},"line":{},"subject":{},"values":{},)"
+      R"("consequence":{},"remedy":{}}})",
+      Name(finding.severity), finding.rule, JsonString(finding.place.file), finding.place.line,
+      JsonString(finding.subject), JsonString(finding.values), JsonString(finding.consequence),
+      JsonString(finding.remedy));
+}
+
+std::string Counted(std::size_t count, std::string_view one, std::string_view many) {
+  if (count != 1 && !many.empty()) return fmt::format("{} {}", count, many);
+  return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
+std::string Tally(const qos::Findings& findings) {
+  return Counted(Count(findings, qos::Severity::kError), "error") + ", " +
+         Counted(Count(findings, qos::Severity::kWarning), "warning");
+}
+
+void AddFindings(const qos::Findings& findings, JsonObject* to) {
+  to->Add("errors", Count(findings, qos::Severity::kError));
+  to->Add("warnings", Count(findings, qos::Severity::kWarning));
+  to->AddRaw("findings",
+             JsonArray(findings, [](const qos::Finding& finding) { return ToJson(finding); }));
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,29 @@
+// A finding for people and as JSON.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "services/fleetctl/output/json_object.h"
+#include "services/qos/finding.h"
+
+namespace giveway::fleetctl {
+
+// Text from a file or from the wire, which must not command the terminal it is shown on.
+std::string Shown(std::string text);
+
+// Three lines: where, which values and how bad; what comes of it; the remedy. `nowhere` stands
+// where a finding is about no file.
+std::string ToText(const qos::Finding& finding, const std::string& nowhere = "environment");
+// One JSON object.
+std::string ToJson(const qos::Finding& finding);
+
+// "1 file", "2 files"; the second word if `one` takes no s.
+std::string Counted(std::size_t count, std::string_view one, std::string_view many = "");
+// "1 error, 0 warnings".
+std::string Tally(const qos::Findings& findings);
+// The fields errors, warnings and findings.
+void AddFindings(const qos::Findings& findings, JsonObject* to);
+
+}  // namespace giveway::fleetctl

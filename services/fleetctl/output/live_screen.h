@@ -1,0 +1,42 @@
+// Shows the progress of a run: a table redrawn in place where stdout is a terminal, else a line a
+// second on stderr. The cursor is restored on destruction, so on every way out.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/output/live_table.h"
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+class LiveScreen {
+ public:
+  // `in_place`: draw the table on stdout.
+  explicit LiveScreen(bool in_place);
+  ~LiveScreen();
+  LiveScreen(const LiveScreen&) = delete;
+  LiveScreen& operator=(const LiveScreen&) = delete;
+
+  // Draws if it is time to.
+  void Show(const TableView& view, SteadyTime now);
+  // True if it is time to draw; then not again before a period has passed.
+  bool IsDue(SteadyTime now);
+  // Draws these lines in place of those drawn before, on stdout.
+  void Draw(const std::vector<std::string>& lines);
+  // Leaves what is drawn and goes on below it.
+  void Finish();
+
+ private:
+  bool in_place_;
+  bool cursor_hidden_ = false;
+  std::size_t lines_drawn_ = 0;
+  SteadyTime next_{0};
+};
+
+bool IsTerminal();
+// The size of the terminal on stdout; 80 by 24 where there is none.
+TerminalSize SizeOfTerminal();
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,20 @@
+// Samples as JSON fields, for programs that read along: every field, in the names of fleet.idl.
+// Vehicle ids of nobody are left out. Pure.
+#pragma once
+
+#include "services/fleetctl/output/json_object.h"
+#include "services/types/beacon.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/signal.h"
+
+namespace giveway::fleetctl {
+
+void AddFields(const ReceivedBeacon& received, JsonObject* object);
+void AddFields(const VehicleStatus& status, JsonObject* object);
+void AddFields(const Truth& truth, JsonObject* object);
+void AddFields(const WorldEvent& event, JsonObject* object);
+void AddFields(const RosterEntry& entry, JsonObject* object);
+void AddFields(const SignalState& signal, JsonObject* object);
+void AddFields(const RunFigures& figures, JsonObject* object);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,183 @@
+#include "services/fleetctl/process/child_process.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstring>
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr int kKeptFd = 3;
+constexpr int kCannotExec = 127;  // what a shell says of a program it cannot start
+constexpr std::size_t kLongestLine = 2000;
+
+std::string ErrnoText() { return std::strerror(errno); }
+
+struct Pipe {
+  FileDescriptor read;
+  FileDescriptor write;
+};
+
+Pipe MakePipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw StartError("cannot make a pipe: " + ErrnoText());
+  Pipe pipe{FileDescriptor(ends[0]), FileDescriptor(ends[1])};
+  ::fcntl(pipe.read.Get(), F_SETFL, O_NONBLOCK);
+  return pipe;
+}
+
+// The folder of the configuration is no flag's twin.
+constexpr std::string_view kNoTwin = "GIVEWAY_CONFIG_DIR=";
+// What a service may be told by the environment of fleetctl. Everything else it is told by flags:
+// a twin such as GIVEWAY_HEALTH_PORT or GIVEWAY_ID means fleetctl itself, or one service, and would
+// be wrong for all of them at once.
+constexpr std::array<std::string_view, 3> kHandedOn{
+    "GIVEWAY_LOG_FORMAT=", "GIVEWAY_THREADS=", "GIVEWAY_PARTITION_FREE="};
+
+std::vector<char*> EnvironmentOf(const ChildCommand& command) {
+  const auto is_handed_on = [&](std::string_view text) {
+    const auto names = [text](std::string_view name) { return text.starts_with(name); };
+    return names(kNoTwin) || (!command.flags_only && std::ranges::any_of(kHandedOn, names));
+  };
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text(*variable);
+    if (!text.starts_with("GIVEWAY_") || is_handed_on(text)) variables.push_back(*variable);
+  }
+  variables.push_back(nullptr);
+  return variables;
+}
+
+// Signal masks and ignored signals survive exec: the child must start with neither.
+void ResetSignals() {
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (const int number : {SIGINT, SIGTERM, SIGPIPE, SIGHUP, SIGQUIT, SIGALRM, SIGXFSZ}) {
+    std::signal(number, SIG_DFL);
+  }
+}
+
+// Between fork and exec, in a process whose other threads are gone: system calls only.
+[[noreturn]] void BecomeChild(char* const* words, char* const* environment, pid_t parent,
+                              int output, int kept_fd) {
+  ResetSignals();
+  // An own process group: Ctrl-C reaches fleetctl alone, which stops the fleet in good order.
+  ::setpgid(0, 0);
+  DieWith(parent);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  if (nothing >= 0) ::dup2(nothing, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
+  if (kept_fd == kKeptFd) {
+    ::fcntl(kept_fd, F_SETFD, 0);
+  } else if (kept_fd >= 0) {
+    ::dup2(kept_fd, kKeptFd);
+  }
+  // The library's sockets are not close-on-exec, and must not live on in the children.
+  ::close_range(kept_fd >= 0 ? kKeptFd + 1 : kKeptFd, UINT_MAX, 0);
+  ::execve(words[0], words, environment);
+  const char* reason = ::strerrordesc_np(errno);  // allocates nothing, takes no lock
+  for (const char* part : {"cannot start ", static_cast<const char*>(words[0]), ": ", reason}) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part, std::strlen(part));
+  }
+  ::_exit(kCannotExec);
+}
+
+}  // namespace
+
+std::filesystem::path ProgramFolder() {
+  return std::filesystem::read_symlink("/proc/self/exe").parent_path();
+}
+
+void DieWith(pid_t parent) {
+  // No other signal ends a process that is stopped, hangs, or handles it.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(kCannotExec);  // the parent died before the prctl
+}
+
+std::string Describe(ProcessEnd end) {
+  if (!end.by_signal) return "exit code " + std::to_string(end.number);
+  return "signal " + std::to_string(end.number) + " (" + ::strsignal(end.number) + ")";
+}
+
+ChildProcess::ChildProcess(const ChildCommand& command)
+    : name_(command.name), hands_on_lines_(command.hands_on_lines) {
+  if (!command.log_file.empty()) {
+    log_.open(command.log_file, std::ios::trunc);
+    if (!log_) throw StartError("cannot write " + command.log_file + ": " + ErrnoText());
+  }
+  std::vector<std::string> words = command.words;
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  std::vector<char*> environment = EnvironmentOf(command);
+
+  Pipe pipe = MakePipe();
+  const pid_t parent = ::getpid();
+  pid_ = ::fork();
+  if (pid_ < 0) throw StartError("cannot fork for " + name_ + ": " + ErrnoText());
+  if (pid_ == 0)
+    BecomeChild(argv.data(), environment.data(), parent, pipe.write.Get(), command.kept_fd);
+  output_ = std::move(pipe.read);
+}
+
+ChildProcess::~ChildProcess() {
+  if (!IsRunning()) return;
+  Signal(SIGKILL);
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+}
+
+void ChildProcess::Poll() {
+  if (!IsRunning()) return;
+  int status = 0;
+  const bool ended = ::waitpid(pid_, &status, WNOHANG) == pid_;
+  ReadOutput();  // after waitpid: nothing the child said before it ended is missed
+  if (!ended) return;
+  end_ = WIFSIGNALED(status) ? ProcessEnd{true, WTERMSIG(status)}
+                             : ProcessEnd{false, WEXITSTATUS(status)};
+  if (!unfinished_line_.empty()) KeepLines("\n", 1);
+}
+
+void ChildProcess::Signal(int signal_number) {
+  if (IsRunning()) ::kill(pid_, signal_number);
+}
+
+void ChildProcess::AskToStop() {
+  if (!std::exchange(asked_to_stop_, true)) Signal(SIGTERM);
+}
+
+void ChildProcess::ReadOutput() {
+  std::array<char, 4096> buffer{};
+  for (;;) {
+    const ssize_t got = ::read(output_.Get(), buffer.data(), buffer.size());
+    if (got <= 0) return;
+    const auto size = static_cast<std::size_t>(got);
+    if (log_.is_open()) log_.write(buffer.data(), got).flush();
+    KeepLines(buffer.data(), size);
+  }
+}
+
+void ChildProcess::KeepLines(const char* text, std::size_t size) {
+  for (const char character : std::string_view(text, size)) {
+    if (character != '\n') {
+      if (unfinished_line_.size() < kLongestLine) unfinished_line_.push_back(character);
+      continue;
+    }
+    if (hands_on_lines_) lines_.push_back(unfinished_line_);
+    last_lines_.push_back(std::move(unfinished_line_));
+    unfinished_line_.clear();
+    if (last_lines_.size() > kLinesKept) last_lines_.pop_front();
+  }
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,100 @@
+// One child process that cannot be lost: started with its output through a pipe, polled and
+// signalled by process id only, killed and reaped on destruction. It dies with its parent (parent-
+// death signal). Judges nothing: whether an end was wanted is for the caller to say.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/fleetctl/process/file_descriptor.h"
+
+namespace giveway::fleetctl {
+
+// The operating system refused to make the process or its pipe. Main exits with 2.
+class StartError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// For a process that was just forked: it is killed when its parent dies, whatever it is doing then,
+// and ends at once if the parent has died already.
+void DieWith(pid_t parent);
+
+// How a process ended.
+struct ProcessEnd {
+  bool by_signal = false;
+  int number = 0;  // the signal, or the exit code
+
+  friend bool operator==(const ProcessEnd&, const ProcessEnd&) = default;
+};
+
+// "exit code 2" or "signal 9 (Killed)".
+std::string Describe(ProcessEnd end);
+
+// Where the fleet's programs are: beside this one.
+std::filesystem::path ProgramFolder();
+
+struct ChildCommand {
+  std::string name;                // for people: "vehicle 2"
+  std::vector<std::string> words;  // the program's path, then its arguments
+  std::string log_file;            // everything the child says is copied here; empty: nowhere
+  int kept_fd = -1;                // stays open in the child as descriptor 3; -1: none
+  bool hands_on_lines = false;     // every line is kept for TakeLines
+  // No GIVEWAY_ variable of this shell is a flag of the child. Without this the log's format, the
+  // world's threads and free partitions may be given so; no other flag ever is.
+  bool flags_only = false;
+};
+
+class ChildProcess {
+ public:
+  static constexpr std::size_t kLinesKept = 20;
+
+  // Call from the main thread, or one that outlives the child: the parent-death signal is tied to
+  // the thread that forks.
+  explicit ChildProcess(const ChildCommand& command);  // Throws StartError.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // Reads what the child has said and asks whether it has ended. Never blocks.
+  void Poll();
+  const std::optional<ProcessEnd>& End() const { return end_; }
+  bool IsRunning() const { return !end_.has_value(); }
+  // Nothing happens to a child that has ended: its id may be another process by now.
+  void Signal(int signal_number);
+  // SIGTERM, once: a second one would end a service before it has left in good order.
+  void AskToStop();
+
+  const std::string& Name() const { return name_; }
+  pid_t Pid() const { return pid_; }
+  // The whole lines it said since the last call, where the command asked for that.
+  std::vector<std::string> TakeLines() { return std::exchange(lines_, {}); }
+  // The last lines the child said, oldest first.
+  const std::deque<std::string>& LastLines() const { return last_lines_; }
+
+ private:
+  void ReadOutput();
+  void KeepLines(const char* text, std::size_t size);
+
+  std::string name_;
+  pid_t pid_ = -1;
+  FileDescriptor output_;
+  std::ofstream log_;
+  bool hands_on_lines_;
+  bool asked_to_stop_ = false;
+  std::optional<ProcessEnd> end_;
+  std::string unfinished_line_;
+  std::deque<std::string> last_lines_;
+  std::vector<std::string> lines_;
+};
+
+}  // namespace giveway::fleetctl

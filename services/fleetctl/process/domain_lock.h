@@ -1,0 +1,45 @@
+// Takes a DDS domain for this run, so that two runs on one machine never hear each other. The lock
+// is an flock on a file of the temporary folder every user shares; it lasts until the last process
+// that holds the descriptor is gone, so children that inherit it keep the domain taken. Whoever
+// does not share that folder, a container on the host's network or another program, is seen by its
+// ports.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+
+#include "services/fleetctl/process/file_descriptor.h"
+
+namespace giveway::fleetctl {
+
+inline constexpr std::uint32_t kFirstDomain = 1;
+inline constexpr std::uint32_t kLastDomain = 99;  // above 101 ports collide with ephemeral ones
+
+// No domain could be taken; what() says what to do. Main exits with 2.
+class DomainError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// True if a participant in this network namespace listens on the domain's ports.
+bool IsSpokenIn(std::uint32_t domain);
+
+class DomainLock {
+ public:
+  // Takes `wanted`, or the first free domain. Throws DomainError.
+  explicit DomainLock(std::optional<std::uint32_t> wanted);
+  // The same in another folder and with another look at the ports, for tests.
+  DomainLock(std::optional<std::uint32_t> wanted, const std::filesystem::path& folder,
+             bool (*is_spoken_in)(std::uint32_t domain));
+
+  std::uint32_t Domain() const { return domain_; }
+  int Fd() const { return lock_.Get(); }
+
+ private:
+  std::uint32_t domain_ = 0;
+  FileDescriptor lock_;
+};
+
+}  // namespace giveway::fleetctl

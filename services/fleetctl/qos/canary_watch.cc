@@ -1,0 +1,62 @@
+#include "services/fleetctl/qos/canary_watch.h"
+
+#include "services/fleetctl/process/interrupts.h"
+#include "services/runtime/process.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr Nanoseconds kSilence = std::chrono::seconds(1);  // it reports five times a second
+constexpr Nanoseconds kWatchTurn = std::chrono::milliseconds(20);
+
+}  // namespace
+
+void CanaryWatch::Take() {
+  SleepUntil(SteadyNow() + kWatchTurn);
+  const SteadyTime now = SteadyNow();
+  for (const VehicleStatus& status : observer_.Take().statuses) {
+    const auto [entry, is_new] = seen_.try_emplace(status.vehicle);
+    Seen& seen = entry->second;
+    // A process that began anew counts from nothing.
+    const bool began_anew = !is_new && status.beacons.sent < seen.last.beacons.sent;
+    seen.began_anew |= began_anew;
+    if (is_new || began_anew) {
+      seen.first = status;
+      seen.first_at = now;
+    }
+    seen.last = status;
+    seen.last_at = now;
+  }
+}
+
+bool CanaryWatch::WaitUntilItHears(VehicleId vehicle, std::chrono::milliseconds patience) {
+  const SteadyTime end = SteadyNow() + patience;
+  seen_.clear();
+  while (SteadyNow() < end && Interrupts::Count() == 0) {
+    Take();
+    const auto ours = seen_.find(vehicle);
+    if (ours == seen_.end()) continue;
+    if (ours->second.last.beacons.taken > 0) return true;
+  }
+  return false;
+}
+
+CanaryWatch::Both CanaryWatch::Watch(VehicleId vehicle, Nanoseconds span) {
+  seen_.clear();
+  const SteadyTime end = SteadyNow() + span;
+  while (SteadyNow() < end && Interrupts::Count() == 0) Take();
+  Both both;
+  const auto ours = seen_.find(vehicle);
+  if (ours == seen_.end() || end - ours->second.last_at > kSilence) {
+    both.trouble = "it fell silent";
+  } else if (ours->second.began_anew) {
+    both.trouble = "its process began anew";
+  }
+  for (const auto& [id, seen] : seen_) {
+    ServiceFigures& figures = id == vehicle ? both.canary : both.rest;
+    figures += Between(seen.first, seen.last, Seconds(seen.last_at - seen.first_at));
+  }
+  return both;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,97 @@
+#include "services/fleetctl/qos/orders.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/runtime/process.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(10);
+
+// Calls done() again and again. Whether it was true before `patience` was over, or the operator's
+// after so many Ctrl-C.
+template <typename Done>
+bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) {
+  const SteadyTime end = SteadyNow() + patience;
+  while (!done()) {
+    if (SteadyNow() >= end || Interrupts::Count() >= interrupts) return false;
+    std::this_thread::sleep_for(kPoll);
+  }
+  return true;
+}
+
+std::uint64_t RandomNumber() {
+  return static_cast<std::uint64_t>(RandomNonZero()) << 32U | RandomNonZero();
+}
+
+}  // namespace
+
+std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
+                                    std::chrono::milliseconds patience) {
+  for (const VehicleId vehicle : vehicles) {
+    if (sought_.insert(vehicle).second) link_.Seek(vehicle);
+  }
+  std::vector<VehicleId> missing = vehicles;
+  WaitUntil(patience, 1, [&] {
+    std::erase_if(missing, [&](VehicleId vehicle) { return link_.Reaches(vehicle); });
+    return missing.empty();
+  });
+  return missing;
+}
+
+std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience,
+                                        bool insist) {
+  order.number = RandomNumber();
+  std::optional<AdminAnswer> last;
+  if (!link_.Send(order)) return last;
+  WaitUntil(patience, insist ? 2 : 1, [&] {
+    for (AdminAnswer& answer : link_.Take()) {
+      const bool ours = answer.vehicle == order.vehicle && answer.order == order.number;
+      if (ours && answer.state != AnswerState::kRestarting) last = std::move(answer);
+    }
+    return last.has_value();
+  });
+  return last;
+}
+
+int SayNotReached(VehicleId vehicle, std::uint32_t domain) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(stderr,
+               interrupted ? "interrupted before vehicle %u was heard in domain %u\n"
+                           : "vehicle %u is not heard in domain %u; give the domain and the "
+                             "interface that its fleet was started with\n",
+               Number(vehicle), domain);
+  return interrupted ? 1 : kCouldNotRun;
+}
+
+int SayNoAnswer(VehicleId vehicle) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(
+      stderr,
+      interrupted ? "interrupted before vehicle %u answered\n" : "vehicle %u does not answer\n",
+      Number(vehicle));
+  return interrupted ? 1 : kCouldNotRun;
+}
+
+int SayNobodyReached(std::uint32_t domain) {
+  const bool interrupted = Interrupts::Count() > 0;
+  std::fprintf(stderr,
+               interrupted ? "interrupted before anything was heard in domain %u\n"
+                           : "neither a vehicle nor a world is heard in domain %u; give the domain "
+                             "and the interface that its fleet was started with\n",
+               domain);
+  return interrupted ? 1 : kCouldNotRun;
+}
+
+AdminOrder TellOrder(VehicleId vehicle) { return {.vehicle = vehicle, .profiles = {}}; }
+
+AdminOrder ApplyOrder(VehicleId vehicle, const QosProfiles& profiles) {
+  return {.vehicle = vehicle, .kind = OrderKind::kApply, .profiles = profiles};
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,321 @@
+#include "services/fleetctl/qos/qos_apply.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "services/config/problem.h"
+#include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/qos/canary_watch.h"
+#include "services/fleetctl/qos/orders.h"
+#include "services/fleetctl/qos/qos_apart.h"
+#include "services/fleetctl/qos/qos_apply_fleet.h"
+#include "services/fleetctl/qos/qos_apply_report.h"
+#include "services/qos/order_check.h"
+#include "services/qos/rollout.h"
+#include "services/qos/xml_tree.h"
+#include "services/runtime/process.h"
+#include "services/types/check.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using std::chrono::seconds;
+
+constexpr auto kApplyPatience = seconds(20);  // a restart takes about one, on a busy machine more
+constexpr auto kHearPatience = seconds(10);
+constexpr auto kQuietOfOthers =
+    std::chrono::milliseconds(400);  // heard since the targets were sought
+
+[[noreturn]] void Refuse(const std::string& file, const std::string& what,
+                         const std::string& remedy) {
+  throw InputError({{file, 0, "", "", what, remedy}});
+}
+
+QosProfiles ReadProfilesToApply(const std::string& argument) {
+  const std::string path = ResolveQosFile(argument);
+  auto read = ReadQosFile(path);
+  if (const auto* finding = std::get_if<qos::Finding>(&read)) {
+    Refuse(path, finding->values, finding->remedy);
+  }
+  std::string text = std::move(std::get<qos::ProfileFile>(read).bytes);
+  if (text.size() > QosProfiles::kMostBytes) {
+    Refuse(path,
+           "has " + std::to_string(text.size()) + " bytes, an order carries " +
+               std::to_string(QosProfiles::kMostBytes),
+           "leave comments out");
+  }
+  return {std::filesystem::path(path).filename(), std::move(text)};
+}
+
+qos::XmlElement RootOf(const QosProfiles& profiles) {
+  qos::XmlRead read = qos::ReadXml(profiles.text, profiles.name);
+  if (!read.root) Refuse(profiles.name, "is no XML", "see fleetctl qos check");
+  return std::move(*read.root);
+}
+
+// What the canary, or a set that a vehicle refuses, leaves to be undone.
+struct Undo {
+  VehicleId process = kNobody;
+  QosProfiles profiles;
+};
+
+class Applying {
+ public:
+  Applying(const QosApplyOptions& options, const link::LinkOptions& link, QosProfiles wanted)
+      : options_(options), link_(link), orders_(link), wanted_(std::move(wanted)) {
+    report_.profile = wanted_.name;
+  }
+
+  // Asks every process what it runs with. 0, or the exit code if one of the targets does not
+  // answer.
+  int Ask();
+  ApplyReport Run();
+
+ private:
+  std::optional<ApplyVerdict> WhyNot();
+  void CheckAsOrder();
+  void CheckAsIs();
+  void Plan();
+  bool ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between);
+  std::optional<ApplyVerdict> Take(const qos::RolloutStep& step);
+  std::optional<ApplyVerdict> Try(AppliedTo* canary);
+  // Whether each says that it runs with what it had before.
+  bool RollBack();
+  qos::Role RoleOf(VehicleId process) const {
+    return process == kNobody ? qos::Role::kWorld : qos::Role::kVehicle;
+  }
+  QosProfiles Between() const { return {"between-" + wanted_.name, rollout_.between}; }
+  void Say(const std::string& text) const {
+    if (!options_.json) std::fputs(text.c_str(), stdout);
+    std::fflush(stdout);
+  }
+
+  const QosApplyOptions& options_;
+  const link::LinkOptions& link_;
+  Orders orders_;
+  const QosProfiles wanted_;
+  std::map<VehicleId, AdminAnswer> told_;  // by everyone who takes orders, targets or not
+  qos::Rollout rollout_;                   // its processes are report_.vehicles
+  std::vector<Undo> undo_;
+  ApplyReport report_;
+};
+
+int Applying::Ask() {
+  FleetAnswers fleet;
+  const int code = AskFleet(options_, &orders_, &fleet);
+  for (const VehicleId vehicle : fleet.deaf) {
+    Say(NameOf(vehicle) + " takes no orders, and keeps what it has\n");
+  }
+  if (code != 0) return code;
+  told_ = std::move(fleet.told);
+  for (const VehicleId process : fleet.targets) {
+    const QosProfiles& before = told_.at(process).profiles;
+    AppliedTo applied;
+    applied.vehicle = process;
+    applied.before = before.name;
+    applied.changes =
+        qos::ChangesFor(RoleOf(process), qos::Changes(RootOf(before), RootOf(wanted_)));
+    report_.vehicles.push_back(std::move(applied));
+  }
+  return 0;
+}
+
+// At each moment each must hear whom it heard, whether it moves or keeps what it has.
+void Applying::Plan() {
+  std::vector<qos::RolloutProcess> processes;
+  const auto add = [&](VehicleId process, bool moves) {
+    const QosProfiles& profiles = told_.at(process).profiles;
+    processes.push_back({NameOf(process), RoleOf(process),
+                         qos::ReadProfiles(RootOf(profiles), profiles.name), moves});
+  };
+  for (const AppliedTo& applied : report_.vehicles) add(applied.vehicle, true);
+  for (const auto& [process, answer] : told_) {
+    const auto is_it = [&](const AppliedTo& applied) { return applied.vehicle == process; };
+    if (std::ranges::none_of(report_.vehicles, is_it)) add(process, false);
+  }
+  const auto own = ReadQosFile(link_.qos_file);
+  if (const auto* file = std::get_if<qos::ProfileFile>(&own)) {
+    const QosProfiles profiles{file->name, file->bytes};
+    processes.push_back({"this fleetctl", qos::Role::kOperator,
+                         qos::ReadProfiles(RootOf(profiles), profiles.name), false});
+  }
+  const auto first = options_.canary == 0 ? std::nullopt : std::optional<std::size_t>(0);
+  rollout_ = qos::PlanRollout(processes, wanted_.text, wanted_.name, first);
+  if (!options_.force) return;
+  rollout_ = {};
+  for (std::size_t i = 0; i < report_.vehicles.size(); ++i) rollout_.steps.push_back({i, false});
+}
+
+// The processes would refuse it, and this says it before any has changed.
+void Applying::CheckAsOrder() {
+  const qos::XmlElement wanted = RootOf(wanted_);
+  std::vector<std::string> seen;
+  for (const AppliedTo& applied : report_.vehicles) {
+    const QosProfiles& running = told_.at(applied.vehicle).profiles;
+    if (std::ranges::find(seen, running.text) != seen.end()) continue;
+    seen.push_back(running.text);
+    std::ranges::move(qos::CheckOrder(wanted, RootOf(running), wanted_.name),
+                      std::back_inserter(report_.findings));
+  }
+}
+
+void Applying::CheckAsIs() {
+  std::int64_t fleet_size = 1;
+  for (const auto& [process, answer] : told_) {
+    fleet_size = std::max<std::int64_t>(fleet_size, answer.fleet_size);
+  }
+  const qos::Deployment deployment{.vehicles = fleet_size};
+  report_.findings = qos::Check({{wanted_.name, wanted_.text}}, deployment);
+  if (!rollout_.between.empty()) {
+    std::ranges::move(qos::Check({{Between().name, Between().text}}, deployment),
+                      std::back_inserter(report_.findings));
+  }
+}
+
+std::optional<ApplyVerdict> Applying::WhyNot() {
+  CheckAsIs();
+  CheckAsOrder();
+  std::ranges::copy(rollout_.blocked, std::back_inserter(report_.findings));
+  std::erase_if(report_.findings, [](const qos::Finding& finding) {
+    return finding.severity != qos::Severity::kError;
+  });
+  if (!report_.findings.empty()) return ApplyVerdict::kRefused;
+  const auto unchanged = [](const AppliedTo& applied) { return applied.changes.empty(); };
+  if (std::ranges::all_of(report_.vehicles, unchanged)) return ApplyVerdict::kNothingToDo;
+  const auto restarts = [](const AppliedTo& applied) { return qos::NeedsRestart(applied.changes); };
+  if (!options_.restart && std::ranges::any_of(report_.vehicles, restarts)) {
+    report_.remedy = "it takes restarts, and --no-restart forbids them";
+    return ApplyVerdict::kRefused;
+  }
+  if (options_.dry_run) return ApplyVerdict::kDryRun;
+  return {};
+}
+
+// Whether the endpoints run with what was changed.
+void Hold(const AdminAnswer& answer, AppliedTo* applied) {
+  for (const qos::Change& change : applied->changes) {
+    for (const LiveValue& live : answer.live) {
+      if (live.profile != change.profile || live.policy != change.what) continue;
+      ++applied->checked;
+      applied->seen += live.number == change.number ? 1 : 0;
+    }
+  }
+}
+
+bool Applying::ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between) {
+  const SteadyTime begun = SteadyNow();
+  AdminAnswer& told = told_.at(applied->vehicle);
+  const auto answer = orders_.Give(ApplyOrder(applied->vehicle, profiles), kApplyPatience);
+  applied->seconds = Seconds(SteadyNow() - begun);
+  applied->answered = answer.has_value();
+  applied->in_effect = answer && answer->state == AnswerState::kInEffect;
+  if (!answer) applied->refusal = "gave no answer; see its log";
+  if (answer && !applied->in_effect) applied->refusal = "refuses it: " + answer->reason;
+  if (applied->in_effect) {
+    if (!between) Hold(*answer, applied);
+    undo_.push_back({applied->vehicle, std::exchange(told.profiles, profiles)});
+  }
+  Say(between && applied->in_effect ? BetweenLine(*applied) : LineOf(*applied));
+  return applied->in_effect;
+}
+
+bool Applying::RollBack() {
+  bool all = true;
+  for (; !undo_.empty(); undo_.pop_back()) {
+    const Undo& undo = undo_.back();
+    const auto answer = orders_.Give(ApplyOrder(undo.process, undo.profiles), kApplyPatience, true);
+    all = answer && answer->state == AnswerState::kInEffect && all;
+  }
+  return all;
+}
+
+std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
+  CanaryWatch watch(link_);
+  CanaryTrial trial;
+  trial.vehicle = canary->vehicle;
+  if (!ApplyTo(canary, wanted_, false)) {
+    // Refused: nothing was changed. Without an answer nobody knows.
+    if (canary->answered) {
+      RollBack();
+      return ApplyVerdict::kRefused;
+    }
+    undo_.push_back({canary->vehicle, told_.at(canary->vehicle).profiles});
+    trial.worse = canary->refusal;
+  } else if (watch.WaitUntilItHears(canary->vehicle, kHearPatience)) {
+    const auto both = watch.Watch(canary->vehicle, FromSeconds(options_.watch_s));
+    trial.seconds = options_.watch_s;
+    trial.canary = both.canary;
+    trial.rest = both.rest;
+    trial.worse = both.trouble.empty() ? WhyWorse(both.canary, both.rest) : both.trouble;
+  } else {
+    trial.worse = "it hears no beacon";
+  }
+  // An operator who stops the trial has not seen that it is good.
+  if (Interrupts::Count() > 0) trial.worse = "interrupted";
+  report_.trial = trial;
+  Say(LineOf(trial));
+  if (trial.worse.empty()) return {};
+  return RollBack() ? ApplyVerdict::kRolledBack : ApplyVerdict::kNotRolledBack;
+}
+
+std::optional<ApplyVerdict> Applying::Take(const qos::RolloutStep& step) {
+  AppliedTo& applied = report_.vehicles[step.process];
+  const bool is_canary = options_.canary != 0 && Number(applied.vehicle) == options_.canary;
+  if (is_canary && !step.between) return Try(&applied);
+  if (ApplyTo(&applied, step.between ? Between() : wanted_, step.between)) return {};
+  report_.remedy = RollBack() ? "the processes before it run with what they had again"
+                              : "some processes before it may run with the new profiles still";
+  return ApplyVerdict::kRefused;
+}
+
+ApplyReport Applying::Run() {
+  Plan();
+  for (const qos::RolloutStep& step : rollout_.steps) {
+    report_.order.push_back(NameOf(report_.vehicles[step.process].vehicle) +
+                            (step.between ? " (between)" : ""));
+  }
+  Say(PlanText(report_));
+  if (const auto why_not = WhyNot()) {
+    report_.verdict = *why_not;
+    return report_;
+  }
+  for (const qos::RolloutStep& step : rollout_.steps) {
+    if (const auto ends = Take(step)) {
+      report_.verdict = *ends;
+      return report_;
+    }
+  }
+  const auto not_seen = [](const AppliedTo& applied) { return applied.seen < applied.checked; };
+  if (std::ranges::any_of(report_.vehicles, not_seen)) report_.verdict = ApplyVerdict::kNotSeen;
+  return report_;
+}
+
+}  // namespace
+
+int RunQosApply(const QosApplyOptions& options) {
+  if (!HasStdout()) return kCouldNotRun;
+  QosProfiles wanted = ReadProfilesToApply(options.profile);
+  link::LinkOptions link = LinkOptionsOf(options.where);
+  // The library's own word, before this process touches it and before any vehicle depends on it.
+  link::LinkOptions tried = link;
+  tried.qos_file = ResolveQosFile(options.profile);
+  // Where the rules find errors the report tells them, and the library is not asked.
+  if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
+  const Interrupts interrupts;
+  Applying applying(options, link, std::move(wanted));
+  if (const int code = applying.Ask(); code != 0) return code;
+  const ApplyReport report = applying.Run();
+  const std::string last = options.json ? ToJson(report) : LineOf(report);
+  const Told told = Tell(last);
+  return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report.verdict);
+}
+
+}  // namespace giveway::fleetctl

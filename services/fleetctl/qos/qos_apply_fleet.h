@@ -1,0 +1,22 @@
+// Who of a running fleet takes orders, and what each of them runs with.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "services/fleetctl/qos/orders.h"
+#include "services/fleetctl/qos/qos_apply_options.h"
+#include "services/types/admin.h"
+
+namespace giveway::fleetctl {
+
+struct FleetAnswers {
+  std::vector<VehicleId> targets;         // whom an order is for; the canary first
+  std::vector<VehicleId> deaf;            // vehicles that are heard and take no orders
+  std::map<VehicleId, AdminAnswer> told;  // by everyone who does, targets or not
+};
+
+// Asks every process. 0, or the exit code after a word on stderr where a target does not answer.
+int AskFleet(const QosApplyOptions& options, Orders* orders, FleetAnswers* fleet);
+
+}  // namespace giveway::fleetctl

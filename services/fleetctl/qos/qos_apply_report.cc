@@ -1,0 +1,198 @@
+#include "services/fleetctl/qos/qos_apply_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/fleetctl/output/finding_text.h"
+#include "services/fleetctl/output/json_object.h"
+#include "services/runtime/json_line.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+std::string Name(ApplyVerdict verdict) {
+  switch (verdict) {
+    case ApplyVerdict::kApplied:
+      return "applied";
+    case ApplyVerdict::kNothingToDo:
+      return "nothing_to_do";
+    case ApplyVerdict::kDryRun:
+      return "dry_run";
+    case ApplyVerdict::kRefused:
+      return "refused";
+    case ApplyVerdict::kRolledBack:
+      return "rolled_back";
+    case ApplyVerdict::kNotRolledBack:
+      return "not_rolled_back";
+    case ApplyVerdict::kNotSeen:
+      break;
+  }
+  return "not_seen";
+}
+
+std::string Name(qos::Effect effect) { return effect == qos::Effect::kNow ? "now" : "restart"; }
+
+std::string Or(const std::string& text, const char* instead) {
+  return text.empty() ? instead : text;
+}
+
+std::string LineOf(const qos::Change& change) {
+  return fmt::format("  {:<24} {:<24} {} -> {}  ({})\n", change.profile, change.what,
+                     Or(change.from, "not there"), Or(change.to, "not there"), Name(change.effect));
+}
+
+std::string ChangesText(const std::vector<qos::Change>& changes) {
+  std::string text;
+  for (const qos::Change& change : changes) text += LineOf(change);
+  return text.empty() ? "  nothing changes\n" : text;
+}
+
+std::string JsonOf(const qos::Change& change) {
+  JsonObject object;
+  object.Add("profile", change.profile);
+  object.Add("what", change.what);
+  object.Add("from", change.from);
+  object.Add("to", change.to);
+  object.Add("effect", Name(change.effect));
+  return object.Text();
+}
+
+std::string JsonOf(const AppliedTo& applied) {
+  JsonObject object;
+  object.Add("id", Number(applied.vehicle));
+  object.Add("process", NameOf(applied.vehicle));
+  object.Add("before", applied.before);
+  object.Add("in_effect", applied.in_effect);
+  object.Add("refusal", applied.refusal);
+  object.Add("seconds", applied.seconds);
+  object.Add("checked", applied.checked);
+  object.Add("seen", applied.seen);
+  object.AddRaw("changes",
+                JsonArray(applied.changes, [](const qos::Change& one) { return JsonOf(one); }));
+  return object.Text();
+}
+
+JsonObject JsonOf(const ServiceFigures& figures) {
+  JsonObject object;
+  object.Add("alarms", figures.alarms);
+  object.Add("lost", figures.lost);
+  object.Add("taken", figures.taken);
+  object.Add("pair_seconds", figures.pair_seconds);
+  return object;
+}
+
+JsonObject JsonOf(const CanaryTrial& trial) {
+  JsonObject object;
+  object.Add("vehicle", Number(trial.vehicle));
+  object.Add("seconds", trial.seconds);
+  object.Add("canary", JsonOf(trial.canary));
+  object.Add("rest", JsonOf(trial.rest));
+  object.Add("worse", trial.worse);
+  return object;
+}
+
+std::string FiguresText(const ServiceFigures& figures) {
+  return fmt::format("{:.0f} alarms a peer and hour, {:.1f} % of beacons lost",
+                     figures.AlarmsPerPairHour(), 100 * figures.LostShare());
+}
+
+}  // namespace
+
+std::string NameOf(VehicleId process) {
+  return process == kNobody ? "the world" : fmt::format("vehicle {}", Number(process));
+}
+
+int ExitCode(ApplyVerdict verdict) {
+  return verdict == ApplyVerdict::kApplied || verdict == ApplyVerdict::kNothingToDo ||
+                 verdict == ApplyVerdict::kDryRun
+             ? 0
+             : 1;
+}
+
+std::string PlanText(const ApplyReport& report) {
+  std::vector<std::pair<std::string, std::string>> groups;  // changes, and whose they are
+  for (const AppliedTo& applied : report.vehicles) {
+    const std::string changes = fmt::format(": {} -> {}\n", Shown(applied.before), report.profile) +
+                                ChangesText(applied.changes);
+    auto group = std::ranges::find(groups, changes, &std::pair<std::string, std::string>::first);
+    const bool is_world = applied.vehicle == kNobody;
+    if (group == groups.end()) group = groups.insert(group, {changes, is_world ? "" : "vehicle"});
+    group->second += is_world ? "the world" : fmt::format(" {}", Number(applied.vehicle));
+  }
+  std::string text;
+  for (const auto& [changes, whose] : groups) text += whose + changes;
+  // Where no set between is needed, the order is that of the command line.
+  const auto is_between = [](const std::string& step) { return step.ends_with(")"); };
+  if (std::ranges::any_of(report.order, is_between)) {
+    text += fmt::format("in this order: {}\n", fmt::join(report.order, ", "));
+  }
+  return text;
+}
+
+std::string LineOf(const AppliedTo& applied) {
+  if (!applied.in_effect) {
+    return fmt::format("{}: {}\n", NameOf(applied.vehicle), Shown(applied.refusal));
+  }
+  return fmt::format("{}: in effect after {:.2f} s{}; {} of {} values seen in it\n",
+                     NameOf(applied.vehicle), applied.seconds,
+                     qos::NeedsRestart(applied.changes) ? ", restarted" : "", applied.seen,
+                     applied.checked);
+}
+
+std::string BetweenLine(const AppliedTo& applied) {
+  return fmt::format("{}: has the set between after {:.2f} s\n", NameOf(applied.vehicle),
+                     applied.seconds);
+}
+
+std::string LineOf(const CanaryTrial& trial) {
+  return fmt::format("vehicle {} for {:.1f} s: {}\nthe rest: {}\n{}\n", Number(trial.vehicle),
+                     trial.seconds, FiguresText(trial.canary), FiguresText(trial.rest),
+                     trial.worse.empty() ? "no worse: promoted" : "worse: " + trial.worse);
+}
+
+std::string LineOf(const ApplyReport& report) {
+  switch (report.verdict) {
+    case ApplyVerdict::kRefused: {
+      std::string text;
+      for (const qos::Finding& finding : report.findings) text += ToText(finding);
+      return text + (report.remedy.empty() ? "refused\n" : "refused: " + report.remedy + "\n");
+    }
+    case ApplyVerdict::kRolledBack:
+      return fmt::format("rolled back: vehicle {} runs with {} again\n",
+                         Number(report.trial->vehicle), report.vehicles.front().before);
+    case ApplyVerdict::kNotRolledBack:
+      return fmt::format(
+          "NOT rolled back: vehicle {} did not say that it runs with {} again; see its log\n",
+          Number(report.trial->vehicle), Shown(report.vehicles.front().before));
+    case ApplyVerdict::kNotSeen:
+      return "a process says it is in effect, and its endpoints run with other values\n";
+    case ApplyVerdict::kNothingToDo:
+      return "every process named runs with it already\n";
+    case ApplyVerdict::kDryRun:
+      return "nothing was changed (--dry-run)\n";
+    case ApplyVerdict::kApplied:
+      break;
+  }
+  const auto vehicles = std::ranges::count_if(
+      report.vehicles, [](const AppliedTo& applied) { return applied.vehicle != kNobody; });
+  const bool world = static_cast<std::size_t>(vehicles) < report.vehicles.size();
+  return fmt::format("{} in effect on {} vehicle{}{}\n", report.profile, vehicles,
+                     vehicles == 1 ? "" : "s", world ? " and the world" : "");
+}
+
+std::string ToJson(const ApplyReport& report) {
+  JsonObject object;
+  object.Add("profile", report.profile);
+  object.Add("verdict", Name(report.verdict));
+  object.AddRaw("vehicles",
+                JsonArray(report.vehicles, [](const AppliedTo& one) { return JsonOf(one); }));
+  object.AddRaw("order", JsonArray(report.order, JsonString));
+  if (report.trial) object.Add("trial", JsonOf(*report.trial));
+  object.AddRaw("findings",
+                JsonArray(report.findings, [](const qos::Finding& one) { return ToJson(one); }));
+  if (!report.remedy.empty()) object.Add("remedy", report.remedy);
+  return object.Text() + "\n";
+}
+
+}  // namespace giveway::fleetctl

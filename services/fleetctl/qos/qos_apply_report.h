@@ -1,0 +1,67 @@
+// What `fleetctl qos apply` did, as values, and how people and programs read it. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/qos/canary.h"
+#include "services/qos/changes.h"
+#include "services/qos/finding.h"
+#include "services/types/ids.h"
+
+namespace giveway::fleetctl {
+
+struct AppliedTo {
+  VehicleId vehicle = kNobody;
+  std::string before;  // name of the profiles it ran with
+  std::vector<qos::Change> changes;
+  bool answered = false;
+  bool in_effect = false;
+  std::string refusal;        // in its own words; or that it did not answer
+  double seconds = 0;         // from the order to its answer
+  std::uint32_t checked = 0;  // values of its endpoints that were to change
+  std::uint32_t seen = 0;     // those that have
+};
+
+struct CanaryTrial {
+  VehicleId vehicle = kNobody;
+  double seconds = 0;
+  ServiceFigures canary;
+  ServiceFigures rest;
+  std::string worse;  // empty: promoted
+};
+
+enum class ApplyVerdict : std::uint8_t {
+  kApplied,
+  kNothingToDo,
+  kDryRun,
+  kRefused,        // by our checks or by a vehicle
+  kRolledBack,     // the canary served worse, and runs with its old profiles again
+  kNotRolledBack,  // the canary served worse, and did not say that it went back
+  kNotSeen,        // a vehicle says it is in effect, and its endpoints say otherwise
+};
+
+struct ApplyReport {
+  std::string profile;
+  std::vector<AppliedTo> vehicles;
+  std::vector<std::string> order;  // in which they take it
+  std::optional<CanaryTrial> trial;
+  qos::Findings findings;  // why it was refused
+  std::string remedy;      // of a refusal that is no finding
+  ApplyVerdict verdict = ApplyVerdict::kApplied;
+};
+
+// "vehicle 3"; of kNobody "the world".
+std::string NameOf(VehicleId process);
+int ExitCode(ApplyVerdict verdict);
+// Which changes, for whom; vehicles with the same ones together.
+std::string PlanText(const ApplyReport& report);
+std::string LineOf(const AppliedTo& applied);
+// Of a step that leads to a set between the old and the new.
+std::string BetweenLine(const AppliedTo& applied);
+std::string LineOf(const CanaryTrial& trial);
+std::string LineOf(const ApplyReport& report);  // the verdict
+std::string ToJson(const ApplyReport& report);
+
+}  // namespace giveway::fleetctl

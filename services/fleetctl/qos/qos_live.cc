@@ -1,0 +1,186 @@
+#include "services/fleetctl/qos/qos_live.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+
+#include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/output/json_object.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/qos/orders.h"
+#include "services/fleetctl/qos/qos_effective.h"
+#include "services/fleetctl/qos/qos_foreign.h"
+#include "services/fleetctl/survey/other_fleets.h"
+#include "services/qos/deployment.h"
+#include "services/qos/xml_tree.h"
+#include "services/runtime/json_line.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr auto kAnswerPatience = std::chrono::seconds(10);
+// One of ours is reached in a second; after this it is looked for among the foreign.
+constexpr auto kOwnPatience = std::chrono::seconds(3);
+
+// One live value, and what the file it should run with makes of it; nothing where it has no such
+// endpoint or value.
+struct LiveRow {
+  std::string profile;
+  QosRow live;
+  std::optional<QosRow> expected;
+
+  bool AsExpected() const { return !expected || expected->value == live.value; }
+};
+
+// What is known of a vehicle: its own answer, or of a foreign one what discovery tells.
+struct LiveQos {
+  std::string runs_with;  // the name of its set; of a foreign one empty
+  std::string foreign;    // whose DDS, if it is another vendor's
+  std::vector<EffectiveEndpoint> endpoints;
+};
+
+link::LinkOptions LinkOptionsOf(const QosLiveOptions& options, const std::string& file) {
+  link::LinkOptions link_options;
+  link_options.domain = options.domain;
+  link_options.interface = options.set.interface;
+  link_options.qos_file = file;
+  link_options.fleet_size = options.set.vehicles;
+  RequireSoundQos(file);
+  return link_options;
+}
+
+// The live endpoints, with the origin of each value in the file that the vehicle has.
+std::vector<EffectiveEndpoint> LiveEndpoints(const AdminAnswer& answer) {
+  std::vector<link::ResolvedEntity> entities;
+  for (const LiveValue& value : answer.live) {
+    if (entities.empty() || entities.back().profile != value.profile) {
+      const qos::Topic* const topic = qos::TopicOfProfile(value.profile);
+      entities.push_back({value.profile, topic == nullptr ? "" : std::string(topic->name), {}});
+    }
+    entities.back().values.push_back({value.policy, value.number});
+  }
+  const qos::XmlRead read = qos::ReadXml(answer.profiles.text, answer.profiles.name);
+  return EffectiveQos(entities, read.root ? qos::ReadProfiles(*read.root, answer.profiles.name)
+                                          : qos::ProfileSet{});
+}
+
+// Nothing if there is none: then it is said why, and *exit_code set.
+std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::string& file,
+                                 int* exit_code) {
+  const link::LinkOptions link_options = LinkOptionsOf(options, file);
+  SayOtherFleets(options.domain, options.set.interface);
+  const Interrupts interrupts;
+  Orders orders(link_options);
+  const VehicleId vehicle{options.vehicle};
+  bool reached = orders.Seek({vehicle}, kOwnPatience).empty();
+  if (!reached) {
+    if (auto foreign = SeekForeign(link_options, vehicle)) {
+      return LiveQos{"", std::move(foreign->vendor), std::move(foreign->endpoints)};
+    }
+    reached = orders.Seek({vehicle}, kAnswerPatience).empty();
+  }
+  if (!reached) {
+    *exit_code = SayNotReached(vehicle, options.domain);
+    return std::nullopt;
+  }
+  const auto answer = orders.Give(TellOrder(vehicle), kAnswerPatience);
+  if (!answer) {
+    *exit_code = SayNoAnswer(vehicle);
+    return std::nullopt;
+  }
+  return LiveQos{answer->profiles.name, "", LiveEndpoints(*answer)};
+}
+
+std::optional<QosRow> Expected(const EffectiveSet& set, const std::string& profile,
+                               const std::string& policy) {
+  const auto endpoint = std::ranges::find(set.endpoints, profile, &EffectiveEndpoint::profile);
+  if (endpoint == set.endpoints.end()) return {};
+  const auto row = std::ranges::find(endpoint->rows, policy, &QosRow::policy);
+  return row == endpoint->rows.end() ? std::nullopt : std::optional(*row);
+}
+
+// The partition of a foreign one is not what the set says of partitions in general.
+std::vector<LiveRow> HoldAgainst(const EffectiveSet& set, const LiveQos& live,
+                                 const std::vector<std::string>& wanted) {
+  std::vector<LiveRow> all;
+  for (const EffectiveEndpoint& endpoint : live.endpoints) {
+    const auto is_it = [&](const std::string& word) {
+      return word == endpoint.profile || word == endpoint.topic;
+    };
+    if (!wanted.empty() && std::ranges::none_of(wanted, is_it)) continue;
+    for (const QosRow& row : endpoint.rows) {
+      const bool comparable = live.foreign.empty() || row.policy != "partition";
+      all.push_back({endpoint.profile, row,
+                     comparable ? Expected(set, endpoint.profile, row.policy) : std::nullopt});
+    }
+  }
+  return all;
+}
+
+std::string ToText(const LiveRow& told, const std::string& own_file, const std::string& file) {
+  const std::string origin = OriginText(told.live, own_file);
+  return fmt::format("  {:<28} {:<24} {}{}\n", told.live.policy, told.live.value, origin,
+                     told.AsExpected() ? ""
+                                       : fmt::format("; not {} as by {}", told.expected->value,
+                                                     OriginText(*told.expected, file)));
+}
+
+std::string ToJson(const LiveRow& told) {
+  std::string json =
+      fmt::format(R"({{"profile":"{}","policy":"{}","value":{},"origin":"{}")", told.profile,
+                  told.live.policy, JsonString(told.live.value), Name(told.live.origin));
+  if (told.live.line > 0) json += fmt::format(R"(,"line":{})", told.live.line);
+  if (told.expected) json += fmt::format(R"(,"expected":{})", JsonString(told.expected->value));
+  return json + "}";
+}
+
+std::string Json(const QosLiveOptions& options, const std::string& file, const LiveQos& live,
+                 const std::vector<LiveRow>& all) {
+  JsonObject object;
+  object.Add("vehicle", options.vehicle);
+  object.Add("domain", options.domain);
+  if (live.foreign.empty()) {
+    object.Add("runs_with", std::string_view(live.runs_with));
+  } else {
+    object.Add("foreign", std::string_view(live.foreign));
+  }
+  object.Add("file", std::string_view(file));
+  object.AddRaw("values", JsonArray(all, [](const LiveRow& told) { return ToJson(told); }));
+  return object.Text() + "\n";
+}
+
+std::string Text(const std::string& file, const LiveQos& live, const std::vector<LiveRow>& all) {
+  std::string text;
+  if (!live.foreign.empty()) text = "foreign (" + live.foreign + "), as discovery tells it\n";
+  std::string profile;
+  for (const LiveRow& told : all) {
+    if (told.profile != profile) text += told.profile + "\n";
+    profile = told.profile;
+    text += ToText(told, live.runs_with, file);
+  }
+  return text;
+}
+
+}  // namespace
+
+int RunQosLive(const QosLiveOptions& options) {
+  if (!HasStdout()) return kCouldNotRun;
+  const EffectiveSet set =
+      EffectiveQosOfFile(options.set.qos_file, options.set.interface, options.set.vehicles);
+  int exit_code = 0;
+  const auto live = LiveQosOf(options, set.file, &exit_code);
+  if (!live) return exit_code;
+  const std::vector<LiveRow> all = HoldAgainst(set, *live, options.set.wanted);
+  const std::string text =
+      options.set.json ? Json(options, set.file, *live, all) : Text(set.file, *live, all);
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) != 0) return kCouldNotRun;
+  return std::ranges::all_of(all, &LiveRow::AsExpected) ? 0 : 1;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,20 @@
+// `fleetctl qos show --live`: what a running vehicle says its beacons run with, beside what a
+// profile file would give it. Values in; the exit code out.
+#pragma once
+
+#include <cstdint>
+
+#include "services/fleetctl/qos/qos_show.h"
+
+namespace giveway::fleetctl {
+
+struct QosLiveOptions {
+  QosShowOptions set;  // the file it should run with
+  std::uint32_t vehicle = 0;
+  std::uint32_t domain = 0;
+};
+
+// 0 as in the file, 1 otherwise, 2 not heard or could not run.
+int RunQosLive(const QosLiveOptions& options);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,123 @@
+#include "services/fleetctl/qos/qos_show.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "services/config/problem.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/qos/qos_effective.h"
+#include "services/runtime/json_line.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+EffectiveSet Resolve(const std::string& argument, const QosShowOptions& options) {
+  EffectiveSet shown = EffectiveQosOfFile(argument, options.interface, options.vehicles);
+  const auto unwanted = [&](const EffectiveEndpoint& endpoint) {
+    return !options.wanted.empty() &&
+           std::ranges::none_of(options.wanted, [&](const std::string& word) {
+             return word == endpoint.profile || word == endpoint.topic;
+           });
+  };
+  std::erase_if(shown.endpoints, unwanted);
+  if (shown.endpoints.empty()) {
+    throw InputError({{options.wanted.front(), 0, "", "", "is no profile and no topic",
+                       "name one, as fleet_beacon_writer or fleet/beacon"}});
+  }
+  return shown;
+}
+
+std::string ToText(const EffectiveSet& shown) {
+  std::string text;
+  for (const EffectiveEndpoint& endpoint : shown.endpoints) {
+    text += fmt::format("{}{}{}\n", endpoint.profile, endpoint.topic.empty() ? "" : "  on ",
+                        endpoint.topic);
+    for (const QosRow& row : endpoint.rows) {
+      text +=
+          fmt::format("  {:<28} {:<24} {}\n", row.policy, row.value, OriginText(row, shown.file));
+    }
+  }
+  return text;
+}
+
+std::string JsonOf(const QosRow& row) {
+  std::string json =
+      fmt::format(R"("value":{},"origin":"{}")", JsonString(row.value), Name(row.origin));
+  if (row.line > 0) json += fmt::format(R"(,"line":{})", row.line);
+  return json;
+}
+
+std::string ToJson(const EffectiveSet& shown) {
+  std::string json = fmt::format(R"({{"file":{},"endpoints":[)", JsonString(shown.file));
+  for (const EffectiveEndpoint& endpoint : shown.endpoints) {
+    json += fmt::format(R"({}{{"profile":"{}","topic":"{}","values":[)",
+                        json.back() == '[' ? "" : ",", endpoint.profile, endpoint.topic);
+    for (const QosRow& row : endpoint.rows) {
+      json += fmt::format(R"({}{{"policy":"{}",{}}})", json.back() == '[' ? "" : ",", row.policy,
+                          JsonOf(row));
+    }
+    json += "]}";
+  }
+  return json + "]}\n";
+}
+
+struct Difference {
+  std::string profile;
+  QosRow a;
+  QosRow b;
+};
+
+std::vector<Difference> Differences(const EffectiveSet& a, const EffectiveSet& b) {
+  std::vector<Difference> found;
+  // Both were resolved by one list of endpoints and one table of policies.
+  for (std::size_t i = 0; i < a.endpoints.size() && i < b.endpoints.size(); ++i) {
+    const auto& rows = b.endpoints[i].rows;
+    for (const QosRow& row : a.endpoints[i].rows) {
+      const auto other = std::ranges::find(rows, row.policy, &QosRow::policy);
+      if (other == rows.end() || other->value == row.value) continue;
+      found.push_back({a.endpoints[i].profile, row, *other});
+    }
+  }
+  return found;
+}
+
+std::string ToText(const std::vector<Difference>& differences, const EffectiveSet& a,
+                   const EffectiveSet& b) {
+  std::string text;
+  for (const Difference& one : differences) {
+    text += fmt::format("{} {}\n  {:<24} {}\n  {:<24} {}\n", one.profile, one.a.policy, one.a.value,
+                        OriginText(one.a, a.file), one.b.value, OriginText(one.b, b.file));
+  }
+  return text + fmt::format("{} values differ\n", differences.size());
+}
+
+std::string ToJson(const std::vector<Difference>& differences, const EffectiveSet& a,
+                   const EffectiveSet& b) {
+  std::string json =
+      fmt::format(R"({{"a":{},"b":{},"differences":[)", JsonString(a.file), JsonString(b.file));
+  for (const Difference& one : differences) {
+    json += fmt::format(R"({}{{"profile":"{}","policy":"{}","a":{{{}}},"b":{{{}}}}})",
+                        json.back() == '[' ? "" : ",", one.profile, one.a.policy, JsonOf(one.a),
+                        JsonOf(one.b));
+  }
+  return json + "]}\n";
+}
+
+}  // namespace
+
+int RunQosShow(const QosShowOptions& options) {
+  if (options.diff.empty()) {
+    const EffectiveSet shown = Resolve(options.qos_file, options);
+    std::fputs((options.json ? ToJson(shown) : ToText(shown)).c_str(), stdout);
+    return std::fflush(stdout) == 0 ? 0 : kCouldNotRun;
+  }
+  const EffectiveSet a = Resolve(options.diff.at(0), options);
+  const EffectiveSet b = Resolve(options.diff.at(1), options);
+  const std::vector<Difference> found = Differences(a, b);
+  std::fputs((options.json ? ToJson(found, a, b) : ToText(found, a, b)).c_str(), stdout);
+  return std::fflush(stdout) != 0 ? kCouldNotRun : found.empty() ? 0 : 1;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,38 @@
+#include <memory>
+
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/replay/replay.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+A recording is what giveway-vehicle --record FILE, or fleetctl run --record FOLDER, writes. A fresh
+brain is told the same inputs; every command, every beacon and the hash of its state must come out
+bit for bit as recorded. A file cut off by kill -9, or by a full disk, is replayed up to its last whole
+record. The parts of a recording that was split by size are replayed one after the other: name them all,
+in any order.
+The trace has the columns of fleetctl virtual --trace; places are where the vehicle believed to be.
+
+Examples
+  fleetctl run intersection_yield --record tapes && fleetctl replay tapes/*
+  fleetctl replay tapes/vehicle-2.recording --trace 2.tsv
+  fleetctl replay tapes/* --json | jq '.files[] | select(.difference)'
+
+Exit code: 0 all the same, 1 a step differs, 2 a file could not be replayed to its end.
+)";
+
+}  // namespace
+
+void AddReplayVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<ReplayOptions>();
+  CLI::App* verb = fleetctl->add_subcommand(
+      "replay", "Make recorded decisions again, and compare them bit for bit");
+  verb->footer(kFooter);
+  verb->add_option("FILE", options->files, "Recordings")->required();
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->add_option("--trace", options->trace_file, "Write every decision of the only recording");
+  verb->callback([options, exit_code] { *exit_code = RunReplay(*options); });
+}
+
+}  // namespace giveway::fleetctl

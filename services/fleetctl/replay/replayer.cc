@@ -1,0 +1,95 @@
+#include "services/fleetctl/replay/replayer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace giveway::fleetctl {
+namespace {
+
+std::optional<FieldDifference> Compare(const RecordedStep& recorded, const Outputs& replayed,
+                                       std::uint64_t hash) {
+  if (auto difference = FirstDifference(recorded.outputs, replayed)) return difference;
+  if (recorded.hash == hash) return std::nullopt;
+  return FieldDifference{"hash", fmt::format("{:016x}", recorded.hash),
+                         fmt::format("{:016x}", hash)};
+}
+
+constexpr std::size_t kMostFailureBytes = 200;
+
+// A word from a file that is shown on a terminal.
+std::string Printable(std::string text) {
+  text.resize(std::min(text.size(), kMostFailureBytes));
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
+  return text;
+}
+
+}  // namespace
+
+void Replayer::Begin(const RecordingFile& file, ReplayedFile* outcome) {
+  if (file.Life()) {
+    const RecordedLife& life = *file.Life();
+    brain_.emplace(life.options, life.boot_epoch);
+    if (life.handover) brain_->TakeOver(*life.handover);
+    next_ = {life.boot_epoch, life.options.id, 1, 0};
+    outcome->vehicle = life.options.id;
+    return;
+  }
+  outcome->vehicle = file.Continues()->vehicle;
+  outcome->part = file.Continues()->part;
+  if (brain_ && *file.Continues() == next_) return;
+  brain_.reset();
+  outcome->finding = fmt::format(
+      "is part {} of a recording: name the parts before it, too, each whole", outcome->part);
+}
+
+ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {
+  RecordingFile file(part);
+  ReplayedFile outcome;
+  outcome.finding = file.Complaint();
+  if (!file.Life() && !file.Continues()) return outcome;
+  Begin(file, &outcome);
+  if (!brain_) return outcome;
+  Lead(&file, watch, &outcome);
+  const bool continues = file.End() && file.End()->continues && !outcome.difference;
+  if (!continues || !outcome.finding.empty()) brain_.reset();
+  ++next_.part;
+  next_.steps_before += outcome.steps;
+  return outcome;
+}
+
+void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFile* outcome) {
+  while (const std::optional<Record> record = file->Next()) {
+    if (const auto* reseat = std::get_if<RecordedReseat>(&*record)) {
+      brain_->Reseat(reseat->options);
+      continue;
+    }
+    const auto& step = std::get<RecordedStep>(*record);
+    const Outputs replayed = brain_->Step(step.AsInputs());
+    if (watch) watch(step, *brain_, replayed);
+    if (auto difference = Compare(step, replayed, brain_->Hash())) {
+      outcome->difference = {outcome->steps + 1, brain_->State().tick, std::move(*difference)};
+      return;
+    }
+    ++outcome->steps;
+  }
+  outcome->finding = file->Complaint();
+  const std::optional<RecordedEnd>& end = file->End();
+  outcome->complete = end.has_value();
+  outcome->lost = end ? end->lost : 0;
+  outcome->failure = end ? Printable(end->failure) : "";
+  if (outcome->steps == 0 && outcome->finding.empty()) {
+    outcome->finding = "holds no step: nothing was compared";
+    if (!outcome->failure.empty()) outcome->finding += "; " + outcome->failure;
+  } else if (end && end->steps != outcome->steps) {
+    outcome->finding = fmt::format("says it holds {} steps", end->steps);
+  }
+}
+
+ReplayedFile Replay(std::istream* recording, const ReplayWatcher& watch) {
+  return Replayer().Replay(recording, watch);
+}
+
+}  // namespace giveway::fleetctl

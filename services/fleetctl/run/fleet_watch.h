@@ -1,0 +1,91 @@
+// What an observer knows of a run: folds what the link brings into the newest status of each
+// vehicle, its track, the events and the figures, and makes the report of it. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "services/link/observer_link.h"
+#include "services/report/picture.h"
+#include "services/report/report.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/scenario.h"
+
+namespace giveway::fleetctl {
+
+// A verdict the world had no say in: an interrupt, a death, a start that failed.
+struct Overruled {
+  Verdict verdict = Verdict::kFailed;
+  std::string reason;
+};
+
+class FleetWatch {
+ public:
+  // Tracks are kept only where a picture is drawn: they grow with the run.
+  FleetWatch(const Scenario& scenario, bool keep_tracks);
+
+  void Fold(const link::Observed& observed);
+  // Vehicles whose planned kill has become due since the last call.
+  std::vector<VehicleId> TakeDueKills();
+
+  bool HasStarted() const { return started_; }
+  bool HasEnded() const { return ended_; }
+  bool HasFigures() const { return figures_.has_value(); }
+  // Seconds since the start signal; 0 before it.
+  double TimeSeconds() const { return time_s_; }
+  const std::map<VehicleId, VehicleStatus>& Statuses() const { return statuses_; }
+  // Everyone the scenario names, and in an open fleet who is in it now.
+  const std::set<VehicleId>& Vehicles() const { return vehicles_; }
+  // Vehicles killed as planned, or that the world hears no more.
+  const std::set<VehicleId>& Silent() const { return silent_; }
+  // True once every vehicle but those killed as planned has sent its last status; in an open fleet
+  // those that fell silent are not waited for either.
+  bool HasAllFinalStatuses() const;
+
+  Report MakeReport(const std::optional<Overruled>& overruled) const;
+  std::string DrawPicture() const;
+  // For the picture, of all vehicles.
+  std::size_t KeptPoints() const;
+  std::optional<Pose> LastPoint(VehicleId vehicle) const;
+
+ private:
+  void FoldEvent(const WorldEvent& event);
+  void FoldStatus(const VehicleStatus& status);
+  // Of a vehicle's way at most this many points are kept, however long the run: when they are that
+  // many, every other one is left out, and from then on of those that come.
+  static constexpr std::size_t kMostPoints = 8192;
+  static constexpr std::size_t kMostTracks = 1024;
+
+  // One vehicle's way. Its last point is always the newest.
+  struct KeptTrack {
+    Track track;
+    std::uint32_t stride = 1;  // of so many points one is kept
+    std::uint32_t since = 0;   // the last one that was kept for good
+  };
+
+  void FoldTruth(const Truth& truth);
+  static void Keep(const Truth& truth, KeptTrack* kept);
+  std::vector<VehicleId> VehiclesOf(EventKind kind) const;
+  std::vector<VehicleId> Arrived() const;
+
+  const Scenario& scenario_;
+  bool open_;
+  bool keep_tracks_;
+  bool started_ = false;
+  bool ended_ = false;
+  double time_s_ = 0;
+  std::set<VehicleId> vehicles_;
+  std::map<VehicleId, VehicleStatus> statuses_;
+  std::map<VehicleId, KeptTrack> tracks_;
+  std::vector<WorldEvent> events_;
+  std::vector<VehicleId> due_kills_;
+  std::vector<VehicleId> killed_;
+  std::set<VehicleId> silent_;
+  std::optional<RunFigures> figures_;
+};
+
+}  // namespace giveway::fleetctl

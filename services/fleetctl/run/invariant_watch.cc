@@ -1,0 +1,149 @@
+#include "services/fleetctl/run/invariant_watch.h"
+
+#include <algorithm>
+
+#include "sim_world/virtual/virtual_run.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+sim::InvariantLimits LimitsFromOutside(const Scenario& scenario) {
+  sim::InvariantLimits limits = sim::LimitsFor(scenario, VehicleSight::kHeldTicks, true);
+  limits.stale_ticks = VehicleSight::kHeldTicks;
+  limits.arriving = scenario.expect.arrived;
+  return limits;
+}
+
+}  // namespace
+
+InvariantWatch::InvariantWatch(const Scenario& scenario)
+    : scenario_(scenario), invariants_(scenario_, LimitsFromOutside(scenario_)) {
+  for (const VehicleOptions& vehicle : scenario_.vehicles) {
+    sights_.emplace(vehicle.id, VehicleSight(vehicle));
+  }
+}
+
+void InvariantWatch::Fold(const link::Observed& observed) {
+  for (const RosterEntry& entry : observed.roster) Admit(entry);
+  for (const Truth& truth : observed.truths) FoldTruth(truth);
+  for (const WorldEvent& event : observed.events) FoldEvent(event);
+  for (const ReceivedBeacon& received : observed.beacons) {
+    const auto sight = sights_.find(received.beacon.vehicle);
+    const bool sound = received.crc_valid && received.name_valid && sight != sights_.end();
+    if (sound && IsOfThisWorld(received.beacon.world_epoch)) {
+      sight->second.Take(received.beacon, newest_);
+    }
+  }
+  for (const VehicleStatus& status : observed.statuses) {
+    const auto sight = sights_.find(status.vehicle);
+    if (sight != sights_.end() && IsOfThisWorld(status.epoch)) sight->second.Take(status);
+  }
+  if (Number(newest_) > kLagTicks) JudgeUntil(Tick{Number(newest_) - kLagTicks});
+}
+
+// Only of an open fleet: the others are known from the start.
+void InvariantWatch::Admit(const RosterEntry& entry) {
+  if (!entry.accepted || entry.spawn == 0 || entry.spawn > scenario_.spawns.size()) return;
+  const auto known = spawns_.find(entry.vehicle);
+  if (known != spawns_.end() && known->second == entry.spawn) return;  // it is back
+  VehicleOptions options = scenario_.spawns[entry.spawn - 1];
+  options.id = entry.vehicle;
+  invariants_.Admit(options);
+  sights_.insert_or_assign(options.id, VehicleSight(options));
+  spawns_[entry.vehicle] = entry.spawn;
+}
+
+void InvariantWatch::FoldTruth(const Truth& truth) {
+  if (epoch_ == kNoEpoch) epoch_ = truth.epoch;
+  if (!IsOfThisWorld(truth.epoch)) return;
+  newest_ = std::max(newest_, truth.tick);
+  if (next_ == kNoTick && truth.time_s > 0) {
+    next_ = truth.tick;
+    first_time_s_ = truth.time_s;
+    first_ = truth.tick;
+  }
+  const auto sight = sights_.find(truth.vehicle);
+  if (sight != sights_.end()) sight->second.Take(truth);
+}
+
+void InvariantWatch::FoldEvent(const WorldEvent& event) {
+  if (!IsOfThisWorld(event.epoch)) return;
+  if (event.kind == EventKind::kEnded) last_ = event.tick;
+  // Contacts that a scenario expects are its judge's to count.
+  if (event.kind != EventKind::kContact || scenario_.expect.contacts == 0) {
+    events_.push_back(event);
+  }
+}
+
+void InvariantWatch::JudgeUntil(Tick last) {
+  if (last_ != kNoTick) last = std::min(last, last_);
+  for (; next_ != kNoTick && next_ <= last; next_ = After(next_, 1)) Judge(next_);
+}
+
+double InvariantWatch::TimeOf(Tick tick) const {
+  return first_time_s_ + TicksBetween(first_, tick) * Seconds(scenario_.tick_period);
+}
+
+void InvariantWatch::Judge(Tick tick) {
+  NoteComingsAndGoings(tick);
+  if (!Look(tick)) {
+    ++ticks_unseen_;
+    return;
+  }
+  ++ticks_judged_;
+  invariants_.Observe(tick, TimeOf(tick), seen_, std::span(events_).first(noted_));
+  events_.erase(events_.begin(), events_.begin() + static_cast<std::ptrdiff_t>(noted_));
+  noted_ = 0;
+}
+
+void InvariantWatch::NoteComingsAndGoings(Tick tick) {
+  for (; noted_ < events_.size() && events_[noted_].tick <= tick; ++noted_) {
+    const WorldEvent& event = events_[noted_];
+    const auto sight = sights_.find(event.vehicle);
+    if (sight == sights_.end()) continue;
+    const bool gone = event.kind == EventKind::kSilent || event.kind == EventKind::kLeft ||
+                      event.kind == EventKind::kFaultDue;
+    if (gone || event.kind == EventKind::kJoined) sight->second.SetLives(!gone);
+  }
+}
+
+// False if something is not known of somebody.
+bool InvariantWatch::Look(Tick tick) {
+  seen_.clear();
+  bool whole = true;
+  for (auto& [vehicle, sight] : sights_) {
+    const std::optional<sim::Observed> seen = sight.At(tick);
+    whole = whole && seen.has_value();
+    if (seen) seen_.push_back(*seen);
+  }
+  return whole;
+}
+
+void InvariantWatch::Finish(bool came_to_its_end) {
+  JudgeUntil(newest_);
+  if (came_to_its_end && ticks_judged_ > 0 && seen_.size() == sights_.size()) {
+    invariants_.Finish(newest_, seen_);
+  }
+}
+
+void InvariantWatch::AddTo(Report* report) const {
+  report->ticks_judged = ticks_judged_;
+  report->ticks_unseen = ticks_unseen_;
+  if (ticks_judged_ == 0) return;
+  std::string broken;
+  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+    const auto invariant = static_cast<sim::Invariant>(i);
+    const std::uint32_t count = invariants_.Count(invariant);
+    report->violations.push_back({std::string(sim::Name(invariant)), count});
+    if (count > 0) broken += (broken.empty() ? "" : ", ") + std::string(sim::Name(invariant));
+  }
+  for (const sim::Violation& violation : invariants_.First()) {
+    report->first_violations.push_back({std::string(sim::Name(violation.invariant)), violation.tick,
+                                        violation.vehicle, violation.other});
+  }
+  if (broken.empty() || report->verdict != Verdict::kPassed) return;
+  report->verdict = Verdict::kFailed;
+  report->reason = "invariant_broken: " + broken;
+}
+
+}  // namespace giveway::fleetctl

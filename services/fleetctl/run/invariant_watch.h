@@ -1,0 +1,70 @@
+// Holds a real run to the invariants of the virtual ones, by what an observer sees of it: truths,
+// beacons, statuses and events. Off the vehicles' path: nobody waits for it. Pure.
+//
+// A tick is judged kLagTicks after it was, when everything said in it has come. A tick of which
+// something is not known is left out and counted, for a check that looks away must say so.
+//
+// Limits are wider than in a virtual run whose radio loses nothing, each for its cause:
+//  - brains miss beacons and scans here as they do behind a radio that loses some: LimitsFor;
+//  - what is seen may be VehicleSight::kHeldTicks old: this much longer may a circle last, and
+//    everyone halt; this much older may a key be that somebody goes by; this much later may
+//    braking begin.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "services/fleetctl/run/vehicle_sight.h"
+#include "services/link/observer_link.h"
+#include "services/report/report.h"
+#include "services/types/scenario.h"
+#include "sim_world/virtual/invariants.h"
+
+namespace giveway::fleetctl {
+
+class InvariantWatch {
+ public:
+  static constexpr std::uint32_t kLagTicks = 10;
+
+  explicit InvariantWatch(const Scenario& scenario);
+
+  void Fold(const link::Observed& observed);
+  // Judges what is still held back, and who has not arrived if the run came to its own end.
+  void Finish(bool came_to_its_end);
+
+  const sim::Invariants& Judged() const { return invariants_; }
+  std::uint32_t TicksJudged() const { return ticks_judged_; }
+  std::uint32_t TicksUnseen() const { return ticks_unseen_; }
+  // Counts, and the verdict of a run that had passed but for them.
+  void AddTo(Report* report) const;
+
+ private:
+  void Admit(const RosterEntry& entry);
+  void FoldTruth(const Truth& truth);
+  void FoldEvent(const WorldEvent& event);
+  bool IsOfThisWorld(WorldEpoch epoch) const { return epoch == epoch_; }
+  void JudgeUntil(Tick last);
+  void Judge(Tick tick);
+  double TimeOf(Tick tick) const;  // since the start signal
+  void NoteComingsAndGoings(Tick tick);
+  bool Look(Tick tick);
+
+  Scenario scenario_;
+  sim::Invariants invariants_;
+  std::map<VehicleId, VehicleSight> sights_;
+  std::map<VehicleId, std::uint32_t> spawns_;  // where those stand whom the scenario does not name
+  WorldEpoch epoch_ = kNoEpoch;                // of the first world heard
+  Tick newest_ = kNoTick;                      // of any truth
+  Tick next_ = kNoTick;                        // to be judged; kNoTick before the start
+  Tick first_ = kNoTick;                       // that was judged, and
+  double first_time_s_ = 0;                    // its time since the start signal
+  Tick last_ = kNoTick;                        // the run's, once it has ended
+  std::vector<WorldEvent> events_;             // not told to the invariants yet
+  std::size_t noted_ = 0;                      // of them: who lives was learnt from them
+  std::vector<sim::Observed> seen_;
+  std::uint32_t ticks_judged_ = 0;
+  std::uint32_t ticks_unseen_ = 0;
+};
+
+}  // namespace giveway::fleetctl

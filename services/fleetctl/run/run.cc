@@ -1,0 +1,105 @@
+#include "services/fleetctl/run/run.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+
+#include "services/config/config_dir.h"
+#include "services/config/impair.h"
+#include "services/config/problem.h"
+#include "services/config/scenario_file.h"
+#include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/output/live_screen.h"
+#include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/process/child_process.h"
+#include "services/fleetctl/process/domain_lock.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/run/run_session.h"
+#include "services/report/report.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr unsigned kDrawing_s = 30;
+
+// False if stdout did not take it: then nobody has the verdict.
+bool Print(const RunOptions& options, const Report& report) {
+  const std::string text =
+      options.json ? ToJson(report) : ToTable(report, SizeOfTerminal().columns);
+  std::fputs(text.c_str(), stdout);
+  if (!text.ends_with('\n')) std::fputc('\n', stdout);
+  return std::fflush(stdout) == 0;
+}
+
+int RefuseToRun(const RunOptions& options, const char* reason, const std::exception& why) {
+  std::fprintf(stderr, "%s\n", why.what());
+  if (options.json) {
+    Report report;
+    report.scenario = options.scenario;
+    report.reason = reason;
+    report.seed = options.seed.value_or(0);
+    report.domain = options.domain.value_or(0);
+    Print(options, report);
+  }
+  return kCouldNotRun;
+}
+
+// In lockstep the world waits for every command, and a vehicle answers scans alone.
+void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario) {
+  const Impairment impairment =
+      options.impair.empty() ? scenario.impairment : ParseImpairment(options.impair).impairment;
+  if (!options.lockstep || impairment.rules.empty()) return;
+  throw InputError({{options.scenario, 0, "--lockstep", "",
+                     "the world would wait for ever for the answer to a scan that is lost",
+                     "leave --lockstep out, or give --impair none"}});
+}
+
+int StartAndWatch(const RunOptions& options) {
+  const ScenarioOverrides overrides{options.seed, options.behaviour, options.duration_s};
+  const Scenario scenario = LoadScenario(options.scenario, overrides);
+  if (options.vehicles && scenario.spawns.empty()) {
+    throw InputError({{options.scenario, 0, "", "",
+                       "--vehicles was given, but the scenario names all of its vehicles",
+                       "leave --vehicles out, or write spawn { ... } in the scenario"}});
+  }
+  RefuseImpairedLockstep(options, scenario);
+  const std::string qos_file = ResolveQosFile(options.qos_file);
+  RequireSoundQos(qos_file, DeploymentOf(scenario));
+  if (!options.picture_file.empty()) CheckWritable(options.picture_file);
+  if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
+  if (!options.record_folder.empty()) CheckFolder(options.record_folder);
+
+  const DomainLock lock(options.domain);
+  FleetCommand command{ProgramFolder(), ResolveScenario(options.scenario), lock.Domain(), qos_file,
+                       lock.Fd()};
+  std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
+  RunSession session(options, scenario, command);
+  const Report report = session.Run();
+
+  const bool told = Print(options, report);
+  if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
+  const int code = std::max(ExitCode(report.verdict), told ? 0 : 1);
+  if (options.picture_file.empty()) return code;
+  Interrupts::AllowSeconds(kDrawing_s);
+  return WriteAfterVerdict(code, [&] { WriteFile(options.picture_file, session.DrawPicture()); });
+}
+
+}  // namespace
+
+int Run(const RunOptions& options) {
+  try {
+    return StartAndWatch(options);
+  } catch (const InputError& error) {
+    return RefuseToRun(options, "bad_input", error);
+  } catch (const OutputError& error) {
+    return RefuseToRun(options, "unwritable_output", error);
+  } catch (const DomainError& error) {
+    return RefuseToRun(options, "no_domain", error);
+  } catch (const std::exception& error) {  // LinkError, StartError, out of memory
+    return RefuseToRun(options, "could_not_start", error);
+  }
+}
+
+}  // namespace giveway::fleetctl

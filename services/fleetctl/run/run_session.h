@@ -1,0 +1,62 @@
+// One run from the first process to the last: watches the fleet, carries out planned faults, ends
+// the run when it is over, when somebody died, or when the operator says so, and reports.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "services/fleetctl/output/live_screen.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/run/fleet_processes.h"
+#include "services/fleetctl/run/fleet_watch.h"
+#include "services/fleetctl/run/invariant_watch.h"
+#include "services/fleetctl/run/run_options.h"
+#include "services/link/observer_link.h"
+#include "services/report/report.h"
+#include "services/types/scenario.h"
+
+namespace giveway::fleetctl {
+
+class RunSession {
+ public:
+  // Starts everything. `scenario` outlives the session. Throws LinkError, StartError.
+  RunSession(const RunOptions& options, const Scenario& scenario, const FleetCommand& command);
+
+  // Returns when the last process is gone.
+  Report Run();
+  std::string DrawPicture() const { return watch_.DrawPicture(); }
+
+ private:
+  // Waits for the run's end. A value where the verdict is not the world's to give.
+  std::optional<Overruled> Supervise();
+  // Somebody ended who should not have, unless the end of the run is just on its way to us.
+  std::optional<Overruled> JudgeEnd(const ChildProcess& gone);
+  // Everyone leaves: by themselves within `grace`, else told to, else killed.
+  void StopAll(Nanoseconds grace);
+  bool WaitUntilAllEnded(Nanoseconds grace);
+  // Takes in what is still on its way after the last process is gone.
+  void DrainLast();
+  // How the processes ended says more than the world could know.
+  std::optional<Overruled> JudgeExits();
+  // Takes in what has come.
+  void Drain();
+  // One turn of the loop: sleep, drain, carry out faults, poll, show.
+  void Turn();
+  // What a child goes on after, such as a full disk: nothing else would tell the operator.
+  void ShowErrors();
+  void ShowTrouble(const ChildProcess& child, const std::string& what);
+
+  const Scenario& scenario_;
+  std::uint32_t domain_;
+  Nanoseconds time_limit_;
+  Interrupts interrupts_;
+  FleetWatch watch_;
+  InvariantWatch invariants_;
+  link::ObserverLink observer_;
+  FleetProcesses processes_;
+  LiveScreen screen_;
+  bool stopping_ = false;
+  std::size_t errors_shown_ = 0;
+};
+
+}  // namespace giveway::fleetctl

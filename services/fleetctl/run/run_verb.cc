@@ -1,0 +1,134 @@
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "services/config/byte_size.h"
+#include "services/config/flags.h"
+#include "services/config/impair.h"
+#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/process/domain_lock.h"
+#include "services/fleetctl/run/run.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+Every flag but --json, --picture and --logs has a twin in the environment: --domain is also
+GIVEWAY_DOMAIN. The flag wins.
+
+Examples
+  fleetctl run intersection_yield
+  fleetctl run intersection_equal --picture equal.svg
+  fleetctl run intersection_yield --seed 7 --json | jq .min_separation_m
+  fleetctl run open_fleet --vehicles 4
+  fleetctl run intersection_yield --record tapes && fleetctl replay tapes/*
+  fleetctl run intersection_yield --impair loss=0.1,delay=20ms,jitter=5ms
+  fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
+
+Exit code: 0 passed, 1 failed or interrupted, or passed and the picture could not be written; 2 could
+not run.
+)";
+
+constexpr std::uint32_t kMostVehicles = 1024;
+
+std::string CheckImpairment(const std::string& text) {
+  std::string wrong;
+  for (const ImpairTextProblem& problem : ParseImpairment(text).problems) {
+    wrong += (wrong.empty() ? "" : "\n") + problem.message + "; " + problem.remedy;
+  }
+  return wrong;
+}
+
+std::string CheckSplit(const std::string& text) {
+  const std::optional<std::uint64_t> bytes = ParseByteSize(text);
+  if (bytes && *bytes >= kLeastSplitBytes && *bytes <= kMostSplitBytes) return {};
+  return "'" + text + "' is no size a recording is split by; " + kSplitRemedy;
+}
+
+Behaviour ParseBehaviour(const std::string& name) {
+  const std::optional<Behaviour> behaviour = BehaviourNamed(name);
+  if (behaviour) return *behaviour;
+  throw CLI::ValidationError(
+      "--behaviour",
+      "must be cooperative, lecture_avoid, stock_avoid, lecture_yield or lecture_printed, not '" +
+          name + "'");
+}
+
+void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
+  verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  verb->add_option("--duration", options->duration_s, "End after this many seconds")
+      ->check(CheckSeconds)
+      ->envname("GIVEWAY_DURATION");
+  verb->add_option_function<std::string>(
+          "--behaviour",
+          [options](const std::string& name) { options->behaviour = ParseBehaviour(name); },
+          "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
+          "lecture_printed, which shows the flaws of the printed scripts: it collides")
+      ->envname("GIVEWAY_BEHAVIOUR");
+  verb->add_option("--seed", options->seed, "Moves start poses and cruise speeds; 0 moves nothing")
+      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
+      ->envname("GIVEWAY_SEED");
+  verb->add_option("--vehicles", options->vehicles,
+                   "Of an open fleet: start so many that the scenario does not name")
+      ->check(CLI::Range(0U, kMostVehicles))
+      ->envname("GIVEWAY_VEHICLES");
+  verb->add_flag("--lockstep", options->lockstep, "The world waits for every command of a tick")
+      ->envname("GIVEWAY_LOCKSTEP");
+}
+
+void AddLinkFlags(CLI::App* verb, RunOptions* options) {
+  verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
+      ->check(CLI::Range(kFirstDomain, kLastDomain))
+      ->envname("GIVEWAY_DOMAIN");
+  AddInterfaceFlag(verb, &options->interface);
+  AddDiscoveryFlag(verb, &options->discovery_servers);
+  verb->add_option(
+          "--qos", options->qos_file,
+          "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host, ...); without "
+          "it the default")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_QOS");
+  verb->add_option("--impair", options->impair,
+                   "Impair what every vehicle hears, instead of the scenario: "
+                   "loss=0.1,delay=20ms, or none; the README lists the keys")
+      ->check(CheckImpairment)
+      ->envname("GIVEWAY_IMPAIR");
+}
+
+void AddOutputFlags(CLI::App* verb, RunOptions* options) {
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->add_option("--picture", options->picture_file, "Draw both paths as SVG into this file")
+      ->check(CheckNotEmpty);
+  verb->add_option("--logs", options->logs_folder, "Keep the log of every process in this folder")
+      ->check(CheckNotEmpty);
+  verb->add_option("--record", options->record_folder,
+                   "Every vehicle records its inputs and decisions in this folder; see replay")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_RECORD");
+  verb->add_option("--record-split", options->record_split,
+                   "Begin another file of each recording at this size: 64MiB")
+      ->check(CheckSplit)
+      ->envname("GIVEWAY_RECORD_SPLIT");
+  verb->add_option("--log-level", options->log_level, "Of the world and the vehicles")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+      ->capture_default_str()
+      ->envname("GIVEWAY_LOG_LEVEL");
+}
+
+}  // namespace
+
+void AddRunVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* verb =
+      fleetctl->add_subcommand("run", "Run a scenario here, one process a vehicle, and judge it");
+  verb->footer(kFooter);
+  AddScenarioFlags(verb, options.get());
+  AddLinkFlags(verb, options.get());
+  AddOutputFlags(verb, options.get());
+  verb->callback([options, exit_code] { *exit_code = Run(*options); });
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,239 @@
+#include "services/fleetctl/stopwatch/stopwatch.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "services/config/scenario_file.h"
+#include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/process/child_process.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/stopwatch/stopwatch_show.h"
+#include "services/fleetctl/stopwatch/stopwatch_trials.h"
+#include "services/link/fastdds/library_release.h"
+#include "services/link/resolved_qos.h"
+#include "services/runtime/process.h"
+#include "services/types/vehicle_options.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kBroken = 1;
+// A fleet takes so many of a fault; then a fresh one goes on with it.
+constexpr std::uint32_t kTrialsAFleet = 20;
+constexpr int kAttempts = 3;  // at cuts that came before discovery was through
+
+// A folder that is gone with this object.
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_(fs::temp_directory_path() / "giveway_stopwatch_XXXXXX") {
+    std::string name = path_.string();
+    if (::mkdtemp(name.data()) == nullptr) {
+      throw OutputError("cannot make a folder in " + fs::temp_directory_path().string() +
+                        "; name one that can be written in TMPDIR");
+    }
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const fs::path& Path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+std::int64_t NumberOf(const std::vector<link::ResolvedEntity>& entities, std::string_view profile,
+                      std::string_view policy) {
+  const auto entity = std::ranges::find(entities, profile, &link::ResolvedEntity::profile);
+  if (entity == entities.end()) throw link::LinkError("no profile " + std::string(profile));
+  const auto value = std::ranges::find(entity->values, policy, &link::ResolvedValue::policy);
+  if (value == entity->values.end()) throw link::LinkError("no value " + std::string(policy));
+  return value->number;
+}
+
+std::optional<Nanoseconds> FiniteOf(std::int64_t number) {
+  if (number == link::kInfiniteDuration) return std::nullopt;
+  return Nanoseconds{number};
+}
+
+// As the library made them of the file.
+Limits LimitsOf(const StopwatchOptions& options, const std::string& qos_file,
+                const Scenario& scenario) {
+  link::LinkOptions of_any;
+  of_any.domain = kFirstDomain;
+  of_any.interface = options.interface;
+  of_any.qos_file = qos_file;
+  of_any.fleet_size = options.vehicles + 1;
+  const auto entities = link::ResolveQos(of_any);
+  const auto of_reader = [&](std::string_view policy) {
+    return NumberOf(entities, "fleet_beacon_reader", policy);
+  };
+  const VehicleOptions& vehicle = scenario.vehicles.front();
+  Limits limits;
+  limits.beacon_period = vehicle.tick_period;
+  limits.beacon_age = vehicle.beacon_age_limit;
+  limits.deadline = FiniteOf(of_reader("deadline"));
+  limits.liveliness = FiniteOf(of_reader("liveliness_lease"));
+  limits.asserted = LivelinessKind(NumberOf(entities, "fleet_beacon_writer", "liveliness"));
+  limits.tracked = LivelinessKind(of_reader("liveliness"));
+  limits.lease = FiniteOf(NumberOf(entities, "giveway_participant", "participant_lease"));
+  return limits;
+}
+
+std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {
+  std::vector<StopwatchTask> tasks;
+  // Those that take longest first, so that no fleet is left with one at the end.
+  std::vector<Fault> faults = options.faults;
+  std::ranges::stable_partition(faults, IsCut);
+  for (const Fault fault : faults) {
+    const std::uint32_t most = IsCut(fault) ? VictimsOf(options.vehicles) : kTrialsAFleet;
+    for (std::uint32_t done = 0; done < options.trials; done += most) {
+      const std::uint64_t seed = (static_cast<std::uint64_t>(options.seed) << 32U) + tasks.size();
+      tasks.push_back({fault, std::min(most, options.trials - done), seed,
+                       StopwatchVehicles(options.vehicles)});
+    }
+  }
+  return tasks;
+}
+
+// Hands tasks out to threads, each with a fleet of its own, and gathers what they bring.
+class Session {
+ public:
+  Session(const StopwatchOptions& options, StopwatchFleetCommand command, const Limits& limits)
+      : options_(options),
+        command_(std::move(command)),
+        limits_(limits),
+        tasks_(TasksOf(options)),
+        wanted_(options.trials * options.faults.size()),
+        begin_(SteadyNow()) {}
+
+  StopwatchReport Run() {
+    {
+      std::vector<std::jthread> threads;
+      const std::size_t fleets = std::min<std::size_t>(options_.fleets, tasks_.size());
+      for (std::size_t i = 0; i < fleets; ++i) threads.emplace_back([this] { Work(); });
+    }
+    // What was measured before it is shown all the same.
+    if (error_ && trials_.empty()) std::rethrow_exception(error_);
+    if (next_ < tasks_.size() && report_.problems.empty()) report_.problems = {"interrupted"};
+    report_.vehicles = options_.vehicles;
+    report_.fleets = options_.fleets;
+    report_.seed = options_.seed;
+    report_.qos_file = command_.qos_file;
+    report_.limits = limits_;
+    report_.library_major = link::LibraryMajor();
+    report_.cells = Judge(trials_, limits_);
+    report_.took_s = Seconds(SteadyNow() - begin_);
+    return std::move(report_);
+  }
+
+ private:
+  void Work() {
+    try {
+      while (const auto number = NextTask()) {
+        StopwatchFleetCommand command = command_;
+        const StopwatchTask& task = tasks_[*number];
+        if (!command.logs_folder.empty()) {
+          command.logs_folder =
+              (fs::path(command.logs_folder) / fmt::format("{}-{}", *number + 1, Name(task.fault)))
+                  .string();
+          CheckFolder(command.logs_folder);
+        }
+        StopwatchResult result;
+        for (int i = 0; i < kAttempts && (i == 0 || result.too_soon); ++i) {
+          result = Conduct(task, command, limits_, monitor_,
+                           [this](std::size_t trials) { Tell(trials); });
+        }
+        Gather(task, result);
+      }
+    } catch (const std::exception& error) {
+      const std::scoped_lock lock(mutex_);
+      if (!error_) error_ = std::current_exception();
+      report_.problems.emplace_back(error.what());
+    }
+  }
+
+  std::optional<std::size_t> NextTask() {
+    const std::scoped_lock lock(mutex_);
+    if (next_ == tasks_.size() || error_ || Interrupts::Count() > 0) return std::nullopt;
+    return next_++;
+  }
+
+  void Gather(const StopwatchTask& task, const StopwatchResult& result) {
+    const std::scoped_lock lock(mutex_);
+    trials_.insert(trials_.end(), result.trials.begin(), result.trials.end());
+    report_.false_alarms += result.false_alarms;
+    if (result.problem.empty()) return;
+    report_.problems.push_back(fmt::format("{}: {}", Name(task.fault), result.problem));
+  }
+
+  // On stderr, with what is left at the pace so far.
+  void Tell(std::size_t trials) {
+    const std::scoped_lock lock(mutex_);
+    done_ += trials;
+    if (done_ == 0) return;
+    const double gone_s = Seconds(SteadyNow() - begin_);
+    const double share = static_cast<double>(done_) / static_cast<double>(wanted_);
+    std::fprintf(stderr, "%4.0f s: %zu of %zu trials, about %.0f s left\n", gone_s, done_, wanted_,
+                 gone_s * (1 - share) / share);
+  }
+
+  const StopwatchOptions& options_;
+  const StopwatchFleetCommand command_;
+  const Limits limits_;
+  const std::vector<StopwatchTask> tasks_;
+  const std::size_t wanted_;
+  const SteadyTime begin_;
+  StallMonitor monitor_;
+  std::mutex mutex_;  // guards all that follows
+  std::size_t next_ = 0;
+  std::size_t done_ = 0;
+  std::vector<Trial> trials_;
+  StopwatchReport report_;
+  std::exception_ptr error_;
+};
+
+}  // namespace
+
+int RunStopwatch(const StopwatchOptions& options) {
+  const ScratchFolder scratch;
+  const std::string scenario_file = (scratch.Path() / "stopwatch.textproto").string();
+  WriteFile(scenario_file, StopwatchScenario(StopwatchVehicles(options.vehicles)));
+  const std::string qos_file = ResolveQosFile(options.qos_file);
+  const Scenario scenario = LoadScenario(scenario_file, {});
+  RequireSoundQos(qos_file, DeploymentOf(scenario));
+  const Limits limits = LimitsOf(options, qos_file, scenario);
+  if (options.table) {
+    std::fputs(TableText(limits).c_str(), stdout);
+    return 0;
+  }
+  if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
+  const Interrupts interrupts;
+  Session session(
+      options, {ProgramFolder(), scenario_file, qos_file, options.interface, options.logs_folder},
+      limits);
+  const StopwatchReport report = session.Run();
+  std::fputs((options.json ? StopwatchJson(report) : StopwatchText(report)).c_str(), stdout);
+  if (std::fflush(stdout) != 0) {
+    std::fprintf(stderr, "cannot write the figures to stdout\n");
+    return kCouldNotRun;
+  }
+  return report.Kept() ? 0 : kBroken;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,29 @@
+// The verb `fleetctl stopwatch`: how long until peers notice? Several fleets at a time, real
+// processes, each fault as often as asked for. Values in; the exit code out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/stopwatch/stopwatch_table.h"
+
+namespace giveway::fleetctl {
+
+struct StopwatchOptions {
+  std::uint32_t vehicles = 8;  // a fleet
+  std::uint32_t trials = 20;   // a fault
+  std::vector<Fault> faults;   // in the order of the table
+  std::uint32_t fleets = 3;    // at a time
+  std::string qos_file;        // a file or a shipped set; empty: the default
+  std::string interface = "127.0.0.1";
+  std::uint32_t seed = 1;
+  std::string logs_folder;  // empty: no logs are kept
+  bool json = false;        // one JSON object on stdout and nothing else
+  bool table = false;       // only print what must see what
+};
+
+// 0 every promise was kept; 1 one was broken, or it was interrupted; 2 could not run.
+int RunStopwatch(const StopwatchOptions& options);
+
+}  // namespace giveway::fleetctl

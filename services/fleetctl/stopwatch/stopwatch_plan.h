@@ -1,0 +1,54 @@
+// Who is struck when: the waves of one stopwatch fleet from a seed, the blackouts that cuts are
+// made of, and the scenario its vehicles drive in. Pure.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/stopwatch/stopwatch_table.h"
+#include "services/types/ids.h"
+
+namespace giveway::fleetctl {
+
+// One vehicle's fault, counted from the beginning of its wave.
+struct Strike {
+  VehicleId victim = kNobody;
+  Nanoseconds after{0};
+};
+
+// Faults that are waited for together: most of a trial is waiting for the participant's lease. At
+// least half of the fleet is left in peace, and watches.
+struct Wave {
+  // Of cuts, since the start signal; of all else a wave begins when everyone is well.
+  Nanoseconds begin{0};
+  Nanoseconds end{0};           // of the blackouts
+  std::vector<Strike> strikes;  // in the order of time
+};
+
+// Waves begin at any phase of the beacons: their strikes spread over this long.
+inline constexpr Nanoseconds kWaveSpread{1'500'000'000};
+
+std::vector<VehicleId> StopwatchVehicles(std::uint32_t count);
+
+// `trials` strikes in all. Of cuts no more than VictimsOf, one wave: Fast DDS 2.9.1 does not always
+// find peers again that were dropped on one side only, and the next wave would wait for ever.
+std::vector<Wave> PlanWaves(Fault fault, std::uint32_t trials, std::span<const VehicleId> fleet,
+                            const Limits& limits, std::uint64_t seed);
+
+// So many of a fleet are struck in a wave, if there are trials left for them.
+std::uint32_t VictimsOf(std::size_t fleet);
+
+// True of the faults that are made of blackouts.
+constexpr bool IsCut(Fault fault) { return fault == Fault::kCut || fault == Fault::kOneWay; }
+
+// What `hearer` is told with --impair; empty for nothing.
+std::string BlackoutsOf(VehicleId hearer, Fault fault, std::span<const Wave> waves,
+                        std::span<const VehicleId> fleet);
+
+// Each vehicle drives round a small square of its own, far from the others and in reach of all,
+// for ever. The world keeps the bodies of vehicles that are away.
+std::string StopwatchScenario(std::span<const VehicleId> fleet);
+
+}  // namespace giveway::fleetctl

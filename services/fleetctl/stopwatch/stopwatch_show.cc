@@ -1,0 +1,175 @@
+#include "services/fleetctl/stopwatch/stopwatch_show.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/fleetctl/output/json_object.h"
+#include "services/runtime/json_line.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+std::string_view DutyName(Duty duty) {
+  switch (duty) {
+    case Duty::kMust:
+      return "must";
+    case Duty::kNone:
+      return "none";
+    default:
+      return "may";
+  }
+}
+
+std::string_view Name(LivelinessKind kind) {
+  switch (kind) {
+    case LivelinessKind::kAutomatic:
+      return "AUTOMATIC";
+    case LivelinessKind::kManualByParticipant:
+      return "MANUAL_BY_PARTICIPANT";
+    case LivelinessKind::kManualByTopic:
+      return "MANUAL_BY_TOPIC";
+  }
+  return "";
+}
+
+std::string MillisecondsText(Nanoseconds time) { return fmt::format("{:.1f}", Milliseconds(time)); }
+
+std::string Row(const Cell& cell) {
+  std::string row =
+      fmt::format("  {:<8} {:<11} {:<5} {:>6} {:>10}", Name(cell.fault), Name(cell.mechanism),
+                  DutyName(cell.duty), cell.trials, fmt::format("{}/{}", cell.seen.n, cell.asked));
+  for (const Nanoseconds time : {cell.seen.min, cell.seen.p50, cell.seen.p99, cell.seen.max}) {
+    row += fmt::format(" {:>8}", cell.seen.n == 0 ? "-" : MillisecondsText(time));
+  }
+  const bool must = cell.duty == Duty::kMust;
+  row += fmt::format(" {:>9} {:>7}", must ? MillisecondsText(cell.promised) : "-",
+                     must ? MillisecondsText(cell.longest_pause) : "-");
+  row += fmt::format(" {:>7}", must ? std::to_string(cell.excused) : "-");
+  return row + (cell.Kept() ? "  kept" : "  BROKEN");
+}
+
+std::string FindingOf(const Cell& cell) {
+  std::string text = fmt::format("{}: {}", Name(cell.fault), Name(cell.mechanism));
+  if (cell.uncalled_for > 0) {
+    return text + fmt::format(" must not see it, and was seen {} times", cell.uncalled_for);
+  }
+  if (cell.unseen > 0) text += fmt::format(" did not see {} of {}", cell.unseen, cell.asked);
+  if (cell.unseen > 0 && cell.late > 0) text += " and";
+  if (cell.late > 0) {
+    text += fmt::format(
+        " saw {} of {} later than the {:.0f} ms promised and the pause then, by up "
+        "to {:.1f} ms",
+        cell.late, cell.asked, Milliseconds(cell.promised), Milliseconds(cell.worst_excess));
+  }
+  return text;
+}
+
+// What is known of this library, where it is the likely reason.
+std::string MaskingHint(const StopwatchReport& report) {
+  const bool masked = std::ranges::any_of(report.cells, [](const Cell& cell) {
+    return cell.mechanism == Mechanism::kLiveliness && !cell.Kept();
+  });
+  if (!masked || report.limits.tracked == LivelinessKind::kManualByTopic) return {};
+  if (report.library_major >= 3) return {};
+  return fmt::format(
+      "Readers track liveliness as {}: Fast DDS 2.9.1 lets any living participant refresh a dead "
+      "one, until the "
+      "dead one's lease is over. Take MANUAL_BY_TOPIC for writer and reader.",
+      Name(report.limits.tracked));
+}
+
+std::string JsonOfTerm(const Term& term) {
+  JsonObject one;
+  one.Add("ms", Milliseconds(term.time));
+  one.Add("reason", term.reason);
+  return one.Text();
+}
+
+std::string JsonOf(const Cell& cell, const Limits& limits) {
+  JsonObject json;
+  json.Add("fault", Name(cell.fault));
+  json.Add("mechanism", Name(cell.mechanism));
+  json.Add("duty", DutyName(cell.duty));
+  json.Add("trials", cell.trials);
+  json.Add("asked", cell.asked);
+  json.Add("seen", cell.seen.n);
+  if (cell.seen.n > 0) {
+    json.Add("min_ms", Milliseconds(cell.seen.min));
+    json.Add("p50_ms", Milliseconds(cell.seen.p50));
+    json.Add("p99_ms", Milliseconds(cell.seen.p99));
+    json.Add("max_ms", Milliseconds(cell.seen.max));
+  }
+  if (cell.duty == Duty::kMust) {
+    json.Add("promised_ms", Milliseconds(cell.promised));
+    json.AddRaw("promise", JsonArray(Promise(cell.mechanism, limits), JsonOfTerm));
+    json.Add("longest_pause_ms", Milliseconds(cell.longest_pause));
+    json.Add("unseen", cell.unseen);
+    json.Add("excused", cell.excused);
+    json.Add("late", cell.late);
+    if (cell.late > 0) json.Add("worst_excess_ms", Milliseconds(cell.worst_excess));
+  }
+  if (cell.duty == Duty::kNone) json.Add("uncalled_for", cell.uncalled_for);
+  json.Add("kept", cell.Kept());
+  return json.Text();
+}
+
+}  // namespace
+
+bool StopwatchReport::Kept() const {
+  return problems.empty() && std::ranges::all_of(cells, &Cell::Kept);
+}
+
+std::vector<std::string> Findings(const StopwatchReport& report) {
+  std::vector<std::string> findings;
+  for (const Cell& cell : report.cells) {
+    if (!cell.Kept()) findings.push_back(FindingOf(cell));
+  }
+  const std::string hint = MaskingHint(report);
+  if (!hint.empty()) findings.push_back(hint);
+  findings.insert(findings.end(), report.problems.begin(), report.problems.end());
+  return findings;
+}
+
+std::string StopwatchText(const StopwatchReport& report) {
+  std::string text = fmt::format(
+      "{} vehicles a fleet, {} fleets at a time, {}, seed {}; milliseconds from the fault\n\n"
+      "  {:<8} {:<11} {:<5} {:>6} {:>10} {:>8} {:>8} {:>8} {:>8} {:>9} {:>7} {:>7}\n",
+      report.vehicles, report.fleets, report.qos_file, report.seed, "fault", "mechanism", "duty",
+      "trials", "seen", "min", "p50", "p99", "max", "promised", "+pause", "excused");
+  for (const Cell& cell : report.cells) text += Row(cell) + "\n";
+  text += "\npromised, each with the longest pause until then on top:\n";
+  for (std::size_t i = 0; i < kMechanisms; ++i) {
+    const auto mechanism = static_cast<Mechanism>(i);
+    std::string sum;
+    for (const Term& term : Promise(mechanism, report.limits)) {
+      sum += fmt::format("{}{:.0f} ms ({})", sum.empty() ? "" : " + ", Milliseconds(term.time),
+                         term.reason);
+    }
+    text += fmt::format("  {:<11} {}\n", Name(mechanism), sum.empty() ? "off" : sum);
+  }
+  for (const std::string& finding : Findings(report)) text += "\nBROKEN " + finding;
+  return text + fmt::format("\n{} after {:.0f} s; {} false alarms\n",
+                            report.Kept() ? "every promise was kept" : "not every promise was kept",
+                            report.took_s, report.false_alarms);
+}
+
+std::string StopwatchJson(const StopwatchReport& report) {
+  JsonObject json;
+  json.Add("verdict", report.Kept() ? "kept" : "broken");
+  json.Add("qos", report.qos_file);
+  json.Add("liveliness_asserted", Name(report.limits.asserted));
+  json.Add("liveliness_tracked", Name(report.limits.tracked));
+  json.Add("vehicles", report.vehicles);
+  json.Add("fleets", report.fleets);
+  json.Add("seed", report.seed);
+  json.Add("took_s", report.took_s);
+  json.Add("false_alarms", report.false_alarms);
+  json.AddRaw("findings", JsonArray(Findings(report),
+                                    [](const std::string& text) { return JsonString(text); }));
+  json.AddRaw("cells", JsonArray(report.cells,
+                                 [&](const Cell& cell) { return JsonOf(cell, report.limits); }));
+  return json.Text() + "\n";
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,33 @@
+// What a stopwatch found, as a table for people and as one JSON object.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/stopwatch/stopwatch_figures.h"
+
+namespace giveway::fleetctl {
+
+struct StopwatchReport {
+  std::string qos_file;
+  std::uint32_t vehicles = 0;
+  std::uint32_t fleets = 0;
+  std::uint32_t seed = 0;
+  double took_s = 0;
+  Limits limits;
+  int library_major = 2;  // of the Fast DDS that the fleets ran with
+  std::vector<Cell> cells;
+  std::uint32_t false_alarms = 0;
+  std::vector<std::string> problems;  // trials that could not be made
+
+  // Every cell kept its promise, and nothing stood in the way.
+  bool Kept() const;
+};
+
+// "kill: liveliness was seen by 3 of 12 too late, ...": a line for each promise that was broken.
+std::vector<std::string> Findings(const StopwatchReport& report);
+std::string StopwatchText(const StopwatchReport& report);
+std::string StopwatchJson(const StopwatchReport& report);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,37 @@
+// Conducts the trials of one fleet: waits until everyone hears everyone, strikes, collects what the
+// peers say, heals, and begins again.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/stopwatch/stall_monitor.h"
+#include "services/fleetctl/stopwatch/stopwatch_figures.h"
+#include "services/fleetctl/stopwatch/stopwatch_fleet.h"
+
+namespace giveway::fleetctl {
+
+// What one fleet is to do.
+struct StopwatchTask {
+  Fault fault = Fault::kKill;
+  std::uint32_t trials = 0;
+  std::uint64_t seed = 0;
+  std::vector<VehicleId> fleet;
+};
+
+struct StopwatchResult {
+  std::vector<Trial> trials;
+  // Trouble that peers told of one another, or of a victim before it was struck: nobody's fault.
+  std::uint32_t false_alarms = 0;
+  bool too_soon = false;  // the blackouts began while somebody was not well: nothing was tried
+  std::string problem;    // why it ended early; empty: it did not
+};
+
+// `note` is told of every wave how many trials it brought. Throws StartError, DomainError.
+StopwatchResult Conduct(const StopwatchTask& task, const StopwatchFleetCommand& command,
+                        const Limits& limits, const StallMonitor& monitor,
+                        const std::function<void(std::size_t)>& note);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,267 @@
+#include "services/fleetctl/survey/why_proc.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/process/whole_number.h"
+#include "services/fleetctl/survey/why_proc_text.h"
+#include "services/fleetctl/survey/why_told.h"
+#include "services/qos/xml_tree.h"
+#include "services/runtime/identity.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> ReadLink(const fs::path& link) {
+  std::error_code error;
+  const fs::path to = fs::read_symlink(link, error);
+  if (error) return std::nullopt;
+  return to.string();
+}
+
+std::optional<Started> ReadStarted(const fs::path& process) {
+  const auto words = ReadText(process / "cmdline");
+  if (!words || words->empty()) return std::nullopt;  // gone, or a zombie
+  Started started{ZeroEnded(*words), ZeroEnded(ReadText(process / "environ").value_or(""))};
+  if (!started.IsVehicle() && !started.IsWorld()) return std::nullopt;
+  return started;
+}
+
+// Reads one process into a situation, fact by fact.
+class Reading {
+ public:
+  Reading(const fs::path& proc, int pid, const Started& started)
+      : proc_(proc), process_(proc / std::to_string(pid)), started_(started) {
+    to_.pid = pid;
+    to_.environment = started.environment;
+    to_.told = ReadTold(started, &to_.not_known);
+    if (auto identity = ReadIdentity(process_)) {
+      to_.participant = std::move(identity->participant);
+      if (identity->vehicle != kNobody) to_.told.id = identity->vehicle;
+    }
+    if (!ReadText(process_ / "environ")) NotKnown("environment");
+  }
+
+  ProcessSituation Read() {
+    ReadState();
+    ReadNamespaces();
+    ReadNetwork();
+    ReadFiles();
+    ReadScenario();
+    ReadProfiles();
+    return std::move(to_);
+  }
+
+ private:
+  void NotKnown(const std::string& what) {
+    to_.not_known.push_back(what + ": " + std::strerror(errno == 0 ? ENOENT : errno));
+  }
+  void ReadState();
+  void ReadNamespaces();
+  bool IsUnplugged(const NetworkAddress& address) const;
+  void ReadNetwork();
+  void ReadFiles();
+  void ReadScenario();
+  void ReadProfiles();
+  // Where a path of the process is to be read from here.
+  fs::path Seen(const fs::path& path) const {
+    // What an operator's order brought is held in the process itself, see
+    // services/runtime/restart.h.
+    if (IsHeld(path)) return process_ / "fd" / path.filename();
+    return path.is_absolute() ? process_ / "root" / path.relative_path() : process_ / "cwd" / path;
+  }
+  static bool IsHeld(const fs::path& path) { return path.parent_path() == "/proc/self/fd"; }
+  fs::path ConfigFolder() const;
+
+  const fs::path proc_;
+  const fs::path process_;
+  const Started& started_;
+  ProcessSituation to_;
+  std::optional<std::uint64_t> start_s_;  // since 1970
+};
+
+void Reading::ReadState() {
+  const auto stat = ReadText(process_ / "stat");
+  const auto facts = stat ? ParseStat(*stat) : std::nullopt;
+  if (!facts) return NotKnown("state");
+  to_.state = facts->state;
+  const auto boot = ParseBootTime(ReadText(proc_ / "stat").value_or(""));
+  if (boot)
+    start_s_ = *boot + facts->start_ticks / static_cast<std::uint64_t>(sysconf(_SC_CLK_TCK));
+}
+
+void Reading::ReadNamespaces() {
+  const auto read = [this](const char* kind, const char* name) {
+    const auto link = ReadLink(process_ / "ns" / kind);
+    const auto inode = link ? ParseBracketed(*link, kind) : std::nullopt;
+    if (!inode) NotKnown(name);
+    return inode;
+  };
+  to_.network_namespace = read("net", "network namespace");
+  to_.ipc_namespace = read("ipc", "ipc namespace");
+  to_.mount_namespace = read("mnt", "mount namespace");
+  to_.pid_inside = ParseInnerPid(ReadText(process_ / "status").value_or("")).value_or(to_.pid);
+  struct stat memory {};
+  if (::stat((process_ / "root/dev/shm").c_str(), &memory) == 0) {
+    to_.shared_memory = FileIdentity{memory.st_dev, memory.st_ino};
+  } else {
+    NotKnown("/dev/shm");
+  }
+}
+
+// The library passes over interfaces that are up and do not run, as docker0 does without a
+// container: they have an address, but no carrier. Where that cannot be read, it runs.
+bool Reading::IsUnplugged(const NetworkAddress& address) const {
+  if (address.interface.empty()) return false;
+  const auto carrier = ReadText(process_ / "root/sys/class/net" / address.interface / "carrier");
+  return carrier && carrier->starts_with('0');
+}
+
+void Reading::ReadNetwork() {
+  const auto trie = ReadText(process_ / "net/fib_trie");
+  const auto route = ReadText(process_ / "net/route");
+  const auto dev = ReadText(process_ / "net/dev");
+  if (trie && route && dev) {
+    to_.addresses = ParseAddresses(*trie, *route, *dev);
+    std::erase_if(*to_.addresses, [this](const NetworkAddress& one) { return IsUnplugged(one); });
+  } else {
+    NotKnown("addresses");
+  }
+}
+
+void Reading::ReadFiles() {
+  to_.open_files_limit = ParseOpenFilesLimit(ReadText(process_ / "limits").value_or(""));
+  std::error_code error;
+  fs::directory_iterator files(process_ / "fd", error);
+  const auto udp = ReadText(process_ / "net/udp");
+  if (error || !udp) {
+    errno = error ? error.value() : errno;
+    return NotKnown("ports");
+  }
+  const auto ports = ParseUdp(*udp);
+  std::set<std::uint16_t> held;
+  std::uint64_t count = 0;
+  for (const fs::directory_entry& file : files) {
+    ++count;
+    const auto link = ReadLink(file.path());
+    const auto inode = link ? ParseBracketed(*link, "socket") : std::nullopt;
+    const auto port = inode ? ports.find(*inode) : ports.end();
+    if (port != ports.end()) held.insert(port->second);
+  }
+  to_.open_files = count;
+  to_.ports.emplace(held.begin(), held.end());
+}
+
+// The folder the process finds its shipped files in, as services/config/config_dir.cc has it.
+fs::path Reading::ConfigFolder() const {
+  for (const std::string& variable : started_.environment) {
+    if (variable.starts_with("GIVEWAY_CONFIG_DIR=")) return variable.substr(variable.find('=') + 1);
+  }
+  const fs::path bin = fs::path(ReadLink(process_ / "exe").value_or("")).parent_path();
+  for (const char* folder : {"../share/giveway", "../../../config"}) {
+    const fs::path config = (bin / folder).lexically_normal();
+    std::error_code error;
+    if (fs::is_directory(Seen(config / "scenarios"), error)) return config;
+  }
+  return {};
+}
+
+void Reading::ReadScenario() {
+  if (to_.told.scenario.empty()) return;
+  std::error_code error;
+  fs::path file = Seen(to_.told.scenario);
+  if (!fs::exists(file, error)) {
+    file = Seen(ConfigFolder() / "scenarios" / (to_.told.scenario + ".textproto"));
+  }
+  if (!fs::exists(file, error)) {
+    to_.not_known.push_back("scenario " + to_.told.scenario + ": cannot be read");
+    return;
+  }
+  const bool given = started_.Value("--impair").has_value();
+  AddScenario(file, given, &to_.told, &to_.not_known);
+}
+
+void Reading::ReadProfiles() {
+  if (to_.told.qos_file.empty() && ConfigFolder().empty()) {
+    to_.told.qos_file = ResolveQosFile("");
+    to_.not_known.push_back("profiles: their folder cannot be read; taken to be the default");
+    return;
+  }
+  fs::path path =
+      to_.told.qos_file.empty() ? ConfigFolder() / "qos/default.xml" : fs::path(to_.told.qos_file);
+  const fs::path seen = Seen(path);
+  const bool held = IsHeld(path);
+  if (held) path = seen;
+  if (path.is_relative()) path = fs::path(ReadLink(process_ / "cwd").value_or("")) / path;
+  to_.told.qos_file = path.lexically_normal().string();
+  const auto read = ReadQosFile(seen.string());
+  if (const auto* why = std::get_if<qos::Finding>(&read)) {
+    to_.not_known.push_back("profiles " + to_.told.qos_file + ": " + why->values);
+    return;
+  }
+  const qos::XmlRead xml = qos::ReadXml(std::get<qos::ProfileFile>(read).bytes, to_.told.qos_file);
+  if (!xml.root) {
+    to_.not_known.push_back("profiles " + to_.told.qos_file + ": no XML");
+    return;
+  }
+  to_.profiles = qos::ReadProfiles(*xml.root, to_.told.qos_file);
+  struct stat written {};
+  if (start_s_ && !held && ::stat(seen.c_str(), &written) == 0) {
+    // A second of grace: both are whole seconds.
+    to_.profiles_changed = static_cast<std::uint64_t>(written.st_mtime) > *start_s_ + 1;
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> ReadText(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+std::vector<int> ProcessIds(const fs::path& proc) {
+  std::vector<int> pids;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(proc, error)) {
+    if (const auto pid = WholeNumber<int>(entry.path().filename().string())) pids.push_back(*pid);
+  }
+  std::ranges::sort(pids);
+  return pids;
+}
+
+std::vector<FleetMember> FindFleet(const fs::path& proc) {
+  std::vector<FleetMember> members;
+  for (const int pid : ProcessIds(proc)) {
+    const auto started = ReadStarted(proc / std::to_string(pid));
+    if (!started) continue;
+    std::vector<std::string> ignored;
+    const fs::path process = proc / std::to_string(pid);
+    const Instructions told = ReadTold(*started, &ignored);
+    const auto identity = ReadIdentity(process);
+    const bool given = identity && identity->vehicle != kNobody;
+    const auto network = ReadLink(process / "ns/net");
+    members.push_back({pid, told.is_world, given ? identity->vehicle : told.id, told.domain,
+                       told.interface, network ? ParseBracketed(*network, "net") : std::nullopt});
+  }
+  return members;
+}
+
+std::optional<ProcessSituation> ReadSituation(const fs::path& proc, int pid) {
+  const auto started = ReadStarted(proc / std::to_string(pid));
+  if (!started) return std::nullopt;
+  return Reading(proc, pid, *started).Read();
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,99 @@
+#include "services/fleetctl/survey/why_told.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "services/config/flag_values.h"
+#include "services/config/impair.h"
+#include "services/config/problem.h"
+#include "services/config/scenario_file.h"
+#include "services/fleetctl/process/whole_number.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+std::string ProgramOf(const std::vector<std::string>& words) {
+  return words.empty() ? "" : std::filesystem::path(words.front()).filename().string();
+}
+
+std::uint32_t WholeOr(std::uint32_t otherwise, const std::optional<std::string>& text) {
+  return text ? WholeNumber<std::uint32_t>(*text).value_or(otherwise) : otherwise;
+}
+
+// The vehicle's own options; those of one that is not named are of a place the world chose, so any
+// fitted sensor counts.
+void AddSensors(const Scenario& scenario, Instructions* told) {
+  const bool named = std::ranges::find(scenario.vehicles, told->id, &VehicleOptions::id) !=
+                     scenario.vehicles.end();
+  for (const auto* list : {&scenario.vehicles, &scenario.spawns}) {
+    for (const VehicleOptions& options : *list) {
+      const bool own = list == &scenario.vehicles ? options.id == told->id : !named;
+      if (!own) continue;
+      told->radar |= options.profile.radar;
+      told->lidar |= options.profile.lidar;
+      told->camera |= options.profile.camera;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> Started::Value(const std::string& flag) const {
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i] == flag && i + 1 < words.size()) return words[i + 1];
+    if (words[i].starts_with(flag + "=")) return words[i].substr(flag.size() + 1);
+  }
+  const std::string twin = TwinOf(flag) + "=";
+  for (const std::string& variable : environment) {
+    if (variable.starts_with(twin) && variable.size() > twin.size()) {
+      return variable.substr(twin.size());
+    }
+  }
+  return std::nullopt;
+}
+
+bool Started::Switch(const std::string& flag) const {
+  if (std::ranges::find(words, flag) != words.end()) return true;
+  const std::string twin = TwinOf(flag) + "=";
+  return std::ranges::any_of(environment, [&](const std::string& variable) {
+    return variable == twin + "1" || variable == twin + "true";
+  });
+}
+
+bool Started::IsVehicle() const { return ProgramOf(words) == "giveway-vehicle"; }
+bool Started::IsWorld() const { return ProgramOf(words) == "giveway-world"; }
+
+Instructions ReadTold(const Started& started, std::vector<std::string>* not_known) {
+  Instructions told;
+  told.is_world = started.IsWorld();
+  told.id = told.is_world ? kNobody : VehicleId{WholeOr(0, started.Value("--id"))};
+  told.domain = WholeOr(0, started.Value("--domain"));
+  told.interface = started.Value("--interface").value_or(told.interface);
+  told.qos_file = started.Value("--qos").value_or("");
+  told.scenario = started.Value("--scenario").value_or("");
+  told.partition_free = !told.is_world && started.Switch("--partition-free");
+  const auto impair = told.is_world ? std::nullopt : started.Value("--impair");
+  if (!impair) return told;
+  ParsedImpairment parsed = ParseImpairment(*impair);
+  if (!parsed.problems.empty()) not_known->push_back("impairment: " + *impair);
+  told.impairment = std::move(parsed.impairment);
+  return told;
+}
+
+void AddScenario(const std::filesystem::path& file, bool impairment_given, Instructions* told,
+                 std::vector<std::string>* not_known) {
+  try {
+    const Scenario scenario = LoadScenario(file.string(), {});
+    told->area = scenario.area;
+    told->fleet_size =
+        static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size());
+    told->signals = !scenario.signals.empty();
+    AddSensors(scenario, told);
+    if (!impairment_given && !told->is_world) told->impairment = scenario.impairment;
+    if (!told->impairment.seed) told->impairment.seed = scenario.seed;
+  } catch (const std::exception& error) {  // InputError
+    not_known->push_back("scenario " + told->scenario + ": " + error.what());
+  }
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,15 @@
+// Has gnuplot draw the pictures of a search, if it is installed.
+#pragma once
+
+#include <vector>
+
+#include "services/fleetctl/tune/tune_page.h"
+#include "services/fleetctl/tune/tune_store.h"
+
+namespace giveway::fleetctl {
+
+// Writes NAME.gnuplot and NAME.svg into the folder. Empty where there is no gnuplot, or it refuses:
+// stderr says so.
+std::vector<DrawnPlot> Draw(const std::vector<TunePlot>& plots, const TuneStore& store);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,40 @@
+// Which candidates are worth having, and which one is recommended. Pure.
+//
+// The rule of the recommendation: of the candidates that have fewer false alarms than the base,
+// beyond what chance explains, and notice a dead vehicle no later than it, those that notice it
+// first; of these the one with the fewest false alarms, then the least bandwidth, then the least
+// CPU. If there is none, the one with the fewest false alarms of all.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "services/fleetctl/tune/tune_evidence.h"
+
+namespace giveway::fleetctl {
+
+// Detection times nearer than this are the same: a vehicle looks once a tick, and what is told
+// between two looks is acted on at the second.
+inline constexpr double kSameDetectionMs = 12.5;  // a quarter of a tick of 50 ms
+
+// However few readings there are, more than this is later: a turn later is 50.
+inline constexpr double kMostChanceMs = 20;
+
+// Places of those that no other beats: none has fewer false alarms and notices as early, or notices
+// earlier with as few. By rising detection time.
+std::vector<std::size_t> ParetoFront(const std::vector<TuneFigures>& figures);
+
+// All places, the most promising first: the front, the front of the rest, and so on; in each by
+// rising number of false alarms.
+std::vector<std::size_t> Ranking(const std::vector<TuneFigures>& figures);
+
+// True if the rates differ by more than two standard errors.
+bool HasFewerAlarms(const TuneFigures& one, const TuneFigures& than);
+// True unless its mean is later by more than two standard errors, within the two bounds above.
+bool NoticesNoLater(const TuneFigures& one, const TuneFigures& than);
+
+// The place of the recommended one; figures[base] is the base's.
+std::size_t Recommended(const std::vector<TuneFigures>& figures, std::size_t base);
+
+}  // namespace giveway::fleetctl

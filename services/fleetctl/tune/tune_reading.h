@@ -1,0 +1,55 @@
+// What a vehicle's recording says of QoS: a fresh brain is told again what the vehicle was told,
+// and asked at each step which peers it believes (vehicle/peer_table.h, IsFresh). So an alarm is
+// what the vehicle acted on, at the time it did. Pure but for the stream it reads.
+#pragma once
+
+#include <cstdint>
+#include <istream>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/tune/tune_evidence.h"
+#include "services/types/ids.h"
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+// All times are of the one steady clock of the machine.
+struct AliveWindow {
+  SteadyTime from{0};  // everybody hears everybody
+  SteadyTime to{0};    // just before the first is killed
+};
+
+// Since when a peer was not believed, at the recording's end, and what told it.
+struct Silenced {
+  SteadyTime at{0};
+  AlarmCause cause = AlarmCause::kDeadline;
+};
+
+struct VehicleReading {
+  std::string trouble;  // why it could not be read; empty if it could
+  VehicleId vehicle = kNobody;
+  SteadyTime last_step{0};  // the last beacon it sent
+  AlarmCounts alarms;       // within the window
+  std::uint32_t told_deadline = 0;
+  std::uint32_t told_liveliness = 0;
+  std::vector<std::uint64_t> ages;  // beacons at a decision, by how many ticks old; in the window
+  Nanoseconds longest_pause{0};     // between two steps, from the window on
+  std::map<VehicleId, std::optional<Silenced>> peers;  // nothing: believed to the end
+};
+
+VehicleReading ReadVehicle(std::istream* recording, const AliveWindow& window);
+
+struct Killing {
+  VehicleId victim = kNobody;
+  SteadyTime at{0};
+};
+
+// Puts the readings of all vehicles together. A peer that did not believe the victim when it was
+// killed, by a false alarm, says nothing of the detection.
+void FoldReadings(const std::vector<VehicleReading>& readings, const std::vector<Killing>& killings,
+                  Nanoseconds tick, TrialEvidence* evidence);
+
+}  // namespace giveway::fleetctl

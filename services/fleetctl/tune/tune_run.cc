@@ -1,0 +1,295 @@
+#include "services/fleetctl/tune/tune_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <span>
+#include <thread>
+
+#include "services/config/impair.h"
+#include "services/config/problem.h"
+#include "services/config/scenario_file.h"
+#include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/output/json_object.h"
+#include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/process/child_process.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/tune/tune_draw.h"
+#include "services/fleetctl/tune/tune_front.h"
+#include "services/fleetctl/tune/tune_report.h"
+#include "services/fleetctl/tune/tune_search.h"
+#include "services/link/convert/crc32c.h"
+#include "services/qos/check.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void Refuse(const std::string& file, const std::string& what,
+                         const std::string& remedy) {
+  throw InputError({{file, 0, "", "", what, remedy}});
+}
+
+// What the defaults of the flags come to.
+QosTuneOptions Filled(QosTuneOptions options) {
+  if (options.trial_s <= 0) options.trial_s = options.quick ? 12 : 20;
+  if (options.verify_trials == 0) options.verify_trials = options.quick ? 5 : 6;
+  if (options.fleets == 0) options.fleets = 2 * std::max(1U, std::thread::hardware_concurrency());
+  // A vehicle that is not impaired counts no packets: this impairs nothing, and counts.
+  if (options.impair == "none" || options.impair.empty()) options.impair = "loss=0";
+  return options;
+}
+
+// All that the evidence depends on; how many fleets run side by side may change.
+std::string PlanOf(const QosTuneOptions& options, const qos::ProfileFile& base) {
+  const std::span bytes(reinterpret_cast<const std::uint8_t*>(base.bytes.data()),
+                        base.bytes.size());
+  JsonObject plan;
+  plan.Add("base", std::string_view(base.name));
+  plan.Add("base_crc", link::Crc32c(bytes));
+  plan.Add("impair", std::string_view(options.impair));
+  plan.Add("vehicles", options.vehicles);
+  plan.Add("seed", options.seed);
+  plan.Add("quick", options.quick);
+  plan.Add("trial_s", options.trial_s);
+  plan.Add("candidates", options.candidates);
+  plan.Add("verify_trials", options.verify_trials);
+  return plan.Text();
+}
+
+class Tuning {
+ public:
+  explicit Tuning(const QosTuneOptions& options)
+      : options_(Filled(options)), base_(ReadBase()), store_(options_.out, Plan()) {
+    store_.Write("scenario.textproto", TuneScenarioText(options_.vehicles));
+    const std::string scenario_file = (store_.Folder() / "scenario.textproto").string();
+    scenario_ = LoadScenario(scenario_file, {});
+    ground_ = {.program_folder = ProgramFolder(),
+               .scenario_file = scenario_file,
+               .scenario = &scenario_,
+               .observer_qos = base_.name,
+               .impair = options_.impair,
+               .alive_s = options_.trial_s};
+    MakeProfiles();
+  }
+
+  TuneResult Run();
+  const TuneStore& Store() const { return store_; }
+  std::string ProfileOf(const std::string& candidate) const { return profiles_.at(candidate); }
+
+ private:
+  std::string Plan() const { return PlanOf(options_, base_); }
+  qos::ProfileFile ReadBase();
+  void MakeProfiles();
+  std::string CheckedProfile(const TuneCandidate& candidate, std::string* trouble) const;
+  std::size_t PlannedTrials(const std::vector<Rung>& rungs) const;
+  void Climb(const std::vector<Rung>& rungs, TuneSearch* search);
+  void TakeFigures(const TuneSearch& search, std::uint32_t most);
+  void Verify(TuneSearch* search);
+
+  QosTuneOptions options_;
+  qos::ProfileFile base_;
+  TuneStore store_;
+  Scenario scenario_;
+  TuneGround ground_;
+  TuneResult result_;
+  std::map<std::string, std::string> profiles_;  // by candidate: the file's text
+};
+
+qos::ProfileFile Tuning::ReadBase() {
+  const std::string path = ResolveQosFile(options_.base);
+  auto read = ReadQosFile(path);
+  if (const auto* why = std::get_if<qos::Finding>(&read)) {
+    Refuse(path, why->values, why->remedy);
+  }
+  qos::ProfileFile base = std::move(std::get<qos::ProfileFile>(read));
+  const qos::Findings findings = qos::Check({base}, {.vehicles = options_.vehicles});
+  if (qos::ExitCode(findings) >= 2) {
+    Refuse(path, findings.front().values + ": " + findings.front().consequence,
+           "fleetctl qos check " + path + " says all that is wrong; correct it first");
+  }
+  const std::string why =
+      WhyNotTunable(qos::ReadProfiles(*qos::ReadXml(base.bytes, path).root, path));
+  if (!why.empty()) Refuse(path, why, "start from a copy of config/qos/default.xml");
+  return base;
+}
+
+// The base's text with the candidate's values; empty, with words in `trouble`, if `qos check` finds
+// an error in it.
+std::string Tuning::CheckedProfile(const TuneCandidate& candidate, std::string* trouble) const {
+  const BeaconQos& base = result_.candidates.front().candidate.qos;
+  const qos::EditedProfiles edited =
+      qos::Edit(base_.bytes, base_.name, EditsOf(candidate.qos, base));
+  qos::Findings findings = edited.findings;
+  if (findings.empty()) {
+    const qos::Deployment deployment{.vehicles = options_.vehicles,
+                                     .tick_ns = scenario_.tick_period.count()};
+    findings = qos::Check({{candidate.name + ".xml", edited.bytes}}, deployment);
+  }
+  const auto error = std::ranges::find(findings, qos::Severity::kError, &qos::Finding::severity);
+  if (error == findings.end()) return edited.bytes;
+  *trouble = "refused by qos check: " + error->rule + ": " + error->values;
+  return {};
+}
+
+void Tuning::MakeProfiles() {
+  const auto set = qos::ReadProfiles(*qos::ReadXml(base_.bytes, base_.name).root, base_.name);
+  const TunePlanOptions plan{scenario_.tick_period, options_.quick, options_.candidates};
+  result_.base_file = base_.name;
+  result_.impair = options_.impair;
+  const VehicleOptions& vehicle = scenario_.vehicles.front();
+  result_.fleet = {options_.vehicles, Milliseconds(scenario_.tick_period),
+                   Milliseconds(vehicle.beacon_age_limit)};
+  result_.seed = options_.seed;
+  result_.alive_s = options_.trial_s;
+  const auto channel = ChannelOf(ParseImpairment(options_.impair).impairment);
+  for (TuneCandidate& candidate : MakeCandidates(BeaconQosOf(set), plan)) {
+    result_.candidates.push_back({.candidate = std::move(candidate)});
+    TunedCandidate& tuned = result_.candidates.back();
+    const std::string text = CheckedProfile(tuned.candidate, &tuned.trouble);
+    if (channel) tuned.predicted = Predict(tuned.candidate.qos, *channel, result_.fleet);
+    if (!tuned.trouble.empty()) continue;
+    profiles_[tuned.candidate.name] = text;
+    store_.Write("profiles/" + tuned.candidate.name + ".xml", text);
+  }
+}
+
+std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
+  std::size_t trials = 2 * options_.verify_trials;
+  std::uint32_t before = 0;
+  for (const Rung& rung : rungs) {
+    trials += rung.candidates * (rung.trials - before);
+    before = rung.trials;
+  }
+  return trials;
+}
+
+// Of the first so many trials: a search that goes on sees what it saw when it was cut off.
+void Tuning::TakeFigures(const TuneSearch& search, std::uint32_t most) {
+  std::vector<std::vector<TrialEvidence>> taken;
+  for (const TunedCandidate& tuned : result_.candidates) {
+    taken.push_back(search.TrialsOf(tuned.candidate.name, false));
+    if (taken.back().size() > most) taken.back().resize(most);
+  }
+  const double dispersion = Dispersion(taken);
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    TunedCandidate& tuned = result_.candidates[i];
+    const std::vector<TrialEvidence>& trials = taken[i];
+    tuned.figures = FiguresOf(trials, dispersion);
+    if (!tuned.figures && !trials.empty()) tuned.trouble = trials.front().trouble;
+    if (tuned.figures && tuned.predicted) {
+      tuned.disagreement = Disagreement(*tuned.figures, *tuned.predicted);
+    }
+  }
+}
+
+// Rung by rung the better half gets more time; the base always does.
+void Tuning::Climb(const std::vector<Rung>& rungs, TuneSearch* search) {
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < result_.candidates.size(); ++i) {
+    if (result_.candidates[i].trouble.empty()) left.push_back(i);
+  }
+  for (const Rung& rung : rungs) {
+    if (left.size() > rung.candidates) left.resize(rung.candidates);
+    if (std::ranges::find(left, std::size_t{0}) == left.end()) left.back() = 0;
+    std::vector<TuneCandidate> candidates;
+    for (const std::size_t place : left) {
+      candidates.push_back(result_.candidates[place].candidate);
+    }
+    search->Measure(candidates, false, rung.trials);
+    TakeFigures(*search, rung.trials);
+    const TunedCandidate& base = result_.candidates.front();
+    if (!base.figures) throw StartError("the base cannot be measured: " + base.trouble);
+    std::erase_if(left, [&](std::size_t place) { return !result_.candidates[place].figures; });
+    std::vector<TuneFigures> figures;
+    for (const std::size_t place : left) figures.push_back(*result_.candidates[place].figures);
+    std::vector<std::size_t> ranked;
+    for (const std::size_t i : Ranking(figures)) ranked.push_back(left[i]);
+    left = std::move(ranked);
+  }
+}
+
+void Tuning::Verify(TuneSearch* search) {
+  if (result_.recommended == 0) return;
+  const TuneCandidate& base = result_.candidates.front().candidate;
+  const TuneCandidate& chosen = result_.candidates[result_.recommended].candidate;
+  search->Measure({base, chosen}, true, options_.verify_trials);
+  const auto base_trials = search->TrialsOf(base.name, true);
+  const auto chosen_trials = search->TrialsOf(chosen.name, true);
+  const double dispersion = Dispersion({base_trials, chosen_trials});
+  const auto of_base = FiguresOf(base_trials, dispersion);
+  const auto of_chosen = FiguresOf(chosen_trials, dispersion);
+  if (!of_base || !of_chosen) return;
+  result_.verified = Verification{*of_base, *of_chosen, HasFewerAlarms(*of_chosen, *of_base),
+                                  NoticesNoLater(*of_chosen, *of_base)};
+}
+
+TuneResult Tuning::Run() {
+  const std::vector<Rung> rungs = MakeRungs(profiles_.size(), options_.quick);
+  const Interrupts interrupts;
+  TuneSearch search(ground_, store_, options_.fleets, options_.seed, PlannedTrials(rungs));
+  const std::size_t before = search.All().size();
+  if (before > 0) std::fprintf(stderr, "going on: %zu trials are there already\n", before);
+  Climb(rungs, &search);
+  Judge(&result_);
+  Verify(&search);
+  result_.trials = search.All();
+  std::error_code ignored;
+  fs::remove(store_.Folder() / "running", ignored);
+  if (search.Measured() == 0) {
+    std::fprintf(stderr, "nothing left to measure: all %zu trials are there\n", before);
+  }
+  return result_;
+}
+
+// What `fleetctl qos tune` chose, said where the reader of the file begins.
+std::string Headed(const std::string& profile, const TuneResult& result) {
+  const TunedCandidate& chosen = result.candidates[result.recommended];
+  std::string note = fmt::format(
+      "fleetctl qos tune: {} vehicles, {}: fleet/beacon with {}.\n"
+      "     From {}; where a comment below says otherwise of fleet/beacon, this holds.",
+      result.fleet.vehicles, result.impair, QosText(chosen.candidate.qos), result.base_file);
+  // Two hyphens would end the comment.
+  for (std::size_t at = note.find("--"); at != std::string::npos; at = note.find("--")) {
+    note.replace(at, 2, "-");
+  }
+  const std::size_t declaration = profile.starts_with("<?xml") ? profile.find("?>") + 2 : 0;
+  return profile.substr(0, declaration) + (declaration == 0 ? "" : "\n") + "<!-- " + note + " -->" +
+         (declaration == 0 ? "\n" : "") + profile.substr(declaration);
+}
+
+// False if stdout did not take it.
+bool Print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  return std::fflush(stdout) == 0;
+}
+
+}  // namespace
+
+int RunQosTune(const QosTuneOptions& options) {
+  try {
+    Tuning tuning(options);
+    const TuneResult result = tuning.Run();
+    const TuneStore& store = tuning.Store();
+    const std::string& chosen = result.candidates[result.recommended].candidate.name;
+    const bool told = Print(options.json ? ToJson(result) + "\n" : ToText(result));
+    return WriteAfterVerdict(told && result.IsBetter() ? 0 : 1, [&] {
+      store.Write("recommended.xml", Headed(tuning.ProfileOf(chosen), result));
+      store.Write("evidence.json", ToJson(result) + "\n");
+      store.Write("report.html", ToHtml(result, Draw(PlotsOf(result), store)));
+      if (options.json) return;
+      const std::string folder = store.Folder().string();
+      std::fprintf(stderr, "written: %s/recommended.xml, evidence.json, report.html\n",
+                   folder.c_str());
+    });
+  } catch (const TuneInterrupted&) {
+    std::fprintf(stderr, "interrupted; the same command goes on from here\n");
+    return 1;
+  }
+}
+
+}  // namespace giveway::fleetctl

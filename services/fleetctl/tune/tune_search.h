@@ -1,0 +1,66 @@
+// A search under way: which trials are still to be run, running them side by side, and saying how
+// long it will take. What comes out is evidence, by candidate.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/tune/tune_plan.h"
+#include "services/fleetctl/tune/tune_store.h"
+#include "services/fleetctl/tune/tune_trial.h"
+
+namespace giveway::fleetctl {
+
+// Ctrl-C. What was measured is kept.
+class TuneInterrupted : public std::exception {};
+
+class TuneSearch {
+ public:
+  // `trials_planned` is only for the time left.
+  TuneSearch(const TuneGround& ground, const TuneStore& store, std::size_t fleets,
+             std::uint32_t seed, std::size_t trials_planned);
+
+  // Measures until each candidate has so many trials, those from before counted. Throws
+  // TuneInterrupted.
+  void Measure(const std::vector<TuneCandidate>& candidates, bool verification,
+               std::uint32_t trials);
+  std::vector<TrialEvidence> TrialsOf(const std::string& candidate, bool verification) const;
+  // All of them, in the order of candidate and number.
+  std::vector<TrialEvidence> All() const;
+  std::size_t Measured() const { return measured_; }  // by this call of the program
+
+ private:
+  struct Key {
+    bool verification;
+    std::string candidate;
+    std::uint32_t trial;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  void StartNext();
+  void TakeFinished();
+  // Says why, if the trial is to be run again.
+  bool MayRepeat(const Key& key, const TrialEvidence& evidence);
+  void TellProgress(SteadyTime now);
+
+  const TuneGround& ground_;
+  const TuneStore& store_;
+  std::size_t fleets_;
+  std::uint32_t seed_;
+  std::size_t planned_;
+  std::map<Key, TrialEvidence> evidence_;
+  std::deque<TrialOrder> waiting_;
+  std::vector<std::unique_ptr<TuneTrial>> running_;
+  std::map<Key, int> repeats_;
+  std::size_t repeats_left_;
+  std::size_t measured_ = 0;
+  SteadyTime begun_{0};
+  SteadyTime next_word_{0};
+};
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,273 @@
+#include "services/fleetctl/tune/tune_trial.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "services/fleetctl/run/fleet_processes.h"
+#include "services/runtime/process.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr Nanoseconds kStartLimit = seconds(40);
+constexpr Nanoseconds kSettle = milliseconds(500);
+// Between two killings: longer than any limit that is searched.
+constexpr Nanoseconds kBetweenKillings = milliseconds(700);
+constexpr Nanoseconds kFirstKilling = milliseconds(20);
+constexpr std::size_t kMostKillings = 3;
+constexpr Nanoseconds kLeaveGrace = seconds(3);
+
+RunOptions OptionsOf(const TuneGround& ground, const TrialOrder& order) {
+  RunOptions options;
+  options.seed = order.seed;
+  options.vehicles = 0;  // beside those the scenario names
+  options.impair = ground.impair;
+  options.record_folder = order.folder.string();
+  return options;
+}
+
+link::LinkOptions ObserverOptions(const TuneGround& ground, std::uint32_t domain) {
+  link::LinkOptions options;
+  options.domain = domain;
+  options.qos_file = ground.observer_qos;
+  options.area = ground.scenario->area;
+  options.fleet_size = static_cast<std::uint32_t>(ground.scenario->vehicles.size());
+  return options;
+}
+
+// proc(5): utime and stime are fields 14 and 15; the name, field 2, may hold anything but ends with
+// the last ')'.
+double CpuSecondsOf(pid_t pid) {
+  std::ifstream stream("/proc/" + std::to_string(pid) + "/stat");
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t name_end = text.rfind(')');
+  if (name_end == std::string::npos) return 0;
+  std::istringstream fields(text.substr(name_end + 1));
+  std::string skipped;
+  for (int field = 3; field < 14; ++field) fields >> skipped;
+  double user = 0;
+  double system = 0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
+}
+
+// "bytes=1234" of the line in which a vehicle says what was injected.
+std::optional<double> BytesIn(const std::string& line) {
+  const std::size_t impairment = line.find("impairment: ");
+  if (impairment == std::string::npos) return std::nullopt;
+  const std::size_t bytes = line.find(" bytes=", impairment);
+  if (bytes == std::string::npos) return std::nullopt;
+  return std::strtod(line.c_str() + bytes + 7, nullptr);
+}
+
+}  // namespace
+
+TuneTrial::TuneTrial(const TuneGround& ground, const TrialOrder& order)
+    : ground_(ground), order_(order), lock_(std::nullopt), random_(order.seed) {
+  std::filesystem::create_directories(order.folder);
+  observer_.emplace(ObserverOptions(ground, lock_.Domain()));
+  const FleetCommand command{ground.program_folder, ground.scenario_file, lock_.Domain(),
+                             order.qos_file,        lock_.Fd(),           true};
+  for (const ChildCommand& child :
+       MakeCommands(OptionsOf(ground, order), command, *ground.scenario)) {
+    children_.emplace_back(child);
+  }
+  begun_ = SteadyNow();
+  Enter(Phase::kStarting, begun_ + kStartLimit);
+}
+
+TuneTrial::~TuneTrial() {
+  children_.clear();
+  std::error_code ignored;
+  std::filesystem::remove_all(order_.folder, ignored);
+}
+
+void TuneTrial::Fail(const std::string& why) {
+  if (trouble_.empty()) trouble_ = why;
+}
+
+void TuneTrial::Hear() {
+  for (const VehicleStatus& status : observer_->Take().statuses) {
+    const bool all = status.peers_heard + 1 == ground_.scenario->vehicles.size();
+    hears_all_[status.vehicle] = hears_all_[status.vehicle] || all;
+  }
+}
+
+bool TuneTrial::AllHearAll() const {
+  return hears_all_.size() == ground_.scenario->vehicles.size() &&
+         std::ranges::all_of(hears_all_, [](const auto& entry) { return entry.second; });
+}
+
+// Nobody but the killed may end before they are told to.
+void TuneTrial::CheckAlive() {
+  for (const ChildProcess& child : children_) {
+    const bool killed = std::ranges::any_of(
+        killed_, [&](const Killing& killing) { return &ChildOf(killing.victim) == &child; });
+    if (child.IsRunning() || killed) continue;
+    std::string why = child.Name() + " ended: " + Describe(*child.End());
+    if (!child.LastLines().empty()) why += "; it said: " + child.LastLines().back();
+    Fail(why);
+  }
+}
+
+ChildProcess& TuneTrial::ChildOf(VehicleId vehicle) {
+  const auto& vehicles = ground_.scenario->vehicles;
+  const auto found = std::ranges::find(vehicles, vehicle, &VehicleOptions::id);
+  return children_.at(static_cast<std::size_t>(found - vehicles.begin()) + 1);
+}
+
+double TuneTrial::CpuSeconds() const {
+  double sum = 0;
+  for (std::size_t i = 1; i < children_.size(); ++i) sum += CpuSecondsOf(children_[i].Pid());
+  return sum;
+}
+
+void TuneTrial::BeginAlive(SteadyTime now) {
+  window_.from = now;
+  cpu_before_s_ = CpuSeconds();
+  Enter(Phase::kAlive, now + FromSeconds(ground_.alive_s));
+}
+
+void TuneTrial::EndAlive(SteadyTime now) {
+  window_.to = now;
+  cpu_used_s_ = CpuSeconds() - cpu_before_s_;
+  PlanKillings();
+  Enter(Phase::kKilling, now + planned_.front().after);
+}
+
+// Who dies, and how long after the last one, is the seed's; where in the victim's own tick that
+// falls is chance.
+void TuneTrial::PlanKillings() {
+  std::vector<VehicleId> vehicles;
+  for (const VehicleOptions& vehicle : ground_.scenario->vehicles) vehicles.push_back(vehicle.id);
+  for (std::size_t i = vehicles.size(); i > 1; --i) {
+    std::swap(vehicles[i - 1], vehicles[random_.Next() % i]);
+  }
+  const std::size_t killings = std::min(kMostKillings, vehicles.size() - 1);
+  for (std::size_t i = 0; i < killings; ++i) {
+    const double share = random_.Uniform(0, 1);
+    const Nanoseconds in_tick = FromSeconds(share * Seconds(ground_.scenario->tick_period));
+    planned_.push_back({vehicles[i], (i == 0 ? kFirstKilling : kBetweenKillings) + in_tick});
+  }
+}
+
+// Counted from when the last one was, not from when it should have been: after a pause of this
+// process two would follow each other at once.
+void TuneTrial::KillIfDue(SteadyTime now) {
+  if (killed_.size() == planned_.size() || now < until_) return;
+  const VehicleId victim = planned_[killed_.size()].victim;
+  killed_.push_back({victim, SteadyNow()});
+  ChildOf(victim).Signal(SIGKILL);
+  const bool last = killed_.size() == planned_.size();
+  until_ = killed_.back().at + (last ? kBetweenKillings : planned_[killed_.size()].after);
+}
+
+void TuneTrial::Stop(SteadyTime now) {
+  stopped_ = now;
+  // All alike: a vehicle that is told to go says what was injected.
+  for (ChildProcess& child : children_) child.Signal(SIGTERM);
+  Enter(Phase::kStopping, now + kLeaveGrace);
+}
+
+void TuneTrial::StopFurther(SteadyTime now) {
+  const bool any = std::ranges::any_of(children_, &ChildProcess::IsRunning);
+  if (any && now < until_) return;
+  for (ChildProcess& child : children_) child.Signal(SIGKILL);
+  observer_.reset();
+  Enter(Phase::kOver, now);
+}
+
+void TuneTrial::Turn(SteadyTime now) {
+  if (phase_ == Phase::kKilling) KillIfDue(now);
+  for (ChildProcess& child : children_) child.Poll();
+  if (observer_) Hear();
+  if (phase_ < Phase::kStopping) CheckAlive();
+  if (phase_ < Phase::kStopping && !trouble_.empty()) return Stop(now);
+  switch (phase_) {
+    case Phase::kStarting:
+      if (AllHearAll()) Enter(Phase::kSettling, now + kSettle);
+      if (phase_ == Phase::kStarting && now > until_) Fail("not everybody heard everybody");
+      return;
+    case Phase::kSettling:
+      if (now >= until_) BeginAlive(now);
+      return;
+    case Phase::kAlive:
+      if (now >= until_) EndAlive(now);
+      return;
+    case Phase::kKilling:
+      if (now >= until_) Stop(now);
+      return;
+    case Phase::kStopping:
+      return StopFurther(now);
+    case Phase::kOver:
+      return;
+  }
+}
+
+// By those that were not killed: only they say it. Over their whole life, discovery included.
+std::optional<double> TuneTrial::HeardBytesPerSecond() const {
+  double sum = 0;
+  int count = 0;
+  for (const ChildProcess& child : children_) {
+    for (const std::string& line : child.LastLines()) {
+      const std::optional<double> bytes = BytesIn(line);
+      if (!bytes) continue;
+      sum += *bytes;
+      ++count;
+    }
+  }
+  const double life_s = Seconds(stopped_ - begun_);
+  if (count == 0 || life_s <= 0) return std::nullopt;
+  return sum / count / life_s;
+}
+
+TrialEvidence TuneTrial::TakeEvidence() {
+  const auto& vehicles = ground_.scenario->vehicles;
+  TrialEvidence evidence;
+  evidence.candidate = order_.candidate;
+  evidence.verification = order_.verification;
+  evidence.trial = order_.trial;
+  evidence.seed = order_.seed;
+  evidence.vehicles = static_cast<std::uint32_t>(vehicles.size());
+  evidence.trouble = trouble_;
+  if (!trouble_.empty()) return evidence;
+  evidence.alive_s = Seconds(window_.to - window_.from);
+  evidence.cpu_share = cpu_used_s_ / evidence.alive_s / evidence.vehicles;
+  evidence.heard_bytes_s = HeardBytesPerSecond();
+  std::vector<VehicleReading> readings;
+  for (const VehicleOptions& vehicle : vehicles) {
+    std::ifstream stream(order_.folder / fmt::format("vehicle-{}.recording", Number(vehicle.id)),
+                         std::ios::binary);
+    readings.push_back(ReadVehicle(&stream, window_));
+  }
+  FoldReadings(readings, killed_, ground_.scenario->tick_period, &evidence);
+  return evidence;
+}
+
+std::string TuneScenarioText(std::uint32_t vehicles) {
+  std::string text =
+      "name: \"qos_tune\"\n"
+      "description: \"Parallel lanes, slowly: all hear all, and nobody is in anybody's way.\"\n"
+      "duration_s: 3600\nstart_timeout_s: 60\nemission_radius_m: 1000\n";
+  for (std::uint32_t i = 1; i <= vehicles; ++i) {
+    text += fmt::format(
+        "vehicle {{ id: {0} start {{ x_m: 0 y_m: {1} heading_deg: 0 }} cruise_m_s: 0.05 "
+        "goal {{ x_m: 1000 y_m: {1} }} }}\n",
+        i, 3 * (i - 1));
+  }
+  // A place for a newcomer who never comes: in an open fleet a death is not the end of the run.
+  text += "spawn { start { x_m: 0 y_m: -30 heading_deg: 0 } cruise_m_s: 0.05 }\n";
+  return text + "expect { any_halted: true any_arrived: true }\n";
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,100 @@
+#include "services/fleetctl/virtual/shrink.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "services/config/scenario_write.h"
+#include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/virtual/shrinker.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+std::string_view Word(sim::ProcessFaultKind kind) {
+  if (kind == sim::ProcessFaultKind::kCrash) return "crash";
+  return kind == sim::ProcessFaultKind::kPause ? "pause" : "restart";
+}
+
+bool ShowProgress(const VirtualCase& smallest, std::uint32_t tries) {
+  if (::isatty(STDERR_FILENO) == 1) {
+    fmt::print(stderr, "\r{} tries, {} vehicles, {:.0f} s \x1b[K", tries,
+               smallest.scenario.vehicles.size(), smallest.scenario.duration_s);
+    std::fflush(stderr);
+  }
+  return Interrupts::Count() == 0;
+}
+
+std::string Comment(const CaseMaker& maker, const ShrinkOptions& options, const Shrunk& shrunk,
+                    const std::string& file) {
+  return fmt::format(
+      "Left of {} with seed {} after {} tries: breaks {} at tick {}.\nReplay:\n"
+      "  fleetctl virtual {} --seed 0{}\n",
+      maker.Name(), options.seed, shrunk.tries, sim::Name(shrunk.violation.invariant),
+      Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made.plan));
+}
+
+// An expectation speaks of vehicles by name: a smaller run that misses it too would show nothing.
+int TellThatNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const VirtualCase& made) {
+  fmt::print("{} with seed {} breaks no invariant\n", maker.Name(), seed);
+  if (!maker.HasExpectations()) return 0;
+  const std::string unmet = sim::RunVirtually(made.scenario, made.plan).unmet;
+  if (unmet.empty()) return 0;
+  fmt::print(stderr, "it misses what it expects, which is not shrunk: {}\n", unmet);
+  return kCouldNotRun;
+}
+
+}  // namespace
+
+std::string ReplayFlags(const sim::VirtualPlan& plan) {
+  const sim::RadioSettings& radio = plan.radio;
+  std::string flags;
+  const auto add = [&](const char* flag, double value) {
+    if (value > 0) flags += fmt::format(" {} {}", flag, value);
+  };
+  if (radio.burst.enter > 0) {
+    // The share of bad links is the loss that was asked for.
+    add("--loss", 100 * radio.burst.enter / (radio.burst.enter + radio.burst.leave));
+    flags += " --burst";
+  } else {
+    add("--loss", 100 * radio.loss);
+  }
+  add("--delay", Milliseconds(radio.delay));
+  add("--jitter", Milliseconds(radio.jitter));
+  add("--reorder", 100 * radio.reorder);
+  add("--duplicate", 100 * radio.duplicate);
+  if (radio.loops_back) flags += " --loopback";
+  if (!flags.empty()) flags += fmt::format(" --radio-seed {}", plan.seed);
+  for (const sim::ProcessFault& fault : plan.faults) {
+    flags += fmt::format(" --fault {}:{}@{}", Word(fault.kind), Number(fault.vehicle), fault.at_s);
+    if (fault.kind != sim::ProcessFaultKind::kCrash) flags += fmt::format("+{}", fault.for_s);
+  }
+  return flags;
+}
+
+int RunShrink(const ShrinkOptions& options) {
+  const CaseMaker maker(options.made_by);
+  const std::string file = options.out_file.empty()
+                               ? fmt::format("{}_{}.textproto", maker.Name(), options.seed)
+                               : options.out_file;
+  std::fputs(maker.Remark().c_str(), stderr);
+  CheckWritable(file);
+  VirtualCase failing = maker.Make(options.seed);
+  WriteScenario(failing.scenario, "");  // throws now rather than after a minute's work
+  const Interrupts interrupts(Silence::kComputes);
+  std::optional<Shrunk> shrunk = Shrink(failing, ShowProgress);
+  if (::isatty(STDERR_FILENO) == 1) std::fputs("\r\x1b[K", stderr);
+  if (!shrunk) return TellThatNothingBreaks(maker, options.seed, failing);
+  Scenario& scenario = shrunk->made.scenario;
+  scenario.name = fmt::format("{}_{}", maker.Name(), options.seed);
+  WriteFile(file, WriteScenario(scenario, Comment(maker, options, *shrunk, file)));
+  fmt::print("{}: {} of {} vehicles, {:.0f} s, breaks {}\nfleetctl virtual {} --seed 0{}\n", file,
+             scenario.vehicles.size(), failing.scenario.vehicles.size(), scenario.duration_s,
+             sim::Name(shrunk->violation.invariant), file, ReplayFlags(shrunk->made.plan));
+  return 1;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,24 @@
+// The verb `fleetctl shrink`: reduces a failing virtual run to a small one that still fails, and
+// writes it as a scenario file. Values in; the exit code out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "services/fleetctl/virtual/virtual_case.h"
+
+namespace giveway::fleetctl {
+
+struct ShrinkOptions {
+  CaseOptions made_by;
+  std::uint32_t seed = 1;
+  std::string out_file;  // empty: NAME_SEED.textproto
+};
+
+// 1 if the run fails and the file is written, 0 if it does not fail, 2 if it could not run.
+int RunShrink(const ShrinkOptions& options);
+
+// The flags of `fleetctl virtual` that replay the plan on the file: empty where nothing goes wrong.
+std::string ReplayFlags(const sim::VirtualPlan& plan);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,37 @@
+#include <limits>
+#include <memory>
+
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/virtual/shrink.h"
+#include "services/fleetctl/virtual/virtual_flags.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+Takes the flags of `fleetctl virtual` with which the seed failed. Leaves out vehicles, faults, walls
+and what goes wrong on the radio, one after the other, as long as the same invariant breaks.
+
+Example
+  fleetctl shrink crossing --vehicles 4 --behaviour lecture_printed --seed 1
+
+Exit code: 1 the run breaks an invariant and the file is written, 0 it breaks none, 2 could not run,
+or it only misses what its scenario expects.
+)";
+
+}  // namespace
+
+void AddShrinkVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<ShrinkOptions>();
+  CLI::App* verb = fleetctl->add_subcommand(
+      "shrink", "Reduce a failing virtual run to the smallest that still fails");
+  verb->footer(kFooter);
+  AddCaseFlags(verb, &options->made_by);
+  verb->add_option("--seed", options->seed, "The seed that fails")
+      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
+      ->required();
+  verb->add_option("--out", options->out_file, "The file; default NAME_SEED.textproto");
+  verb->callback([options, exit_code] { *exit_code = RunShrink(*options); });
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,165 @@
+#include "services/fleetctl/virtual/shrinker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "services/config/scenario_write.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr double kAfterwards_s = 1;  // left to a run beyond the violation
+constexpr double kSpare_s = 60;      // beyond the free-flow time, for those who are to arrive
+
+// Who is gone is neither crashed, paused nor expected.
+void RemoveVehicles(std::size_t first, std::size_t count, VirtualCase* made) {
+  auto& vehicles = made->scenario.vehicles;
+  const auto begin = vehicles.begin() + static_cast<std::ptrdiff_t>(first);
+  vehicles.erase(begin, begin + static_cast<std::ptrdiff_t>(count));
+  const auto is_gone = [&](VehicleId id) {
+    return std::ranges::find(vehicles, id, &VehicleOptions::id) == vehicles.end();
+  };
+  std::erase_if(made->plan.faults, [&](const auto& fault) { return is_gone(fault.vehicle); });
+  std::erase_if(made->plan.radio.blackouts, [&](const auto& blackout) {
+    return blackout.vehicle != kNobody && is_gone(blackout.vehicle);
+  });
+  std::erase_if(made->scenario.faults, [&](const auto& fault) {
+    return fault.kind == FaultKind::kKill && is_gone(fault.vehicle);
+  });
+  std::erase_if(made->scenario.expect.arrived, is_gone);
+  std::erase_if(made->scenario.expect.halted, is_gone);
+}
+
+class Shrinker {
+ public:
+  Shrinker(VirtualCase failing, sim::Invariant broken, const ShrinkProgress& progress)
+      : best_(std::move(failing)), broken_(broken), progress_(progress) {}
+
+  // Anything left out may make room for more.
+  void Run() {
+    TryRounded();
+    bool smaller = true;
+    while (smaller && !stopped_) {
+      smaller = LeaveOutVehicles();
+      smaller = LeaveOut(&VirtualCase::plan, &sim::VirtualPlan::faults) || smaller;
+      smaller = LeaveOut(&VirtualCase::scenario, &Scenario::faults) || smaller;
+      smaller = LeaveOut(&VirtualCase::scenario, &Scenario::walls) || smaller;
+      smaller = CalmRadio() || smaller;
+      smaller = CutTime() || smaller;
+    }
+  }
+  Shrunk Result() const { return {best_, violation_, tries_}; }
+
+ private:
+  // Keeps the candidate if the invariant breaks in it too.
+  bool Try(const VirtualCase& candidate) {
+    if (stopped_ || !progress_(best_, tries_)) {
+      stopped_ = true;
+      return false;
+    }
+    ++tries_;
+    const sim::VirtualOutcome outcome = sim::RunVirtually(candidate.scenario, candidate.plan);
+    const auto first = std::ranges::find(outcome.first, broken_, &sim::Violation::invariant);
+    if (first == outcome.first.end()) return false;
+    violation_ = *first;
+    best_ = candidate;
+    return true;
+  }
+
+  // The file holds rounded numbers; where these do not fail, it will hold all digits.
+  void TryRounded() {
+    VirtualCase rounded = best_;
+    rounded.scenario = RoundedAsWritten(rounded.scenario);
+    if (!Try(rounded)) Try(best_);
+  }
+
+  // Halves first, then quarters, down to single ones (delta debugging, Zeller 1999).
+  bool LeaveOutVehicles() {
+    bool smaller = false;
+    for (std::size_t size = best_.scenario.vehicles.size() / 2; size > 0; size /= 2) {
+      for (std::size_t first = 0; first + size <= best_.scenario.vehicles.size();) {
+        VirtualCase candidate = best_;
+        RemoveVehicles(first, size, &candidate);
+        const bool fails = !candidate.scenario.vehicles.empty() && Try(candidate);
+        smaller = smaller || fails;
+        if (!fails) first += size;
+      }
+    }
+    return smaller;
+  }
+
+  template <typename Owner, typename Element>
+  bool LeaveOut(Owner VirtualCase::*owner, std::vector<Element> Owner::*list) {
+    bool smaller = false;
+    for (std::size_t i = 0; i < ((best_.*owner).*list).size();) {
+      VirtualCase candidate = best_;
+      auto& elements = (candidate.*owner).*list;
+      elements.erase(elements.begin() + static_cast<std::ptrdiff_t>(i));
+      const bool fails = Try(candidate);
+      smaller = smaller || fails;
+      if (!fails) ++i;
+    }
+    return smaller;
+  }
+
+  template <typename Value>
+  bool Reset(Value sim::RadioSettings::*setting) {
+    if (best_.plan.radio.*setting == Value{}) return false;
+    VirtualCase candidate = best_;
+    candidate.plan.radio.*setting = Value{};
+    return Try(candidate);
+  }
+
+  bool CalmRadio() {
+    bool smaller = false;
+    for (const auto setting : {&sim::RadioSettings::loss, &sim::RadioSettings::reorder,
+                               &sim::RadioSettings::duplicate}) {
+      smaller = Reset(setting) || smaller;
+    }
+    smaller = Reset(&sim::RadioSettings::jitter) || smaller;
+    smaller = Reset(&sim::RadioSettings::delay) || smaller;
+    smaller = Reset(&sim::RadioSettings::loops_back) || smaller;
+    if (best_.plan.radio.burst.enter > 0) {
+      VirtualCase candidate = best_;
+      candidate.plan.radio.burst = {};
+      smaller = Try(candidate) || smaller;
+    }
+    return smaller;
+  }
+
+  // A run that is to show who does not arrive must leave the time to.
+  bool CutTime() {
+    double needed_s = Number(violation_.tick) * Seconds(best_.scenario.tick_period) + kAfterwards_s;
+    if (broken_ == sim::Invariant::kArrival) {
+      needed_s = kSpare_s;
+      for (const VehicleOptions& options : best_.scenario.vehicles) {
+        needed_s = std::max(needed_s, sim::FreeFlowSeconds(options) + kSpare_s);
+      }
+    }
+    needed_s = std::ceil(needed_s);
+    if (needed_s >= best_.scenario.duration_s) return false;
+    VirtualCase candidate = best_;
+    candidate.scenario.duration_s = needed_s;
+    return Try(candidate);
+  }
+
+  VirtualCase best_;
+  sim::Invariant broken_;
+  const ShrinkProgress& progress_;
+  sim::Violation violation_;
+  std::uint32_t tries_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::optional<Shrunk> Shrink(const VirtualCase& failing, const ShrinkProgress& progress) {
+  const sim::VirtualOutcome outcome = sim::RunVirtually(failing.scenario, failing.plan);
+  if (outcome.first.empty()) return std::nullopt;
+  Shrinker shrinker(failing, outcome.first.front().invariant, progress);
+  shrinker.Run();
+  return shrinker.Result();
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,160 @@
+#include "services/fleetctl/virtual/virtual.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
+#include "services/config/problem.h"
+#include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/virtual/virtual_batch.h"
+#include "services/fleetctl/virtual/virtual_show.h"
+#include "services/report/virtual_report.h"
+#include "services/runtime/process.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr std::size_t kFailingSeedsShown = 100;
+
+// By nearest rank; the values are sorted and not empty.
+double Percentile(const std::vector<double>& sorted, double share) {
+  const auto rank = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5);
+  return sorted[rank];
+}
+
+std::string BrokenNames(const std::vector<BrokenInvariant>& violations) {
+  std::string names;
+  for (const BrokenInvariant& broken : violations) {
+    if (broken.count > 0) names += (names.empty() ? "" : ", ") + broken.name;
+  }
+  return names;
+}
+
+VirtualReport ReportOf(const BatchTotals& totals, double wall_s) {
+  VirtualReport report;
+  report.runs = totals.runs;
+  report.failed_runs = static_cast<std::uint32_t>(totals.failing_seeds.size());
+  report.contacts = totals.contacts;
+  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+    const auto name = sim::Name(static_cast<sim::Invariant>(i));
+    report.violations.push_back({std::string(name), totals.violations[i]});
+  }
+  report.violations.push_back({"expectation", totals.unmet});
+  if (totals.unmet > 0) {
+    report.unmet = fmt::format("seed {}: {}", totals.first_unmet_seed, totals.first_unmet);
+  }
+  report.vehicle_hours = totals.vehicle_seconds / 3600;
+  if (wall_s > 0) report.vehicle_hours_per_minute = totals.vehicle_seconds / 60 / wall_s;
+  if (!totals.delays_s.empty()) {
+    report.delay_p50_s = Percentile(totals.delays_s, 0.5);
+    report.delay_p99_s = Percentile(totals.delays_s, 0.99);
+    report.delay_mean_s = std::accumulate(totals.delays_s.begin(), totals.delays_s.end(), 0.0) /
+                          static_cast<double>(totals.delays_s.size());
+  }
+  report.min_separation_m = totals.separation_m;
+  report.trust = totals.trust;
+  report.hash = fmt::format("{:016x}", totals.hash);
+  const std::size_t shown = std::min(totals.failing_seeds.size(), kFailingSeedsShown);
+  report.failing_seeds.assign(totals.failing_seeds.begin(),
+                              totals.failing_seeds.begin() + static_cast<std::ptrdiff_t>(shown));
+  const bool failed = !totals.failing_seeds.empty();
+  report.verdict = failed ? Verdict::kFailed : Verdict::kPassed;
+  report.reason = failed ? BrokenNames(report.violations) : "all_held";
+  return report;
+}
+
+// A bar on stderr where that is a terminal.
+class ProgressBar {
+ public:
+  explicit ProgressBar(std::uint64_t runs) : runs_(runs), shown_(::isatty(STDERR_FILENO) == 1) {}
+  ~ProgressBar() {
+    if (shown_) std::fputs("\r\x1b[2K", stderr);
+  }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void Show(const BatchTotals& so_far) const {
+    if (!shown_) return;
+    constexpr std::uint64_t kWidth = 30;
+    const auto done = static_cast<std::size_t>(kWidth * so_far.runs / runs_);
+    fmt::print(stderr, "\r[{}{}] {}/{} runs, {} failing, {:.1f} vehicle-hours ",
+               std::string(done, '#'), std::string(kWidth - done, '.'), so_far.runs, runs_,
+               so_far.failing_seeds.size(), so_far.vehicle_seconds / 3600);
+    std::fflush(stderr);
+  }
+
+ private:
+  std::uint64_t runs_;
+  bool shown_;
+};
+
+int Print(const VirtualOptions& options, const VirtualReport& report) {
+  const std::string text = options.json ? ToJson(report) + "\n" : ToText(report);
+  std::fputs(text.c_str(), stdout);
+  const int code = ExitCode(report.verdict);
+  if (std::fflush(stdout) == 0) return code;
+  std::fprintf(stderr, "cannot write the verdict to stdout\n");
+  return std::max(code, 1);
+}
+
+int RunAll(const VirtualOptions& options) {
+  for (const std::string& file : {options.picture_file, options.trace_file}) {
+    if (!file.empty()) CheckWritable(file);
+  }
+  const CaseMaker maker(options.made_by);
+  std::fputs(maker.Remark().c_str(), stderr);
+  const Interrupts interrupts(Silence::kComputes);
+  const SteadyTime start = SteadyNow();
+  BatchTotals totals;
+  {
+    const ProgressBar bar(options.seeds.high - options.seeds.low + 1ULL);
+    totals = RunBatch(maker, options.seeds, options.jobs, [&](const BatchTotals& so_far) {
+      bar.Show(so_far);
+      return Interrupts::Count() == 0;
+    });
+  }
+  VirtualReport report = ReportOf(totals, Seconds(SteadyNow() - start));
+  report.scenario = maker.Name();
+  report.jobs = options.jobs;
+  if (Interrupts::Count() > 0) {
+    report.verdict = Verdict::kFailed;
+    report.reason = "interrupted";
+  }
+  const int code = Print(options, report);
+  if (options.picture_file.empty() && options.trace_file.empty()) return code;
+  return WriteAfterVerdict(code, [&] {
+    ShowRun(maker.Make(options.seeds.low), options.picture_file, options.trace_file);
+  });
+}
+
+int RefuseToRun(const VirtualOptions& options, const char* reason, const std::exception& why) {
+  std::fprintf(stderr, "%s\n", why.what());
+  if (options.json) {
+    VirtualReport report;
+    report.scenario = options.made_by.scenario;
+    report.reason = reason;
+    Print(options, report);
+  }
+  return kCouldNotRun;
+}
+
+}  // namespace
+
+int RunVirtual(const VirtualOptions& options) {
+  try {
+    return RunAll(options);
+  } catch (const InputError& error) {
+    return RefuseToRun(options, "bad_input", error);
+  } catch (const OutputError& error) {
+    return RefuseToRun(options, "unwritable_output", error);
+  } catch (const std::exception& error) {  // out of memory, no thread
+    return RefuseToRun(options, "could_not_start", error);
+  }
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,41 @@
+// Many virtual runs at once, one thread a run, and what they came to together. The result does not
+// depend on how many threads there were.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/virtual/virtual_case.h"
+#include "sim_world/virtual/virtual_run.h"
+
+namespace giveway::fleetctl {
+
+struct BatchTotals {
+  std::uint32_t runs = 0;
+  std::uint32_t contacts = 0;
+  std::array<std::uint32_t, sim::kInvariantCount> violations{};
+  std::uint32_t unmet = 0;  // runs that missed what their scenario expects
+  // What the first of them missed.
+  std::uint32_t first_unmet_seed = 0;
+  std::string first_unmet;
+  double vehicle_seconds = 0;
+  std::vector<double> delays_s;
+  std::optional<double> separation_m;
+  TrustCounters trust;
+  std::uint64_t hash = 0;
+  std::vector<std::uint32_t> failing_seeds;  // ascending once the batch is over
+
+  void Add(std::uint32_t seed, const sim::VirtualOutcome& outcome, bool judge_expectations);
+};
+
+// Called now and then from the thread that started the batch. False: stop soon.
+using BatchProgress = std::function<bool(const BatchTotals& so_far)>;
+
+BatchTotals RunBatch(const CaseMaker& maker, const WholeRange& seeds, std::uint32_t jobs,
+                     const BatchProgress& progress);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,146 @@
+#include "services/fleetctl/virtual/virtual_case.h"
+
+#include <algorithm>
+#include <set>
+
+#include "services/config/plan_read.h"
+#include "services/config/problem.h"
+#include "services/config/scenario_file.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr WholeRange kDefaultVehicles{6, 6};
+constexpr std::uint64_t kDraws = 0x5eed;  // the stream beside the generators' own
+constexpr double kMeanBurst_ticks = 5;
+// Faults fall into the time in which ways cross.
+constexpr NumberRange kFaultTime_s{2, 25};
+constexpr NumberRange kAbsence_s{0.1, 0.8};  // the world takes a second's silence for a death
+
+std::uint32_t Draw(const WholeRange& range, Random* dice) {
+  return range.low + static_cast<std::uint32_t>(dice->Next() % (range.high - range.low + 1ULL));
+}
+
+sim::RadioSettings RadioOf(const CaseOptions& options, Random* dice) {
+  sim::RadioSettings radio;
+  const double loss = dice->Uniform(options.loss_percent.low, options.loss_percent.high) / 100;
+  if (options.burst && loss > 0) {
+    // Links are bad for the share of time that is to be lost, and then lose everything.
+    radio.burst.leave = 1 / kMeanBurst_ticks;
+    radio.burst.enter = std::min(0.8, radio.burst.leave * loss / (1 - loss));
+  } else {
+    radio.loss = loss;
+  }
+  radio.delay = FromSeconds(options.delay_ms / 1000);
+  radio.jitter = FromSeconds(options.jitter_ms / 1000);
+  radio.reorder = options.reorder_percent / 100;
+  radio.duplicate = options.duplicate_percent / 100;
+  radio.loops_back = options.loops_back;
+  return radio;
+}
+
+// An open fleet as it stands when it starts: who joins first gets the first place.
+void FillPlaces(std::uint32_t count, Scenario* scenario) {
+  const std::set<VehicleId> ids = IdsOf(*scenario).joining;
+  auto id = ids.begin();
+  for (const VehicleOptions& place : scenario->spawns) {
+    if (scenario->vehicles.size() >= count) break;
+    scenario->vehicles.push_back(place);
+    scenario->vehicles.back().id = *id++;
+  }
+  std::ranges::sort(scenario->vehicles, {}, &VehicleOptions::id);
+  scenario->spawns.clear();
+}
+
+void AddFaults(sim::ProcessFaultKind kind, std::uint32_t count, const Scenario& scenario,
+               Random* dice, std::vector<sim::ProcessFault>* faults) {
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::size_t victim = dice->Next() % scenario.vehicles.size();
+    faults->push_back({.kind = kind,
+                       .vehicle = scenario.vehicles[victim].id,
+                       .at_s = dice->Uniform(kFaultTime_s.low, kFaultTime_s.high),
+                       .for_s = dice->Uniform(kAbsence_s.low, kAbsence_s.high)});
+  }
+}
+
+void AddNamed(const sim::ProcessFault& fault, VirtualCase* made) {
+  const auto& vehicles = made->scenario.vehicles;
+  if (std::ranges::find(vehicles, fault.vehicle, &VehicleOptions::id) == vehicles.end()) {
+    throw InputError({{.file = made->scenario.name,
+                       .field = "--fault",
+                       .value = std::to_string(Number(fault.vehicle)),
+                       .message = "no vehicle has this id",
+                       .remedy = "name one of the scenario's"}});
+  }
+  made->plan.faults.push_back(fault);
+}
+
+}  // namespace
+
+CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
+  generator_ = sim::FindGenerator(options.scenario);
+  if (generator_ != nullptr) {
+    name_ = generator_->name;
+    return;
+  }
+  ScenarioOverrides overrides;
+  overrides.seed = 0;
+  overrides.duration_s = options.duration_s;
+  overrides.behaviour = options.behaviour;
+  loaded_ = LoadScenario(options.scenario, overrides);
+  if (IsEndless(*loaded_)) loaded_->duration_s = kEndless_s;
+  name_ = loaded_->name;
+  CheckVehicles();
+}
+
+void CaseMaker::CheckVehicles() const {
+  if (!options_.vehicles) return;
+  const std::size_t most = loaded_->vehicles.size() + loaded_->spawns.size();
+  const bool open = !loaded_->spawns.empty();
+  if (open && options_.vehicles->high <= most) return;
+  throw InputError(
+      {{.file = name_,
+        .field = "--vehicles",
+        .value = std::to_string(options_.vehicles->high),
+        .message = open ? "it has places for " + std::to_string(most) : "it names its vehicles",
+        .remedy = open ? "ask for no more" : "leave the flag out"}});
+}
+
+std::string CaseMaker::Remark() const {
+  if (!loaded_ || loaded_->impairment.rules.empty()) return {};
+  return name_ +
+         ": its `impair` is not carried out, that is for real links; the virtual radio is told by "
+         "--loss, --burst, --delay, --jitter, --reorder and --duplicate\n";
+}
+
+Scenario CaseMaker::MakeScenario(std::uint32_t seed, Random* dice) const {
+  const std::uint32_t vehicles = Draw(options_.vehicles.value_or(kDefaultVehicles), dice);
+  Scenario scenario = loaded_ ? *loaded_ : generator_->make({vehicles, seed});
+  if (loaded_) {
+    FillPlaces(options_.vehicles ? vehicles : std::max(1U, scenario.start_with), &scenario);
+    scenario.seed = seed;
+    PerturbBySeed(&scenario);
+  }
+  if (!loaded_ && options_.behaviour) {
+    for (VehicleOptions& vehicle : scenario.vehicles) {
+      vehicle.behaviour = *options_.behaviour;
+      vehicle.braitenberg = WeightsOf(*options_.behaviour);
+    }
+  }
+  return scenario;
+}
+
+VirtualCase CaseMaker::Make(std::uint32_t seed) const {
+  Random dice(seed, kDraws);
+  VirtualCase made{MakeScenario(seed, &dice), {}};
+  made.plan.seed = options_.radio_seed.value_or(seed);
+  made.plan.radio = RadioOf(options_, &dice);
+  using Kind = sim::ProcessFaultKind;
+  AddFaults(Kind::kCrash, options_.crashes, made.scenario, &dice, &made.plan.faults);
+  AddFaults(Kind::kPause, options_.pauses, made.scenario, &dice, &made.plan.faults);
+  AddFaults(Kind::kRestart, options_.restarts, made.scenario, &dice, &made.plan.faults);
+  for (const sim::ProcessFault& fault : options_.faults) AddNamed(fault, &made);
+  return made;
+}
+
+}  // namespace giveway::fleetctl

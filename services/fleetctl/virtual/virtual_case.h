@@ -1,0 +1,77 @@
+// What one seed of `fleetctl virtual` means: the scenario and everything that goes wrong in it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/types/math/random.h"
+#include "services/types/scenario.h"
+#include "sim_world/virtual/generators.h"
+#include "sim_world/virtual/virtual_plan.h"
+
+namespace giveway::fleetctl {
+
+// Both ends included.
+struct WholeRange {
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+};
+struct NumberRange {
+  double low = 0;
+  double high = 0;
+};
+
+// How much is looked at of a scenario that lasts until it is stopped.
+inline constexpr double kEndless_s = 600;
+
+// What the operator asked for. Where a range is given, each seed draws its own value from it.
+struct CaseOptions {
+  std::string scenario;                // a file, a shipped one, or a generator
+  std::optional<WholeRange> vehicles;  // of a generator, or of an open fleet
+  std::optional<Behaviour> behaviour;
+  std::optional<double> duration_s;  // of a scenario; absent: its own, or kEndless_s
+  NumberRange loss_percent;
+  bool burst = false;  // the loss comes in bursts, the mean is the same
+  double delay_ms = 0;
+  double jitter_ms = 0;
+  double reorder_percent = 0;
+  double duplicate_percent = 0;
+  bool loops_back = false;    // everyone hears its own beacons too
+  std::uint32_t crashes = 0;  // vehicles that die, pause, or start anew, each at a time drawn
+  std::uint32_t pauses = 0;
+  std::uint32_t restarts = 0;
+  std::vector<sim::ProcessFault> faults;    // on top of those drawn
+  std::optional<std::uint32_t> radio_seed;  // absent: the seed
+};
+
+struct VirtualCase {
+  Scenario scenario;
+  sim::VirtualPlan plan;
+};
+
+class CaseMaker {
+ public:
+  // Throws InputError where the scenario is neither a file nor a generator, or has no place
+  // for so many vehicles.
+  explicit CaseMaker(const CaseOptions& options);
+
+  VirtualCase Make(std::uint32_t seed) const;
+  const std::string& Name() const { return name_; }
+  // True if the scenario states what it expects of a run: a file's does.
+  bool HasExpectations() const { return loaded_.has_value(); }
+  // A line about what of the scenario is not carried out; empty if all of it is.
+  std::string Remark() const;
+
+ private:
+  void CheckVehicles() const;
+  Scenario MakeScenario(std::uint32_t seed, Random* dice) const;
+
+  CaseOptions options_;
+  std::string name_;
+  const sim::Generator* generator_ = nullptr;
+  std::optional<Scenario> loaded_;  // with seed 0: as it stands in the file
+};
+
+}  // namespace giveway::fleetctl

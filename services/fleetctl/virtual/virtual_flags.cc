@@ -1,0 +1,140 @@
+#include "services/fleetctl/virtual/virtual_flags.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <regex>
+#include <vector>
+
+#include "services/config/flags.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+// "LO..HI", or "N" for both.
+std::optional<NumberRange> ParseRange(const std::string& text) {
+  const std::size_t dots = text.find("..");
+  const auto number = [](const std::string& part) -> std::optional<double> {
+    std::size_t used = 0;
+    try {
+      const double value = std::stod(part, &used);
+      if (used == part.size() && std::isfinite(value)) return value;
+    } catch (const std::exception&) {
+    }
+    return std::nullopt;
+  };
+  const auto low = number(text.substr(0, dots));
+  const auto high = dots == std::string::npos ? low : number(text.substr(dots + 2));
+  if (!low || !high || *low > *high) return std::nullopt;
+  return NumberRange{*low, *high};
+}
+
+NumberRange NumbersOf(const std::string& flag, const std::string& text, double least, double most) {
+  const auto range = ParseRange(text);
+  if (range && range->low >= least && range->high <= most) return *range;
+  throw CLI::ValidationError(
+      flag, fmt::format("{} to {}, a number or LO..HI, not '{}'", least, most, text));
+}
+
+// CLI11's own range check lets "nan" pass.
+auto Between(double least, double most) {
+  return [=](const std::string& text) -> std::string {
+    const auto range = ParseRange(text);
+    if (range && range->low == range->high && range->low >= least && range->high <= most) return {};
+    return fmt::format("must be a number from {} to {}, not '{}'", least, most, text);
+  };
+}
+
+void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
+  verb->add_option_function<std::string>(
+      "--loss",
+      [made_by](const std::string& text) {
+        made_by->loss_percent = NumbersOf("--loss", text, 0, 99);
+      },
+      "Percent of beacons lost, or LO..HI");
+  verb->add_flag("--burst", made_by->burst, "The loss comes in bursts of five beacons on average");
+  verb->add_option("--delay", made_by->delay_ms, "Milliseconds a beacon is under way")
+      ->check(Between(0, 1000));
+  verb->add_option("--jitter", made_by->jitter_ms, "Milliseconds it may take longer")
+      ->check(Between(0, 1000));
+  verb->add_option("--reorder", made_by->reorder_percent, "Percent held back and overtaken")
+      ->check(Between(0, 100));
+  verb->add_option("--duplicate", made_by->duplicate_percent, "Percent heard twice")
+      ->check(Between(0, 100));
+  verb->add_flag("--loopback", made_by->loops_back, "Everyone hears its own beacons too");
+}
+
+// KIND:ID@AT+FOR, seconds: pause:3@12.5+0.4.
+sim::ProcessFault FaultOf(const std::string& text) {
+  static const std::regex kForm(R"((crash|pause|restart):(\d{1,9})@(\d+\.?\d*)(?:\+(\d+\.?\d*))?)");
+  std::smatch part;
+  if (!std::regex_match(text, part, kForm)) {
+    throw CLI::ValidationError(
+        "--fault", "must be KIND:ID@AT+FOR, as in pause:3@12.5+0.4, not '" + text + "'");
+  }
+  using Kind = sim::ProcessFaultKind;
+  sim::ProcessFault fault;
+  fault.kind = part[1] == "crash"   ? Kind::kCrash
+               : part[1] == "pause" ? Kind::kPause
+                                    : Kind::kRestart;
+  fault.vehicle = VehicleId{static_cast<std::uint32_t>(std::stoul(part[2]))};
+  fault.at_s = std::stod(part[3]);
+  if (part[4].matched) fault.for_s = std::stod(part[4]);
+  return fault;
+}
+
+void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
+  verb->add_option("--crashes", made_by->crashes, "Vehicles that die in each run")
+      ->check(CLI::Range(0U, 1000U));
+  verb->add_option("--pauses", made_by->pauses, "Processes that stand still for a while")
+      ->check(CLI::Range(0U, 1000U));
+  verb->add_option("--restarts", made_by->restarts, "Processes that start anew")
+      ->check(CLI::Range(0U, 1000U));
+  verb->add_option_function<std::vector<std::string>>(
+      "--fault",
+      [made_by](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) made_by->faults.push_back(FaultOf(text));
+      },
+      "crash, pause or restart of one vehicle: KIND:ID@AT+FOR, seconds, as in pause:3@12.5+0.4. "
+      "FOR is 0.5 if left out; from 1 s on the world takes it for dead. May be repeated");
+}
+
+}  // namespace
+
+WholeRange WholesOf(const std::string& flag, const std::string& text, double least, double most) {
+  const NumberRange range = NumbersOf(flag, text, least, most);
+  const bool whole = range.low == std::floor(range.low) && range.high == std::floor(range.high);
+  if (!whole) throw CLI::ValidationError(flag, "must be whole, not '" + text + "'");
+  return {static_cast<std::uint32_t>(range.low), static_cast<std::uint32_t>(range.high)};
+}
+
+void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
+  verb->add_option("SCENARIO", made_by->scenario, "A scenario file, a shipped one, or a generator")
+      ->required();
+  verb->add_option_function<std::string>(
+      "--vehicles",
+      [made_by](const std::string& text) {
+        made_by->vehicles = WholesOf("--vehicles", text, 2, 1000);
+      },
+      "Of a generator, 2 to 1000, default 6; or of a scenario with spawn places, default its "
+      "start_with; or LO..HI");
+  verb->add_option_function<std::string>(
+      "--behaviour",
+      [made_by](const std::string& name) {
+        made_by->behaviour = BehaviourNamed(name);
+        if (!made_by->behaviour) throw CLI::ValidationError("--behaviour", "unknown: " + name);
+      },
+      "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
+      "lecture_printed, which shows the flaws of the printed scripts: it collides");
+  verb->add_option(
+          "--duration", made_by->duration_s,
+          "Of a scenario: end after so many seconds instead; without it one that lasts until "
+          "it is stopped is looked at for 600")
+      ->check(CLI::Range(1.0, 86400.0));
+  verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
+  AddRadioFlags(verb, made_by);
+  AddFaultFlags(verb, made_by);
+}
+
+}  // namespace giveway::fleetctl

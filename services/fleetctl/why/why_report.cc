@@ -1,0 +1,320 @@
+#include "services/fleetctl/why/why_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/fleetctl/output/finding_text.h"
+#include "services/fleetctl/output/json_object.h"
+#include "services/runtime/json_line.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+// Discovery takes a moment: what was not seen for less than this may only be late.
+constexpr double kLongEnoughMs = 1000;
+
+bool Probed(const WhyReport& report) { return report.probe && report.probe->trouble.empty(); }
+
+ProbedTopic ProbedOf(const WhyReport& report, const std::string& topic) {
+  if (!Probed(report)) return {};
+  const auto found = report.probe->topics.find(topic);
+  return found == report.probe->topics.end() ? ProbedTopic{} : found->second;
+}
+
+std::string_view Word(Outlook outlook) {
+  switch (outlook) {
+    case Outlook::kHears:
+      return "hears";
+    case Outlook::kCannot:
+      return "cannot";
+    case Outlook::kNotKnown:
+      break;
+  }
+  return "not known";
+}
+
+std::string_view Word(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHears:
+      return "hears";
+    case Verdict::kDoesNot:
+      return "does not hear";
+    case Verdict::kNotKnown:
+      break;
+  }
+  return "may hear";
+}
+
+// How far the probe came: found, matched, heard.
+std::string ProbedText(const WhyReport& report, const std::string& topic) {
+  if (!report.probe) return "not probed";
+  if (!Probed(report)) return "not probed: " + report.probe->trouble;
+  const ProbedTopic probed = ProbedOf(report, topic);
+  if (probed.samples > 0) {
+    return fmt::format("probed: heard {} sample{}, the first after {:.0f} ms", probed.samples,
+                       probed.samples == 1 ? "" : "s", probed.first_ms.value_or(0));
+  }
+  const char* const far = probed.matched             ? "its writer matched"
+                          : report.probe->discovered ? "it was discovered, but no writer matched"
+                                                     : "it was not discovered";
+  return fmt::format("probed: nothing in {:.1f} s, {}", report.probe->listened_ms * 1e-3, far);
+}
+
+// Every cause once, in order, those that prevent first.
+std::vector<Cause> CausesOf(const WhyReport& report) {
+  std::vector<Cause> all;
+  for (const TopicOutlook& topic : report.topics) {
+    for (const Cause& cause : topic.causes) {
+      const bool known = std::ranges::any_of(all, [&](const Cause& other) {
+        return other.finding.rule == cause.finding.rule &&
+               other.finding.subject == cause.finding.subject &&
+               other.finding.values == cause.finding.values;
+      });
+      if (!known) all.push_back(cause);
+    }
+  }
+  std::ranges::stable_sort(all, {}, &Cause::weight);
+  return all;
+}
+
+bool AnyDisagrees(const WhyReport& report) {
+  return !Contradiction(report).empty() ||
+         std::ranges::any_of(report.topics, [&](const TopicOutlook& topic) {
+           return VerdictOf(report, topic).disagree;
+         });
+}
+
+std::string OwnWordText(const WhyReport& report) {
+  if (!Probed(report) || !report.probe->own_word) return {};
+  const OwnWord& word = *report.probe->own_word;
+  return fmt::format(
+      "its own status: {} near peer{} with a fresh beacon; of {} beacons it took since it began {} "
+      "accepted, {} from too far, {} rejected; {} incompatible writer{}",
+      word.peers_heard, word.peers_heard == 1 ? "" : "s", word.taken, word.accepted, word.too_far,
+      word.rejected, word.incompatible, word.incompatible == 1 ? "" : "s");
+}
+
+Cause UnfitCause(const std::string& line) {
+  return {{qos::Severity::kError,
+           "endpoint_unfit",
+           {},
+           "as discovered",
+           line,
+           "The two never match, and nothing that the one writes reaches the other.",
+           "the partitions and QoS of idl/FOREIGN.md"},
+          Weight::kPrevents,
+          true};
+}
+
+std::string HostIdText(const WhyReport& report) {
+  if (!Probed(report) || !report.probe->host_id || !report.host_id) return {};
+  if (*report.probe->host_id == *report.host_id) return {};
+  return fmt::format(
+      "host id of {}: {:#06x} by its addresses now, {:#06x} as it tells itself: its addresses "
+      "have changed since it began",
+      report.speaker, *report.host_id, *report.probe->host_id);
+}
+
+std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
+  const TopicVerdict verdict = VerdictOf(report, topic);
+  const ProbedTopic probed = ProbedOf(report, topic.topic);
+  JsonObject object;
+  object.Add("topic", std::string_view(topic.topic));
+  object.Add("verdict", Word(verdict.verdict));
+  if (report.foretold) object.Add("predicted", Word(topic.outlook));
+  if (report.foretold) object.Add("predicted_in_place", Word(topic.in_place));
+  if (Probed(report)) {
+    object.Add("matched", probed.matched);
+    object.Add("samples", probed.samples);
+    object.Add("first_ms", probed.first_ms);
+    if (!report.hearer_here) object.Add("fits", probed.fits);
+  }
+  object.Add("disagree", verdict.disagree);
+  std::vector<std::string> reasons;
+  for (const Cause& cause : topic.causes) {
+    if (cause.weight == Weight::kPrevents) reasons.push_back(cause.finding.rule);
+  }
+  object.AddRaw("reasons", JsonArray(reasons, JsonString));
+  return object.Text();
+}
+
+// Whether the vehicle was seen, and without a place.
+bool IsWithoutPlace(const Instructions& told, bool discovered, bool joined, double listened_ms) {
+  return !told.is_world && discovered && !joined && listened_ms >= kLongEnoughMs;
+}
+
+bool NeedsPlace(const TopicOutlook& topic) {
+  return topic.topic != "fleet/join" && topic.topic != "world/roster";
+}
+
+// Whether the hearer itself cannot, though another reader in its place might.
+bool IsItselfDeaf(const WhyReport& report, const TopicOutlook& topic) {
+  return (topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot) ||
+         (report.hearer_without_place && NeedsPlace(topic));
+}
+
+Cause NotJoined(const ProcessSituation& process, bool hears) {
+  return {{qos::Severity::kError,
+           "not_joined",
+           {},
+           NameOf(process),
+           "has no place in a world: it was discovered, and none of its writers names a vehicle",
+           hears ? "It reads nothing but the answer of a world."
+                 : "It writes nothing but its request for a place.",
+           "start giveway-world in its domain and network; its log says what it waits for"},
+          Weight::kPrevents,
+          !hears};
+}
+
+}  // namespace
+
+double ListenSeconds(const std::vector<TopicOutlook>& topics) {
+  const bool silent = std::ranges::all_of(
+      topics, [](const TopicOutlook& topic) { return topic.in_place == Outlook::kCannot; });
+  return silent ? 3 : 10;
+}
+
+void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
+                  WhyReport* report) {
+  if (!Probed(*report)) return;
+  const ProbeResult& probe = *report->probe;
+  report->hearer_without_place =
+      IsWithoutPlace(hearer.told, probe.hearer_discovered, probe.hearer_joined, probe.listened_ms);
+  report->speaker_without_place =
+      IsWithoutPlace(speaker.told, probe.discovered, probe.joined, probe.listened_ms);
+  for (TopicOutlook& topic : report->topics) {
+    if (!NeedsPlace(topic)) continue;
+    if (report->hearer_without_place) topic.causes.push_back(NotJoined(hearer, true));
+    if (report->speaker_without_place) topic.causes.push_back(NotJoined(speaker, false));
+    std::ranges::stable_sort(topic.causes, {}, &Cause::weight);
+  }
+}
+
+void AddUnfit(WhyReport* report) {
+  if (!Probed(*report) || report->foretold) return;
+  for (TopicOutlook& topic : report->topics) {
+    const ProbedTopic probed = ProbedOf(*report, topic.topic);
+    if (!report->hearer_here && !probed.unfit.empty()) {
+      topic.causes.push_back(UnfitCause(fmt::format("{}: {}", topic.topic, probed.unfit)));
+    }
+    if (!report->hearer_here || probed.samples > 0) continue;
+    for (const std::string& line : report->probe->unfit) {
+      if (line.find(" of " + topic.topic + " ") == line.npos) continue;
+      topic.causes.push_back(UnfitCause(line));
+    }
+  }
+}
+
+TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
+  TopicVerdict verdict;
+  const bool heard = ProbedOf(report, topic.topic).samples > 0;
+  const bool own = IsItselfDeaf(report, topic);
+  if (Probed(report)) {
+    verdict.verdict = heard && !own ? Verdict::kHears : Verdict::kDoesNot;
+    // Who is elsewhere may stand otherwise than the probe did: discovery tells of its own readers.
+    if (!report.hearer_here) {
+      const ProbedTopic probed = ProbedOf(report, topic.topic);
+      verdict.verdict = !probed.unfit.empty()  ? Verdict::kDoesNot
+                        : heard && probed.fits ? Verdict::kHears
+                                               : Verdict::kNotKnown;
+    }
+    verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
+                       heard != (topic.in_place == Outlook::kHears);
+    // That could not be foretold.
+    if (!heard && report.speaker_without_place && NeedsPlace(topic)) verdict.disagree = false;
+  } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
+    verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;
+  }
+  const std::string predicted =
+      !report.foretold ? "not predicted"
+      : own && topic.outlook == Outlook::kCannot
+          ? fmt::format("predicted: cannot, another in its place {}", Word(topic.in_place))
+          : fmt::format("predicted: {}", Word(topic.outlook));
+  verdict.explanation = predicted + "; " + ProbedText(report, topic.topic);
+  return verdict;
+}
+
+std::string Contradiction(const WhyReport& report) {
+  if (!Probed(report) || !report.probe->own_word || !report.foretold) return {};
+  for (const TopicOutlook& topic : report.topics) {
+    if (IsItselfDeaf(report, topic)) return "it cannot, and yet it tells its status";
+    const bool hears = VerdictOf(report, topic).verdict == Verdict::kHears;
+    const double heard_for_ms =
+        report.probe->listened_ms - ProbedOf(report, topic.topic).first_ms.value_or(0);
+    if (topic.topic == "fleet/beacon" && hears && report.probe->own_word->taken == 0 &&
+        heard_for_ms >= kLongEnoughMs) {
+      return "a reader in its place hears, and by its own status it took no beacon at all";
+    }
+  }
+  return {};
+}
+
+std::string ToText(const WhyReport& report) {
+  std::string text;
+  for (const TopicOutlook& topic : report.topics) {
+    const TopicVerdict verdict = VerdictOf(report, topic);
+    text += fmt::format("{} {} {} on {} ({})\n", report.hearer, Word(verdict.verdict),
+                        report.speaker, topic.topic, verdict.explanation);
+  }
+  for (const Cause& cause : CausesOf(report)) text += ToText(cause.finding, "processes");
+  if (AnyDisagrees(report)) {
+    const std::string more = Contradiction(report);
+    text += "prediction and probe disagree" + (more.empty() ? "" : ": " + more) + "\n";
+  }
+  for (const std::string& line : {OwnWordText(report), HostIdText(report)}) {
+    if (!line.empty()) text += line + "\n";
+  }
+  for (const std::string& fact : report.not_known) text += "not known: " + fact + "\n";
+  return text;
+}
+
+std::string ToJson(const WhyReport& report) {
+  JsonObject object;
+  object.Add("hearer", std::string_view(report.hearer));
+  object.Add("speaker", std::string_view(report.speaker));
+  object.Add("hears", ExitCode(report) == 0);
+  object.Add("disagree", AnyDisagrees(report));
+  object.Add("probed", Probed(report));
+  if (report.probe && !Probed(report)) {
+    object.Add("trouble", std::string_view(report.probe->trouble));
+  }
+  if (Probed(report)) object.Add("listened_ms", report.probe->listened_ms);
+  if (Probed(report) && !report.probe->hearer_foreign.empty()) {
+    object.Add("hearer_foreign", std::string_view(report.probe->hearer_foreign));
+  }
+  if (Probed(report) && !report.probe->speaker_foreign.empty()) {
+    object.Add("speaker_foreign", std::string_view(report.probe->speaker_foreign));
+  }
+  if (Probed(report) && report.probe->own_word) {
+    const OwnWord& word = *report.probe->own_word;
+    JsonObject own;
+    own.Add("peers_heard", word.peers_heard);
+    own.Add("taken", word.taken);
+    own.Add("accepted", word.accepted);
+    own.Add("too_far", word.too_far);
+    own.Add("rejected", word.rejected);
+    own.Add("incompatible", word.incompatible);
+    object.Add("own_status", own);
+  }
+  object.AddRaw("topics", JsonArray(report.topics, [&](const TopicOutlook& topic) {
+                  return TopicJson(report, topic);
+                }));
+  object.AddRaw("findings", JsonArray(CausesOf(report),
+                                      [](const Cause& cause) { return ToJson(cause.finding); }));
+  object.AddRaw("not_known", JsonArray(report.not_known, JsonString));
+  return object.Text() + "\n";
+}
+
+int ExitCode(const WhyReport& report) {
+  if (!report.foretold && !Probed(report)) return 2;
+  const auto any = [&](Verdict verdict) {
+    return std::ranges::any_of(report.topics, [&](const TopicOutlook& topic) {
+      return VerdictOf(report, topic).verdict == verdict;
+    });
+  };
+  if (any(Verdict::kDoesNot) || AnyDisagrees(report)) return 1;
+  return any(Verdict::kNotKnown) ? 2 : 0;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,151 @@
+// Partitions, QoS and impairments: whether two that meet also hear each other on a topic.
+#include <fmt/format.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+
+#include "services/fleetctl/why/why_rules.h"
+#include "services/qos/deployment.h"
+#include "services/qos/request_offered.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr double kMuchLoss = 0.5;
+
+std::string Baseless(const std::string& file) { return file.substr(file.rfind('/') + 1); }
+
+// "deadline 300 ms (slow.xml:88)".
+std::string PolicyText(const qos::Profile& profile, qos::Policy policy) {
+  const qos::Value& value = profile[policy];
+  const std::string text =
+      fmt::format("{} {}", qos::Info(policy).name, qos::Text(policy, value.number));
+  if (!value.given) return text + " (library default)";
+  return fmt::format("{} ({}:{})", text, Baseless(value.place.file), value.place.line);
+}
+
+const qos::Profile* ProfileOf(const ProcessSituation& process, qos::Owner owner,
+                              const std::string& topic) {
+  const auto topics = qos::FleetTopics();
+  const auto found = std::ranges::find(topics, topic, &qos::Topic::name);
+  if (!process.profiles || found == topics.end()) return nullptr;
+  const char* const end = owner == qos::Owner::kWriter ? "_writer" : "_reader";
+  return process.profiles->Find(owner, std::string(found->stem) + end);
+}
+
+void CheckInstances(const ProcessSituation& hearer, const qos::Profile& reader,
+                    std::uint32_t vehicles, Causes* causes) {
+  const std::int64_t most = reader.Number(qos::Policy::kMaxInstances);
+  if (most <= 0 || most >= vehicles) return;
+  causes->push_back(
+      {{qos::Severity::kWarning, "instance_limit", reader[qos::Policy::kMaxInstances].place,
+        reader.name,
+        fmt::format("{} takes {}, {} vehicles speak", NameOf(hearer),
+                    PolicyText(reader, qos::Policy::kMaxInstances), vehicles),
+        "Samples of vehicles beyond the limit are refused without a sign; which, is chance.",
+        "max_instances 0, unlimited"},
+       Weight::kMayPrevent});
+}
+
+void CheckWriterInstances(const ProcessSituation& speaker, const qos::Profile& writer,
+                          Causes* causes) {
+  if (writer.Number(qos::Policy::kMaxInstances) >= 0) return;
+  causes->push_back(
+      {{qos::Severity::kError, "writer_instances", writer[qos::Policy::kMaxInstances].place,
+        writer.name,
+        fmt::format("{} has {}", NameOf(speaker), PolicyText(writer, qos::Policy::kMaxInstances)),
+        "A writer of Fast DDS 2.9.1 with a negative limit delivers nothing.",
+        "max_instances 0, unlimited"},
+       Weight::kPrevents});
+}
+
+// The rule that the hearer's packets from the speaker meet: of those that fit the last.
+const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const Instructions& speaker) {
+  const ImpairmentRule* last = nullptr;
+  for (const ImpairmentRule& rule : hearer.told.impairment.rules) {
+    const bool hears = rule.to_vehicle == kNobody || rule.to_vehicle == hearer.told.id;
+    bool from = rule.from == ImpairedSender::kAnyone;
+    from |= rule.from == ImpairedSender::kVehicles && !speaker.is_world;
+    from |= rule.from == ImpairedSender::kWorld && speaker.is_world;
+    from |= rule.from == ImpairedSender::kOneVehicle && !speaker.is_world &&
+            rule.from_vehicle == speaker.id;
+    if (hears && from) last = &rule;
+  }
+  return last;
+}
+
+}  // namespace
+
+void CheckPartitions(const ProcessSituation& hearer, const ProcessSituation& speaker,
+                     const TopicOutlook& topic, Causes* causes) {
+  if (topic.topic != "fleet/beacon") return;  // all others are the same in every area
+  const std::string written = fmt::format("{}/v{}", speaker.told.area, Number(speaker.told.id));
+  if (fnmatch(topic.read_in.c_str(), written.c_str(), 0) == 0) return;
+  const char* const open = speaker.told.partition_free ? " and without a partition" : "";
+  causes->push_back(
+      {{qos::Severity::kError,
+        "partition_apart",
+        {},
+        "area",
+        fmt::format("{} reads partition {}, {} writes {}{}", NameOf(hearer), topic.read_in,
+                    NameOf(speaker), written, open),
+        speaker.told.partition_free
+            ? "The names do not match, no wildcard matches what has none, and no status tells."
+            : "The names do not match, and no status of DDS tells.",
+        "the same area in the scenarios of both"},
+       Weight::kPrevents});
+}
+
+void CheckPolicies(const ProcessSituation& hearer, const ProcessSituation& speaker,
+                   const TopicOutlook& topic, std::uint32_t vehicles, Causes* causes) {
+  const qos::Profile* const reader = ProfileOf(hearer, qos::Owner::kReader, topic.topic);
+  const qos::Profile* const writer = ProfileOf(speaker, qos::Owner::kWriter, topic.topic);
+  if (reader == nullptr || writer == nullptr) return;
+  for (const qos::MatchRule* rule : qos::Broken(*writer, *reader)) {
+    if (!rule->enforced) continue;  // both are Fast DDS
+    causes->push_back({{qos::Severity::kError, std::string(rule->name),
+                        (*writer)[rule->policy].place, writer->name + " to " + reader->name,
+                        fmt::format("{} offers {}, {} requests {}", NameOf(speaker),
+                                    PolicyText(*writer, rule->policy), NameOf(hearer),
+                                    PolicyText(*reader, rule->policy)),
+                        "The two never match, and the reader hears nothing.",
+                        "change one of the two: " + std::string(rule->rule)},
+                       Weight::kPrevents});
+  }
+  CheckWriterInstances(speaker, *writer, causes);
+  if (!speaker.told.is_world) CheckInstances(hearer, *reader, vehicles, causes);
+}
+
+void CheckImpairment(const ProcessSituation& hearer, const ProcessSituation& speaker,
+                     Causes* causes) {
+  const ImpairmentRule* const rule = RuleBetween(hearer, speaker.told);
+  if (rule == nullptr) return;
+  const bool deaf = rule->loss >= 1;
+  const bool lossy = rule->loss >= kMuchLoss || rule->burst * rule->burst_loss >= kMuchLoss;
+  const std::string who = fmt::format("{} drops what comes of {}", NameOf(hearer), NameOf(speaker));
+  if (deaf || lossy) {
+    causes->push_back(
+        {{deaf ? qos::Severity::kError : qos::Severity::kWarning,
+          deaf ? "impaired_deaf" : "impaired_much",
+          {},
+          "impairment",
+          fmt::format("{}: loss {:g}, bursts {:g} of the time", who, rule->loss, rule->burst),
+          deaf ? "The impaired transport hands nothing of it on." : "Most samples do not arrive.",
+          "less loss in --impair, or in impair { } of the scenario"},
+         deaf ? Weight::kPrevents : Weight::kBeside});
+  }
+  if (rule->blackouts.empty()) return;
+  const Blackout& first = rule->blackouts.front();
+  causes->push_back(
+      {{qos::Severity::kWarning,
+        "impaired_blackout",
+        {},
+        "impairment",
+        fmt::format("{}: everything from {:g} s to {:g} s after the start, {} windows", who,
+                    first.from_s, first.to_s, rule->blackouts.size()),
+        "In such a window nothing is heard.",
+        "wait until it is over, or take it out of --impair or the scenario"},
+       Weight::kMayPrevent});
+}
+
+}  // namespace giveway::fleetctl

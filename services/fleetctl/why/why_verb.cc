@@ -1,0 +1,65 @@
+#include <memory>
+#include <string>
+
+#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/process/domain_lock.h"
+#include "services/fleetctl/why/why.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+A and B are running processes of this machine: the id of a vehicle, "world", or pid:NUMBER, in
+whatever network namespace or container. What each was told and what the system gives it to talk with
+foretells whether A hears B; then a reader of our own takes A's place (its domain, profiles, interface,
+impairment and namespaces; other namespaces need root) and listens. One that is not on this machine is
+judged by what can be heard alone.
+
+Examples
+  fleetctl why 1 2                  # does vehicle 1 hear the beacons of vehicle 2?
+  fleetctl why world 2              # its commands?
+  fleetctl why 2 world --domain 7   # its ranges? of several fleets the one in domain 7
+  fleetctl why pid:812 pid:844 --json | jq -r '.findings[].rule'
+
+Exit code: 0 hears on every topic; 1 does not, or prediction and probe disagree; 2 could not run, or
+nothing is known.
+)";
+
+Named Parse(const std::string& name, const std::string& text) {
+  if (const auto named = ParseNamed(text)) return *named;
+  throw CLI::ValidationError(
+      name,
+      "must be the id of a vehicle (1 to 4294967295), world, or pid:NUMBER, not '" + text + "'");
+}
+
+}  // namespace
+
+void AddWhyVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<WhyOptions>();
+  CLI::App* verb = fleetctl->add_subcommand("why", "Can A hear B? And if not, why");
+  verb->footer(kFooter);
+  verb->add_option_function<std::string>(
+          "A", [options](const std::string& text) { options->hearer = Parse("A", text); },
+          "Who hears")
+      ->required();
+  verb->add_option_function<std::string>(
+          "B", [options](const std::string& text) { options->speaker = Parse("B", text); },
+          "Who is heard")
+      ->required();
+  verb->add_option("--domain", options->domain, "Only processes in this DDS domain")
+      ->check(CLI::Range(kFirstDomain, kLastDomain));
+  verb->add_option("--seconds", options->seconds,
+                   "The probe listens at most so long [3 where silence is foretold, else 10]")
+      ->check(CheckSeconds);
+  verb->add_flag("!--no-probe", options->probe, "Only foretell");
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->callback([options, exit_code] {
+    if (options->hearer == options->speaker) {
+      throw CLI::ValidationError("B", "is A: nobody hears itself; name two processes");
+    }
+    *exit_code = RunWhy(*options);
+  });
+}
+
+}  // namespace giveway::fleetctl

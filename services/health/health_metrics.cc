@@ -1,0 +1,225 @@
+#include "services/health/health_metrics.h"
+
+#include <prometheus/text_serializer.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <fstream>
+#include <utility>
+
+#include "services/runtime/process.h"
+#include "services/types/decision.h"
+
+namespace giveway {
+namespace {
+
+using prometheus::ClientMetric;
+using prometheus::MetricFamily;
+using prometheus::MetricType;
+
+constexpr double kSecondsPerMs = 1e-3;
+constexpr double kSecondsPerUs = 1e-6;
+
+// Families in the order they are added.
+class Metrics {
+ public:
+  explicit Metrics(std::string prefix) : prefix_(std::move(prefix)) {}
+
+  template <typename Number>
+  void Counter(const std::string& name, const std::string& help, Number value) {
+    Begin(name + "_total", help, MetricType::Counter);
+    Add({}, value);
+  }
+  template <typename Number>
+  void Gauge(const std::string& name, const std::string& help, Number value) {
+    Begin(name, help, MetricType::Gauge);
+    Add({}, value);
+  }
+  // A family whose members have one label each: begun, then filled.
+  void Begin(const std::string& name, const std::string& help, MetricType type) {
+    families_.push_back({.name = prefix_ + name, .help = help, .type = type, .metric = {}});
+  }
+  template <typename Number>
+  void Add(std::vector<ClientMetric::Label> labels, Number value) {
+    ClientMetric& metric = families_.back().metric.emplace_back();
+    metric.label = std::move(labels);
+    const auto number = static_cast<double>(value);
+    const bool counts = families_.back().type == MetricType::Counter;
+    (counts ? metric.counter.value : metric.gauge.value) = number;
+  }
+  std::string Text() const { return prometheus::TextSerializer().Serialize(families_); }
+
+ private:
+  const std::string prefix_;
+  std::vector<MetricFamily> families_;
+};
+
+void AddInfo(const std::vector<ClientMetric::Label>& labels, Metrics* metrics) {
+  metrics->Begin("info", "Always 1; the labels say what runs.", MetricType::Gauge);
+  metrics->Add(labels, 1);
+}
+
+void AddLoop(const LoopHealth& loop, bool ready, SteadyTime now, Metrics* metrics) {
+  metrics->Gauge("ready", "1 if /readyz says so.", ready);
+  metrics->Counter("loop_turns", "Turns of the control loop.", loop.turns);
+  metrics->Gauge("loop_silence_seconds", "Time since the control loop was last heard of.",
+                 Seconds(now - loop.turned));
+}
+
+void AddLog(const ProcessFigures& process, Metrics* metrics) {
+  metrics->Counter("log_lines_dropped", "Lines of the log that its reader did not take.",
+                   process.log_lines_dropped);
+}
+
+void AddBeacons(const VehicleStatus& status, Metrics* metrics) {
+  const BeaconCounters& beacons = status.beacons;
+  metrics->Counter("beacons_sent", "Beacons sent.", beacons.sent);
+  metrics->Counter("beacons_received", "Beacons taken from the middleware.", beacons.taken);
+  metrics->Counter("beacons_accepted", "Beacons decided by.", beacons.accepted);
+  metrics->Counter("beacons_not_heard", "Beacons from beyond the emission radius.",
+                   beacons.not_heard);
+  metrics->Counter("beacons_lost", "Sequence numbers that never arrived.", beacons.lost);
+  metrics->Counter("beacons_superseded", "Beacons overwritten before the loop took them.",
+                   status.beacons_superseded);
+  metrics->Begin("beacons_rejected_total", "Beacons refused, by reason.", MetricType::Counter);
+  const auto rejected = [metrics](const char* reason, std::uint32_t count) {
+    metrics->Add({{"reason", reason}}, count);
+  };
+  rejected("not_finite", beacons.rejected_not_finite);
+  rejected("out_of_range", beacons.rejected_out_of_range);
+  rejected("crc", beacons.rejected_crc);
+  rejected("replayed", beacons.rejected_replayed);
+  rejected("own", beacons.rejected_own);
+  rejected("wrong_name", beacons.rejected_wrong_name);
+  rejected("duplicate_id", beacons.rejected_duplicate_id);
+  rejected("wrong_epoch", beacons.rejected_wrong_epoch);
+  rejected("table_full", beacons.rejected_table_full);
+}
+
+void AddTrust(const TrustCounters& trust, Metrics* metrics) {
+  metrics->Begin("doubts_total", "What did not fit in what peers said, by kind.",
+                 MetricType::Counter);
+  metrics->Add({{"kind", "beacon_without_echo"}}, trust.beacon_without_echo);
+  metrics->Add({{"kind", "echo_without_beacon"}}, trust.echo_without_beacon);
+  metrics->Add({{"kind", "halted_but_closing"}}, trust.halted_but_closing);
+  metrics->Add({{"kind", "jump"}}, trust.jumps);
+  metrics->Add({{"kind", "impossible_speed"}}, trust.impossible_speeds);
+}
+
+void AddPeers(const VehicleHealth& vehicle, Metrics* metrics) {
+  const QosCounters& qos = vehicle.status.qos;
+  metrics->Gauge("peers_matched", "Beacon writers of peers matched now.", vehicle.matched_peers);
+  metrics->Gauge("peers_heard", "Peers with a fresh beacon.", vehicle.status.peers_heard);
+  metrics->Counter("deadline_missed", "Deadlines that beacons of peers missed.",
+                   qos.deadline_missed);
+  metrics->Counter("liveliness_lost", "Peers whose liveliness was lost.", qos.liveliness_lost);
+  metrics->Counter("incompatible_qos", "Endpoints refused for their QoS.", qos.incompatible_qos);
+  metrics->Counter("ranges_deadline_missed", "Deadlines that the world's ranges missed.",
+                   vehicle.ranges_deadline_missed);
+  metrics->Counter("write_failures", "Samples the middleware did not take.",
+                   vehicle.write_failures);
+}
+
+void AddDriving(const VehicleHealth& vehicle, SteadyTime now, Metrics* metrics) {
+  const VehicleStatus& status = vehicle.status;
+  metrics->Begin("mode", "1 for the mode it is in.", MetricType::Gauge);
+  for (const Mode mode : {Mode::kCooperative, Mode::kSensorOnly, Mode::kHalt, Mode::kLeaving}) {
+    metrics->Add({{"mode", std::string(Name(mode))}}, status.decision.mode == mode);
+  }
+  metrics->Gauge("speed_meters_per_second", "Forward speed as measured.", status.forward_m_s);
+  if (status.nearest_echo_m) {
+    metrics->Gauge("nearest_echo_meters", "The nearest ultrasonic echo.", *status.nearest_echo_m);
+  }
+  if (vehicle.scanned != SteadyTime{0}) {
+    metrics->Gauge("ranges_age_seconds", "Age of the newest ranges.",
+                   Seconds(now - vehicle.scanned));
+  }
+  metrics->Counter("late_scans", "Ranges overwritten by newer ones before the loop came.",
+                   vehicle.late_scans);
+  metrics->Gauge("step_p99_seconds", "The 99th percentile of the last 1000 decisions.",
+                 status.step_p99_us * kSecondsPerUs);
+  metrics->Gauge("loop_max_seconds", "The longest time from ranges to command.",
+                 status.loop_max_ms * kSecondsPerMs);
+  metrics->Counter("placements", "Places taken in a world: one, and one after each restart of it.",
+                   vehicle.placements);
+}
+
+// Under the names every exporter has for them.
+std::string Text(const ProcessFigures& process) {
+  Metrics metrics("process_");
+  metrics.Gauge("start_time_seconds", "When the process began, since 1970.", process.started_s);
+  metrics.Counter("cpu_seconds", "Processor time used.", process.cpu_s);
+  metrics.Gauge("resident_memory_bytes", "Resident memory.", process.resident_bytes);
+  return metrics.Text();
+}
+
+double SinceEpoch() {
+  return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+const double started_s = SinceEpoch();  // as near as makes no difference
+
+double SecondsOf(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * kSecondsPerUs;
+}
+
+}  // namespace
+
+ProcessFigures ReadProcessFigures() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  double pages = 0;
+  double resident_pages = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident_pages;
+  return {.started_s = started_s,
+          .cpu_s = SecondsOf(usage.ru_utime) + SecondsOf(usage.ru_stime),
+          .resident_bytes = resident_pages * static_cast<double>(sysconf(_SC_PAGESIZE)),
+          .log_lines_dropped = LogLinesDropped()};
+}
+
+std::string MetricsText(const VehicleHealth& vehicle, const ProcessFigures& process,
+                        SteadyTime now) {
+  Metrics metrics("giveway_vehicle_");
+  AddInfo(
+      {{"vehicle", std::to_string(Number(vehicle.status.vehicle))}, {"version", GIVEWAY_VERSION}},
+      &metrics);
+  AddLoop(vehicle.loop, NotReady(vehicle, now).empty(), now, &metrics);
+  AddDriving(vehicle, now, &metrics);
+  AddPeers(vehicle, &metrics);
+  AddBeacons(vehicle.status, &metrics);
+  AddTrust(vehicle.status.trust, &metrics);
+  AddLog(process, &metrics);
+  return metrics.Text() + Text(process);
+}
+
+std::string MetricsText(const WorldHealth& world, const ProcessFigures& process, SteadyTime now) {
+  Metrics metrics("giveway_world_");
+  AddInfo({{"version", GIVEWAY_VERSION}}, &metrics);
+  AddLoop(world.loop, NotReady(world, now).empty(), now, &metrics);
+  metrics.Begin("run_state", "1 for the state the run is in.", MetricType::Gauge);
+  for (const auto& [state, name] : {std::pair{RunState::kWaiting, "waiting"},
+                                    {RunState::kRunning, "running"},
+                                    {RunState::kEnded, "ended"}}) {
+    metrics.Add({{"state", name}}, world.run_state == state);
+  }
+  metrics.Gauge("run_seconds", "Time since the start signal.", world.time_s);
+  metrics.Counter("late_ticks", "Ticks of the run that began a whole period late.",
+                  world.late_ticks);
+  metrics.Gauge("vehicles_joined", "Vehicles with a place.", world.vehicles_joined);
+  metrics.Counter("contacts", "Pairs of bodies that began to touch.", world.contacts);
+  metrics.Counter("reactions", "Commands that answered a cause.", world.reactions);
+  metrics.Counter("commands_received", "Motor commands taken.", world.commands_taken);
+  metrics.Begin("commands_rejected_total", "Motor commands refused, by reason.",
+                MetricType::Counter);
+  metrics.Add({{"reason", "wrong_name"}}, world.commands_wrong_name);
+  metrics.Add({{"reason", "unbound"}}, world.commands_unbound);
+  metrics.Add({{"reason", "not_finite"}}, world.commands_not_finite);
+  metrics.Counter("joins_rejected", "Requests to join that were not looked at.",
+                  world.joins_refused);
+  metrics.Counter("write_failures", "Samples the middleware did not take.", world.write_failures);
+  AddLog(process, &metrics);
+  return metrics.Text() + Text(process);
+}
+
+}  // namespace giveway

@@ -1,0 +1,292 @@
+#include "services/health/health_server.h"
+
+#include <httplib.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "services/config/problem.h"
+#include "services/runtime/process.h"
+
+namespace giveway {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kThreads = 2;
+constexpr int kMostWaiting = 4;                // connections; further ones are closed at once
+constexpr std::size_t kLongestRequest = 8192;  // bytes: a probe or a scraper sends some hundred
+constexpr Nanoseconds kRequestTime = std::chrono::seconds(1);  // for a request and its answer
+constexpr Nanoseconds kGoodByeTime = milliseconds(100);
+constexpr Nanoseconds kSlice = milliseconds(20);  // how soon a server that stops is heard of
+constexpr time_t kClientPatience_s = 4;           // longer than others can hold its place
+
+constexpr int kNo = 1;
+constexpr int kNoAnswer = 2;
+
+// The library reads a line as long as somebody sends it, and as long as somebody keeps sending.
+// Here a connection has so many bytes and so much time, and ends when the server does.
+class BoundedStream : public httplib::Stream {
+ public:
+  BoundedStream(int socket, const std::atomic<bool>& stops)
+      : socket_(socket), stops_(stops), until_(SteadyNow() + kRequestTime) {}
+
+  // Without `override`: which of these its base declares depends on the library's version.
+  virtual bool is_readable() const { return Wait(POLLIN, until_); }
+  virtual bool is_writable() const { return Wait(POLLOUT, until_); }
+  virtual bool wait_readable() const { return is_readable(); }
+  virtual bool wait_writable() const { return is_writable(); }
+  virtual time_t duration() const { return 0; }
+  virtual ssize_t read(char* to, size_t size) {
+    const std::size_t most = std::min(size, kLongestRequest - taken_);
+    if (most == 0 || !is_readable()) return -1;
+    const ssize_t got = recv(socket_, to, most, 0);
+    taken_ += static_cast<std::size_t>(std::max<ssize_t>(got, 0));
+    return got;
+  }
+  virtual ssize_t write(const char* from, size_t size) {
+    return is_writable() ? send(socket_, from, size, MSG_NOSIGNAL) : -1;
+  }
+  virtual void get_remote_ip_and_port(std::string& /*ip*/, int& port) const { port = 0; }
+  virtual void get_local_ip_and_port(std::string& /*ip*/, int& port) const { port = 0; }
+  virtual socket_t socket() const { return socket_; }
+
+  // Lets the other side take what was said: closing over unread bytes would take it back.
+  void SayGoodBye() {
+    shutdown(socket_, SHUT_WR);
+    std::array<char, 1024> unread;
+    const SteadyTime until = std::min(until_, SteadyNow() + kGoodByeTime);
+    while (Wait(POLLIN, until) && recv(socket_, unread.data(), unread.size(), 0) > 0) {
+    }
+  }
+
+ private:
+  bool Wait(short what, SteadyTime until) const {
+    while (!stops_ && SteadyNow() < until) {
+      pollfd one{.fd = socket_, .events = what, .revents = 0};
+      constexpr int kSlice_ms = static_cast<int>(kSlice / milliseconds(1));
+      const int ready = poll(&one, 1, kSlice_ms);
+      if (ready > 0) return true;
+      if (ready < 0 && errno != EINTR) return false;
+    }
+    return false;
+  }
+
+  const int socket_;
+  const std::atomic<bool>& stops_;
+  const SteadyTime until_;
+  std::size_t taken_ = 0;
+};
+
+// True on the thread that accepts, while it hands over a connection nobody has time for.
+thread_local bool turns_away = false;
+
+class BoundedPool : public httplib::TaskQueue {
+  // Later versions of the library say whether they took a task.
+  using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+
+ public:
+  Taken enqueue(std::function<void()> task) override {
+    if (waiting_ >= kMostWaiting) {
+      turns_away = true;
+      task();
+      turns_away = false;
+      return static_cast<Taken>(true);
+    }
+    ++waiting_;
+    return pool_.enqueue([this, task = std::move(task)] {
+      --waiting_;
+      task();
+    });
+  }
+  void shutdown() override { pool_.shutdown(); }
+
+ private:
+  std::atomic<int> waiting_{0};
+  httplib::ThreadPool pool_{kThreads};
+};
+
+class BoundedServer : public httplib::Server {
+ public:
+  void GiveUp() { stops_ = true; }
+  bool GivesUp() const { return stops_; }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    if (!turns_away) {
+      BoundedStream stream(socket, stops_);
+      Answer(*this, stream);
+      stream.SayGoodBye();
+    }
+    close(socket);
+    return true;
+  }
+
+  // A template: later versions of the library want the addresses handed in, 0.11 does not.
+  template <typename Server>
+  static void Answer(Server& server, BoundedStream& stream) {
+    bool closed = false;
+    if constexpr (requires { server.process_request(stream, true, closed, nullptr); }) {
+      server.process_request(stream, true, closed, nullptr);
+    } else {
+      server.process_request(stream, "", 0, "", 0, true, closed, nullptr);
+    }
+  }
+
+  std::atomic<bool> stops_{false};
+};
+
+bool WantsJson(const httplib::Request& request) {
+  return request.get_param_value("format") == "json" ||
+         request.get_header_value("Accept").find("application/json") != std::string::npos;
+}
+
+void Tell(const char* what, const Reasons& reasons, const httplib::Request& request,
+          httplib::Response& response) {
+  constexpr int kUnavailable = 503;
+  if (!reasons.empty()) response.status = kUnavailable;
+  if (WantsJson(request)) {
+    response.set_content(AsJson(what, reasons), "application/json");
+  } else {
+    response.set_content(AsText(what, reasons), "text/plain; charset=utf-8");
+  }
+}
+
+httplib::Server::HandlerResponse OnlyGet(const httplib::Request& request,
+                                         httplib::Response& response) {
+  constexpr int kNotAllowed = 405;
+  if (request.method == "GET" || request.method == "HEAD") {
+    return httplib::Server::HandlerResponse::Unhandled;
+  }
+  response.status = kNotAllowed;
+  response.set_header("Allow", "GET, HEAD");
+  return httplib::Server::HandlerResponse::Handled;
+}
+
+void Route(httplib::Server& server, const HealthPages& pages) {
+  server.set_pre_routing_handler(OnlyGet);
+  server.Get("/livez", [live = pages.not_live](const auto& request, auto& response) {
+    Tell("live", live(), request, response);
+  });
+  server.Get("/readyz", [ready = pages.not_ready](const auto& request, auto& response) {
+    Tell("ready", ready(), request, response);
+  });
+  server.Get("/metrics", [metrics = pages.metrics](const auto& /*request*/, auto& response) {
+    response.set_content(metrics(), "text/plain; version=0.0.4; charset=utf-8");
+  });
+  server.set_error_handler([](const httplib::Request& /*request*/, httplib::Response& response) {
+    constexpr int kNotFound = 404;
+    if (response.status != kNotFound) return;
+    response.set_content("there is /livez, /readyz and /metrics\n", "text/plain");
+  });
+}
+
+// Signals are the loop's: one that met the thread that accepts would end the server.
+class SignalsHeldOff {
+ public:
+  SignalsHeldOff() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeldOff() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeldOff(const SignalsHeldOff&) = delete;
+  SignalsHeldOff& operator=(const SignalsHeldOff&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+// Without the library's SO_REUSEPORT, by which two vehicles would share a port in turns. With
+// SO_REUSEADDR a port is free again as soon as its process is gone.
+void OnlyOneListens(socket_t socket) {
+  const int yes = 1;
+  setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+}
+
+// Of a service that listens on every address.
+std::string Reachable(const std::string& address) {
+  if (address == "0.0.0.0") return "127.0.0.1";
+  return address == "::" ? "::1" : address;
+}
+
+}  // namespace
+
+struct HealthServer::Impl {
+  BoundedServer server;
+  std::atomic<bool> ended{false};
+  std::thread listener;
+
+  // A network that fails for a moment ends the library's loop; then it begins again.
+  void Listen(const std::string& address, std::uint16_t port) {
+    while (!server.GivesUp()) {
+      server.listen_after_bind();
+      while (!server.GivesUp() && !server.bind_to_port(address, port)) {
+        SleepUntil(SteadyNow() + milliseconds(100));
+      }
+    }
+    ended = true;
+  }
+};
+
+HealthServer::HealthServer(const std::string& address, std::uint16_t port, HealthPages pages)
+    : impl_(std::make_unique<Impl>()) {
+  BoundedServer& server = impl_->server;
+  server.set_socket_options(OnlyOneListens);
+  server.new_task_queue = [] { return new BoundedPool; };
+  Route(server, pages);
+  errno = 0;
+  if (!server.bind_to_port(address, port)) {
+    const int why = errno;
+    throw InputError({{.file = "command line or environment",
+                       .field = "--health-port",
+                       .value = std::to_string(port),
+                       .message = "cannot listen on " + address +
+                                  (why == 0 ? "" : std::string(": ") + std::strerror(why)),
+                       .remedy = why == EADDRINUSE ? "give each service of a host a port of its own"
+                                                   : "check --health-address and --health-port"}});
+  }
+  const SignalsHeldOff held_off;
+  impl_->listener = std::thread(&Impl::Listen, impl_.get(), address, port);
+}
+
+HealthServer::~HealthServer() {
+  impl_->server.GiveUp();
+  while (!impl_->ended) {  // the library forgets a stop that comes before it listens
+    impl_->server.stop();
+    SleepUntil(SteadyNow() + milliseconds(1));
+  }
+  impl_->listener.join();
+}
+
+int AskHealth(const std::string& address, std::uint16_t port, const std::string& what) {
+  constexpr int kOk = 200;
+  const std::string host = Reachable(address);
+  httplib::Client client(host, port);
+  client.set_connection_timeout(kClientPatience_s);
+  client.set_read_timeout(kClientPatience_s);
+  const std::string path = what == "metrics" ? "/metrics" : "/" + what + "z";
+  const httplib::Result answer = client.Get(path.c_str());
+  if (!answer) {
+    std::fprintf(stderr, "nobody answers on %s:%u: is the service running, with this port?\n",
+                 host.c_str(), static_cast<unsigned>(port));
+    return kNoAnswer;
+  }
+  std::fwrite(answer->body.data(), 1, answer->body.size(), stdout);
+  return answer->status == kOk && std::fflush(stdout) == 0 ? 0 : kNo;
+}
+
+}  // namespace giveway

@@ -1,0 +1,332 @@
+// Everything particular to one version of Fast DDS: names, headers, return codes, the shape of the
+// discovery callback, the generated types. The rest of services/link compiles against either 2.9.1
+// or 3.1.2 unchanged. Never included outside services/link and its tests.
+#pragma once
+
+#include <fastcdr/exceptions/Exception.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <fastdds/dds/core/LoanableSequence.hpp>
+#include <fastdds/dds/core/condition/StatusCondition.hpp>
+#include <fastdds/dds/core/condition/WaitSet.hpp>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+#include <fastdds/dds/log/Log.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "services/link/fastdds/found_endpoint.h"
+
+namespace giveway::link {
+
+// An element of a profile file, by its name in 2.9 and in the release at hand.
+struct Respelt {
+  std::string_view in_2_9;
+  std::string_view here;
+};
+
+}  // namespace giveway::link
+
+#if __has_include(<fastrtps/config.h>)
+#include <fastdds/rtps/common/Guid.h>
+#include <fastdds/rtps/common/InstanceHandle.h>
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/transport/ChainingTransport.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/config.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <idl/fleetPubSubTypes.h>
+
+namespace giveway::link {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+namespace transport = eprosima::fastdds::rtps;
+using Duration = eprosima::fastrtps::Duration_t;
+using ReturnCode = eprosima::fastrtps::types::ReturnCode_t;
+inline constexpr char kLibraryName[] = "Fast DDS " FASTRTPS_VERSION_STR;
+inline constexpr int kLibraryMajor = FASTRTPS_VERSION_MAJOR;
+inline constexpr std::array<Respelt, 0> kRespelt{};
+inline constexpr bool kServersByPrefix = true;  // in discoveryServersList
+
+inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
+// What a reader answers that is asked for an instance it does not have.
+inline bool IsUnknownInstance(const ReturnCode& code) {
+  return code == ReturnCode::RETCODE_BAD_PARAMETER;
+}
+// The result of DataWriter::write: true is good in 2.9.1, and 0 is good in 3.1.2.
+inline bool Ok(bool written) { return written; }
+
+inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) {
+  qos.reliable_writer_qos().times.heartbeatPeriod = period;
+}
+inline Duration HeartbeatPeriod(const dds::DataWriterQos& qos) {
+  return qos.reliable_writer_qos().times.heartbeatPeriod;
+}
+inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
+  return qos.reliable_reader_qos().disable_positive_ACKs.enabled;
+}
+using Discovery = rtps::DiscoveryProtocol_t;
+
+// A client of 2.9.1 must know the name of its server, too: `prefix`. 3.1.2 needs the address alone.
+inline void AddDiscoveryServer(rtps::DiscoverySettings& discovery, const rtps::GuidPrefix_t& prefix,
+                               const rtps::Locator_t& address) {
+  auto& server = discovery.m_DiscoveryServers.emplace_back();
+  server.guidPrefix = prefix;
+  server.metatrafficUnicastLocatorList.push_back(address);
+}
+
+// A type support at work, as endpoints use it. The representation is XCDR1.
+inline bool Serialize(dds::TopicDataType& type, void* sample, rtps::SerializedPayload_t& to) {
+  return type.serialize(sample, &to);
+}
+inline bool Deserialize(dds::TopicDataType& type, rtps::SerializedPayload_t& from, void* sample) {
+  return type.deserialize(&from, sample);
+}
+inline std::uint32_t SerializedSize(dds::TopicDataType& type, void* sample) {
+  return type.getSerializedSizeProvider(sample)();
+}
+inline std::uint32_t LargestSize(const dds::TopicDataType& type) { return type.m_typeSize; }
+// Whether a sample that was deserialized is all of it: what ends early is an exception here.
+inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*) { return true; }
+
+}  // namespace giveway::link
+
+#define GIVEWAY_IS_PLAIN_PARAMETERS
+#define GIVEWAY_PAYLOAD rtps::SerializedPayload_t*
+#define GIVEWAY_SENT const rtps::octet*
+#else
+#include <fastdds/config.hpp>
+#include <fastdds/rtps/builtin/data/PublicationBuiltinTopicData.hpp>
+#include <fastdds/rtps/builtin/data/SubscriptionBuiltinTopicData.hpp>
+#include <fastdds/rtps/common/Guid.hpp>
+#include <fastdds/rtps/common/InstanceHandle.hpp>
+#include <fastdds/rtps/transport/ChainingTransport.hpp>
+#include <fastdds/rtps/transport/SenderResource.hpp>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.hpp>
+#include <fastdds/rtps/transport/shared_mem/SharedMemTransportDescriptor.hpp>
+#include <fastdds/utils/IPLocator.hpp>
+#include <idl/fleetPubSubTypes.hpp>
+
+namespace giveway::link {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastdds::rtps;
+namespace transport = eprosima::fastdds::rtps;
+using Duration = dds::Duration_t;
+using ReturnCode = dds::ReturnCode_t;
+inline constexpr char kLibraryName[] = "Fast DDS " FASTDDS_VERSION_STR;
+inline constexpr int kLibraryMajor = FASTDDS_VERSION_MAJOR;
+inline constexpr std::array kRespelt = {
+    Respelt{"initialHeartbeatDelay", "initial_heartbeat_delay"},
+    Respelt{"heartbeatPeriod", "heartbeat_period"},
+    Respelt{"nackResponseDelay", "nack_response_delay"},
+    Respelt{"nackSupressionDuration", "nack_supression_duration"},
+    Respelt{"initialAcknackDelay", "initial_acknack_delay"},
+    Respelt{"heartbeatResponseDelay", "heartbeat_response_delay"},
+    Respelt{"expectsInlineQos", "expects_inline_qos"},
+};
+inline constexpr bool kServersByPrefix = false;
+
+inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
+inline bool IsUnknownInstance(ReturnCode code) { return code == dds::RETCODE_BAD_PARAMETER; }
+
+inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) {
+  qos.reliable_writer_qos().times.heartbeat_period = period;
+}
+inline Duration HeartbeatPeriod(const dds::DataWriterQos& qos) {
+  return qos.reliable_writer_qos().times.heartbeat_period;
+}
+inline bool WithoutPositiveAcks(const dds::DataReaderQos& qos) {
+  return qos.reliable_reader_qos().disable_positive_acks.enabled;
+}
+using Discovery = rtps::DiscoveryProtocol;
+
+inline void AddDiscoveryServer(rtps::DiscoverySettings& discovery, const rtps::GuidPrefix_t&,
+                               const rtps::Locator_t& address) {
+  discovery.m_DiscoveryServers.push_back(address);
+}
+
+inline bool Serialize(dds::TopicDataType& type, void* sample, rtps::SerializedPayload_t& to) {
+  return type.serialize(sample, to, dds::XCDR_DATA_REPRESENTATION);
+}
+inline bool Deserialize(dds::TopicDataType& type, rtps::SerializedPayload_t& from, void* sample) {
+  return type.deserialize(from, sample);
+}
+inline std::uint32_t SerializedSize(dds::TopicDataType& type, void* sample) {
+  return type.calculate_serialized_size(sample, dds::XCDR_DATA_REPRESENTATION);
+}
+inline std::uint32_t LargestSize(const dds::TopicDataType& type) {
+  return type.max_serialized_type_size;
+}
+// Fast CDR 2 takes bytes that end where a member does for a sample of an older, shorter type, and
+// leaves the rest as it is.
+inline bool IsWhole(dds::TopicDataType& type, const rtps::SerializedPayload_t& from, void* sample) {
+  return SerializedSize(type, sample) <= from.length;
+}
+
+}  // namespace giveway::link
+
+#define GIVEWAY_IS_PLAIN_PARAMETERS dds::DataRepresentationId_t
+#define GIVEWAY_PAYLOAD rtps::SerializedPayload_t&
+#define GIVEWAY_SENT const std::vector<transport::NetworkBuffer>&
+#endif
+
+namespace giveway::link {
+
+inline std::int64_t ToNanoseconds(const Duration& duration) {
+  constexpr std::int32_t kEndlessSeconds = 0x7fffffff;
+  if (duration.seconds == kEndlessSeconds) return kEndless;
+  return duration.seconds * std::int64_t{1'000'000'000} + duration.nanosec;
+}
+
+template <typename Partition, typename Reliability, typename Durability, typename Deadline,
+          typename Liveliness>
+FoundEndpoint MakeEndpoint(bool writes, const rtps::GUID_t& guid, std::string topic,
+                           std::string type, const Partition& partition,
+                           const Reliability& reliability, const Durability& durability,
+                           const Deadline& deadline, const Liveliness& liveliness) {
+  FoundEndpoint found;
+  std::copy_n(guid.guidPrefix.value, 12, found.guid.begin());
+  std::copy_n(guid.entityId.value, 4, found.guid.begin() + 12);
+  found.writes = writes;
+  found.topic = std::move(topic);
+  found.type = std::move(type);
+  found.partitions = partition.names();
+  found.reliable = reliability.kind == dds::RELIABLE_RELIABILITY_QOS;
+  found.durability = static_cast<int>(durability.kind);
+  found.deadline_ns = ToNanoseconds(deadline.period);
+  found.liveliness = static_cast<int>(liveliness.kind);
+  found.lease_ns = ToNanoseconds(liveliness.lease_duration);
+  return found;
+}
+
+// One of our own.
+inline FoundEndpoint Described(const dds::DataWriter& writer) {
+  const auto& qos = writer.get_qos();
+  return MakeEndpoint(true, writer.guid(), writer.get_topic()->get_name(),
+                      writer.get_topic()->get_type_name(),
+                      writer.get_publisher()->get_qos().partition(), qos.reliability(),
+                      qos.durability(), qos.deadline(), qos.liveliness());
+}
+inline FoundEndpoint Described(const dds::DataReader& reader) {
+  const auto& qos = reader.get_qos();
+  return MakeEndpoint(false, reader.guid(), reader.get_topicdescription()->get_name(),
+                      reader.get_topicdescription()->get_type_name(),
+                      reader.get_subscriber()->get_qos().partition(), qos.reliability(),
+                      qos.durability(), qos.deadline(), qos.liveliness());
+}
+
+// Tells of every writer in the domain that this participant discovers, its own included, and
+// whether it has found any other participant yet.
+class DiscoveryListener : public dds::DomainParticipantListener {
+ public:
+  enum class Change : std::uint8_t { kFound, kGone };
+
+  // Called on the library's threads. A writer whose QoS changed is found again.
+  virtual void OnWriter(Change change, const rtps::GUID_t& writer,
+                        const std::vector<std::string>& partitions) = 0;
+
+  // The endpoints of others found, or found changed, since the last call; of too many, the first.
+  std::vector<FoundEndpoint> TakeEndpoints() { return endpoints_.Take(); }
+
+  bool HasFoundAnybody() const { return has_found_anybody_.load(std::memory_order_relaxed); }
+
+#if __has_include(<fastrtps/config.h>)
+  void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) final {
+    const bool gone = found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
+    OnWriter(gone ? Change::kGone : Change::kFound, found.info.guid(),
+             found.info.m_qos.m_partition.names());
+    if (!gone) NoteEndpoint(true, found.info);
+  }
+  void on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) final {
+    if (found.status != rtps::ReaderDiscoveryInfo::REMOVED_READER) NoteEndpoint(false, found.info);
+  }
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&&) final {
+    has_found_anybody_.store(true, std::memory_order_relaxed);
+  }
+#else
+  void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus status,
+                                const dds::PublicationBuiltinTopicData& found, bool&) final {
+    const bool gone = status == rtps::WriterDiscoveryStatus::REMOVED_WRITER;
+    OnWriter(gone ? Change::kGone : Change::kFound, found.guid, found.partition.names());
+    if (!gone) NoteEndpoint(true, found);
+  }
+  void on_data_reader_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryStatus status,
+                                const dds::SubscriptionBuiltinTopicData& found, bool&) final {
+    if (status != rtps::ReaderDiscoveryStatus::REMOVED_READER) NoteEndpoint(false, found);
+  }
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus,
+                                const dds::ParticipantBuiltinTopicData&, bool&) final {
+    has_found_anybody_.store(true, std::memory_order_relaxed);
+  }
+#endif
+
+ private:
+#if __has_include(<fastrtps/config.h>)
+  template <typename ProxyData>
+  void NoteEndpoint(bool writes, const ProxyData& found) {
+    const auto& qos = found.m_qos;
+    endpoints_.Add(MakeEndpoint(writes, found.guid(), found.topicName().to_string(),
+                                found.typeName().to_string(), qos.m_partition, qos.m_reliability,
+                                qos.m_durability, qos.m_deadline, qos.m_liveliness));
+  }
+#else
+  template <typename TopicData>
+  void NoteEndpoint(bool writes, const TopicData& found) {
+    endpoints_.Add(MakeEndpoint(writes, found.guid, found.topic_name.to_string(),
+                                found.type_name.to_string(), found.partition, found.reliability,
+                                found.durability, found.deadline, found.liveliness));
+  }
+#endif
+
+  EndpointQueue endpoints_;
+  std::atomic<bool> has_found_anybody_{false};
+};
+
+// A chaining transport that sends as the one below it does.
+class ForwardingTransport : public transport::ChainingTransport {
+ public:
+  using ChainingTransport::ChainingTransport;
+  bool send(rtps::SenderResource* below, GIVEWAY_SENT bytes, std::uint32_t size,
+            rtps::LocatorsIterator* from, rtps::LocatorsIterator* to,
+            const std::chrono::steady_clock::time_point& timeout) final {
+    return below->send(bytes, size, from, to, timeout);
+  }
+};
+
+// A generated type that is always deserialized. Left to itself the library lends its network buffer
+// for types without strings: unchecked in length and byte order, and misaligned for doubles. The
+// generated code lets most exceptions of spoilt bytes through; here they are no sample.
+template <typename Generated>
+class CheckedType final : public Generated {
+ public:
+  bool is_plain(GIVEWAY_IS_PLAIN_PARAMETERS) const override { return false; }
+  bool deserialize(GIVEWAY_PAYLOAD payload, void* sample) override {
+    try {
+      return Generated::deserialize(payload, sample) && IsWhole(*this, payload, sample);
+    } catch (const eprosima::fastcdr::exception::Exception&) {
+      return false;
+    }
+  }
+};
+
+}  // namespace giveway::link

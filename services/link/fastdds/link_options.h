@@ -1,0 +1,32 @@
+// What every process needs to be a participant. Values; config fills them from the command line.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "services/types/discovery_server.h"
+#include "services/types/impairment.h"
+
+namespace giveway::link {
+
+struct LinkOptions {
+  std::uint32_t domain = 0;             // 1..99; above 101 ports collide with ephemeral ones
+  std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
+  std::string qos_file;                 // a complete Fast DDS XML profile set
+  std::string area = "main";            // [a-z0-9_-]+
+  std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
+  bool partition_free = false;          // vehicle: a second beacon, for readers without a partition
+  Impairment impairment = {};           // of what this process hears; its seed is set
+  // Instead of the profile set's way of discovery; none: as the set says.
+  std::vector<DiscoveryServer> discovery_servers = {};
+};
+
+// An entity could not be made: says which, why, and what to do. Start-up only; main exits with 2.
+class LinkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace giveway::link

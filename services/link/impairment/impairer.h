@@ -1,0 +1,56 @@
+// The channel model behind the transport of one participant: which process a packet is from, and
+// what becomes of it. Safe to use from the library's threads; never calls the library.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/link/impairment/impairment.h"
+
+namespace giveway::link {
+
+// The twelve bytes that begin the GUID of all that one participant owns, and stand in the header of
+// each packet it sends. Ports and addresses do not tell participants of one host apart.
+using PrefixBytes = std::array<std::uint8_t, 12>;
+
+class Impairer {
+ public:
+  // The seed of `impairment` is set.
+  explicit Impairer(Impairment impairment) : model_(std::move(impairment)) {}
+
+  // Which packets are the own ones: those, and all before this call, are left alone.
+  void NameOwn(const PrefixBytes& own);
+  void NameHearer(VehicleId hearer);
+  void Start(SteadyTime now);
+  std::optional<SteadyTime> Started() const;
+  // Discovery of a writer tells whose process it is: a vehicle by its beacon writer in
+  // `<area>/v<id>`, the world by any in `world`. What is known once is known for good.
+  void OnWriter(const PrefixBytes& process, const std::vector<std::string>& partitions);
+
+  PacketFate Decide(std::span<const std::uint8_t> packet, SteadyTime now);
+  void NoteAbandoned(std::size_t packets);
+
+  ImpairmentCounters Counters() const;
+  ImpairmentCounters CountersOf(VehicleId sender) const;
+  std::size_t Senders() const;  // told apart so far
+
+ private:
+  const Sender& SenderOf(const PrefixBytes& process);
+
+  mutable std::mutex mutex_;  // guards all that follows
+  ChannelModel model_;
+  std::optional<PrefixBytes> own_;
+  std::map<PrefixBytes, Sender> senders_;
+  std::uint32_t unknown_ = 0;  // processes that were heard before they were named
+  std::uint64_t abandoned_ = 0;
+};
+
+}  // namespace giveway::link

@@ -1,0 +1,42 @@
+// What the signal heads said, the newest of each. One reader hears every head, and the library does
+// not say by polling which one missed its deadline; hence the events.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include "services/link/fastdds/endpoint.h"
+#include "services/link/fastdds/reader_events.h"
+#include "services/types/signal.h"
+
+namespace giveway::link {
+
+class SignalInbox {
+ public:
+  static constexpr std::size_t kMaxHeads = 1024;  // of a scenario; more are nobody's
+
+  // The deadline misses of `reader` are told to `events`.
+  SignalInbox(Reader<wire::SignalState> reader, ReaderEvents& events);
+
+  // The newest of each head since the last call, by id. Holds until the next call.
+  std::span<const SignalState> Take();
+
+  std::uint32_t Unreadable() const { return unreadable_; }  // see FromWire, or without an id
+  // Edges: once a head until it is heard again.
+  std::uint32_t DeadlineMissed() const { return deadline_missed_; }
+
+ private:
+  void Keep(const SignalState& state);
+  void CountMisses();
+
+  Reader<wire::SignalState> reader_;
+  ReaderEvents& events_;
+  std::vector<SignalState> taken_;               // by id
+  std::unordered_set<std::uint32_t> not_heard_;  // heads that missed their deadline
+  std::uint32_t unreadable_ = 0;
+  std::uint32_t deadline_missed_ = 0;
+};
+
+}  // namespace giveway::link

@@ -1,0 +1,36 @@
+// Endpoints of others that are on a topic of ours and will never match: their QoS does not fit, or
+// they have no partition, of which DDS tells nothing. Judged a second after they were found, when
+// all of their participant's are known. Knows no DDS, has no clock.
+#pragma once
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "services/link/fastdds/found_endpoint.h"
+#include "services/types/time.h"
+
+namespace giveway::link {
+
+// Why `other` matches none of `own`; empty if it matches one, or if it is not meant to: a reader of
+// another vehicle's ranges, a fleet in another area. `known` are endpoints of others: who speaks
+// without a partition beside what it says in one is heard by us in that one.
+std::string WhyUnfit(const FoundEndpoint& other, const std::vector<FoundEndpoint>& own,
+                     const std::deque<FoundEndpoint>& known);
+
+class UnfitEndpoints {
+ public:
+  void Add(FoundEndpoint found, SteadyTime now);
+  bool IsDue(SteadyTime now) const;
+  // Lines for the log, one an endpoint; each endpoint is judged once.
+  std::vector<std::string> Judge(const std::vector<FoundEndpoint>& own, SteadyTime now);
+  // Endpoints that are kept, judged or not.
+  std::size_t Known() const { return found_.size(); }
+
+ private:
+  std::deque<FoundEndpoint> found_;  // those due first; then some that were judged
+  std::deque<SteadyTime> due_;       // of found_, from judged_ on
+  std::size_t judged_ = 0;
+};
+
+}  // namespace giveway::link

@@ -1,0 +1,52 @@
+#include "services/node/server_wait.h"
+
+#include <chrono>
+#include <future>
+#include <thread>
+#include <utility>
+
+#include "services/link/fastdds/server_addresses.h"
+
+namespace giveway {
+namespace {
+
+constexpr auto kPoll = std::chrono::milliseconds(20);
+constexpr Nanoseconds kAskAgain = std::chrono::seconds(1);
+constexpr Nanoseconds kReminder = std::chrono::seconds(30);
+
+// On a thread that nobody joins: a lookup without a name server takes seconds, and a stop takes one
+// at most.
+std::future<std::string> Ask(const std::vector<DiscoveryServer>& servers) {
+  std::packaged_task<std::string()> task([servers] { return link::FindServers(servers).fault; });
+  auto answer = task.get_future();
+  std::thread(std::move(task)).detach();
+  return answer;
+}
+
+}  // namespace
+
+bool AwaitServers(const link::LinkOptions& options, const StopSignal& stop,
+                  const std::function<void(const std::string& why)>& tell) {
+  if (options.discovery_servers.empty()) return true;
+  std::string why = "looks up its discovery servers: " + ToText(options.discovery_servers);
+  SteadyTime remind{0};
+  SteadyTime again{0};
+  std::future<std::string> answer;
+  while (!stop.IsSet()) {
+    tell(why);
+    if (!answer.valid() && SteadyNow() >= again) answer = Ask(options.discovery_servers);
+    if (!answer.valid() || answer.wait_for(kPoll) != std::future_status::ready) {
+      SleepUntil(SteadyNow() + kPoll);
+      continue;
+    }
+    why = answer.get();
+    if (why.empty()) return true;
+    again = SteadyNow() + kAskAgain;
+    if (SteadyNow() < remind) continue;
+    LogWarning(why);
+    remind = SteadyNow() + kReminder;
+  }
+  return false;
+}
+
+}  // namespace giveway

@@ -1,0 +1,153 @@
+#include "services/node/service_admin.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "services/qos/check.h"
+#include "services/qos/order_check.h"
+#include "services/qos/xml_tree.h"
+#include "services/runtime/process.h"
+#include "services/types/check.h"
+
+namespace giveway {
+namespace {
+
+// A participant takes a tenth of a second; a busy machine more.
+constexpr Nanoseconds kTrialPatience = std::chrono::seconds(8);
+
+// Why these profiles would not do; empty if they would. An operator has looked already: this is for
+// the one that did not.
+std::string WhatIsWrong(const QosProfiles& profiles, const QosProfiles& in_use,
+                        std::uint32_t fleet_size) {
+  qos::Findings findings = qos::Check({{profiles.name, profiles.text}}, {.vehicles = fleet_size});
+  const qos::XmlRead wanted = qos::ReadXml(profiles.text, profiles.name);
+  const qos::XmlRead running = qos::ReadXml(in_use.text, in_use.name);
+  if (wanted.root && running.root) {
+    const qos::Findings beyond = qos::CheckOrder(*wanted.root, *running.root, profiles.name);
+    findings.insert(findings.begin(), beyond.begin(), beyond.end());
+  }
+  const auto worst = std::ranges::find(findings, qos::Severity::kError, &qos::Finding::severity);
+  if (worst == findings.end()) return "";
+  return worst->place.file + ":" + std::to_string(worst->place.line) + ": " + worst->rule + ": " +
+         worst->subject + " " + worst->values;
+}
+
+std::vector<qos::Change> ChangesBetween(const QosProfiles& from, const QosProfiles& to) {
+  const qos::XmlRead before = qos::ReadXml(from.text, from.name);
+  const qos::XmlRead after = qos::ReadXml(to.text, to.name);
+  GIVEWAY_CHECK(before.root && after.root, from.name, to.name);
+  return qos::Changes(*before.root, *after.root);
+}
+
+}  // namespace
+
+ServiceAdmin::ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options,
+                           VehicleId vehicle, QosProfiles in_use, bool lockstep)
+    : link_(*link),
+      options_(options),
+      vehicle_(vehicle),
+      lockstep_(lockstep),
+      in_use_(std::move(in_use)) {}
+
+void ServiceAdmin::AnswerResumed(std::uint64_t order, const std::string& rolled_back) {
+  if (rolled_back.empty()) return Answer(order, AnswerState::kInEffect);
+  Answer(order, AnswerState::kRefused, "came back with what it had: " + rolled_back);
+}
+
+bool ServiceAdmin::Serve() {
+  if (trial_) return FinishTrial();
+  if (pending_) return false;  // it is about to restart
+  for (const AdminOrder& order : link_.TakeOrders()) {
+    if (order.vehicle != vehicle_) continue;
+    if (order.kind == OrderKind::kTell) {
+      Answer(order.number, AnswerState::kInEffect);
+    } else if (lockstep_) {
+      Answer(order.number, AnswerState::kRefused, "runs in lockstep, which nothing may disturb");
+    } else if (Apply(order)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+bool ServiceAdmin::Apply(const AdminOrder& order) {
+  if (trial_) {
+    Refuse(order, "it tries the profiles of another order");
+    return false;
+  }
+  const std::string wrong = WhatIsWrong(order.profiles, in_use_, options_.fleet_size);
+  if (!wrong.empty()) {
+    Refuse(order, wrong);
+    return false;
+  }
+  const std::vector<qos::Change> changes =
+      qos::ChangesFor(vehicle_ == kNobody ? qos::Role::kWorld : qos::Role::kVehicle,
+                      ChangesBetween(in_use_, order.profiles));
+  if (!qos::NeedsRestart(changes) && TakeNow(changes)) {
+    in_use_ = order.profiles;
+    LogInfo("runs with the QoS of " + in_use_.name + " from now on");
+    Answer(order.number, AnswerState::kInEffect);
+    return false;
+  }
+  try {
+    trial_ = std::make_unique<ProgramTrial>(NewFlags{{"--resume", ""}, {"--former-qos", ""}},
+                                            "--try-qos", order.profiles.name, order.profiles.text,
+                                            kTrialPatience);
+    pending_ = order;
+  } catch (const std::system_error& error) {
+    Refuse(order, error.what());
+  }
+  return false;
+}
+
+bool ServiceAdmin::FinishTrial() {
+  const std::optional<std::string> result = trial_->Result();
+  if (!result) return false;
+  trial_.reset();
+  if (!result->empty()) {
+    Refuse(*pending_, "a participant with it cannot be made: " + *result);
+    pending_.reset();
+    return false;
+  }
+  LogInfo("restarts itself with the QoS of " + pending_->profiles.name);
+  Answer(pending_->number, AnswerState::kRestarting);
+  return true;
+}
+
+NewFlags ServiceAdmin::ToComeBack() const {
+  const QosProfiles& next = IsTaken() ? pending_->profiles : in_use_;
+  return {{"--qos", HoldText(next.name, next.text)},
+          {"--former-qos", HoldText(in_use_.name, in_use_.text)},
+          {"--rolled-back", ""}};
+}
+
+void ServiceAdmin::Refuse(const AdminOrder& order, const std::string& why) {
+  LogWarning("refused the QoS of " + order.profiles.name + ": " + why);
+  Answer(order.number, AnswerState::kRefused, why);
+}
+
+bool ServiceAdmin::TakeNow(const std::vector<qos::Change>& changes) {
+  for (const qos::Change& change : changes) {
+    if (link_.SetDeadline(change.profile, change.number)) continue;
+    LogError("the library refused the deadline " + change.to + " of " + change.profile);
+    return false;
+  }
+  return true;
+}
+
+void ServiceAdmin::Answer(std::uint64_t order, AnswerState state, const std::string& reason) {
+  AdminAnswer answer{.vehicle = vehicle_,
+                     .order = order,
+                     .state = state,
+                     .reason = reason,
+                     .fleet_size = options_.fleet_size,
+                     .interface = options_.interface,
+                     .profiles = in_use_,
+                     .live = {}};
+  if (state == AnswerState::kInEffect) answer.live = link_.LiveQos();
+  link_.SendAnswer(answer);
+}
+
+}  // namespace giveway

@@ -1,0 +1,64 @@
+// What giveway-vehicle and giveway-world share: flags in, an exit code out, and one place where a
+// start-up error becomes a log line and exit code 2.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <variant>
+
+#include "services/config/flags.h"
+#include "services/health/health_server.h"
+#include "services/link/fastdds/library_log.h"
+#include "services/link/fastdds/link_options.h"
+#include "services/runtime/process.h"
+#include "services/types/scenario.h"
+
+namespace giveway {
+
+inline link::LinkOptions LinkOptionsOf(const ServiceFlags& flags, const Scenario& scenario) {
+  return {
+      .domain = flags.domain,
+      .interface = flags.interface,
+      .qos_file = flags.qos,
+      .area = scenario.area,
+      .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+      .partition_free = flags.partition_free,
+      .impairment = {},
+      .discovery_servers = flags.discovery_servers};
+}
+
+// Only vehicles hear through it: the world's ears are the wires to the wheels.
+inline Impairment ImpairmentOf(const ServiceFlags& flags, const Scenario& scenario) {
+  Impairment impairment = flags.impair.value_or(scenario.impairment);
+  if (!impairment.seed) impairment.seed = scenario.seed;
+  return impairment;
+}
+
+// A reader of the log that has stopped delays the end by no more.
+inline constexpr Nanoseconds kFlushLog = std::chrono::milliseconds(200);
+
+// Runs the service unless the flags asked for help or were wrong.
+inline int ServiceMain(const std::variant<ServiceFlags, int>& parsed,
+                       int (*run)(const ServiceFlags&, const StopSignal&)) {
+  if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  const auto& flags = std::get<ServiceFlags>(parsed);
+  if (!flags.ask_health.empty()) {
+    return AskHealth(flags.health_address, static_cast<std::uint16_t>(flags.health_port),
+                     flags.ask_health);
+  }
+  // Never destroyed: the limit on the time to leave holds until the process is gone.
+  static const StopSignal& stop = *new StopSignal;
+  // The library's own thread says what it has to say: a log that is not read must not hold it up.
+  link::SetLibraryLog([](const std::string& line) { LogWarning(line); });
+  int exit_code = 2;
+  try {
+    exit_code = run(flags, stop);
+  } catch (const std::exception& error) {
+    LogError(error.what());
+  }
+  FlushLog(kFlushLog);
+  return exit_code;
+}
+
+}  // namespace giveway

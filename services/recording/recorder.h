@@ -1,0 +1,59 @@
+// Writes what a brain is told and says into a file, so that its decisions can be made again.
+//
+// The deciding thread only copies into a bounded queue and never waits; a thread of the recorder's
+// own makes bytes of it and writes one record at a time. A full queue (the disk does not keep up
+// for six seconds) or a failed write ends the recording, for a brain cannot be led over a gap:
+// what is not written from then on is counted and reported, at once, every minute and at the end.
+// What was written survives the death of the process at any moment; it does not wait for the disk.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "services/types/handover.h"
+#include "services/types/vehicle_io.h"
+#include "services/types/vehicle_options.h"
+
+namespace giveway {
+
+struct RecorderTally {
+  std::uint32_t steps = 0;  // in the file
+  std::uint32_t lost = 0;   // not in it
+};
+
+class Recorder {
+ public:
+  // Makes the file, under another name where it is there already; see recording_writer.h. Throws
+  // std::runtime_error if it cannot.
+  explicit Recorder(const std::string& file, std::uint64_t split_bytes = 0);
+  // As Close.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  // The brain is made; first of all, and once.
+  void Begin(const VehicleOptions& options, std::uint32_t boot_epoch,
+             const std::optional<Handover>& handover = std::nullopt);
+  void Reseat(const VehicleOptions& options);
+  // After each step. `hash` is of the brain's state after it.
+  void Step(const Inputs& inputs, const Outputs& outputs, std::uint64_t hash);
+
+  // Writes what is still queued, ends the file, and logs how much is in it.
+  RecorderTally Close();
+
+ private:
+  class Writer;
+  template <typename Fill>
+  bool Queue(Fill&& fill);
+  void ReportLoss();
+
+  std::unique_ptr<Writer> writer_;
+  RecorderTally tally_;
+  bool ended_ = false;  // something was lost: nothing more is queued
+  SteadyTime next_report_{0};
+  bool closed_ = false;
+};
+
+}  // namespace giveway

@@ -1,0 +1,19 @@
+// UTF-8 as far as the texts of logs and reports need it (RFC 3629).
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace giveway {
+
+// Bytes of the sequence that begins `text`, which is not empty; 0 if none does.
+std::size_t Utf8Length(std::string_view text);
+// True if `text` is well-formed and without NUL bytes.
+bool IsText(std::string_view text);
+// The text with every byte that belongs to no sequence replaced by U+FFFD.
+std::string WellFormed(std::string_view text);
+// At most `most` bytes of the text and, if that is not all, an ellipsis.
+std::string Shortened(std::string_view text, std::size_t most);
+
+}  // namespace giveway

@@ -1,0 +1,25 @@
+// Files that are written whole or not at all: beside their place first, then put there by a rename.
+// A reader finds what was there before or all of what is new, never a part, whatever fails.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace giveway {
+
+// Empty if it is written, else why not. For the state of a process: what is at `path` is replaced,
+// a symbolic link itself and not the file it leads to. It survives the death of the process at any
+// moment, and does not wait for the disk.
+std::string WriteStateFile(const std::string& path, std::string_view bytes);
+
+// The same for a file that was asked for by name: a link is followed, and what is no regular file
+// (/dev/stdout, a pipe) is written to as it is. Waits for the disk.
+std::string WriteOutputFile(const std::string& path, std::string_view bytes);
+
+// Empty if WriteOutputFile could begin now, else why not. Leaves no file behind.
+std::string WhyNotWritable(const std::string& path);
+
+// "path: cannot be read: No such file or directory", by errno.
+std::string FileComplaint(const std::string& path, const char* what);
+
+}  // namespace giveway

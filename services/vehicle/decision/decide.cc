@@ -1,0 +1,117 @@
+#include "services/vehicle/decision/decide.h"
+
+#include <algorithm>
+
+#include "services/vehicle/decision/lecture.h"
+#include "services/vehicle/decision/rules.h"
+#include "services/vehicle/decision/steering.h"
+#include "services/vehicle/situation/encounter.h"
+
+namespace giveway {
+namespace {
+
+// Past a standing vehicle at walking pace, and no faster than the cruise.
+constexpr double kRoundSpeed_m_s = 0.2;
+
+bool IsAvoiding(Behaviour behaviour) {
+  return behaviour == Behaviour::kLectureAvoid || behaviour == Behaviour::kStockAvoid;
+}
+
+// The ladder: how much of what a decision wants to know is known.
+Mode ModeOf(const Situation& s) {
+  if (s.leaving) return Mode::kLeaving;
+  if (s.blind_sensor >= 0) return Mode::kHalt;
+  return s.deaf || s.someone_lost || s.someone_doubted ? Mode::kSensorOnly : Mode::kCooperative;
+}
+
+Action AvoidingAction(const Situation& s) {
+  const Avoidance avoidance = Avoid(s.options.braitenberg, s.ranges);
+  Action action{.target = avoidance.wheels};
+  action.decision.rule = avoidance.sensor >= 0 ? Rule::kAvoid : Rule::kCruise;
+  action.decision.sensor = avoidance.sensor;
+  action.decision.cause_tick = avoidance.sensor >= 0 ? s.tick : kNoTick;
+  return action;
+}
+
+// Drives to the goal no faster than `limit`, slowing so that it can stop there.
+Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
+  const VehicleProfile& profile = s.options.profile;
+  const Steering steering = SteerToGoal(s);
+  Action action;
+  double speed = s.options.cruise_m_s;
+  if (s.stops_there) {
+    speed = std::min(
+        speed, SpeedToStopWithin(s.distance_to_goal_m, s.reaction_s, profile.deceleration_m_s2));
+  }
+  action.decision.rule = Rule::kCruise;
+  if (steering.round != kNobody) {
+    speed = std::min(speed, kRoundSpeed_m_s);
+    action.decision.rule = Rule::kSteerRound;
+    action.decision.peer = steering.round;
+  }
+  bool may_turn = true;
+  // Also of one that takes nothing off: exactly on its goal it stands anyhow, and says why.
+  if (limit && limit->max_speed_m_s <= speed) {
+    speed = limit->max_speed_m_s;
+    may_turn = limit->may_turn;
+    action.decision = {.rule = limit->rule,
+                       .peer = limit->peer,
+                       .sensor = limit->sensor,
+                       .cause_tick = limit->cause_tick};
+  }
+  action.blocked_by = steering.blocked_by;
+  action.steer_side = steering.side;
+  action.away_rad = steering.away_rad;
+  action.target = Drive(profile, {s.speed_m_s, s.turn_rad_s}, steering, speed, may_turn);
+  return action;
+}
+
+// A light ahead that says stop is told to the others whatever else slows the vehicle down just now:
+// they count on it that it will not come on. Only what makes it stand anyhow stays named.
+bool IsToldBeforeLight(Rule rule) {
+  switch (rule) {
+    case Rule::kCruise:
+    case Rule::kGiveWay:
+    case Rule::kNotGranted:
+    case Rule::kObstacle:
+    case Rule::kObject:
+    case Rule::kSteerRound:
+      return false;
+    default:
+      return true;
+  }
+}
+
+// True if the line is near enough to tell, and no conflict with anybody known lies before it.
+bool StandsAtLine(const StopLine& line, const Situation& s) {
+  constexpr double kTellWithin_m = 2.5;
+  return line.free_m < kTellWithin_m &&
+         std::none_of(s.peers.begin(), s.peers.end(), [&line](const PeerView& view) {
+           return view.conflict && view.conflict->own.begin_m < line.free_m;
+         });
+}
+
+}  // namespace
+
+Action Decide(const Situation& s) {
+  const std::optional<Proposal> limit = MostRestrictive(s);
+  const bool avoids = IsAvoiding(s.options.behaviour) && !limit;
+  Action action = avoids ? AvoidingAction(s) : DrivingAction(s, limit);
+  if (s.options.behaviour == Behaviour::kLecturePrinted && !limit) action = AsPrinted(s, action);
+  if (s.stop_line && !IsToldBeforeLight(action.decision.rule) && StandsAtLine(*s.stop_line, s)) {
+    action.decision = {.rule = Rule::kSignal, .cause_tick = s.stop_line->tick};
+  }
+  action.decision.mode = ModeOf(s);
+  return action;
+}
+
+VehicleId GivesWayTo(const Situation& s) {
+  const PeerView* nearest = nullptr;
+  for (const PeerView& view : s.peers) {
+    if (!view.peer->encounter.active || !view.fresh || !CanGiveWay(view, s)) continue;
+    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
+  }
+  return nearest == nullptr ? kNobody : nearest->peer->id;
+}
+
+}  // namespace giveway

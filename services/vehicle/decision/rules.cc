@@ -1,0 +1,174 @@
+#include "services/vehicle/decision/rules.h"
+
+#include <algorithm>
+
+#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/objects_ahead.h"
+
+namespace giveway {
+namespace {
+
+Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .rule = rule}; }
+
+// A dead stop for the nearest peer that this vehicle holds for and `applies` to.
+template <typename Predicate>
+std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies) {
+  if (!s.holds) return std::nullopt;
+  const PeerView* nearest = nullptr;
+  for (const PeerView& view : s.peers) {
+    if (!view.peer->encounter.holds || !applies(view)) continue;
+    if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
+  }
+  if (nearest == nullptr) return std::nullopt;
+  Proposal proposal = DeadStop(rule);
+  proposal.peer = nearest->peer->id;
+  // Silence has no tick that shows it: a lost peer is a cause without one.
+  proposal.cause_tick = nearest->lost ? kNoTick : nearest->peer->beacon.tick;
+  return proposal;
+}
+
+using RuleFunction = std::optional<Proposal> (*)(const Situation&);
+
+// As a list that the compiler knows, so that each rule becomes part of one function.
+template <RuleFunction... kRules>
+std::optional<Proposal> LowestOf(const Situation& s) {
+  std::optional<Proposal> lowest;
+  const auto keep = [&lowest](const std::optional<Proposal>& proposal) {
+    if (proposal && (!lowest || proposal->max_speed_m_s < lowest->max_speed_m_s)) {
+      lowest = proposal;
+    }
+  };
+  (keep(kRules(s)), ...);
+  return lowest;
+}
+
+}  // namespace
+
+std::optional<Proposal> Leaving(const Situation& s) {
+  if (!s.leaving && !s.halting) return std::nullopt;
+  return DeadStop(Rule::kLeaving);
+}
+
+std::optional<Proposal> NotRunning(const Situation& s) {
+  if (s.run_state == RunState::kRunning) return std::nullopt;
+  return DeadStop(Rule::kNotRunning);
+}
+
+std::optional<Proposal> RangesStale(const Situation& s) {
+  if (s.blind_sensor < 0) return std::nullopt;
+  Proposal proposal = DeadStop(Rule::kRangesStale);
+  proposal.sensor = s.blind_sensor < static_cast<int>(kSensorCount) ? s.blind_sensor : -1;
+  return proposal;
+}
+
+std::optional<Proposal> Arrived(const Situation& s) {
+  if (!s.arrived) return std::nullopt;
+  return DeadStop(Rule::kArrived);
+}
+
+std::optional<Proposal> GiveWay(const Situation& s) {
+  return HoldFor(Rule::kGiveWay, s,
+                 [](const PeerView& view) { return !view.lost && view.goes_first; });
+}
+
+std::optional<Proposal> NotGranted(const Situation& s) {
+  return HoldFor(Rule::kNotGranted, s,
+                 [](const PeerView& view) { return !view.lost && !view.goes_first; });
+}
+
+std::optional<Proposal> PeerLost(const Situation& s) {
+  return HoldFor(Rule::kPeerLost, s, [](const PeerView& view) { return view.lost; });
+}
+
+std::optional<Proposal> Signal(const Situation& s) {
+  if (!s.stop_line || Has(Defect::kSignalIgnored)) return std::nullopt;
+  return Proposal{.max_speed_m_s = SpeedToStopWithin(s.stop_line->free_m, s.reaction_s,
+                                                     s.options.profile.deceleration_m_s2),
+                  .may_turn = false,
+                  .rule = Rule::kSignal,
+                  .cause_tick = s.stop_line->tick};
+}
+
+std::optional<Proposal> Object(const Situation& s) {
+  const std::optional<ObjectAhead> object = NearestObstacle(s.objects, s);
+  if (!object) return std::nullopt;
+  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, s.reaction_s,
+                                         s.options.profile.deceleration_m_s2);
+  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  return Proposal{
+      .max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObject, .cause_tick = object->tick};
+}
+
+std::optional<Proposal> Deaf(const Situation& s) {
+  if (!s.deaf || Has(Defect::kMoverIgnored)) return std::nullopt;
+  Proposal proposal = DeadStop(Rule::kDeaf);
+  proposal.sensor = s.deaf_sensor;
+  proposal.cause_tick = s.tick;
+  return proposal;
+}
+
+std::optional<Proposal> Obstacle(const Situation& s) {
+  std::optional<Proposal> nearest;
+  for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
+    const std::optional<double> free_m = FreeAhead(i, s);
+    if (!free_m || Has(Defect::kObstacleIgnored)) continue;
+    const double limit =
+        SpeedToStopWithin(*free_m - kStandOff_m, s.reaction_s, s.options.profile.deceleration_m_s2);
+    if (limit >= s.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
+    nearest = Proposal{.max_speed_m_s = limit,
+                       .may_turn = true,
+                       .rule = Rule::kObstacle,
+                       .sensor = static_cast<int>(i),
+                       .cause_tick = s.tick};
+  }
+  return nearest;
+}
+
+std::optional<Proposal> KeepClear(const Situation& s) {
+  std::optional<Proposal> lowest;
+  for (const PeerView& view : s.peers) {
+    if (view.free_m >= s.slows_m || Has(Defect::kClaimIgnored)) continue;
+    if (Has(Defect::kBrakesTooLate) && view.free_m > 0) continue;
+    const double limit =
+        SpeedToStopWithin(view.free_m, s.reaction_s, s.options.profile.deceleration_m_s2);
+    if (limit >= s.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
+    lowest = Proposal{.max_speed_m_s = limit,
+                      .may_turn = true,
+                      .rule = Rule::kKeepClear,
+                      .peer = view.peer->id,
+                      .cause_tick = view.peer->beacon.tick};
+  }
+  return lowest;
+}
+
+std::optional<Proposal> KeepBoxClear(const Situation& s) {
+  if (!s.blocked_box) return std::nullopt;
+  const double limit = SpeedToStopWithin(s.blocked_box->begin_m - kInHand_m, s.reaction_s,
+                                         s.options.profile.deceleration_m_s2);
+  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  return Proposal{.max_speed_m_s = limit,
+                  .may_turn = true,
+                  .rule = Rule::kKeepClear,
+                  .peer = s.blocked_box->by,
+                  .cause_tick = s.blocked_box->told};
+}
+
+// The more telling reason comes first in each list.
+std::optional<Proposal> MostRestrictive(const Situation& s) {
+  switch (s.options.behaviour) {
+    case Behaviour::kLectureAvoid:
+    case Behaviour::kStockAvoid:
+    case Behaviour::kLecturePrinted:
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived>(s);
+    case Behaviour::kLectureYield:
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle>(
+          s);
+    case Behaviour::kCooperative:
+      break;
+  }
+  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Signal, GiveWay, NotGranted, PeerLost,
+                  Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
+}
+
+}  // namespace giveway

@@ -1,0 +1,316 @@
+#include "services/vehicle/decision/steering.h"
+
+#include <algorithm>
+#include <array>
+
+#include "services/types/math/math.h"
+#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/look.h"
+
+namespace giveway {
+namespace {
+
+// Nearer to a body than one passes it, every way that does not lead nearer still is free: between
+// two bodies there would be none otherwise.
+constexpr double kBesideIt_rad = kPi / 2 - 0.03;
+// How far ahead what stands in the way is steered round.
+constexpr double kLookAhead_m = 3;
+// A heading on the side of the last turn is kept although another is this much nearer.
+constexpr double kKeepSide_rad = 0.6;
+// Past something, but not back: whoever turns round in a lane meets those that follow.
+constexpr double kNoWayBack_rad = 1.8;
+// Farther off the heading than this it turns before it drives.
+constexpr double kTurnOnTheSpot_rad = 0.3;
+// A gap no wider than this is none.
+constexpr double kNarrow_rad = 0.02;
+
+// What stands in the way, as seen from the axle centre: no heading between `middle` - `half` and
+// `middle` + `half` gets past it.
+struct Blocked {
+  double middle_rad;
+  double half_rad;
+  double distance_m;
+  VehicleId peer;
+};
+
+struct BlockedHeadings {
+  std::array<Blocked, 64> of;  // the first `count`
+  std::size_t count = 0;
+  bool echoes = false;  // some of them are
+  bool stops = false;   // one of these keeps the vehicle where it stands
+};
+
+bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
+  return Magnitude(WrapAngle(heading_rad - blocked.middle_rad)) < blocked.half_rad - 1e-6;
+}
+
+// Stands ahead on the same way and means to go on: one lines up behind it. Overtaking a queue ends
+// in front of whatever comes the other way.
+bool Queues(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kQueueOvertaken)) return false;
+  const Rule rule = view.peer->beacon.rule;
+  if (rule == Rule::kArrived || rule == Rule::kNotRunning) return false;
+  constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
+  const double way_m = Norm(view.way_world);
+  return way_m > 0.5 && view.fresh &&
+         Dot(view.way_world, s.path.direction_world) > kSameWay * way_m;
+}
+
+// Stands only because another one does, and goes on with it.
+bool IsHeldUp(const PeerView& view) {
+  return view.fresh && view.peer->beacon.rule == Rule::kKeepClear;
+}
+
+// Whom to steer round: whoever stands. One that comes first and could start at any time is left to
+// the right of way while it says that it will.
+bool StandsInTheWay(const PeerView& view, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative) {
+    return view.fresh && view.standing && view.grants && !view.goes_first;
+  }
+  if (!view.standing || view.peer->left || Has(Defect::kSteersRoundNobody)) return false;
+  if (IsHeldUp(view) && !s.aimless) return false;
+  return !Queues(view, s) || (s.very_aimless && !view.at_signal);
+}
+
+// Headings past which nothing gets within `way_m`.
+BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
+  BlockedHeadings headings;
+  // Whoever stands on the very goal is waited for: there is no way round to where it stands. But
+  // not by one that stands on the other's, nor for ever: three can stand so in a ring.
+  const Vec2 target =
+      s.world_from_body.position_world + s.distance_to_goal_m * s.path.direction_world;
+  for (const PeerView& view : s.peers) {
+    if (!StandsInTheWay(view, s) || headings.count == headings.of.size()) continue;
+    const bool waited_for = !s.aimless && Occupies(view, target, s) && !IsOnGoalOf(view, s);
+    if (waited_for) continue;
+    const double distance_m = view.distance_m;
+    const double clearance_m = RoomBeside(view, s);
+    if (distance_m - clearance_m > way_m) continue;
+    const double half_rad =
+        distance_m > clearance_m
+            ? Atan2(clearance_m, Sqrt(distance_m * distance_m - clearance_m * clearance_m))
+            : kBesideIt_rad;
+    headings.of[headings.count++] = {Atan2(view.offset_world.y, view.offset_world.x), half_rad,
+                                     distance_m, view.peer->id};
+  }
+  return headings;
+}
+
+// What nobody has said is there, but echoes near. Only for a vehicle that comes no further: where
+// in its cone the echo lies is not known, and all of it is more than is in the way.
+void AddEchoes(const Situation& s, BlockedHeadings* headings) {
+  constexpr double kNear_m = 0.6;
+  constexpr double kHalf_rad = 0.6;
+  constexpr double kTurnAway_rad = 0.15;  // at a time, from what stops the vehicle as it stands
+  constexpr double kCreeps_m = 0.05;      // so near to where it would stop it comes no further
+  const VehicleProfile& profile = s.options.profile;
+  for (const std::size_t i : BitsOf(s.ranges.Echoes() & ~s.explained)) {
+    const SensorView& view = s.ranges[i];
+    if (view.range_m > kNear_m || headings->count == headings->of.size()) continue;
+    const double bearing_rad = profile.sonar[i].bearing_rad;
+    const std::optional<double> free_m = FreeAhead(i, s);
+    const bool stops = free_m && *free_m <= kStandOff_m + kCreeps_m;
+    headings->echoes = true;
+    headings->stops = headings->stops || stops;
+    headings->of[headings->count++] = {
+        WrapAngle(s.world_from_body.heading_rad + bearing_rad),
+        std::max(kHalf_rad, stops ? Magnitude(bearing_rad) + kTurnAway_rad : 0), view.range_m,
+        kNobody};
+  }
+}
+
+// The nearest of what blocks a heading, or of the vehicles among it.
+const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad,
+                         bool vehicles_alone = false) {
+  const Blocked* nearest = nullptr;
+  for (std::size_t i = 0; i < headings.count; ++i) {
+    const Blocked& blocked = headings.of[i];
+    if (!IsBlockedBy(blocked, heading_rad)) continue;
+    if (vehicles_alone && blocked.peer == kNobody) continue;
+    if (nearest == nullptr || blocked.distance_m < nearest->distance_m) nearest = &blocked;
+  }
+  return nearest;
+}
+
+// The nearest vehicle on the straight way to the goal.
+VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
+  const Blocked* vehicle = BlockedAt(headings, s.path_rad, true);
+  return vehicle == nullptr ? kNobody : vehicle->peer;
+}
+
+// The wanted heading if it is free, or the nearest that is, along an edge of something; the side of
+// the last turn is kept unless the other is much nearer. Empty where none is free.
+std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted_rad, int side,
+                                  bool vehicles_alone) {
+  if (BlockedAt(headings, wanted_rad, vehicles_alone) == nullptr) return wanted_rad;
+  std::optional<double> best;
+  double best_cost = 1e9;
+  for (std::size_t i = 0; i < headings.count; ++i) {
+    const Blocked& blocked = headings.of[i];
+    if (vehicles_alone && blocked.peer == kNobody) continue;
+    for (const int end : {1, -1}) {
+      const double edge = blocked.middle_rad + end * blocked.half_rad;
+      if (BlockedAt(headings, edge, vehicles_alone) != nullptr) continue;
+      if (BlockedAt(headings, edge + end * kNarrow_rad, vehicles_alone) != nullptr) continue;
+      const double turn = WrapAngle(edge - wanted_rad);
+      if (Magnitude(turn) > kNoWayBack_rad) continue;
+      // Passing on the right, with the obstacle to the left, where both sides are alike.
+      const bool other_side = side == 0 ? turn > 0 : turn * side < 0;
+      const double cost = Magnitude(turn) + (other_side ? (side == 0 ? 0.05 : kKeepSide_rad) : 0);
+      if (cost >= best_cost) continue;
+      best = edge;
+      best_cost = cost;
+    }
+  }
+  return best;
+}
+
+// For one that is caught: a heading along which no claim is near; empty if there is none among
+// those looked at. Each is turned by the golden angle from the one before, so that a few tries look
+// all round, however narrow the way out is, and none is tried twice.
+std::optional<double> WayOut(double wanted_rad, const Situation& s) {
+  constexpr double kGoldenAngle_rad = 2.399963229728653;
+  constexpr int kHeadings = 24;
+  constexpr double kOut_m = 0.1;
+  for (int i = 0; i < kHeadings; ++i) {
+    const double heading_rad = WrapAngle(wanted_rad + (s.tries + i) * kGoldenAngle_rad);
+    const Vec2 forward_world = {Cos(heading_rad), Sin(heading_rad)};
+    const bool leads_out = std::ranges::all_of(
+        s.peers, [&](const PeerView& view) { return FreeAlong(view, forward_world, s) >= kOut_m; });
+    if (leads_out) return heading_rad;
+  }
+  return std::nullopt;
+}
+
+// Where to turn, and whether that is kept to for a while.
+struct Turn {
+  double heading_rad;
+  bool kept;
+};
+
+// Past vehicles and echoes, or past the vehicles where that leaves no heading: an echo takes more
+// than what it is of, and the rules still stop before that. The wanted one where they leave none
+// either. Kept is what echoes decide, for they turn with the vehicle: halfway to a heading another
+// one may look better, and it would turn to and fro for ever.
+Turn TurnPast(const BlockedHeadings& headings, double wanted_rad, int side) {
+  const auto past_all = FreeHeading(headings, wanted_rad, side, false);
+  const auto past_vehicles =
+      headings.echoes ? FreeHeading(headings, wanted_rad, side, true) : past_all;
+  if (past_all) return {*past_all, past_all != past_vehicles};
+  return {past_vehicles.value_or(wanted_rad), false};
+}
+
+// Among others it leaves to them to make room: turning away in front of them it would only be in
+// the way of more.
+bool HasCompany(const Situation& s) {
+  constexpr double kNear_m = 1;
+  return std::ranges::any_of(s.peers, [&s](const PeerView& view) {
+    return view.gap_m < kNear_m && !view.peer->left &&
+           Dot(view.offset_world, s.path.direction_world) > 0;
+  });
+}
+
+// The heading it took of late and keeps to. Once it has turned there, and something stops it there
+// too, it looks for another.
+std::optional<double> KeptHeading(const BlockedHeadings& headings, const Situation& s) {
+  constexpr double kTurned_rad = 0.1;
+  if (!s.away_rad) return std::nullopt;
+  const double error_rad = WrapAngle(*s.away_rad - s.world_from_body.heading_rad);
+  const bool stopped_there = headings.stops && Magnitude(error_rad) <= kTurned_rad;
+  return stopped_there ? std::nullopt : s.away_rad;
+}
+
+// True if the vehicle stands, and turns before it drives.
+bool TurnsOnTheSpot(double heading_rad, const Situation& s) {
+  const double error_rad = WrapAngle(heading_rad - s.world_from_body.heading_rad);
+  return s.speed_m_s < kStandingSpeed_m_s && Magnitude(error_rad) > kTurnOnTheSpot_rad;
+}
+
+double Activation(const BraitenbergWeights& weights, const SensorView& view) {
+  if (view.kind != Echo::kEcho || view.range_m >= weights.far_gate_m) return 0;
+  const double range = std::max(view.range_m, weights.near_gate_m);
+  return 1 - (range - weights.near_gate_m) / (weights.far_gate_m - weights.near_gate_m);
+}
+
+}  // namespace
+
+Steering SteerToGoal(const Situation& s) {
+  Steering steering;
+  double wanted = s.path_rad;
+  double way_m = std::min(s.distance_to_goal_m, kLookAhead_m);
+  if (s.detour_world) {
+    const Vec2 way = *s.detour_world - s.world_from_body.position_world;
+    wanted = Atan2(way.y, way.x);
+    way_m = Norm(way);
+  }
+  double heading = wanted;
+  BlockedHeadings headings = WhatBlocks(s, way_m);
+  if (s.aimless) {
+    AddEchoes(s, &headings);
+    steering.blocked_by = OnStraightWay(headings, s);
+  }
+  if (s.tries >= 0 && !s.away_rad) steering.away_rad = WayOut(wanted, s);
+  if (const auto kept = steering.away_rad ? steering.away_rad : KeptHeading(headings, s)) {
+    steering.side = s.steer_side;
+    steering.heading_error_rad = WrapAngle(*kept - s.world_from_body.heading_rad);
+    return steering;
+  }
+  if (const Blocked* blocked = BlockedAt(headings, wanted)) {
+    const Turn turn = TurnPast(headings, wanted, s.steer_side);
+    heading = turn.heading_rad;
+    steering.round = blocked->peer;
+    steering.side = WrapAngle(heading - wanted) > 0 ? 1 : -1;
+    const bool gets_away = headings.stops && !HasCompany(s);
+    if (heading != wanted && (gets_away || (turn.kept && TurnsOnTheSpot(heading, s)))) {
+      steering.away_rad = heading;
+    }
+  }
+  steering.heading_error_rad = WrapAngle(heading - s.world_from_body.heading_rad);
+  return steering;
+}
+
+Avoidance Avoid(const BraitenbergWeights& weights, const RangeView& ranges) {
+  Avoidance avoidance{.wheels = {weights.base_rad_s, weights.base_rad_s}};
+  double strongest = 0;
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    const double activation = Activation(weights, ranges[i]);
+    avoidance.wheels.left_rad_s += weights.left[i] * activation;
+    avoidance.wheels.right_rad_s += weights.right[i] * activation;
+    if (activation > strongest) {
+      strongest = activation;
+      avoidance.sensor = static_cast<int>(i);
+    }
+  }
+  return avoidance;
+}
+
+namespace {
+
+// Both rims speed up no faster than the drive allows. Turning comes first: asked for all of both, a
+// vehicle that speeds up keeps the turn it has, and sways from side to side.
+double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s,
+                       double speed_m_s) {
+  constexpr double kAhead_s = 0.25;
+  constexpr double kNoTurn_m_s = 0.005;
+  const double rim_m_s = profile.drive.axle_m / 2 * Magnitude(turn_rad_s - now.turn_rad_s);
+  if (rim_m_s < kNoTurn_m_s) return speed_m_s;
+  const double more_m_s = std::max(0.0, kAhead_s * profile.acceleration_m_s2 - rim_m_s);
+  return std::min(speed_m_s, std::max(0.0, now.forward_m_s) + more_m_s);
+}
+
+}  // namespace
+
+WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
+                  double speed_m_s, bool may_turn) {
+  if (speed_m_s <= 0 && !may_turn) return {};
+  constexpr double kGain_per_s = 2.0;
+  const double error = steering.heading_error_rad;
+  const double turn =
+      std::clamp(kGain_per_s * error, -profile.max_turn_rad_s / 2, profile.max_turn_rad_s / 2);
+  const bool on_the_spot = Magnitude(error) > kTurnOnTheSpot_rad;
+  const double forward = SpeedBesideTurn(profile, now, turn, speed_m_s);
+  return WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
+}
+
+}  // namespace giveway

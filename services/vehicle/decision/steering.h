@@ -1,0 +1,34 @@
+// Which way to turn: towards the goal, or past a body that stands in the way and has said that it
+// stays. Also the avoiding behaviours' wheel speeds. Pure.
+#pragma once
+
+#include "services/vehicle/situation/situation.h"
+
+namespace giveway {
+
+struct Steering {
+  double heading_error_rad = 0;    // wanted minus present heading, in (-pi, pi]
+  VehicleId round = kNobody;       // the halted peer that is being passed
+  VehicleId blocked_by = kNobody;  // of an aimless one: the nearest on the straight way
+  int side = 0;                    // turned away from the wanted heading: 1 left, -1 right
+  std::optional<double> away_rad;  // the heading it keeps to from now on, if chosen just now
+};
+
+// Steers to the goal; where a standing peer that gives way blocks the straight path, along the
+// tangent past it on the side nearer to the goal, its left when both are alike.
+Steering SteerToGoal(const Situation& s);
+
+// Braitenberg: wheel = base + sum of weight * activation (reference/lecture.md, behaviour A).
+struct Avoidance {
+  WheelSpeeds wheels;
+  int sensor = -1;  // the most active one; -1 where none is
+};
+Avoidance Avoid(const BraitenbergWeights& weights, const RangeView& ranges);
+
+// Wheel speeds for a forward speed limit and a steering, of a vehicle that moves as `now`: turns on
+// the spot before it drives where the error is large. `may_turn` false stands dead still when the
+// limit is 0.
+WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
+                  double speed_m_s, bool may_turn);
+
+}  // namespace giveway

@@ -1,0 +1,94 @@
+#include "services/vehicle/estimation/odometry.h"
+
+#define EIGEN_DONT_VECTORIZE
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "services/types/math/math.h"
+
+namespace giveway {
+namespace {
+
+using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+using Vector3 = Eigen::Matrix<double, 3, 1>;
+using MapOf3 = Eigen::Map<Matrix3>;
+
+bool IsUsable(const PoseFix& fix) {
+  const Pose& pose = fix.world_from_body;
+  const auto positive = [](double sigma) { return std::isfinite(sigma) && sigma > 0; };
+  return std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
+         std::isfinite(pose.heading_rad) && positive(fix.sigma_position_m) &&
+         positive(fix.sigma_heading_rad);
+}
+
+}  // namespace
+
+Odometry::Odometry(const Pose& world_from_body, const PoseCovariance& c)
+    : pose_(world_from_body),
+      heading_{world_from_body.heading_rad, Forward(world_from_body)},
+      covariance_{c.xx_m2,    c.xy_m2,    c.xh_m_rad,  //
+                  c.xy_m2,    c.yy_m2,    c.yh_m_rad,  //
+                  c.xh_m_rad, c.yh_m_rad, c.hh_rad2} {}
+
+void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s, double wheel_error,
+                    double guessed_m) {
+  const Vec2 before = pose_.position_world;
+  const Vec2 forward = heading_.forward_world;
+  pose_ = AdvanceArc(pose_, forward, TwistFromWheels(drive, wheels), dt_s);
+  heading_.Follow(pose_);
+  const Vec2 way = pose_.position_world - before;
+
+  // How the end of the way depends on its start: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
+  MapOf3 covariance(covariance_.data());
+  covariance.row(0) += -way.y * covariance.row(2);
+  covariance.row(1) += way.x * covariance.row(2);
+  covariance.col(0) += -way.y * covariance.col(2);
+  covariance.col(1) += way.x * covariance.col(2);
+  // And on the way of each wheel.
+  const double left = wheel_error * wheels.left_rad_s * drive.wheel_radius_m * dt_s;
+  const double right = wheel_error * wheels.right_rad_s * drive.wheel_radius_m * dt_s;
+  const Vector3 of_left = left * Vector3(forward.x / 2, forward.y / 2, -1 / drive.axle_m);
+  const Vector3 of_right = right * Vector3(forward.x / 2, forward.y / 2, 1 / drive.axle_m);
+  covariance += of_left.lazyProduct(of_left.transpose());
+  covariance += of_right.lazyProduct(of_right.transpose());
+  covariance(0, 0) += guessed_m * guessed_m;
+  covariance(1, 1) += guessed_m * guessed_m;
+}
+
+bool Odometry::Fix(const PoseFix& fix) {
+  if (!IsUsable(fix)) return false;
+  MapOf3 covariance(covariance_.data());
+  Matrix3 noise = Matrix3::Zero();
+  noise(0, 0) = noise(1, 1) = fix.sigma_position_m * fix.sigma_position_m;
+  noise(2, 2) = fix.sigma_heading_rad * fix.sigma_heading_rad;
+  const Matrix3 innovation = covariance + noise;
+  const Matrix3 gain = covariance * innovation.inverse();
+
+  const Vec2 off = fix.world_from_body.position_world - pose_.position_world;
+  const Vector3 difference(off.x, off.y,
+                           WrapAngle(fix.world_from_body.heading_rad - pose_.heading_rad));
+  const Vector3 step = gain * difference;
+  pose_.position_world = pose_.position_world + Vec2{step(0), step(1)};
+  pose_.heading_rad = WrapAngle(pose_.heading_rad + step(2));
+  heading_.Follow(pose_);
+  // Joseph's form: stays symmetric and positive whatever is rounded.
+  const Matrix3 kept = Matrix3::Identity() - gain;
+  const Matrix3 updated = kept * covariance * kept.transpose() + gain * noise * gain.transpose();
+  covariance = updated;
+  return true;
+}
+
+PoseCovariance Odometry::Covariance() const {
+  const auto& c = covariance_;
+  return {c[0], c[1], c[4], c[2], c[5], c[8]};
+}
+
+void Odometry::AddTo(StateHash* hash) const {
+  hash->Add(pose_.position_world.x);
+  hash->Add(pose_.position_world.y);
+  hash->Add(pose_.heading_rad);
+  for (const double entry : covariance_) hash->Add(entry);
+}
+
+}  // namespace giveway

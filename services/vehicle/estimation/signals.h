@@ -1,0 +1,67 @@
+// What the traffic lights say, by head: bounded, trivially copyable, and as fresh as the receiver's
+// clock says. Answers one question: must this vehicle stop before a line, and how far away is that.
+// A head that is dark, silent or not heard is as good as none: then right of way alone decides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "services/types/signal.h"
+#include "services/types/state_hash.h"
+#include "services/types/time.h"
+#include "services/vehicle/estimation/conflict.h"
+
+namespace giveway {
+
+inline constexpr std::size_t kMaxSignals = 32;
+// Three times the period at which heads speak: two in a row may be lost. A light is no beacon: what
+// it said 300 ms ago still holds, for a plan changes by the second.
+inline constexpr Nanoseconds kSignalAgeLimit{300'000'000};
+
+// Where a vehicle is and how it goes, as far as a stop line is concerned.
+struct Approach {
+  Path path;  // towards the goal, or straight on
+  double distance_to_goal_m = 0;
+  double body_radius_m = 0;
+  double stopping_m = 0;  // at normal deceleration, from what it drives now
+};
+
+// A light that says stop.
+struct StopLine {
+  double free_m = 0;  // until the shell is as near to the line as it may come; may be negative
+  SignalId signal = kNoSignal;
+  Tick tick = kNoTick;  // of the state that says so
+};
+
+class SignalTable {
+ public:
+  // Keeps what the head says if it is of this world, believable and newer. When the table is full a
+  // head that has fallen silent makes room; false if none has, or the state is refused.
+  bool Take(const SignalState& state, WorldEpoch epoch, SteadyTime now);
+  void LeaveWorld() { count_ = 0; }
+
+  // The nearest line ahead at which a fresh head says stop: red; or yellow, if the vehicle could
+  // still stop when it first saw it: that is decided once a yellow. A head matters if the path
+  // crosses its line, before the goal, within 45 degrees of the direction the head is for, and the
+  // shell is not over the line yet.
+  std::optional<StopLine> MustStopAt(const Approach& approach, SteadyTime now);
+
+  void AddTo(StateHash* hash) const;
+
+ private:
+  struct Head {
+    SignalState state;
+    SteadyTime heard{0};
+    bool weighed = false;  // this yellow has been decided on
+    bool clears = false;   // and the vehicle could not stop any more
+  };
+  std::span<Head> Heads() { return {heads_.data(), count_}; }
+  Head* Find(SignalId id, SteadyTime now);
+
+  std::array<Head, kMaxSignals> heads_{};
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace giveway

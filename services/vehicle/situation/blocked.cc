@@ -1,0 +1,82 @@
+#include "services/vehicle/situation/blocked.h"
+
+#include <algorithm>
+
+#include "services/vehicle/estimation/planted.h"
+
+namespace giveway {
+namespace {
+
+constexpr double kQueueWithin_m = 1.5;   // nearer than this, the one ahead in the lane holds up
+constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
+
+// True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
+bool SlowsDown(const PeerView& view, const Situation& s) {
+  return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
+         view.speed_m_s < s.options.cruise_m_s;
+}
+
+// The nearest of those that halt for this vehicle.
+VehicleId NearestThatWaits(const Situation& s) {
+  const PeerView* nearest = nullptr;
+  for (const PeerView& view : s.peers) {
+    const bool waits =
+        view.fresh && view.standing && view.peer->beacon.gives_way_to == s.options.id;
+    if (waits && (nearest == nullptr || view.gap_m < nearest->gap_m)) nearest = &view;
+  }
+  return nearest == nullptr ? kNobody : nearest->peer->id;
+}
+
+// Whom that vehicle says is in its way; nobody if it is not among those that matter.
+VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
+  for (const PeerView& view : views) {
+    if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNobody;
+  }
+  return kNobody;
+}
+
+}  // namespace
+
+OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_id) {
+  OrderKey acting = own;
+  if (Has(Defect::kLendingDropped)) return acting;
+  for (const Peer& peer : peers.Peers()) {
+    const bool blocked = peer.known && peer.beacon.blocked_by == own_id && !IsGone(peer);
+    if (blocked && GoesFirst(peer.beacon.order, acting)) acting = peer.beacon.order;
+  }
+  return acting;
+}
+
+VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed) {
+  if (s.arrived) return kNobody;
+  for (const PeerView& view : s.peers) {
+    const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
+    if (there && Occupies(view, Toward(s), s)) return view.peer->id;
+  }
+  const auto leader =
+      std::ranges::find_if(s.peers, [&s](const PeerView& view) { return SlowsDown(view, s); });
+  if (leader != s.peers.end()) return leader->peer->id;
+  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
+  if (decision.rule == Rule::kKeepClear && stands) return decision.peer;
+  if (!s.aimless) return kNobody;
+  // Whoever finds no way through those that wait for it lets one of them go.
+  const VehicleId waiting = s.very_aimless ? NearestThatWaits(s) : kNobody;
+  return waiting != kNobody ? waiting : not_passed;
+}
+
+bool IsStillNear(VehicleId peer, const Situation& s) {
+  return std::ranges::any_of(s.peers, [peer](const PeerView& view) {
+    return view.peer->id == peer && view.fresh && view.gap_m < kQueueWithin_m;
+  });
+}
+
+bool IsBehind(VehicleId blocker, VehicleId vehicle, std::span<const PeerView> views) {
+  constexpr int kLongestQueue = 8;  // followed no farther: it may close to a ring
+  for (int i = 0; i < kLongestQueue && blocker != kNobody; ++i) {
+    if (blocker == vehicle) return true;
+    blocker = WhoBlocks(blocker, views);
+  }
+  return false;
+}
+
+}  // namespace giveway

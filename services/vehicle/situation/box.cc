@@ -1,0 +1,146 @@
+#include "services/vehicle/situation/box.h"
+
+#include <algorithm>
+#include <array>
+
+namespace giveway {
+namespace {
+
+constexpr double kRoomToStand_m = 0.7;  // between two conflicts: a body and what it keeps clear of
+// Who is farther from where the ways cross is not kept waiting by one that stops there now.
+constexpr double kPeerNear_m = 3;
+constexpr double kOwnNear_m = 8;
+constexpr double kNever_m = 1e6;
+
+// The conflicts of a vehicle that concern it now.
+struct Crossings {
+  std::array<const PeerView*, 64> of;  // the first `count`
+  std::size_t count = 0;
+  // No stretch of the own way begins before the one or ends after the other.
+  double first_begin_m = kNever_m;
+  double last_end_m = -kNever_m;
+
+  std::span<const PeerView* const> All() const { return {of.data(), count}; }
+};
+
+Crossings CrossingsAhead(std::span<const PeerView> views) {
+  Crossings crossings;
+  for (const PeerView& view : views) {
+    if (!view.crossing || crossings.count == crossings.of.size()) continue;
+    const Conflict& crossing = *view.crossing;
+    if (crossing.peer.begin_m > kPeerNear_m || crossing.own.begin_m > kOwnNear_m) continue;
+    crossings.of[crossings.count++] = &view;
+    crossings.first_begin_m = std::min(crossings.first_begin_m, crossing.own.begin_m);
+    crossings.last_end_m = std::max(crossings.last_end_m, crossing.own.end_m);
+  }
+  return crossings;
+}
+
+// Where the box begins that a point of the own way lies in: back over every stretch that leaves no
+// room to stand before the next.
+double BoxBegin(const Crossings& crossings, double point_m) {
+  const bool alone =
+      point_m <= crossings.first_begin_m || point_m - kRoomToStand_m > crossings.last_end_m;
+  if (alone) return point_m;
+  double begin_m = point_m;
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const PeerView* view : crossings.All()) {
+      const Stretch& stretch = view->crossing->own;
+      if (stretch.begin_m >= begin_m || stretch.end_m < begin_m - kRoomToStand_m) continue;
+      begin_m = stretch.begin_m;
+      moved = true;
+    }
+  }
+  return begin_m;
+}
+
+double AlongOwnWay(const PeerView& view, const Situation& s) {
+  return Dot(view.offset_world, s.path.direction_world);
+}
+
+// Room that the own lane needs for the vehicle and all between it and the place `along_m` on, where
+// they stand behind each other.
+double QueueLength(double along_m, std::span<const PeerView> views, const Situation& s) {
+  constexpr double kMoreThanClear_m = 0.01;
+  double length_m = 0;
+  for (const PeerView& view : views) {
+    if (!view.leads || AlongOwnWay(view, s) > along_m) continue;
+    length_m += s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kClearance_m +
+                kMoreThanClear_m;
+  }
+  return length_m;
+}
+
+// Where one that drives ahead and means to go on may stop all the same: before the next crossing.
+double NextStop(double from_m, const Crossings& crossings) {
+  double next_m = kNever_m;
+  for (const PeerView* view : crossings.All()) {
+    const double begin_m = view->crossing->own.begin_m;
+    if (!view->crossing->across || begin_m <= from_m) continue;
+    next_m = std::min(next_m, begin_m);
+  }
+  return next_m;
+}
+
+// How far along the own way the leader gets if it is stopped.
+double LeaderStops(const PeerView& leader, const Crossings& crossings, const Situation& s) {
+  const double along_m = AlongOwnWay(leader, s);
+  if (leader.standing) return along_m;
+  const double stops_m = along_m + StoppingDistanceOf(leader, s);
+  const Beacon& beacon = leader.peer->beacon;
+  const bool goes_on = beacon.gives_way_to == kNobody && !IsGiveWay(beacon.rule);
+  return goes_on ? NextStop(stops_m, crossings) : stops_m;
+}
+
+// How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not. Up
+// to a claim it is measured along the heading, which is the way unless the vehicle steers round
+// something.
+double StopsBehind(const PeerView& view, std::span<const PeerView> views,
+                   const Crossings& crossings, const Situation& s) {
+  if (!view.fresh) return kNever_m;
+  if (!view.leads) return view.standing ? view.free_m : kNever_m;
+  return LeaderStops(view, crossings, s) - QueueLength(AlongOwnWay(view, s), views, s);
+}
+
+// Where the box begins that a point lies in; huge if it lies in none, or in one entered already.
+// Ways that run along each other, or against, are no crossings.
+double BoxRound(double point_m, const PeerView& but, const Crossings& crossings) {
+  double begin_m = kNever_m;
+  for (const PeerView* view : crossings.All()) {
+    const Conflict& crossing = *view->crossing;
+    if (view == &but || !crossing.across || view->box_begin_m <= 0) continue;
+    if (crossing.own.begin_m < point_m && point_m < crossing.own.end_m) {
+      begin_m = std::min(begin_m, view->box_begin_m);
+    }
+  }
+  return begin_m;
+}
+
+std::optional<BlockedBox> NearestBlocked(std::span<const PeerView> views,
+                                         const Crossings& crossings, const Situation& s) {
+  if (crossings.count == 0) return std::nullopt;
+  std::optional<BlockedBox> nearest;
+  for (const PeerView& view : views) {
+    const double stops_m = StopsBehind(view, views, crossings, s);
+    if (stops_m > kOwnNear_m) continue;
+    const double begin_m = BoxRound(stops_m, view, crossings);
+    if (begin_m >= (nearest ? nearest->begin_m : kNever_m)) continue;
+    nearest = {begin_m, view.peer->id, view.peer->beacon.tick};
+  }
+  return nearest;
+}
+
+}  // namespace
+
+std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const Situation& s) {
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  const Crossings crossings = cooperative ? CrossingsAhead(views) : Crossings{};
+  for (PeerView& view : views) {
+    if (!view.crossing) continue;
+    view.box_begin_m = BoxBegin(crossings, view.crossing->own.begin_m);
+  }
+  return NearestBlocked(views, crossings, s);
+}
+
+}  // namespace giveway

@@ -1,0 +1,138 @@
+#include "services/vehicle/situation/echo_trust.h"
+
+#include <algorithm>
+
+#include "services/types/math/math.h"
+#include "services/vehicle/estimation/bits.h"
+#include "services/vehicle/estimation/trust.h"
+#include "services/vehicle/situation/echoes.h"
+
+namespace giveway {
+namespace {
+
+// Of a reading's noise, in standard deviations.
+constexpr double kReadingSigmas = 4;
+
+// A body that must be heard is not, so often in a row.
+constexpr std::uint32_t kMissingTicks = 5;
+// It stands, by its own word, for longer than any smoothed closing speed remembers its driving.
+constexpr double kStands_s = 1;
+constexpr double kTurning_rad_s = 0.02;  // slower is straight on, or standing
+// Longer than a beacon is fresh: within that it may have driven off without being heard to.
+constexpr double kCloses_s = 0.4;
+
+// Where a peer says its centre is, and by how much that may be off, to this vehicle.
+struct Place {
+  Vec2 centre_body;
+  double error_m = 0;
+};
+
+Place PlaceOf(const PeerView& view, const Situation& s) {
+  const Vec2 centre = InBody(s, view.position_world);
+  return {centre,
+          kPoseSlack_m + kErrorSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre))};
+}
+
+// True if the centre surely lies in the cone, and not so near that it is all around it.
+bool IsSquarelyIn(std::size_t sensor, const Place& place, const Situation& s) {
+  constexpr double kTooNear_m = 0.4;
+  const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
+  if (Dot(s.cones.of[sensor].axis_body, to) < kTooNear_m) return false;
+  const double across = Magnitude(Cross(s.cones.of[sensor].axis_body, to)) + place.error_m;
+  return across * across <= s.cones.half_sine * s.cones.half_sine * SquaredNorm(to);
+}
+
+// True if a sensor that has just fired heard nothing as near as the centre, which lies in its cone:
+// whatever hides a body is nearer still. By the centre, not the shell, for the body need not be
+// round.
+bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
+  if (!IsSquarelyIn(sensor, place, s)) return false;
+  const SensorView& heard = s.ranges[sensor];
+  const double free_m =
+      heard.kind == Echo::kClear ? s.options.profile.sonar_max_range_m : heard.range_m;
+  const double surely_m = free_m * (1 - kReadingSigmas * s.options.sonar_noise) - place.error_m;
+  const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
+  return surely_m > 0 && SquaredNorm(to) < surely_m * surely_m;
+}
+
+// True if no echo is where its body should be, and a sensor should have heard one.
+bool IsMissed(const PeerView& view, std::uint32_t listening, const Situation& s) {
+  if (view.explains != 0) return false;
+  const double far_m = s.options.profile.sonar_max_range_m + s.options.profile.body_radius_m;
+  if (SquaredNorm(view.offset_world) > far_m * far_m) return false;
+  const Place place = PlaceOf(view, s);
+  for (const std::size_t i : BitsOf(listening)) {
+    if (MissesBody(i, place, s)) return true;
+  }
+  return false;
+}
+
+// The only one whose body the echo of this sensor can be.
+bool IsItAlone(const PeerView& view, std::size_t sensor, std::span<const PeerView> views) {
+  return std::all_of(views.begin(), views.end(), [&](const PeerView& other) {
+    return other.peer == view.peer || (other.explains >> sensor & 1U) == 0;
+  });
+}
+
+// True where nothing that stands can seem to come nearer by more than the own speed: the vehicle
+// stands as well, or drives straight on and the cone holds what is straight ahead. Into any other
+// cone the end of a wall may come from the side, and its echo leaps.
+bool TellsMotion(std::size_t sensor, const Situation& s) {
+  if (s.turns || Magnitude(s.turn_rad_s) > kTurning_rad_s) return false;
+  if (Magnitude(s.speed_m_s) < kStandingSpeed_m_s) return true;
+  return s.speed_m_s > 0 && s.cones.of[sensor].nearest_cosine >= 1;
+}
+
+// True if whoever made the echo is surely in reach of the radio: its centre lies behind its shell.
+bool IsInReach(std::size_t sensor, const Situation& s) {
+  constexpr double kDeepest_m = 1;
+  return s.ranges[sensor].range_m + kDeepest_m < s.options.emission_radius_m;
+}
+
+// Whether its echo moves by itself. Not while one that has fallen silent may roll by.
+bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
+  if (s.someone_lost) return false;
+  for (const std::size_t i : BitsOf(view.explains)) {
+    if (!IsInReach(i, s) || !TellsMotion(i, s) || !MovesByItself(i, s)) continue;
+    if (IsItAlone(view, i, views)) return true;
+  }
+  return false;
+}
+
+bool SaysItStands(const PeerView& view) {
+  return view.standing && Magnitude(view.turn_rad_s) < kTurning_rad_s;
+}
+
+std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
+  return static_cast<std::uint32_t>(time_s / Seconds(options.tick_period));
+}
+
+}  // namespace
+
+void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCounters* counters) {
+  if (s.run_state != RunState::kRunning || !s.new_tick) return;
+  const std::uint32_t stands = TicksOf(kStands_s, s.options);
+  const std::uint32_t closes = TicksOf(kCloses_s + 2 * Seconds(s.options.sonar_refresh), s.options);
+  // Ultrasonics that miss what is there, by its slant or by chance, or take a neighbour's ping for
+  // an echo accuse nobody.
+  const bool believes_ears = !HasImperfectSonar(s.options);
+  const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
+  for (const PeerView& view : views) {
+    PeerTrust& trust = view.peer->trust;
+    if (!view.fresh) {
+      trust.missing_ticks = trust.standing_ticks = trust.closing_ticks = 0;
+      continue;
+    }
+    trust.missing_ticks = IsMissed(view, listening, s) ? trust.missing_ticks + 1 : 0;
+    if (trust.missing_ticks == kMissingTicks) ++counters->beacon_without_echo;
+    if (trust.missing_ticks >= kMissingTicks && believes_ears) Doubt(&trust, s.now);
+
+    trust.standing_ticks = SaysItStands(view) ? trust.standing_ticks + 1 : 0;
+    const bool closing = trust.standing_ticks > stands && ComesNearer(view, views, s);
+    trust.closing_ticks = closing ? trust.closing_ticks + 1 : 0;
+    if (trust.closing_ticks == closes) ++counters->halted_but_closing;
+    if (trust.closing_ticks >= closes && believes_ears) Doubt(&trust, s.now);
+  }
+}
+
+}  // namespace giveway

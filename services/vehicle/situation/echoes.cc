@@ -1,0 +1,248 @@
+#include "services/vehicle/situation/echoes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "services/types/math/math.h"
+
+namespace giveway {
+namespace {
+
+constexpr double kPathMargin_m = 0.05;   // on either side of the body
+constexpr double kSameBody_m = 0.25;     // an echo this near to the expected range is that body
+constexpr double kNearer_m = 0.06;       // but not nearer than by this and what is unsure
+constexpr double kOwnMotion_m_s = 0.15;  // closing speed the own motion may leave unexplained
+// Readings in a row before a closing speed counts; where each takes its time, fewer must do.
+constexpr std::uint32_t kMotionStreak = 4;
+constexpr std::uint32_t kSlowMotionStreak = 2;
+// Standard deviations of a closing speed that the readings' noise may leave unexplained.
+constexpr double kNoiseSigmas = 4;
+
+// Four at a time: plain SSE2 or NEON.
+using FourFloats = float __attribute__((vector_size(4 * sizeof(float))));
+using FourWords = std::uint32_t __attribute__((vector_size(4 * sizeof(std::uint32_t))));
+
+FourFloats Load(const float* from) {
+  FourFloats lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+// Bit k is set unless the echo in place k is for another distance than that of the body by more
+// than it may be. Most are, and four at a time and without a root it takes little to see.
+std::uint32_t PerhapsOf(Vec2 centre_body, double radius_m, const HeardEchoes& echoes) {
+  constexpr float kRounding_m = 1e-3F;  // of single precision, as far as any ultrasonics hear
+  constexpr float kSlack_m = static_cast<float>(kSameBody_m) + kRounding_m;
+  const auto centre_x = static_cast<float>(centre_body.x);
+  const auto centre_y = static_cast<float>(centre_body.y);
+  const auto radius = static_cast<float>(radius_m);
+  FourWords perhaps{};
+  FourWords bits{1, 2, 4, 8};
+  for (std::size_t k = 0; k < echoes.count; k += 4, bits <<= 4) {
+    const FourFloats x = centre_x - Load(&echoes.rough_x_body[k]);
+    const FourFloats y = centre_y - Load(&echoes.rough_y_body[k]);
+    const FourFloats expected = Load(&echoes.rough_range_m[k]) + radius;
+    const FourFloats squared = x * x + y * y;
+    const FourFloats most = expected + kSlack_m;
+    const FourFloats least = expected - kSlack_m;
+    const FourFloats above = least > 0 ? least : FourFloats{};
+    perhaps |= bits & std::bit_cast<FourWords>(squared <= most * most) &
+               std::bit_cast<FourWords>(squared >= above * above);
+  }
+  return perhaps[0] | perhaps[1] | perhaps[2] | perhaps[3];
+}
+
+// How far a direction is off a cone's axis.
+double OffAxis(Vec2 direction_body, const Cone& cone) {
+  return Magnitude(WrapAngle(Atan2(direction_body.y, direction_body.x) - cone.bearing_rad));
+}
+
+// A body's centre as a sensor has it before it.
+struct Sight {
+  Vec2 to_body;     // from the sensor
+  double along_m;   // the cone's axis
+  double across_m;  // the cone's axis, on either side
+};
+
+Sight Seen(Vec2 to_body, const Cone& cone) {
+  return {to_body, Dot(cone.axis_body, to_body), Magnitude(Cross(cone.axis_body, to_body))};
+}
+
+// Whether a direction is off a cone's axis by no more than limit_rad. The sine of an angle is less
+// than the angle and its tangent more: what lies between takes the angle itself.
+bool IsWithin(double limit_rad, const Sight& centre, double distance_m, const Cone& cone) {
+  constexpr double kRounding = 1e-9;
+  if (limit_rad < 1.5) {
+    if (centre.along_m < 0) return false;
+    if (centre.across_m > (limit_rad + kRounding) * distance_m) return false;
+    if (centre.across_m < (limit_rad - kRounding) * centre.along_m) return true;
+  }
+  return OffAxis(centre.to_body, cone) <= limit_rad;
+}
+
+// The least range at which a cone that looks `off_rad` past the centre of a disc echoes it, metres
+// from the sensor: at its nearest point inside the cone, or else where its edge meets it or passes.
+double LeastRange(double distance_m, double radius_m, double off_rad) {
+  if (distance_m <= radius_m) return 0;
+  if (off_rad <= 0) return distance_m - radius_m;
+  const double across_m = distance_m * Sin(std::min(off_rad, kPi / 2));
+  if (across_m >= radius_m) return Sqrt(distance_m * distance_m - radius_m * radius_m);
+  return distance_m * Cos(off_rad) - Sqrt(radius_m * radius_m - across_m * across_m);
+}
+
+// Something before the body, or beside it: too near for what is unsure to be its echo.
+bool IsBefore(double range_m, double radius_m, double unsure_m, const Sight& centre,
+              double distance_m, double cone_rad, const Cone& cone) {
+  constexpr double kUnsure_rad = 0.1;
+  const double slack_rad = kUnsure_rad + unsure_m / std::max(distance_m, radius_m);
+  // The body's nearest point, if the cone held it, settles most without an angle.
+  if (range_m < LeastRange(distance_m, radius_m, 0) - unsure_m) return true;
+  if (IsWithin(cone_rad + slack_rad, centre, distance_m, cone)) return false;
+  const double off_rad = OffAxis(centre.to_body, cone) - cone_rad - slack_rad;
+  return range_m < LeastRange(distance_m, radius_m, off_rad) - unsure_m;
+}
+
+// The body shows from one tangent to the other; half the body more allows for uncertainty.
+constexpr double kShows = 1.5;
+
+// Nearly all that are too far off the axis for a body of this radius to be in the cone, without the
+// root that their distance is: it lies between the greater of two legs and their sum.
+bool IsFarOff(const Sight& centre, double radius_m, double cone_rad) {
+  constexpr double kRounding_m = 1e-6;
+  const double along_m = Magnitude(centre.along_m);
+  const double shows_m = kShows * radius_m + kRounding_m;
+  const double least_m = std::max(along_m, centre.across_m);
+  if (least_m <= shows_m) return false;
+  const double wide_m = cone_rad * (along_m + centre.across_m) + shows_m;
+  return centre.across_m > wide_m || (centre.along_m < 0 && wide_m < 1.5 * least_m);
+}
+
+// Whether an echo of that range is where the body's would be.
+bool IsEchoOf(const Sight& centre, double radius_m, double range_m, double unsure_m,
+              double cone_rad, const Cone& cone) {
+  if (IsFarOff(centre, radius_m, cone_rad)) return false;
+  const double distance_m = Norm(centre.to_body);
+  if (Magnitude(range_m - (distance_m - radius_m)) > kSameBody_m) return false;
+  const double half_width = distance_m > kShows * radius_m ? kShows * radius_m / distance_m : kPi;
+  return IsWithin(cone_rad + half_width, centre, distance_m, cone) &&
+         !IsBefore(range_m, radius_m, unsure_m, centre, distance_m, cone_rad, cone);
+}
+
+// Where a peer comes to stand if it brakes as soon as this vehicle does.
+Vec2 WhereItStops(const PeerView& peer, const Situation& s) {
+  const double on_m = ClosingSpeed(peer, s) > 0 ? StoppingDistanceOf(peer, s) : 0;
+  return peer.position_world + on_m * peer.forward_world;
+}
+
+// Where the peer's body was to the own one when a sensor fired, both moving as now: their turning
+// is slow against that.
+Vec2 CentreBefore(double age_s, const PeerView& peer, const Situation& s) {
+  const Vec2 centre_world = peer.position_world - age_s * VelocityOf(peer);
+  return InBody(s, centre_world) + Vec2{age_s * s.speed_m_s, 0};
+}
+
+// The echo's range less what the vehicle has driven towards it since, as far as the reaction time
+// does not allow for it already.
+double RangeAhead(const SensorView& view, const Situation& s) {
+  const double since_s =
+      EchoAge(view, s.tick, s.options.tick_period) - Seconds(s.options.sonar_refresh);
+  return std::max(0.0, view.range_m - std::max(0.0, s.speed_m_s) * std::max(0.0, since_s));
+}
+
+}  // namespace
+
+std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
+  if (centre_body.x <= 0) return std::nullopt;
+  const double half = (sum_of_radii + kPathMargin_m) * (sum_of_radii + kPathMargin_m) -
+                      centre_body.y * centre_body.y;
+  if (half <= 0) return std::nullopt;
+  return std::max(0.0, centre_body.x - Sqrt(half));
+}
+
+void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
+                HeardEchoes* heard) {
+  heard->any_old = false;
+  std::size_t count = 0;
+  for (const std::size_t i : BitsOf(ranges.Echoes())) {
+    const SensorMount& mount = options.profile.sonar[i];
+    heard->rough_x_body[count] = static_cast<float>(mount.position_body.x);
+    heard->rough_y_body[count] = static_cast<float>(mount.position_body.y);
+    heard->rough_range_m[count] = static_cast<float>(ranges[i].range_m);
+    heard->age_s[count] = EchoAge(ranges[i], tick, options.tick_period);
+    heard->sensor[count] = i;
+    heard->any_old = heard->any_old || heard->age_s[count] > 0;
+    ++count;
+  }
+  heard->count = count;
+  for (std::size_t k = count; k % 4 != 0; ++k) {
+    heard->rough_x_body[k] = heard->rough_y_body[k] = 0;
+    heard->rough_range_m[k] = 0;
+  }
+}
+
+std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
+  const HeardEchoes& echoes = s.echoes;
+  if (echoes.count == 0) return 0;
+  const double radius_m = peer.peer->beacon.body_radius_m;
+  const Vec2 centre_now = InBody(s, peer.position_world);
+  const std::uint32_t all = (1U << echoes.count) - 1;
+  const double unsure_m = kNearer_m + kSigmas * peer.sigma_m;
+  std::uint32_t explains = 0;
+  for (const std::size_t k :
+       BitsOf(all & (echoes.any_old ? all : PerhapsOf(centre_now, radius_m, echoes)))) {
+    const std::size_t sensor = echoes.sensor[k];
+    const double age_s = echoes.age_s[k];
+    const double range_m = s.ranges[sensor].range_m;
+    const Cone& cone = s.cones.of[sensor];
+    const Vec2 centre = age_s > 0 ? CentreBefore(age_s, peer, s) : centre_now;
+    const Vec2 to_centre = centre - s.options.profile.sonar[sensor].position_body;
+    const Sight sight = Seen(to_centre, cone);
+    const double turned = age_s * Magnitude(s.turn_rad_s);
+    const double cone_rad = s.options.profile.sonar_half_angle_rad + turned;
+    const double by_noise_m = kNoiseSigmas * s.options.sonar_noise * range_m;
+    if (IsEchoOf(sight, radius_m, range_m, unsure_m + by_noise_m, cone_rad, cone)) {
+      explains |= 1U << sensor;
+    }
+  }
+  return explains;
+}
+
+std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
+  const SensorView& view = s.ranges[sensor];
+  const VehicleProfile& profile = s.options.profile;
+  if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
+  const bool explained = (s.explained >> sensor & 1U) != 0;
+  // A fresh peer's claim says more than its echo: rules.cc, KeepClear.
+  if (explained && s.options.behaviour == Behaviour::kCooperative) return std::nullopt;
+  for (const PeerView& peer : s.peers) {
+    if (!explained || (peer.explains >> sensor & 1U) == 0) continue;
+    return FreeBeforeDisc(InBody(s, WhereItStops(peer, s)),
+                          profile.body_radius_m + peer.peer->beacon.body_radius_m);
+  }
+  const Vec2 echo =
+      profile.sonar[sensor].position_body + RangeAhead(view, s) * s.cones.of[sensor].nearest_body;
+  return FreeBeforeDisc(echo, profile.body_radius_m);
+}
+
+bool MovesByItself(std::size_t sensor, const Situation& s) {
+  const SensorView& view = s.ranges[sensor];
+  const bool slow = s.options.sonar_refresh.count() > 0;
+  if (view.kind != Echo::kEcho || view.streak < (slow ? kSlowMotionStreak : kMotionStreak)) {
+    return false;
+  }
+  const VehicleProfile& profile = s.options.profile;
+  // The closing speed is of the past, and so is the motion that explains it.
+  const double driving = std::max(s.speed_m_s, view.own.forward_m_s);
+  const double turning = std::max(Magnitude(s.turn_rad_s), view.own.turn_rad_s);
+  const double by_noise = kNoiseSigmas * s.options.sonar_noise * view.range_m / kClosingTime_s;
+  // The edge of a cone that looks ahead runs along a wall ahead faster than the vehicle drives; one
+  // that looks to the side meets what it passes.
+  const double cosine = s.cones.of[sensor].nearest_cosine;
+  const double faster = cosine > 0.5 ? 1 / cosine : cosine;
+  const double by_driving = std::max(0.0, driving * faster);
+  const double by_turning = turning * (profile.body_radius_m + 0.3 * view.range_m);
+  return view.closing_m_s > by_driving + by_turning + by_noise + kOwnMotion_m_s;
+}
+
+}  // namespace giveway

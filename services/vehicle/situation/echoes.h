@@ -1,0 +1,35 @@
+// Reads echoes as objects: which are the bodies of known peers, which lie in the own path, which
+// move by themselves. An object becomes an obstacle only by its place and its motion.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "services/vehicle/situation/situation.h"
+
+namespace giveway {
+
+// Lists what the sensors hold at `tick`.
+void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
+                HeardEchoes* heard);
+
+// Bit i is set if the echo of sensor i is where the peer's body would have echoed when the sensor
+// fired.
+std::uint32_t EchoesOf(const PeerView& peer, const Situation& s);
+
+// How far straight on until the own disc touches a disc at `centre_body`; empty if it passes with
+// a margin to spare. `sum_of_radii` is that of both.
+std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii);
+
+// Left between the shell and what an echo may be of.
+inline constexpr double kStandOff_m = 0.15;
+
+// How far the own shell may still go before it touches what sensor `sensor` hears, if that can be
+// in the swept path; a known peer's body counts by its place, anything else anywhere on the arc of
+// the cone. Empty if it cannot be in the path.
+std::optional<double> FreeAhead(std::size_t sensor, const Situation& s);
+
+// True if the sensor hears something that comes nearer than the own motion explains.
+bool MovesByItself(std::size_t sensor, const Situation& s);
+
+}  // namespace giveway

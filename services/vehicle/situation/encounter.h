@@ -1,0 +1,16 @@
+// Begins, holds and ends encounters: the memory that keeps right of way from flickering. An
+// encounter begins when two paths conflict, and ends when they no longer do and the gap has opened.
+#pragma once
+
+#include "services/vehicle/situation/situation.h"
+
+namespace giveway {
+
+// Moves every peer's encounter on by one tick, and fills in what the situation says of all of them.
+void UpdateEncounters(std::span<const PeerView> views, Situation* s);
+
+// True if this vehicle is the one to wait in the encounter, and can: it stands, or will before
+// the conflict. Only then may it say that it gives way.
+bool CanGiveWay(const PeerView& view, const Situation& s);
+
+}  // namespace giveway

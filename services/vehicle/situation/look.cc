@@ -1,0 +1,263 @@
+#include "services/vehicle/situation/look.h"
+
+#include <algorithm>
+
+#include "services/types/math/math.h"
+#include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/situation/claim.h"
+#include "services/vehicle/situation/echoes.h"
+
+namespace giveway {
+namespace {
+
+constexpr double kFarAway_m = 1e6;
+
+// A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
+bool StaysPut(const Beacon& beacon) {
+  if (Has(Defect::kArrivedClaimsWay)) return false;
+  return beacon.rule == Rule::kArrived || beacon.rule == Rule::kNotRunning;
+}
+
+// Of where a peer is to this vehicle that was carried forward by a way since its beacon.
+PoseCovariance Apart(const Beacon& beacon, Vec2 way_world, const Situation& s) {
+  return s.covariance + Carried(beacon.covariance, way_world);
+}
+
+// At least as much as the above can be along any axis, for a fraction of the price.
+double SigmaAtMost(const Beacon& beacon, double moved_m, const Situation& s) {
+  const PoseCovariance both = s.covariance + beacon.covariance;
+  const double trace_m2 = both.xx_m2 + both.yy_m2;
+  return (trace_m2 > 0 ? Sqrt(trace_m2) : 0) + moved_m * SigmaHeading(beacon.covariance);
+}
+
+// How near the two centres may come: both bodies, a margin, and what is not known for sure.
+double Reach(const Beacon& beacon, double sigma_m, const Situation& s) {
+  constexpr double kMargin_m = 0.1;
+  return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m + kSigmas * sigma_m;
+}
+
+// True if one drives behind the other in the same lane: that is a matter of distance, not of right
+// of way. Side by side, or coming from another lane, it is not following.
+bool Follows(const PeerView& view, const Situation& s) {
+  if (Has(Defect::kLeaderIsConflict)) return false;
+  constexpr double kSameWay = 0.94;        // the cosine of 20 degrees
+  constexpr double kThereAlready_m = 0.5;  // which way it is on says little
+  const double across = Cross(s.path.direction_world, view.offset_world);
+  const double bodies = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m;
+  if (across >= bodies || across <= -bodies) return false;
+  const double along = Dot(s.path.direction_world, view.offset_world);
+  if (along <= bodies && along >= -bodies) return false;
+  if (Dot(s.path.direction_world, view.forward_world) >= kSameWay) return true;
+  // One that stands may be turned to whatever it looks for a way past; it means to go on.
+  if (s.options.behaviour != Behaviour::kCooperative || !view.standing) return false;
+  const double way_m = Norm(view.way_world);
+  return way_m > kThereAlready_m && Dot(s.path.direction_world, view.way_world) >= kSameWay * way_m;
+}
+
+// Only the ids tell the two keys apart.
+bool IsTie(const OrderKey& a, const OrderKey& b) {
+  return a.waited_ticks == b.waited_ticks && a.speed_bucket == b.speed_bucket;
+}
+
+// By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
+// it stands before its line, and would only block the ones with green.
+bool ComesFirst(const PeerView& view, const Situation& s) {
+  if (view.at_signal != s.at_signal) return s.at_signal;
+  const OrderKey& peers = view.peer->beacon.order;
+  if (Has(Defect::kPriorityReversed)) return GoesFirst(s.order, peers);
+  if (Has(Defect::kTieYieldsBoth) && IsTie(s.order, peers)) return true;
+  if (Has(Defect::kTieFreesBoth) && IsTie(s.order, peers)) return false;
+  return giveway::ComesFirst(peers, view.peer->id, s.order, s.options.id);
+}
+
+// The light's word counts only while the peer could still keep it: it stands, or can stop before
+// the conflict. Of two that lights stopped until now neither may count on the other's.
+bool WaitsAtSignal(const PeerView& view, const Situation& s) {
+  if (!view.at_signal || s.at_signal) return false;
+  return view.standing || !view.conflict ||
+         view.conflict->peer.begin_m >= StoppingDistanceOf(view, s);
+}
+
+// True if no point of the way comes within reach_m of the own path.
+bool StaysAway(Vec2 from_world, Vec2 to_world, double reach_m, const Path& own) {
+  const Vec2 from = from_world - own.from_world;
+  const Vec2 to = to_world - own.from_world;
+  const double from_across_m = Cross(own.direction_world, from);
+  const double to_across_m = Cross(own.direction_world, to);
+  if (from_across_m > reach_m && to_across_m > reach_m) return true;
+  if (from_across_m < -reach_m && to_across_m < -reach_m) return true;
+  return Dot(own.direction_world, from) < -reach_m && Dot(own.direction_world, to) < -reach_m;
+}
+
+// Which way a peer drives says little about one that is there.
+constexpr double kThere_m = 0.05;
+// What is out of reach by this much is so however it is rounded, and whatever way it turns when it
+// is there.
+constexpr double kWellAway_m = 2 * kThere_m + 0.001;
+
+// Number by number: a pair that is loaded right after its halves were stored is waited for.
+void Put(const Conflict& from, std::optional<Conflict>* to) {
+  *to = {{from.own.begin_m, from.own.end_m}, {from.peer.begin_m, from.peer.end_m}, from.across};
+}
+
+// Where both vehicles' ways to where they drive next cross, of two that do not follow each other.
+void FindCrossing(PeerView* view, const Situation& s) {
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  if (!view->way_is_near) return;
+  const double reach_m = Reach(view->peer->beacon, view->sigma_m, s);
+  const double way_m = cooperative ? view->way_m : kFarAway_m;
+  const Path peer_path{view->position_world,
+                       cooperative ? view->way_direction_world : view->forward_world};
+  const auto conflict = FindConflict(s.path, peer_path, reach_m);
+  if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return;
+  if (conflict->peer.begin_m > way_m) return;
+  Put(*conflict, &view->crossing);
+}
+
+// Of one that was silent for longer nothing can be said; the ultrasonics and PeerLost see to it.
+constexpr double kClaimLasts_s = 1.0;
+
+// How long a peer may have done as it liked when what this decision moves comes to its end.
+double UnknownSeconds(const Beacon& beacon, const Situation& s) {
+  return Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
+}
+
+// How far apart the centre of this vehicle keeps from a claim.
+double ApartFrom(double sigma_m, const Situation& s) {
+  return s.options.profile.body_radius_m + kClearance_m + kSigmas * sigma_m;
+}
+
+// How far the centre of this vehicle surely keeps from a claim without length, and a bit more.
+double KeptFrom(const Beacon& beacon, double sigma_m, const Situation& s) {
+  return ApartFrom(sigma_m, s) + beacon.body_radius_m + kWellAway_m;
+}
+
+// True if the claim lies beyond where it could slow this vehicle down: a claim reaches no farther
+// than its length and is no wider than that and the body.
+bool IsClaimFar(const Beacon& beacon, double speed_m_s, double sigma_m, double unknown_s,
+                const Situation& s) {
+  const double length_m = ClaimLength(beacon, speed_m_s, unknown_s, s.reaction_s);
+  const double far_m = s.slows_m + KeptFrom(beacon, sigma_m, s) + 2 * length_m;
+  const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
+  return SquaredNorm(offset) > far_m * far_m;
+}
+
+// Beyond this, shell to shell, nothing is looked for but claims and ways: detours and echoes of the
+// ultrasonics are nearer, what radar and lidar show may be this far.
+constexpr double kLooksAround_m = 8;
+constexpr double kSeesFar_m = 25;
+
+// For how long a peer is carried forward since its beacon, as views carry it forward.
+double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
+  // A silent peer is left where it was last heard: what it did since is not known.
+  return fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
+}
+
+// How far it is, how sure that is, and which way it drives from there.
+void Measure(PeerView* measured, const Situation& s) {
+  PeerView& view = *measured;
+  const Beacon& beacon = view.peer->beacon;
+  view.offset_world = view.position_world - s.world_from_body.position_world;
+  view.distance_m = Norm(view.offset_world);
+  view.way_world = beacon.toward_world - view.position_world;
+  view.apart = Apart(beacon, view.position_world - beacon.world_from_body.position_world, s);
+  view.sigma_m = SigmaPosition(view.apart);
+  const double well_away_m = Reach(beacon, view.sigma_m, s) + kWellAway_m;
+  view.way_is_near = s.options.behaviour != Behaviour::kCooperative ||
+                     !StaysAway(view.position_world, beacon.toward_world, well_away_m, s.path);
+  if (!view.way_is_near) return;
+  view.way_m = Norm(view.way_world);
+  view.way_direction_world =
+      view.way_m > kThere_m ? (1 / view.way_m) * view.way_world : view.forward_world;
+}
+
+}  // namespace
+
+double LooksAround(const VehicleProfile& profile) {
+  const bool sees_far =
+      profile.radar || profile.lidar || profile.camera || profile.sonar_max_range_m > 5;
+  return (sees_far ? kSeesFar_m : kLooksAround_m) + profile.body_radius_m;
+}
+
+// The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
+// have done since is unknown up to the end of the tick that this decision moves.
+double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s) {
+  const Beacon& beacon = view.peer->beacon;
+  if (IsGone(*view.peer)) return kFarAway_m;
+  const double unknown_s = UnknownSeconds(beacon, s);
+  if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.speed_m_s, view.sigma_m, unknown_s, s))
+    return kFarAway_m;
+  const Claim claim =
+      ClaimOf(beacon, {view.peer->told.forward_world, view.speed_m_s}, unknown_s, s.reaction_s);
+  return FreeBefore(claim, {s.world_from_body.position_world, forward_world},
+                    ApartFrom(view.sigma_m, s));
+}
+
+bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative || peer.encounter.active) return true;
+  const Beacon& beacon = peer.beacon;
+  const double speed_m_s = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
+  const double moved_m = CarriedSeconds(beacon, fresh, s) * Magnitude(speed_m_s);
+  const Vec2 from_world = beacon.world_from_body.position_world;
+  const double near_m = s.looks_m + beacon.body_radius_m + moved_m;
+  if (SquaredNorm(from_world - s.world_from_body.position_world) <= near_m * near_m) return true;
+  const double sigma_m = SigmaAtMost(beacon, moved_m, s);
+  const double reach_m = Reach(beacon, sigma_m, s) + moved_m + kWellAway_m;
+  if (!StaysAway(from_world, beacon.toward_world, reach_m, s.path)) return true;
+  const double short_m = (near_m - s.slows_m - KeptFrom(beacon, sigma_m, s)) / 2;
+  return !IsClaimShort(beacon, speed_m_s, s.reaction_s, short_m) &&
+         !IsClaimFar(beacon, speed_m_s, sigma_m, UnknownSeconds(beacon, s), s);
+}
+
+void CarryForward(std::span<PeerView> views, const Situation& s) {
+  for (const PeerView& view : views) view.peer->told.Follow(view.peer->beacon.world_from_body);
+  for (PeerView& view : views) {
+    const Beacon& beacon = view.peer->beacon;
+    const Facing told = {beacon.world_from_body.position_world, view.peer->told.forward_world};
+    const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
+    const Facing now = AdvanceFacing(told, twist, CarriedSeconds(beacon, view.fresh, s));
+    view.speed_m_s = twist.forward_m_s;
+    view.turn_rad_s = twist.turn_rad_s;
+    // By halves: a pair that is loaded right after its halves were stored is waited for.
+    view.position_world = {now.position_world.x, now.position_world.y};
+    view.forward_world = {now.forward_world.x, now.forward_world.y};
+  }
+  for (PeerView& view : views) Measure(&view, s);
+}
+
+void LookAt(PeerView* looked_at, const Situation& s) {
+  PeerView& view = *looked_at;
+  const Beacon& beacon = view.peer->beacon;
+  view.believed = view.fresh && !IsDoubted(view.peer->trust, s.now);
+  view.lost = IsLost(*view.peer, view.fresh);
+  view.standing = Magnitude(view.speed_m_s) < kStandingSpeed_m_s;
+  const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
+  view.at_signal = cooperative && view.believed && beacon.rule == Rule::kSignal;
+  view.goes_first = ComesFirst(view, s);
+
+  const double radius_m = s.options.profile.body_radius_m;
+  view.gap_m = view.distance_m - radius_m - beacon.body_radius_m;
+  const DistanceMetric metric = s.options.distance_metric;
+  const double gate_m = metric == DistanceMetric::kEuclidean
+                            ? view.distance_m
+                            : GateDistance(metric, view.offset_world);
+  view.gate_gap_m = gate_m - radius_m - beacon.body_radius_m;
+  // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
+  // one that is gone, which has no way to cross either.
+  const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
+  const bool follows = goes_on && Follows(view, s);
+  view.leads = follows && Dot(view.offset_world, s.path.direction_world) > 0;
+  if (goes_on && !follows) FindCrossing(&view, s);
+  // One that stands and comes later in the order is a body to steer round.
+  const bool stands = view.standing && (view.believed || !view.fresh);
+  const bool steered_round = cooperative && stands && !view.goes_first;
+  if (view.crossing && !steered_round) Put(*view.crossing, &view.conflict);
+  view.box_begin_m = 0;
+  view.free_m = FreeAlong(view, s.forward_world, s);
+  const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
+  view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
+                                  halted || WaitsAtSignal(view, s));
+  view.explains = view.fresh ? EchoesOf(view, s) : 0;
+}
+
+}  // namespace giveway

@@ -1,0 +1,186 @@
+// One tick as the rules see it: the own state, the ranges, and every near peer carried forward to
+// now. Built once a step from the tables; the rules only read it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "services/types/range_scan.h"
+#include "services/types/vehicle_options.h"
+#include "services/vehicle/estimation/cones.h"
+#include "services/vehicle/estimation/conflict.h"
+#include "services/vehicle/estimation/last_heard.h"
+#include "services/vehicle/estimation/objects.h"
+#include "services/vehicle/estimation/peer_table.h"
+#include "services/vehicle/estimation/range_view.h"
+#include "services/vehicle/estimation/signals.h"
+
+namespace giveway {
+
+// A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
+// CarryForward fills in everything up to the way, LookAt what is below it, FindBoxes `box_begin_m`.
+struct PeerView {
+  Peer* peer;
+  bool fresh;
+  double speed_m_s;  // forward, as measured by the peer
+  double turn_rad_s;
+  Vec2 position_world;
+  Vec2 forward_world;    // unit vector of its heading
+  Vec2 offset_world;     // of its centre from the own one
+  double distance_m;     // the same
+  PoseCovariance apart;  // of where the peer is to this vehicle
+  double sigma_m;        // the same along its worst axis
+  Vec2 way_world;        // from where it is to where it drives next
+  bool way_is_near;      // that comes within reach of the own way, or may
+  // Only of a way that is near: its length and its unit vector, or that of the heading where the
+  // peer is there already.
+  double way_m;
+  Vec2 way_direction_world;
+
+  bool lost;
+  bool standing;      // below kStandingSpeed
+  bool goes_first;    // before this vehicle, by both keys as published
+  bool believed;      // fresh and not doubted
+  bool grants;        // believed, and says that it gives way to this vehicle or stays where it is
+  bool at_signal;     // believed, and says that a light stops it
+  bool leads;         // drives ahead in the own lane
+  double gap_m;       // shell to shell
+  double gate_gap_m;  // the same by the metric of the gates; never above gap_m
+  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
+  std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
+  double box_begin_m;  // of `crossing`: how far to drive without standing in anyone's way
+  // Straight on until the own shell is at the peer's claim; huge if never, or so far on that the
+  // own cruise speed is not too fast for it.
+  double free_m;
+  std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
+};
+
+// The echoes that the sensors hold, entry by entry `count` of them. What comes after them, up to
+// the next multiple of four, is of no sensor.
+struct HeardEchoes {
+  std::size_t count = 0;
+  bool any_old;  // has an age
+  std::array<double, kSensorCount> age_s;
+  std::array<std::size_t, kSensorCount> sensor;
+  // The sensor's place and the range once more, for a rough look at four at a time.
+  alignas(16) std::array<float, kSensorCount> rough_x_body;
+  alignas(16) std::array<float, kSensorCount> rough_y_body;
+  alignas(16) std::array<float, kSensorCount> rough_range_m;
+};
+
+// A box that would be left too late: see box.h.
+struct BlockedBox {
+  double begin_m = 0;  // from the own axle centre, along the own way; above 0
+  VehicleId by = kNobody;
+  Tick told = kNoTick;  // of the beacon that shows it
+};
+
+struct Situation {
+  const VehicleOptions& options;
+  SteadyTime now{0};
+  Tick tick = kNoTick;
+  bool new_tick = false;  // a scan came since the last step
+  RunState run_state = RunState::kWaiting;
+  bool leaving = false;
+  bool halting = false;
+  bool arrived = false;
+  Pose world_from_body;
+  Vec2 forward_world;         // unit vector of the own heading
+  double speed_m_s = 0;       // forward, measured
+  double turn_rad_s = 0;      // measured
+  WheelSpeeds wheels;         // measured
+  PoseCovariance covariance;  // of world_from_body
+  double reaction_s = 0;      // see ReactionSeconds
+  double slows_m = 0;         // a free way no longer than this is too short for the cruise speed
+  double looks_m = 0;         // see LooksAround
+  Path path;                  // towards the goal, or straight on
+  double path_rad = 0;        // the heading along it, world frame
+  double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
+  bool stops_there = false;          // at the goal; a waypoint is driven through
+  OrderKey order;                    // as it publishes it with this step
+  bool very_aimless = false;         // for so long that it does not stay in line any more
+  bool aimless = false;              // has driven about for seconds without coming nearer
+  std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
+  // World frame: taken of late, past echoes or out of where it is caught. Echoes turn with the
+  // vehicle: choosing anew with every tick it would turn to and fro for ever.
+  std::optional<double> away_rad;
+  int tries = -1;      // headings tried since it is caught where it is; negative if it is not
+  int steer_side = 0;  // the side of the last turn past something: 1 left, -1 right
+  const RangeView& ranges;
+  const HeardEchoes& echoes;  // in `ranges`
+  const Cones& cones;
+  const SeenObjects& objects;
+  std::optional<StopLine> stop_line;  // a light ahead that says stop
+  bool at_signal = false;             // a light stops this vehicle, as last published
+  int blind_sensor = -1;              // see RangeView::FirstBlind
+  bool turns = false;                 // sharply, or did just now: echoes do not say who moves
+  std::uint32_t explained = 0;        // union of the `explains` of peers it is believed of
+  bool deaf = false;                  // something near moves and no fresh beacon explains it
+  int deaf_sensor = -1;
+  // Those that are near, that cross the own way, or with whom an encounter is under way.
+  std::span<const PeerView> peers;
+  bool someone_lost = false;     // of all peers
+  bool someone_doubted = false;  // of `peers`
+  bool holds = false;            // for any of them
+  bool let_pass = false;         // an encounter with one that comes first is over, just now
+  bool meets = false;            // an encounter with any of them is under way
+  std::optional<BlockedBox> blocked_box;
+  LastHeard last_heard;  // of lecture_printed alone, which has no peers
+};
+
+// Below this a vehicle stands still, as the verdict defines it.
+inline constexpr double kStandingSpeed_m_s = 0.01;
+// The distance to a goal that there is none of.
+inline constexpr double kNoGoal_m = 1e6;
+// What is not known of a distance is allowed for by so many standard deviations.
+inline constexpr double kSigmas = 2;
+// Kept between two shells beyond what geometry and uncertainty ask for.
+inline constexpr double kPassingMargin_m = 0.2;
+// Kept from a claim on top of what is not known: steering bends the straight way a little.
+inline constexpr double kClearance_m = 0.05;
+// Left between where the vehicle stops and where it must have stopped.
+inline constexpr double kInHand_m = 0.03;
+
+// From seeing to braking: the decision of tick k acts from tick k+1 on, on a view one tick old, of
+// readings that may be older by the ultrasonics' refresh.
+inline double ReactionSeconds(const VehicleOptions& options) {
+  return 2 * Seconds(options.tick_period) + Seconds(options.sonar_refresh);
+}
+
+// Distance this vehicle needs to stand still from its present speed, with one tick in hand.
+double OwnStoppingDistance(const Situation& s);
+
+// Distance the peer needs to stand still from its present speed, by what it says of its brakes.
+double StoppingDistanceOf(const PeerView& view, const Situation& s);
+
+// The distance, shell to shell, at which two closing vehicles must begin to stop: both stopping
+// distances, margin and uncertainty; never below the gate.
+double CriticalDistance(const Situation& s, const PeerView& view);
+
+// A point given in the world, in the own body frame.
+inline Vec2 InBody(const Situation& s, Vec2 point_world) {
+  const Vec2 offset = point_world - s.world_from_body.position_world;
+  return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
+}
+
+// How far the two axle centres keep apart when one steers round the other.
+double RoomBeside(const PeerView& view, const Situation& s);
+
+// Where the vehicle drives to in a straight line; without a goal straight on, as far as anybody
+// looks; its own place if it has arrived.
+Vec2 Toward(const Situation& s);
+
+// True if the own body leaves the peer no room where it drives to.
+bool IsOnGoalOf(const PeerView& view, const Situation& s);
+
+// True if the peer's body leaves no room for the own one at that point.
+bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s);
+
+// The velocity of a peer where it is now.
+Vec2 VelocityOf(const PeerView& view);
+
+// How fast the gap to a peer shrinks.
+double ClosingSpeed(const PeerView& view, const Situation& s);
+
+}  // namespace giveway

@@ -1,0 +1,61 @@
+#include "services/vehicle/situation/timing.h"
+
+#include <algorithm>
+
+#include "services/types/math/math.h"
+#include "services/vehicle/estimation/planted.h"
+
+namespace giveway {
+namespace {
+
+constexpr double kPeerSpeedSlack = 1.1;    // a peer's seed, slip and rounding
+constexpr double kThroughMargin_s = 0.05;  // between leaving the conflict and its coming
+constexpr double kGoneMargin_s = 0.3;      // it has left, and a beacon has told so
+
+// Between two that are in a conflict one after the other lies less than between two that stop
+// wherever they like: one is past where the ways cross by as much as the other is before it. With
+// the angle a between the ways both may be nearer to it by sin(a / 2).
+Conflict Shrunk(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
+  const double share = Sqrt(std::clamp((1 - Dot(own_way, peer_way)) / 2, 0.25, 1.0));
+  const auto shrunk = [share](const Stretch& stretch) {
+    const double middle_m = (stretch.begin_m + stretch.end_m) / 2;
+    const double half_m = share * (stretch.end_m - stretch.begin_m) / 2;
+    return Stretch{middle_m - half_m, middle_m + half_m};
+  };
+  return {shrunk(conflict.own), shrunk(conflict.peer), conflict.across};
+}
+
+// One that is in the conflict already is counted on to be anywhere in it.
+Conflict InTurn(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
+  if (conflict.own.begin_m <= 0 || conflict.peer.begin_m <= 0) return conflict;
+  return Shrunk(conflict, own_way, peer_way);
+}
+
+}  // namespace
+
+bool IsThroughFirst(const PeerView& view, const Situation& s) {
+  if (!view.conflict || Has(Defect::kThroughFirstGuessed)) return true;
+  const Beacon& beacon = view.peer->beacon;
+  const Conflict conflict =
+      InTurn(*view.conflict, s.path.direction_world, view.way_direction_world);
+  const double own_s = TimeToCover(conflict.own.end_m, std::max(0.0, s.speed_m_s),
+                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  const double fastest = kPeerSpeedSlack * std::max(beacon.cruise_m_s, view.speed_m_s);
+  if (fastest <= 0) return true;
+  const double peer_s = TimeToCover(conflict.peer.begin_m, std::max(0.0, view.speed_m_s), fastest,
+                                    beacon.acceleration_m_s2);
+  return own_s + kThroughMargin_s < peer_s;
+}
+
+bool IsGoneInTime(const PeerView& view, const Situation& s) {
+  if (!view.fresh || !view.conflict || view.speed_m_s < kStandingSpeed_m_s) return false;
+  const Conflict conflict =
+      Shrunk(*view.conflict, s.path.direction_world, view.way_direction_world);
+  if (conflict.peer.end_m <= 0) return true;
+  if (conflict.own.begin_m <= 0) return false;
+  const double own_s = TimeToCover(conflict.own.begin_m, std::max(0.0, s.speed_m_s),
+                                   s.options.cruise_m_s, s.options.profile.acceleration_m_s2);
+  return conflict.peer.end_m / view.speed_m_s + kGoneMargin_s < own_s;
+}
+
+}  // namespace giveway

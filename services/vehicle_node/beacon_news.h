@@ -1,0 +1,45 @@
+// Of whom a vehicle hears beacons young enough to decide by, and of whom no more: told once when it
+// changes, so that the log says when a peer became stale. Pure; watches the peer table, changes
+// nothing.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/vehicle/estimation/peer_table.h"
+
+namespace giveway {
+
+enum class BeaconNewsKind : std::uint8_t {
+  kHeard,       // its newest beacon is within the age limit, as none was before
+  kStale,       // its newest beacon is older than the age limit
+  kLeft,        // it said good-bye
+  kOutOfReach,  // it speaks from beyond the emission radius
+};
+
+struct BeaconNewsItem {
+  BeaconNewsKind kind = BeaconNewsKind::kHeard;
+  VehicleId vehicle = kNobody;
+
+  friend constexpr bool operator==(const BeaconNewsItem&, const BeaconNewsItem&) = default;
+};
+
+// "beacon_stale: vehicle 2".
+std::string Describe(const BeaconNewsItem& item);
+
+class BeaconNews {
+ public:
+  // `peers` are in the order of their ids; `now` and `tick` those of the step just made.
+  void Look(std::span<const Peer> peers, SteadyTime now, Tick tick, const VehicleOptions& options);
+  // What the last Look found changed.
+  std::span<const BeaconNewsItem> Items() const { return items_; }
+
+ private:
+  std::vector<VehicleId> heard_;  // with a beacon young enough, in order
+  std::vector<VehicleId> heard_before_;
+  std::vector<BeaconNewsItem> items_;
+};
+
+}  // namespace giveway

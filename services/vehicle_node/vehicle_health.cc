@@ -1,0 +1,40 @@
+#include "services/vehicle_node/vehicle_health.h"
+
+namespace giveway {
+
+void VehicleHealthTeller::Joins(const std::string& waits_for) {
+  VehicleHealth& now = service_.Now();
+  now.loop.stage = HealthStage::kJoining;
+  now.waits_for = ShortText(waits_for);
+  service_.Tell();
+}
+
+void VehicleHealthTeller::Placed(VehicleId id, Nanoseconds ranges_age_limit) {
+  VehicleHealth& now = service_.Now();
+  now.loop.stage = HealthStage::kUnderWay;
+  now.status.vehicle = id;
+  now.ranges_age_limit = ranges_age_limit;
+  ++now.placements;
+  service_.Tell();
+}
+
+void VehicleHealthTeller::Turned(const link::Taken& taken,
+                                 const link::VehicleLinkCounters& counters,
+                                 const RosterEntry& place, SteadyTime woke) {
+  VehicleHealth& now = service_.Now();
+  if (taken.inputs.scan) now.scanned = woke;
+  now.late_scans = counters.ranges_skipped;
+  now.run_state = place.run_state;
+  now.fleet_size = place.fleet_size;
+  now.matched_peers = counters.matched_peers;
+  now.write_failures = counters.write_failures;
+  now.ranges_deadline_missed = counters.ranges_deadline_missed;
+  service_.Tell();
+}
+
+void VehicleHealthTeller::Leaves() {
+  service_.Now().loop.stage = HealthStage::kLeaving;
+  service_.Tell();
+}
+
+}  // namespace giveway

@@ -1,0 +1,30 @@
+// What a vehicle's loop says of its health, and when.
+#pragma once
+
+#include <string>
+
+#include "services/health/health_service.h"
+#include "services/link/vehicle_link.h"
+
+namespace giveway {
+
+class VehicleHealthTeller {
+ public:
+  explicit VehicleHealthTeller(const ServiceFlags& flags) : service_(flags) {}
+
+  // It asks for a place; `waits_for` is what the world said last, empty if nothing.
+  void Joins(const std::string& waits_for);
+  // It was given a place as vehicle `id`, and will drive with ranges no older than that.
+  void Placed(VehicleId id, Nanoseconds ranges_age_limit);
+  // The loop has taken what came, at `woke`.
+  void Turned(const link::Taken& taken, const link::VehicleLinkCounters& counters,
+              const RosterEntry& place, SteadyTime woke);
+  // The same status went to the fleet.
+  void Reported(const VehicleStatus& status) { service_.Now().status = status; }
+  void Leaves();
+
+ private:
+  HealthService<VehicleHealth> service_;
+};
+
+}  // namespace giveway

@@ -1,0 +1,26 @@
+#include "services/vehicle_node/vehicle_hearing.h"
+
+namespace giveway {
+namespace {
+
+// Silence is no sign of a changed interface, but without it nobody need look.
+constexpr Nanoseconds kSilence = std::chrono::seconds(2);
+constexpr Nanoseconds kLookEvery = std::chrono::seconds(1);
+
+}  // namespace
+
+Remedy Hearing::Look(SteadyTime now, bool scan) {
+  if (scan) last_scan_ = now;
+  if (deaf_.Look(now, scan, link_.WorldSpeaks())) {
+    LogError("the world speaks, but its scans do not arrive: starts itself again to hear it");
+    return Remedy::kNewParticipant;
+  }
+  if (now - last_scan_ < kSilence || now < next_look_) return Remedy::kNone;
+  next_look_ = now + kLookEvery;
+  const std::string change = link_.InterfaceChange();
+  if (change.empty()) return Remedy::kNone;
+  LogError(change + "; ends, to be started again");
+  return Remedy::kNewProcess;
+}
+
+}  // namespace giveway

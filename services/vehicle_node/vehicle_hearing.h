@@ -1,0 +1,32 @@
+// Whether a vehicle can still hear its world, and what helps where it cannot.
+#pragma once
+
+#include <cstdint>
+
+#include "services/link/vehicle_link.h"
+#include "services/runtime/process.h"
+#include "services/vehicle_node/deaf_watch.h"
+
+namespace giveway {
+
+enum class Remedy : std::uint8_t {
+  kNone,
+  kNewParticipant,  // the world speaks and is not heard: the vehicle restarts itself
+  kNewProcess,      // its interface is another now: it ends, for the restart policy
+};
+
+class Hearing {
+ public:
+  explicit Hearing(const link::VehicleLink* link) : link_(*link), deaf_(SteadyNow()) {}
+
+  // Once a turn; `scan`: one came. Says in the log why, where there is a remedy.
+  Remedy Look(SteadyTime now, bool scan);
+
+ private:
+  const link::VehicleLink& link_;
+  DeafWatch deaf_;
+  SteadyTime last_scan_{0};
+  SteadyTime next_look_{0};
+};
+
+}  // namespace giveway

@@ -1,0 +1,137 @@
+#include "services/vehicle_node/vehicle_report.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace giveway {
+namespace {
+
+constexpr std::size_t kKeptSteps = 1000;
+
+struct Counted {
+  const char* name;
+  std::uint64_t number;
+};
+
+std::string Listed(std::string text, std::initializer_list<Counted> all) {
+  for (const Counted& counted : all) {
+    text += std::string(" ") + counted.name + '=' + std::to_string(counted.number);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string Describe(const Decision& decision) {
+  std::string text(Name(decision.rule));
+  if (decision.peer != kNobody) text += " for " + std::to_string(Number(decision.peer));
+  if (decision.sensor >= 0) text += ", sensor " + std::to_string(decision.sensor + 1);
+  return text + " (" + std::string(Name(decision.mode)) + ")";
+}
+
+std::string Describe(const QosEvent& event) {
+  return std::string(Name(event.kind)) + ": " +
+         (event.vehicle == kNobody ? "a vehicle the library does not name"
+                                   : "vehicle " + std::to_string(Number(event.vehicle)));
+}
+
+std::string Describe(const ImpairmentCounters& counters) {
+  return Listed("impairment:", {{"packets", counters.packets},
+                                {"bytes", counters.bytes},
+                                {"passed", counters.passed},
+                                {"passed_bytes", counters.passed_bytes},
+                                {"dropped_blackout", counters.dropped_blackout},
+                                {"dropped_rate", counters.dropped_rate},
+                                {"dropped_loss", counters.dropped_loss},
+                                {"dropped_burst", counters.dropped_burst},
+                                {"delayed", counters.delayed},
+                                {"held_back", counters.held_back},
+                                {"reordered", counters.reordered},
+                                {"duplicated", counters.duplicated},
+                                {"corrupted", counters.corrupted},
+                                {"abandoned", counters.abandoned}});
+}
+
+std::string Describe(const link::VehicleLinkCounters& counters) {
+  return Listed("link:", {{"ranges_skipped", counters.ranges_skipped},
+                          {"ranges_deadline_missed", counters.ranges_deadline_missed},
+                          {"sensors_deadline_missed", counters.sensors_deadline_missed},
+                          {"signals_deadline_missed", counters.signals_deadline_missed},
+                          {"unbound_samples", counters.unbound_samples},
+                          {"unreadable_samples", counters.unreadable_samples},
+                          {"wrong_name_scans", counters.wrong_name_scans},
+                          {"old_world_entries", counters.old_world_entries},
+                          {"events_dropped", counters.events_dropped},
+                          {"deadline_watches_lost", counters.deadline_watches_lost},
+                          {"write_failures", counters.write_failures}});
+}
+
+void VehicleReport::NoteStep(Nanoseconds step, Nanoseconds turn) {
+  const double us = Milliseconds(step) * 1000;
+  if (steps_us_.size() < kKeptSteps) {
+    steps_us_.push_back(us);
+  } else {
+    steps_us_[next_] = us;
+    next_ = (next_ + 1) % kKeptSteps;
+  }
+  longest_turn_ms_ = std::max(longest_turn_ms_, Milliseconds(turn));
+}
+
+void VehicleReport::NoteEvents(std::span<const QosEvent> events) {
+  if (!events.empty()) last_event_ = events.back();
+}
+
+double VehicleReport::StepP99Us() {
+  if (steps_us_.empty()) return 0;
+  sorted_ = steps_us_;
+  const auto rank = sorted_.begin() + static_cast<std::ptrdiff_t>((sorted_.size() * 99 - 1) / 100);
+  std::nth_element(sorted_.begin(), rank, sorted_.end());
+  return *rank;
+}
+
+VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::VehicleLink& link) {
+  const VehicleState& state = vehicle.State();
+  const link::VehicleLinkCounters counters = link.Counters();
+  const link::EffectiveBeaconQos qos = link.BeaconQos();
+  VehicleStatus status;
+  status.vehicle = state.order.vehicle;
+  status.epoch = state.epoch;
+  status.tick = state.tick;
+  status.decision = state.decision;
+  status.gives_way_to = state.gives_way_to;
+  status.forward_m_s = vehicle.SpeedMps();
+  const double nearest = state.ranges.NearestEcho();
+  if (nearest >= 0) status.nearest_echo_m = nearest;
+  status.peers_heard = vehicle.PeersHeard();
+  status.beacons = state.beacons;
+  status.trust = state.trust;
+  status.beacons_superseded = counters.beacons_superseded;
+  status.qos = state.qos;
+  status.last_deadline_missed = state.peers.LastDeadlineMissed();
+  status.last_liveliness_lost = state.peers.LastLivelinessLost();
+  if (last_event_) {
+    status.last_event = last_event_->kind;
+    status.last_event_about = last_event_->vehicle;
+  }
+  status.last_rejected_id = Number(state.peers.LastRejected());
+  status.step_p99_us = StepP99Us();
+  status.loop_max_ms = longest_turn_ms_;
+  status.beacon_deadline_offered_ms = qos.deadline_offered_ms;
+  status.beacon_deadline_requested_ms = qos.deadline_requested_ms;
+  status.beacon_lease_ms = qos.lease_ms;
+  return status;
+}
+
+VehicleStatus VehicleReport::Send(const Vehicle& vehicle, link::VehicleLink& link) {
+  const VehicleStatus status = Gather(vehicle, link);
+  link.SendStatus(status);
+  return status;
+}
+
+void VehicleReport::SendFinal(const Vehicle& vehicle, link::VehicleLink& link) {
+  VehicleStatus status = Gather(vehicle, link);
+  status.final = true;
+  link.SendStatus(status);
+}
+
+}  // namespace giveway

@@ -1,0 +1,378 @@
+#include "services/world_node/world_loop.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "services/runtime/state_file.h"
+#include "sim_world/geometry/ticks.h"
+
+namespace giveway {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr Nanoseconds kLockstepPatience = seconds(1);
+constexpr Nanoseconds kFlushTimeout = milliseconds(500);
+constexpr Nanoseconds kFlushWhenStopped = milliseconds(300);  // all is to be over in a second
+constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
+constexpr Nanoseconds kReminder = seconds(5);
+// For the vehicles of a world that was restarted to find it: those that do not are silent then.
+constexpr Nanoseconds kResumePatience = seconds(10);
+// Who joins under way stands until it hears everybody, but not for ever.
+constexpr Nanoseconds kDeafStand = seconds(3);
+
+std::string Text(VehicleId vehicle) { return std::to_string(Number(vehicle)); }
+
+// What an operator should read of it; empty for what only observers need.
+std::string LogLine(const WorldEvent& event) {
+  switch (event.kind) {
+    case EventKind::kContact:
+      return "contact: vehicle " + Text(event.vehicle) + " touched " +
+             (event.other == kNobody ? "something" : "vehicle " + Text(event.other));
+    case EventKind::kFaultDue:
+      return "fault due: " + event.text;
+    case EventKind::kSilent:
+      return "vehicle " + Text(event.vehicle) + " fell silent";
+    case EventKind::kRemoved:
+      return "vehicle " + Text(event.vehicle) + " was silent for long: its body is taken away";
+    case EventKind::kJoined:
+      return "vehicle " + Text(event.vehicle) + " joined the run";
+    case EventKind::kLeft:
+      return "vehicle " + Text(event.vehicle) + " left the run";
+    default:
+      return {};
+  }
+}
+
+WorldEpoch EpochOf(const WorldLoopOptions& options) {
+  const std::optional<sim::FleetCheckpoint>& checkpoint = options.checkpoint;
+  if (checkpoint && options.same_epoch) return checkpoint->run.epoch;
+  WorldEpoch epoch{RandomNonZero()};
+  while (checkpoint && epoch == checkpoint->run.epoch) epoch = WorldEpoch{RandomNonZero()};
+  return epoch;
+}
+
+}  // namespace
+
+WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdmin* admin,
+                     HealthService<WorldHealth>* health, const WorldLoopOptions& options)
+    : scenario_(scenario),
+      link_(*link),
+      admin_(*admin),
+      health_(*health),
+      options_(options),
+      epoch_(EpochOf(options)),
+      fleet_(std::make_unique<Fleet>(scenario, epoch_, options.parallel)),
+      start_by_(SteadyNow() + FromSeconds(scenario.start_timeout_s)),
+      say_alone_(SteadyNow() + kReminder) {
+  if (options_.checkpoint) Resume(*options_.checkpoint);
+  if (options_.checkpoint_file.empty()) return;
+  const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
+  if (!complaint.empty()) throw std::runtime_error("--checkpoint " + complaint);
+}
+
+void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
+  if (!fleet_->admission.Restore(checkpoint)) {
+    LogWarning("the checkpoint does not fit the scenario: starts anew");
+    fleet_ = std::make_unique<Fleet>(scenario_, epoch_, options_.parallel);
+    return;
+  }
+  if (!checkpoint.run.started) return;
+  resumed_with_.emplace();
+  for (const VehicleId vehicle : fleet_->admission.Expected()) {
+    if (!fleet_->run.IsAbandoned(vehicle)) resumed_with_->push_back(vehicle);
+  }
+  start_by_ = SteadyNow() + kResumePatience;
+  LogInfo("goes on from the checkpoint with " + std::to_string(resumed_with_->size()) +
+          " vehicles, " + std::to_string(fleet_->run.TimeSeconds()) + " s after the start");
+}
+
+std::string WorldLoop::State() const {
+  return sim::ToBytes(fleet_->admission.Save(options_.scenario_mark));
+}
+
+WorldEnd WorldLoop::Drive(const StopSignal& stop) {
+  Ticker ticker(scenario_.tick_period);
+  while (fleet_->run.State() != RunState::kEnded) {
+    const std::uint32_t missed = ticker.Wait();
+    if (fleet_->run.State() == RunState::kRunning) overruns_ += missed;
+    if (options_.lockstep) AwaitAnswers();
+    if (stop.IsSet()) fleet_->run.End("interrupted");
+    RunTick();
+    KeepCheckpoint();
+    TellHealth(HealthStage::kUnderWay);
+    SayIfAlone();
+    LogNews(link_.TakeRefusals(), link_.TakeUnfit(SteadyNow()), SteadyNow(), &refusal_log_);
+    const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
+    if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
+    if (admin_.Serve() && !stop.IsSet()) {
+      link_.FlushAnswer(kFlushTimeout);  // who does not hear the next scan halts
+      return WorldEnd::kRestarts;
+    }
+  }
+  TellHealth(HealthStage::kLeaving);
+  const bool passed = TellTheEnd(stop.IsSet() ? kFlushWhenStopped : kFlushTimeout);
+  return passed ? WorldEnd::kPassed : WorldEnd::kFailed;
+}
+
+void WorldLoop::RunTick() {
+  sim::Run& run = fleet_->run;
+  Admit();
+  TakeCommands();
+  CountSpeaking();
+  if (run.State() == RunState::kWaiting) StartIfReady();
+  run.Advance(commands_);
+  for (const VehicleId vehicle : run.Forgotten()) link_.ForgetVehicle(vehicle);
+  commands_.clear();
+  fleet_->admission.FollowRun();
+  Close();
+  Publish();
+  SayLeftOut();
+}
+
+void WorldLoop::Admit() {
+  for (const JoinRequest& request : link_.TakeJoins()) fleet_->admission.Take(request);
+  Close();
+  for (const RosterEntry& entry : fleet_->admission.Answer()) {
+    if (!entry.accepted) {
+      const std::string what = entry.waiting ? "lets a vehicle wait: " : "refused a vehicle: ";
+      if (answer_lines_.Take(SteadyNow())) LogWarning(what + entry.reason);
+    } else if (const sim::Body* body = fleet_->run.BodyOf(entry.vehicle)) {
+      link_.OpenVehicle(entry.vehicle, body->profile);
+      next_checkpoint_ = {};
+      if (entry.run_state == RunState::kRunning) Welcome(entry);
+    }
+    link_.SendRoster(entry);
+  }
+}
+
+void WorldLoop::SayLeftOut() {
+  const SteadyTime now = SteadyNow();
+  const auto answers = answer_lines_.TakeLeftOut(now);
+  const auto events = event_lines_.TakeLeftOut(now);
+  if (answers > 0) LogWarning("and " + std::to_string(answers) + " more such answers");
+  if (events > 0) LogInfo("and " + std::to_string(events) + " more such events");
+}
+
+// Somebody new under this id has not been heard yet, even if the last one was.
+void WorldLoop::Welcome(const RosterEntry& entry) {
+  Newcomer& newcomer = newcomers_[entry.vehicle];
+  if (newcomer.session == entry.session) return;
+  const auto stand = sim::TicksCovering(kDeafStand, scenario_.tick_period);
+  newcomer = {entry.session, After(fleet_->run.Now(), stand)};
+  heard_.erase(entry.vehicle);
+}
+
+// Forgets whose bodies are no more.
+void WorldLoop::Close() {
+  for (const VehicleId vehicle : fleet_->admission.TakeGone()) {
+    link_.CloseVehicle(vehicle);
+    next_checkpoint_ = {};
+    heard_.erase(vehicle);
+    newcomers_.erase(vehicle);
+  }
+}
+
+void WorldLoop::TakeCommands() {
+  const auto commands = link_.TakeCommands();
+  const SteadyTime now = SteadyNow();
+  commands_.insert(commands_.end(), commands.begin(), commands.end());
+  for (const MotorCommand& command : commands_) {
+    if (command.epoch != epoch_) {
+      TellOfOldWorld(command);
+      continue;
+    }
+    heard_[command.vehicle] = {command.tick, command.matched_peers, true};
+    reactions_.Applied(command, now);
+  }
+}
+
+// The run refuses and counts it; the log says why, if it goes on.
+void WorldLoop::TellOfOldWorld(const MotorCommand& command) {
+  const FieldFault fault{"world_epoch", double(Number(command.epoch)), double(Number(epoch_)),
+                         double(Number(epoch_))};
+  const Refusal refusal{.sample = "motor command",
+                        .vehicle = command.vehicle,
+                        .writer = Number(command.vehicle),
+                        .counter = "not obeyed",
+                        .field = fault.field,
+                        .why = Describe(fault),
+                        .passing = true};
+  LogNews({&refusal, 1}, {}, SteadyNow(), &refusal_log_);
+}
+
+// It is matched with the world, and with the beacons of every other vehicle that lives.
+bool WorldLoop::IsReady(VehicleId vehicle) const {
+  const auto hearing = heard_.find(vehicle);
+  const auto& told = fleet_->admission.Told();
+  return hearing != heard_.end() && told.contains(vehicle) && link_.IsMatched(vehicle) &&
+         hearing->second.matched_peers + 1 >= speaking_;
+}
+
+void WorldLoop::CountSpeaking() {
+  speaking_ = static_cast<std::size_t>(std::ranges::count_if(
+      fleet_->admission.Told(),
+      [this](const auto& told) { return !fleet_->run.IsAbandoned(told.first); }));
+}
+
+// Who is still waited for; empty if nobody is.
+std::string WorldLoop::Missing() const {
+  const auto& told = fleet_->admission.Told();
+  if (sim::IsOpen(scenario_) && !resumed_with_) {
+    const auto ready =
+        std::ranges::count_if(told, [this](const auto& entry) { return IsReady(entry.first); });
+    const auto needed = std::max(1U, scenario_.start_with);
+    if (ready >= static_cast<std::ptrdiff_t>(needed)) return {};
+    return std::to_string(needed - static_cast<std::uint32_t>(ready)) + " of " +
+           std::to_string(needed) + " vehicles";
+  }
+  std::string missing;
+  const auto wait_for = [&](VehicleId vehicle) {
+    if (!IsReady(vehicle)) missing += (missing.empty() ? "" : " ") + Text(vehicle);
+  };
+  if (resumed_with_) {
+    std::ranges::for_each(*resumed_with_, wait_for);
+  } else {
+    std::ranges::for_each(scenario_.vehicles, wait_for, &VehicleOptions::id);
+  }
+  return missing;
+}
+
+void WorldLoop::StartIfReady() {
+  const std::string missing = Missing();
+  const bool patient = sim::IsOpen(scenario_) && !resumed_with_ && scenario_.start_with == 0;
+  if (!missing.empty() && (patient || SteadyNow() <= start_by_)) return;
+  if (!missing.empty() && !resumed_with_) {
+    fleet_->run.End("start_timeout: not joined and matched in time: " + missing);
+    return;
+  }
+  if (!missing.empty()) LogWarning("goes on without: " + missing);
+  fleet_->run.Start();
+  next_checkpoint_ = {};
+  for (const RosterEntry& entry : fleet_->admission.TellAll("")) link_.SendRoster(entry);
+  LogInfo("started with " + std::to_string(fleet_->admission.Told().size()) + " vehicles");
+}
+
+// A vehicle wakes on its ranges, so they go last of what it senses.
+void WorldLoop::Publish() {
+  const sim::Run& run = fleet_->run;
+  if (run.State() == RunState::kRunning) reactions_.Published(run.Now(), SteadyNow());
+  const auto& told = fleet_->admission.Told();
+  const auto is_told = [&](const auto& scan) { return told.contains(scan.vehicle); };
+  for (const SignalState& signal : run.Signals()) link_.SendSignal(signal);
+  for (const RadarScan& scan : run.Radars()) {
+    if (is_told(scan)) link_.SendRadar(scan);
+  }
+  for (const LidarScan& scan : run.Lidars()) {
+    if (is_told(scan)) link_.SendLidar(scan);
+  }
+  for (const CameraScan& scan : run.Cameras()) {
+    if (is_told(scan)) link_.SendCamera(scan);
+  }
+  for (RangeScan scan : run.Scans()) {
+    if (!is_told(scan)) continue;
+    if (MustStand(scan.vehicle)) scan.run_state = RunState::kWaiting;
+    link_.SendScan(scan);
+  }
+  for (const Truth& truth : run.Truths()) link_.SendTruth(truth);
+  for (const WorldEvent& event : run.Events()) SendEvent(event);
+}
+
+bool WorldLoop::MustStand(VehicleId vehicle) const {
+  const auto newcomer = newcomers_.find(vehicle);
+  return newcomer != newcomers_.end() && fleet_->run.State() == RunState::kRunning &&
+         TicksBetween(fleet_->run.Now(), newcomer->second.stands_until) > 0 && !IsReady(vehicle);
+}
+
+void WorldLoop::SendEvent(const WorldEvent& event) {
+  link_.SendEvent(event);
+  const std::string line = LogLine(event);
+  if (!line.empty() && event_lines_.Take(SteadyNow())) LogInfo(line);
+}
+
+// Lockstep: the tick goes on when everyone who still answers has answered it.
+void WorldLoop::AwaitAnswers() {
+  const SteadyTime give_up = SteadyNow() + kLockstepPatience;
+  while (Unanswered() && SteadyNow() < give_up) {
+    if (!link_.WaitForCommands(give_up - SteadyNow())) break;
+    for (const MotorCommand& command : link_.TakeCommands()) {
+      heard_[command.vehicle] = {command.tick, command.matched_peers, true};
+      commands_.push_back(command);
+    }
+  }
+  for (auto& [vehicle, hearing] : heard_) {
+    hearing.waited_for = hearing.answered == fleet_->run.Now();
+  }
+}
+
+bool WorldLoop::Unanswered() const {
+  for (const auto& [vehicle, hearing] : heard_) {
+    if (hearing.waited_for && hearing.answered != fleet_->run.Now()) return true;
+  }
+  return false;
+}
+
+// After the tick's scans are out: the vehicles think meanwhile. At once where somebody came or
+// went.
+void WorldLoop::KeepCheckpoint() {
+  const SteadyTime begun = SteadyNow();
+  if (options_.checkpoint_file.empty() || begun < next_checkpoint_) return;
+  next_checkpoint_ = begun + kCheckpointPeriod;
+  const std::string complaint = WriteStateFile(options_.checkpoint_file, State());
+  const std::string line = checkpoint_fault_.Note(complaint, begun);
+  if (!line.empty()) LogWarning("checkpoint " + line);
+  longest_checkpoint_ = std::max(longest_checkpoint_, SteadyNow() - begun);
+}
+
+bool WorldLoop::TellTheEnd(Nanoseconds patience) {
+  RunFigures figures = fleet_->run.Figures();
+  figures.tick_overruns = overruns_;
+  const sim::ReactionFigures reactions = reactions_.Figures();
+  figures.reactions = reactions.count;
+  figures.reaction_p50_ms = reactions.p50_ms;
+  figures.reaction_p99_ms = reactions.p99_ms;
+  figures.reaction_max_ms = reactions.max_ms;
+  link_.SendFigures(figures);
+  const std::string& reason = fleet_->run.EndReason();
+  for (const RosterEntry& entry : fleet_->admission.TellAll(reason)) link_.SendRoster(entry);
+  link_.Flush(patience);
+  if (!options_.checkpoint_file.empty()) {
+    RemoveStateFile(options_.checkpoint_file);  // what has ended does not go on
+    LogInfo("the longest checkpoint took " + std::to_string(Milliseconds(longest_checkpoint_)) +
+            " ms");
+  }
+  LogInfo("ended: " + reason + "; " + (figures.passed ? "passed" : "failed: " + figures.reason));
+  return figures.passed;
+}
+
+// Where discovery servers are to be used, and none answers.
+void WorldLoop::SayIfAlone() {
+  if (SteadyNow() < say_alone_) return;
+  say_alone_ = SteadyNow() + kReminder;
+  const std::string why = link_.WhyNobodyIsFound();
+  if (!why.empty()) LogWarning(why);
+}
+
+void WorldLoop::TellHealth(HealthStage stage) {
+  const link::WorldLinkCounters link = link_.Counters();
+  WorldHealth& now = health_.Now();
+  now.loop.stage = stage;
+  now.waits_for = ShortText(link_.WhyNobodyIsFound());
+  now.run_state = fleet_->run.State();
+  now.time_s = fleet_->run.TimeSeconds();
+  now.late_ticks = overruns_;
+  now.vehicles_joined = static_cast<std::uint32_t>(fleet_->admission.Told().size());
+  now.contacts = fleet_->run.Contacts();
+  now.reactions = reactions_.Count();
+  now.commands_taken = link.commands_taken;
+  now.commands_wrong_name = link.commands_wrong_name;
+  now.commands_unbound = link.commands_unbound;
+  now.commands_not_finite = link.commands_not_finite;
+  now.joins_refused = link.joins_refused;
+  now.write_failures = link.write_failures;
+  health_.Tell();
+}
+
+}  // namespace giveway

@@ -1,0 +1,113 @@
+// giveway-world's loop: wires Run and Admission to WorldLink, tick by tick on absolute deadlines.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/health/health_service.h"
+#include "services/link/world_link.h"
+#include "services/node/service_admin.h"
+#include "services/runtime/fault_reminder.h"
+#include "services/runtime/line_budget.h"
+#include "services/runtime/process.h"
+#include "services/runtime/refusal_log.h"
+#include "services/types/parallel.h"
+#include "sim_world/run/admission.h"
+#include "sim_world/run/reaction.h"
+#include "sim_world/run/run.h"
+
+namespace giveway {
+
+struct WorldLoopOptions {
+  bool lockstep = false;
+  ParallelFor parallel = OnThisThread;
+  std::string checkpoint_file;                     // empty: none is kept
+  std::uint64_t scenario_mark = 0;                 // see sim::FleetCheckpoint
+  std::optional<sim::FleetCheckpoint> checkpoint;  // to go on from
+  bool same_epoch = false;        // it restarted itself, and nothing has moved since
+  std::function<void()> on_back;  // called once it goes on; may be empty
+};
+
+enum class WorldEnd : std::uint8_t { kPassed, kFailed, kRestarts };
+
+class WorldLoop {
+ public:
+  WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdmin* admin,
+            HealthService<WorldHealth>* health, const WorldLoopOptions& options);
+
+  // Runs to the end, or until an operator's order takes a restart.
+  WorldEnd Drive(const StopSignal& stop);
+  // All that another process needs to go on from here.
+  std::string State() const;
+
+ private:
+  struct Fleet {
+    Fleet(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
+        : run(scenario, epoch, std::move(parallel)), admission(scenario, epoch, &run) {}
+    sim::Run run;
+    sim::Admission admission;
+  };
+  // What the world last heard of one vehicle.
+  struct Hearing {
+    Tick answered = kNoTick;
+    std::uint32_t matched_peers = 0;
+    bool waited_for = true;  // in lockstep: until it lets a tick go by unanswered
+  };
+
+  struct Newcomer {
+    SessionId session{};
+    Tick stands_until = kNoTick;
+  };
+
+  void Resume(const sim::FleetCheckpoint& checkpoint);
+  void RunTick();
+  void Admit();
+  void SayLeftOut();
+  void Welcome(const RosterEntry& entry);
+  void Close();
+  void TakeCommands();
+  void CountSpeaking();
+  bool IsReady(VehicleId vehicle) const;
+  std::string Missing() const;
+  void StartIfReady();
+  void Publish();
+  bool MustStand(VehicleId vehicle) const;
+  void SendEvent(const WorldEvent& event);
+  void AwaitAnswers();
+  bool Unanswered() const;
+  void KeepCheckpoint();
+  bool TellTheEnd(Nanoseconds patience);
+  void TellHealth(HealthStage stage);
+  void SayIfAlone();
+  void TellOfOldWorld(const MotorCommand& command);
+
+  const Scenario& scenario_;
+  link::WorldLink& link_;
+  ServiceAdmin& admin_;
+  HealthService<WorldHealth>& health_;
+  WorldLoopOptions options_;
+  WorldEpoch epoch_;
+  std::unique_ptr<Fleet> fleet_;
+  std::optional<std::vector<VehicleId>> resumed_with_;  // who must be back before it goes on
+  sim::ReactionMeter reactions_;
+  SteadyTime start_by_;
+  SteadyTime say_alone_;  // when it is next said that no discovery server answers
+  std::map<VehicleId, Hearing> heard_;
+  std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
+  RefusalLog refusal_log_;
+  std::size_t speaking_ = 0;  // of those that are in
+  std::vector<MotorCommand> commands_;
+  LineBudget answer_lines_{8};  // of admission
+  LineBudget event_lines_{16};  // of the run
+  std::uint32_t overruns_ = 0;
+  SteadyTime next_checkpoint_{0};
+  FaultReminder checkpoint_fault_;  // a full disk is no news at every tick
+  Nanoseconds longest_checkpoint_{0};
+};
+
+}  // namespace giveway

@@ -1,0 +1,33 @@
+// A door: a leaf that slides into its jamb and out again, by the time since the start signal. What
+// stands in its way stops it; it follows its times again, at its own speed, when it can.
+#pragma once
+
+#include "services/types/scenario.h"
+#include "sim_world/geometry/motion.h"
+
+namespace giveway::sim {
+
+class SlidingDoor {
+ public:
+  explicit SlidingDoor(const Door& door);
+
+  // The leaf's motion in the tick of dt_s that ends end_s after the start signal. Standing unless
+  // `moving`.
+  Leaf Plan(bool moving, double end_s, double dt_s) const;
+  // Takes in what became of the plan.
+  void Settle(const Leaf& leaf, double dt_s);
+
+  // What its times say, whatever stands in its way; as Opening.
+  double PlannedOpening(double time_s) const;
+
+  // The share of the leaf that is in the jamb: 0 closed, 1 open. Opened wholly it is in nobody's
+  // way.
+  double Opening() const { return opening_; }
+  void Restore(double opening) { opening_ = opening; }
+
+ private:
+  Door door_;
+  double opening_;
+};
+
+}  // namespace giveway::sim

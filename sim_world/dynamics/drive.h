@@ -1,0 +1,30 @@
+// How wheels follow a command, limited by the drive's acceleration and the profile's caps, and what
+// ground and encoders make of it.
+#pragma once
+
+#include "services/types/math/pose.h"
+#include "services/types/math/random.h"
+#include "services/types/profile.h"
+
+namespace giveway::sim {
+
+// The wheel speeds nearest to `wheels` in forward and turn rate that the profile's caps allow.
+WheelSpeeds WithinCaps(const VehicleProfile& profile, WheelSpeeds wheels);
+
+// Wheel speeds dt_s after `current` on the way to `target`. Each wheel on its own: slowed at the
+// profile's deceleration while its speed shrinks, sped up at the acceleration while it grows, one
+// after the other when it passes through standstill. The caps win over both.
+WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, WheelSpeeds target,
+                       double dt_s);
+
+// One tick's wheels as others see them.
+struct Rolled {
+  WheelSpeeds ground;  // the speeds of wheels that roll without slip and move the body as it moves
+  WheelSpeeds encoders;  // what the encoders count
+};
+
+// Draws the tick's slip and encoder noise from `random`, the same draws whichever of them is on.
+// Slip never takes the body beyond the profile's caps. Without either both are `wheels`.
+Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random);
+
+}  // namespace giveway::sim

@@ -1,0 +1,59 @@
+// A body that is not a vehicle: it stands, or follows its waypoints at constant speed. Something in
+// its way holds it up; it goes on from there when it can.
+#pragma once
+
+#include <vector>
+
+#include "services/types/scenario.h"
+#include "sim_world/geometry/motion.h"
+
+namespace giveway::sim {
+
+// The way from a start over waypoints, for ever round or there and back.
+class Course {
+ public:
+  explicit Course(const Obstacle& obstacle);
+
+  bool IsEmpty() const { return period_m_ <= 0; }
+  // Where one is after that many metres on it.
+  Vec2 At(double progress_m) const;
+  // The same place, less than once round.
+  double Folded(double progress_m) const;
+
+ private:
+  std::vector<Vec2> corners_world_;
+  std::vector<double> until_m_;  // from the start to each corner, along the course
+  double period_m_ = 0;          // after which it repeats
+};
+
+// What of an obstacle changes.
+struct ObstacleState {
+  Vec2 position_world;
+  double progress_m = 0;  // how far along its course it heads; after a stop in a bend it may be a
+                          // hand's breadth beside
+};
+
+class MovingObstacle {
+ public:
+  explicit MovingObstacle(const Obstacle& obstacle);
+
+  // Its motion in a tick of dt_s: straight to where its course leads, bends cut by less than the
+  // way of one tick. Standing unless `moving`.
+  Motion Plan(bool moving, double dt_s) const;
+  // Takes in what became of the plan.
+  void Settle(const Motion& motion, double dt_s);
+
+  const ObstacleState& State() const { return state_; }
+  void Restore(const ObstacleState& state) { state_ = state; }
+  bool EverMoves() const { return speed_m_s_ > 0 && !course_.IsEmpty(); }
+
+ private:
+  Course course_;
+  double heading_rad_;
+  double radius_m_;
+  Vec2 box_half_m_;
+  double speed_m_s_;
+  ObstacleState state_;
+};
+
+}  // namespace giveway::sim

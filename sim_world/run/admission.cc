@@ -1,0 +1,173 @@
+#include "sim_world/run/admission.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim_world/geometry/ticks.h"
+
+namespace giveway::sim {
+namespace {
+
+// Long enough for a process that died to fall silent, and its body to stand, before another is told
+// that its id is taken; and for who waits to ask again.
+constexpr Nanoseconds kPatience{3'000'000'000};
+constexpr double kStill_rad_s = 1e-9;
+
+bool NoWheelTurns(const Body& body) {
+  return std::abs(body.wheels.left_rad_s) + std::abs(body.wheels.right_rad_s) < kStill_rad_s;
+}
+
+}  // namespace
+
+Admission::Admission(const Scenario& scenario, WorldEpoch epoch, Run* run)
+    : run_(*run),
+      open_(IsOpen(scenario)),
+      patience_ticks_(TicksCovering(kPatience, scenario.tick_period)),
+      roster_(scenario, epoch) {}
+
+void Admission::Take(const JoinRequest& request) {
+  if (request.leaving) return Leave(request.session);
+  const auto waiting = std::ranges::find_if(
+      waiting_, [&](const Waiting& w) { return w.request.session == request.session; });
+  if (waiting != waiting_.end()) {
+    waiting->asked = run_.Now();
+  } else if (waiting_.size() < kMostWaiting || roster_.SeatOf(request.session) != nullptr) {
+    waiting_.push_back({request, run_.Now(), run_.Now(), ""});
+  } else {
+    ++passed_over_;
+  }
+}
+
+void Admission::Leave(const SessionId& session) {
+  std::erase_if(waiting_, [&](const Waiting& w) { return w.request.session == session; });
+  const Seat* seat = roster_.SeatOf(session);
+  if (seat == nullptr) return;
+  const VehicleId vehicle = seat->vehicle;
+  run_.Leave(vehicle);
+  roster_.Free(vehicle);
+  told_.erase(vehicle);
+  gone_.push_back(vehicle);
+}
+
+void Admission::FollowRun() {
+  for (const WorldEvent& event : run_.Events()) {
+    if (event.kind != EventKind::kRemoved) continue;
+    roster_.Free(event.vehicle);
+    gone_.push_back(event.vehicle);
+    const auto told = told_.find(event.vehicle);
+    if (told == told_.end()) continue;
+    // Should it still be there, deaf until now, it may ask anew.
+    RosterEntry gone = told->second;
+    gone.accepted = false;
+    gone.waiting = true;
+    gone.reason = "the body was taken away after a silence";
+    to_tell_.push_back(std::move(gone));
+    told_.erase(told);
+  }
+}
+
+std::vector<VehicleId> Admission::TakeGone() { return std::exchange(gone_, {}); }
+
+std::vector<RosterEntry> Admission::Answer() {
+  for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
+    Result result = Try(&*waiting);
+    if (result.tell) to_tell_.push_back(*std::move(result.tell));
+    waiting = result.waits ? waiting + 1 : waiting_.erase(waiting);
+  }
+  for (RosterEntry& entry : to_tell_) entry.run_state = run_.State();
+  return std::exchange(to_tell_, {});
+}
+
+Admission::Result Admission::Try(Waiting* waiting) {
+  const JoinRequest& request = waiting->request;
+  // A body it has from an earlier epoch still rolls: what it were told now would soon be wrong.
+  if (const Seat* seat = roster_.SeatOf(request.session)) {
+    const auto told = told_.find(seat->vehicle);
+    if (told != told_.end()) {
+      run_.AsksAgain(seat->vehicle);
+      run_.Locate(roster_.OptionsOf(*seat), &told->second);
+      return {.waits = false, .tell = told->second};
+    }
+    const Body* body = run_.BodyOf(seat->vehicle);
+    if (body != nullptr && !NoWheelTurns(*body)) return {.waits = true, .tell = {}};
+  }
+  RosterEntry entry = roster_.Admit(
+      request, {.is_silent = [this](VehicleId vehicle) { return MayTakeOver(vehicle); },
+                .is_free = [this](const VehicleOptions& options) { return IsFree(options); }});
+  if (entry.accepted) {
+    LetIn(std::move(entry));
+    return {.waits = false, .tell = {}};
+  }
+  // In an open fleet a place may come free at any time; an id of one's own is worth no such wait.
+  const bool forever = open_ && request.wanted == kNobody;
+  const bool forgotten = TicksBetween(waiting->asked, run_.Now()) >= patience_ticks_;
+  if (forever && forgotten) return {.waits = false, .tell = {}};
+  const bool over = !forever && TicksBetween(waiting->since, run_.Now()) >= patience_ticks_;
+  if (over) entry.waiting = false;
+  if (entry.waiting && entry.reason == waiting->told) return {.waits = true, .tell = {}};
+  waiting->told = entry.reason;
+  return {.waits = entry.waiting, .tell = std::move(entry)};
+}
+
+void Admission::LetIn(RosterEntry entry) {
+  const VehicleOptions options = roster_.OptionsOf(*roster_.SeatOf(entry.session));
+  run_.Join(options);
+  run_.Locate(options, &entry);
+  to_tell_.push_back(entry);
+  const auto before = told_.find(entry.vehicle);
+  if (before != told_.end()) {
+    to_tell_.push_back(before->second);
+    to_tell_.back().accepted = false;
+    to_tell_.back().reason = "another session took its place after a silence";
+  }
+  told_[entry.vehicle] = std::move(entry);
+}
+
+bool Admission::MayTakeOver(VehicleId vehicle) const {
+  const Body* body = run_.BodyOf(vehicle);
+  return run_.IsAbandoned(vehicle) && (body == nullptr || NoWheelTurns(*body));
+}
+
+// Where its own body still stands, nothing is put on the start pose.
+bool Admission::IsFree(const VehicleOptions& options) const {
+  return run_.BodyOf(options.id) != nullptr || run_.IsFree(options);
+}
+
+std::vector<RosterEntry> Admission::TellAll(const std::string& reason) {
+  std::vector<RosterEntry> entries;
+  for (auto& [vehicle, entry] : told_) {
+    if (const Seat* seat = roster_.SeatOf(entry.session)) {
+      run_.Locate(roster_.OptionsOf(*seat), &entry);
+    }
+    entry.run_state = run_.State();
+    entry.reason = reason;
+    entries.push_back(entry);
+  }
+  return entries;
+}
+
+std::vector<VehicleId> Admission::Expected() const {
+  std::vector<VehicleId> expected;
+  for (const Seat& seat : roster_.Seats()) {
+    if (seat.taken) expected.push_back(seat.vehicle);
+  }
+  return expected;
+}
+
+FleetCheckpoint Admission::Save(std::uint64_t scenario) const {
+  return {.scenario = scenario,
+          .run = run_.Save(),
+          .seats = {roster_.Seats().begin(), roster_.Seats().end()}};
+}
+
+bool Admission::Restore(const FleetCheckpoint& checkpoint) {
+  if (!roster_.Restore(checkpoint.seats)) return false;
+  std::vector<VehicleOptions> joined;
+  for (const Seat& seat : checkpoint.seats) {
+    if (seat.spawn != 0) joined.push_back(roster_.OptionsOf(seat));
+  }
+  return run_.Restore(checkpoint.run, joined);
+}
+
+}  // namespace giveway::sim

@@ -1,0 +1,81 @@
+// The door between a running world and those who want in: keeps join requests until a seat is free
+// for them, puts bodies into the run and takes them away, and says what each session is to be told.
+// A vehicle drives on only from where it is told that its body stands.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "services/types/fleet_facts.h"
+#include "services/types/scenario.h"
+#include "sim_world/run/roster.h"
+#include "sim_world/run/run.h"
+
+namespace giveway::sim {
+
+class Admission {
+ public:
+  // Sessions that wait at one time; what more ask is passed over until they ask again. A tick's
+  // work is bounded by it.
+  static constexpr std::size_t kMostWaiting = 64;
+
+  // `run` outlives this object.
+  Admission(const Scenario& scenario, WorldEpoch epoch, Run* run);
+
+  // Asks, or leaves. Who waits asks again and again: whoever does not is forgotten.
+  void Take(const JoinRequest& request);
+  // Once a tick, after the run's Advance: seats of bodies that were taken away are free again.
+  void FollowRun();
+  // Whose bodies were taken away since the last call: they are told nothing else any more than what
+  // Answer says after it.
+  std::vector<VehicleId> TakeGone();
+  // What there is to tell since the last call, in this order. Before the run's Advance.
+  std::vector<RosterEntry> Answer();
+  // Everyone in is told anew, with the run's present state and this reason.
+  std::vector<RosterEntry> TellAll(const std::string& reason);
+
+  // Who was told that they are in, in this epoch.
+  const std::map<VehicleId, RosterEntry>& Told() const { return told_; }
+  // Requests that found the waiting list full.
+  std::uint32_t PassedOver() const { return passed_over_; }
+  // Seats in use, told or not: after Restore nobody was told yet.
+  std::vector<VehicleId> Expected() const;
+
+  FleetCheckpoint Save(std::uint64_t scenario) const;
+  // False, and neither this nor its run is of use any more, if it is not of this scenario.
+  bool Restore(const FleetCheckpoint& checkpoint);
+
+ private:
+  // A session that still waits.
+  struct Waiting {
+    JoinRequest request;
+    Tick since = kNoTick;
+    Tick asked = kNoTick;  // last
+    std::string told;      // the last reason it was told
+  };
+  // What became of a request in this tick; nothing if there is nothing to tell.
+  struct Result {
+    bool waits = false;
+    std::optional<RosterEntry> tell;
+  };
+
+  Result Try(Waiting* waiting);
+  void LetIn(RosterEntry entry);
+  bool MayTakeOver(VehicleId vehicle) const;
+  bool IsFree(const VehicleOptions& options) const;
+  void Leave(const SessionId& session);
+
+  Run& run_;
+  bool open_;
+  std::uint32_t patience_ticks_;
+  Roster roster_;
+  std::vector<Waiting> waiting_;  // in order of asking
+  std::map<VehicleId, RosterEntry> told_;
+  std::vector<VehicleId> gone_;
+  std::vector<RosterEntry> to_tell_;
+  std::uint32_t passed_over_ = 0;
+};
+
+}  // namespace giveway::sim

@@ -1,0 +1,70 @@
+// Watches a run by the truth and says what happened: who halted to give way, who went on, who
+// arrived, who touched. It decides nothing about the run's end.
+//
+// A vehicle has arrived while it stands in its goal: its process drives it, it came to a standstill
+// with the axle centre within the goal's radius, and it has not left the circle since. Driving
+// through is no arrival, and who leaves again has not arrived. A route that loops has no goal.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "services/types/scenario.h"
+#include "sim_world/body.h"
+#include "sim_world/run/event_log.h"
+#include "sim_world/run/expectation.h"
+#include "sim_world/separation.h"
+
+namespace giveway::sim {
+
+class Judge {
+ public:
+  explicit Judge(const Scenario& scenario);
+
+  // Takes in one tick of the run, time_s after its start.
+  void Observe(double time_s, std::span<const Body> bodies, std::span<const Contact> contacts,
+               EventLog* log);
+
+  bool HasArrived(VehicleId vehicle) const;
+  // Everyone who ever halted to give way, and everyone who arrived; sorted.
+  std::vector<VehicleId> Halted() const;
+  std::vector<VehicleId> Arrived() const;
+  // The rules that began the halts; sorted, each once.
+  std::vector<Rule> HaltedFor() const;
+  // Seconds from the start to the last arrival so far; none before the first.
+  std::optional<double> LastArrival() const;
+
+  // The vehicle is put on its start pose anew: it has yet to arrive. What it did before still
+  // counts among Halted and Arrived.
+  void BeginAnew(VehicleId vehicle);
+
+  // The vehicle is gone, for good as it seems. What it did that counts in the verdict is kept, of
+  // so many at most.
+  void Forget(VehicleId vehicle);
+
+  // What is remembered of one vehicle.
+  struct Track {
+    VehicleId vehicle = kNobody;
+    std::uint32_t still_ticks = 0;  // in a row, standing for a give-way reason
+    bool halted = false;            // stands, after a halt that was logged
+    bool halted_once = false;
+    Rule stopping_for = Rule::kCruise;  // the first of the give-way rules in a row; else kCruise
+    std::uint32_t halted_for = 0;       // bit i: rule i began a halt
+    bool arrived_before = false;        // and was put on its start pose again since
+    std::optional<double> arrived_s;    // stands in its goal since then
+  };
+  std::span<const Track> Tracks() const { return tracks_; }
+  void Restore(std::span<const Track> tracks) { tracks_.assign(tracks.begin(), tracks.end()); }
+
+ private:
+  Track& TrackOf(std::size_t body, VehicleId vehicle);
+  void WatchGoal(double time_s, const Body& body, Track* track, EventLog* log) const;
+  void WatchHalt(const Body& body, Track* track, EventLog* log) const;
+
+  std::uint32_t halt_ticks_;
+  std::vector<Track> tracks_;  // by id, as the bodies are
+};
+
+}  // namespace giveway::sim

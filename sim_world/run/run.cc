@@ -1,0 +1,320 @@
+#include "sim_world/run/run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "services/types/check.h"
+#include "sim_world/geometry/ticks.h"
+
+namespace giveway::sim {
+namespace {
+
+constexpr Nanoseconds kToldGone{1'000'000'000};  // observers hear best effort, once a tick
+constexpr double kBeforeStart_s = -1;            // Truth::time_s while the start is still to come
+
+std::optional<std::uint32_t> DurationTicks(const Scenario& scenario) {
+  if (IsEndless(scenario)) return std::nullopt;
+  return TicksCovering(FromSeconds(scenario.duration_s), scenario.tick_period);
+}
+
+}  // namespace
+
+Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
+    : scenario_(scenario),
+      open_(!scenario.spawns.empty()),
+      epoch_(epoch),
+      world_(scenario, epoch, std::move(parallel)),
+      signals_(scenario),
+      faults_(scenario),
+      judge_(scenario),
+      attendance_(scenario),
+      log_(epoch),
+      duration_ticks_(DurationTicks(scenario)) {
+  scans_.reserve(scenario.vehicles.size());
+  truths_.reserve(scenario.vehicles.size());
+}
+
+void Run::Join(VehicleId vehicle) {
+  world_.Join(vehicle);
+  attendance_.Join(vehicle, world_.Now());
+}
+
+void Run::Join(const VehicleOptions& options) {
+  if (BodyOf(options.id) == nullptr) {
+    world_.Join(options);
+    judge_.BeginAnew(options.id);
+  }
+  attendance_.Join(options.id, world_.Now());
+  faults_.Return(options.id);
+  if (state_ == RunState::kRunning) Announce(EventKind::kJoined, options.id);
+}
+
+void Run::Leave(VehicleId vehicle) {
+  attendance_.Leave(vehicle);
+  if (BodyOf(vehicle) == nullptr) return;
+  Announce(EventKind::kLeft, vehicle);
+  TakeAway(vehicle);
+  if (!open_ && state_ == RunState::kRunning) End("vehicle_left");
+}
+
+void Run::Announce(EventKind kind, VehicleId vehicle) {
+  comings_and_goings_.push_back(
+      {.kind = kind,
+       .vehicle = vehicle,
+       .position_world = BodyOf(vehicle)->world_from_body.position_world});
+}
+
+const Body* Run::BodyOf(VehicleId vehicle) const {
+  const auto body = std::ranges::lower_bound(world_.Bodies(), vehicle, {}, &Body::vehicle);
+  const bool there = body != world_.Bodies().end() && body->vehicle == vehicle && body->present;
+  return there ? &*body : nullptr;
+}
+
+void Run::Locate(const VehicleOptions& options, RosterEntry* entry) const {
+  const Body* body = BodyOf(options.id);
+  if (body == nullptr) return;
+  entry->start_world = body->world_from_body;
+  entry->tick = Now();
+  entry->counted = body->counted;
+  entry->task = OnRoute(options.route, body->command.task);
+}
+
+bool Run::EveryoneJoined() const {
+  return std::ranges::all_of(world_.Bodies(), [](const Body& body) { return body.joined; });
+}
+
+void Run::Start() {
+  GIVEWAY_CHECK(state_ == RunState::kWaiting);
+  state_ = RunState::kRunning;
+  started_ = true;
+  attendance_.Start(world_.Now());
+}
+
+void Run::End(std::string reason) {
+  GIVEWAY_CHECK(!reason.empty());
+  if (state_ != RunState::kEnded) asked_end_ = std::move(reason);
+}
+
+double Run::TimeSeconds() const { return ticks_run_ * Seconds(scenario_.tick_period); }
+
+void Run::TakeAway(VehicleId vehicle) {
+  world_.Remove(vehicle);
+  std::erase_if(gone_, [&](const Gone& gone) { return gone.vehicle == vehicle; });
+  const bool named =
+      std::ranges::binary_search(scenario_.vehicles, vehicle, {}, &VehicleOptions::id);
+  if (!named) gone_.push_back({vehicle, world_.Now()});
+}
+
+void Run::ForgetGone() {
+  forgotten_.clear();
+  const std::uint32_t told_ticks = TicksCovering(kToldGone, scenario_.tick_period);
+  std::erase_if(gone_, [&](const Gone& gone) {
+    if (BodyOf(gone.vehicle) != nullptr) return true;
+    if (TicksBetween(gone.since, world_.Now()) < told_ticks) return false;
+    world_.Forget(gone.vehicle);
+    attendance_.Leave(gone.vehicle);
+    judge_.Forget(gone.vehicle);
+    forgotten_.push_back(gone.vehicle);
+    return true;
+  });
+}
+
+void Run::Advance(std::span<const MotorCommand> commands) {
+  ForgetGone();
+  Take(commands);
+  const bool running = state_ == RunState::kRunning;
+  world_.Advance(running);
+  if (running) ++ticks_run_;
+  log_.BeginTick(world_.Now(), TimeSeconds());
+  for (WorldEvent& event : comings_and_goings_) log_.Add(std::move(event));
+  comings_and_goings_.clear();
+  if (running) Observe();
+  if (state_ != RunState::kEnded) CheckEnd();
+  Publish();
+}
+
+void Run::Observe() {
+  if (ticks_run_ == 1) {
+    const auto fleet = std::ranges::count_if(world_.Bodies(), &Body::joined);
+    log_.Add({.kind = EventKind::kStarted, .value = static_cast<double>(fleet)});
+  }
+  judge_.Observe(TimeSeconds(), world_.Bodies(), world_.NewContacts(), &log_);
+  FollowFaults();
+  FollowAttendance();
+}
+
+void Run::Take(std::span<const MotorCommand> commands) {
+  for (const MotorCommand& command : commands) {
+    const bool silent = attendance_.IsSilent(command.vehicle);
+    if (silent && !MayReturn(command.vehicle)) continue;
+    if (!world_.Take(command)) continue;
+    if (silent) {
+      attendance_.Join(command.vehicle, world_.Now());
+      Announce(EventKind::kJoined, command.vehicle);
+    }
+    attendance_.Heard(command.vehicle, After(world_.Now(), 1));
+  }
+}
+
+void Run::AsksAgain(VehicleId vehicle) {
+  if (!attendance_.IsSilent(vehicle)) attendance_.Join(vehicle, world_.Now());
+}
+
+// In a closed run silence is for good. In an open one the network may have been away for a while.
+bool Run::MayReturn(VehicleId vehicle) const { return open_ && BodyOf(vehicle) != nullptr; }
+
+void Run::FollowFaults() {
+  for (const PlannedFault& fault : faults_.Observe(TimeSeconds(), world_.Bodies(), &log_)) {
+    signals_.Fail(fault.signal, fault.kind);
+  }
+}
+
+void Run::FollowAttendance() {
+  const Tick now = world_.Now();
+  for (VehicleId silent; (silent = attendance_.TakeNewlySilent(now)) != kNobody;) {
+    log_.Add({.kind = EventKind::kSilent, .vehicle = silent});
+    if (!open_ && !faults_.IsKilled(silent)) end_reason_ = "process_died";
+  }
+  for (VehicleId gone; (gone = attendance_.TakeOverdueBody(now)) != kNobody;) {
+    TakeAway(gone);
+    log_.Add({.kind = EventKind::kRemoved, .vehicle = gone});
+  }
+}
+
+void Run::CheckEnd() {
+  if (end_reason_.empty() && !asked_end_.empty()) end_reason_ = asked_end_;
+  if (end_reason_.empty() && state_ == RunState::kRunning) {
+    if (!open_ && EveryoneLivingArrived()) {
+      end_reason_ = "all_arrived";
+    } else if (!open_ && IsEveryoneSilent()) {
+      end_reason_ = "no_vehicle_lives";
+    } else if (duration_ticks_ && ticks_run_ >= *duration_ticks_) {
+      end_reason_ = "duration_over";
+    }
+  }
+  if (!end_reason_.empty()) Finish();
+}
+
+// A vehicle without a goal never arrives, and a silent one is not waited for.
+bool Run::EveryoneLivingArrived() const {
+  bool anyone = false;
+  for (const Body& body : world_.Bodies()) {
+    if (!body.joined || attendance_.IsSilent(body.vehicle)) continue;
+    if (!judge_.HasArrived(body.vehicle)) return false;
+    anyone = true;
+  }
+  return anyone;
+}
+
+// Whatever was planned: a run in which no vehicle drives any more shows nothing.
+bool Run::IsEveryoneSilent() const {
+  return std::ranges::all_of(world_.Bodies(), [&](const Body& body) {
+    return !body.joined || attendance_.IsSilent(body.vehicle);
+  });
+}
+
+Outcome Run::TheOutcome() const {
+  Outcome outcome;
+  outcome.contacts = world_.Contacts();
+  outcome.halted = judge_.Halted();
+  outcome.halted_for = judge_.HaltedFor();
+  outcome.arrived = judge_.Arrived();
+  outcome.parted = world_.Approaches().Parted(world_.Bodies());
+  if (const auto& closest = world_.Approaches().Closest()) {
+    outcome.min_separation_m = closest->gap_m;
+  }
+  const bool cleared = std::ranges::all_of(world_.Bodies(), [&](const Body& body) {
+    return !body.joined || !body.goal.set || attendance_.IsSilent(body.vehicle) ||
+           judge_.HasArrived(body.vehicle);
+  });
+  if (cleared) outcome.time_to_clear_s = judge_.LastArrival();
+  return outcome;
+}
+
+void Run::Finish() {
+  const Outcome outcome = TheOutcome();
+  if (const auto& closest = world_.Approaches().Closest()) {
+    log_.Add({.kind = EventKind::kClosest,
+              .vehicle = closest->vehicle,
+              .other = closest->other,
+              .position_world = closest->position_world,
+              .other_position_world = closest->other_position_world,
+              .value = closest->gap_m});
+  }
+  const bool came_to_its_end = end_reason_ == "all_arrived" || end_reason_ == "duration_over";
+  const std::string unmet = came_to_its_end ? Unmet(scenario_.expect, outcome) : end_reason_;
+  figures_ = {.epoch = epoch_,
+              .passed = unmet.empty(),
+              .reason = unmet.empty() ? "expectations_met" : unmet,
+              .contacts = outcome.contacts,
+              .min_separation_m = outcome.min_separation_m,
+              .time_to_clear_s = outcome.time_to_clear_s,
+              .ticks = ticks_run_,
+              .state_hash = Hash()};
+  state_ = RunState::kEnded;
+  log_.Add({.kind = EventKind::kEnded, .text = end_reason_});
+  log_.Add(
+      {.kind = EventKind::kVerdict, .value = figures_.passed ? 1.0 : 0.0, .text = figures_.reason});
+}
+
+void Run::Publish() {
+  truths_.clear();
+  further_.Sense(epoch_, &world_);
+  const double time_s = started_ ? TimeSeconds() : kBeforeStart_s;
+  signals_.Advance(time_s, epoch_, world_.Now());
+  std::size_t scans = 0;
+  scans_.resize(world_.Bodies().size());  // those of the tick before are written over
+  for (const Body& body : world_.Bodies()) {
+    if (!body.joined) continue;
+    truths_.push_back({.vehicle = body.vehicle,
+                       .epoch = epoch_,
+                       .tick = world_.Now(),
+                       .time_s = time_s,
+                       .world_from_body = body.world_from_body,
+                       .wheels = body.wheels,
+                       .forward_m_s = body.ForwardSpeed(),
+                       .present = body.present,
+                       .arrived = judge_.HasArrived(body.vehicle)});
+    if (!body.present) continue;
+    RangeScan& scan = scans_[scans++];
+    scan.vehicle = body.vehicle;
+    scan.epoch = epoch_;
+    scan.tick = world_.Now();
+    scan.run_state = state_;
+    scan.wheels = body.encoders;
+    scan.counted = body.counted;
+    scan.readings = body.sonar.readings;
+  }
+  scans_.resize(scans);
+}
+
+std::uint64_t Run::Hash() const {
+  StateHash hash;
+  hash.Add(ticks_run_);
+  world_.AddTo(&hash);
+  return hash.Value();
+}
+
+// A run's way through the end of its process: what a checkpoint keeps of it.
+RunCheckpoint Run::Save() const {
+  return {.epoch = epoch_,
+          .started = started_,
+          .ticks_run = ticks_run_,
+          .faults = {faults_.States().begin(), faults_.States().end()},
+          .tracks = {judge_.Tracks().begin(), judge_.Tracks().end()},
+          .attendance = {attendance_.Entries().begin(), attendance_.Entries().end()},
+          .world = world_.Save()};
+}
+
+bool Run::Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined) {
+  for (const VehicleOptions& options : joined) world_.Join(options);
+  if (!faults_.Restore(checkpoint.faults) || !world_.Restore(checkpoint.world)) return false;
+  judge_.Restore(checkpoint.tracks);
+  attendance_.Restore(checkpoint.attendance);
+  for (const PlannedFault& fault : faults_.Lasting()) signals_.Fail(fault.signal, fault.kind);
+  started_ = checkpoint.started;
+  ticks_run_ = checkpoint.ticks_run;
+  return true;
+}
+
+}  // namespace giveway::sim

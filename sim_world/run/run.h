@@ -1,0 +1,147 @@
+// One run of a scenario: the world, its faults and its judge, advanced tick by tick. Pure: the
+// caller brings commands and takes scans, truths and events away. world_main wires it to DDS, the
+// virtual fleet wires it to brains in memory.
+//
+// A closed run knows everybody from the start and ends when its vehicles have arrived or one dies.
+// In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration. Where
+// that is without an end, until End is called.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/types/fleet_facts.h"
+#include "services/types/motor_command.h"
+#include "services/types/parallel.h"
+#include "services/types/range_scan.h"
+#include "services/types/scenario.h"
+#include "sim_world/further_sensing.h"
+#include "sim_world/run/attendance.h"
+#include "sim_world/run/event_log.h"
+#include "sim_world/run/fault_plan.h"
+#include "sim_world/run/judge.h"
+#include "sim_world/run/run_checkpoint.h"
+#include "sim_world/run/signals.h"
+#include "sim_world/world.h"
+
+namespace giveway::sim {
+
+class Run {
+ public:
+  Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel = OnThisThread);
+
+  // Puts the body of one of the scenario's vehicles on its start pose.
+  void Join(VehicleId vehicle);
+  // The same for any vehicle, also while the run is under way. A body that still stands, since the
+  // vehicle had fallen silent, stays where it is and is the vehicle's again.
+  void Join(const VehicleOptions& options);
+  // A vehicle that is in the run asks for its place with the same session: its process has
+  // restarted itself, and its new endpoints must be found before it is heard again.
+  void AsksAgain(VehicleId vehicle);
+  // The vehicle said good-bye: its body is taken away. Ends a closed run that is under way.
+  void Leave(VehicleId vehicle);
+  bool EveryoneJoined() const;
+  // The start signal: from the next tick on bodies move and time counts.
+  void Start();
+  // Ends the run before its time, with the next Advance: that one brings the closing events. A run
+  // ended so has not passed. Without effect once the run has ended.
+  void End(std::string reason);
+
+  // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
+  // when the duration is over; a closed run also when everyone living has arrived, when a vehicle
+  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans go on,
+  // and nothing is judged any more.
+  void Advance(std::span<const MotorCommand> commands);
+
+  Tick Now() const { return world_.Now(); }
+  RunState State() const { return state_; }
+  double TimeSeconds() const;  // since the start signal, without pauses; 0 before it
+  // What the last Advance produced; valid until the next. Scans are of the bodies present, truths
+  // of everyone who joined.
+  std::span<const RangeScan> Scans() const { return scans_; }
+  std::span<const RadarScan> Radars() const { return further_.Radars(); }
+  std::span<const LidarScan> Lidars() const { return further_.Lidars(); }
+  std::span<const CameraScan> Cameras() const { return further_.Cameras(); }
+  std::span<const SignalState> Signals() const { return signals_.States(); }
+  std::span<const Truth> Truths() const { return truths_; }
+  std::span<const WorldEvent> Events() const { return log_.Events(); }
+  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or what End
+  // was given; empty while it runs.
+  const std::string& EndReason() const { return end_reason_; }
+  // Verdict and figures; complete once State() is kEnded. Reaction times are the caller's.
+  RunFigures Figures() const { return figures_; }
+  std::uint32_t Contacts() const { return world_.Contacts(); }
+  const CommandCounters& Commands() const { return world_.Commands(); }
+  // Of ticks since the start signal, poses, wheels and contacts: equal runs have equal hashes
+  // however long they waited.
+  std::uint64_t Hash() const;
+
+  // Says in an answer to a vehicle where its body is now, and how far its task; nothing where it
+  // has no body.
+  void Locate(const VehicleOptions& options, RosterEntry* entry) const;
+  // Whom the last Advance forgot, whom nothing more is told of: vehicles that are not the
+  // scenario's, a second after their bodies were taken away.
+  std::span<const VehicleId> Forgotten() const { return forgotten_; }
+
+  // Null if no body of the vehicle is in the world.
+  const Body* BodyOf(VehicleId vehicle) const;
+  bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
+  // True if nobody speaks for the vehicle any more, or yet.
+  bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
+
+  // All that a run of the same scenario in a new epoch needs to go on from here.
+  RunCheckpoint Save() const;
+  // Goes on from there, paused: bodies brake and time stands still until Start. `joined` are the
+  // vehicles the checkpoint names that are not the scenario's. False, and this run is of no use any
+  // more, if the checkpoint is not of this scenario.
+  bool Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined);
+
+ private:
+  struct Gone {
+    VehicleId vehicle = kNobody;
+    Tick since = kNoTick;
+  };
+
+  void Take(std::span<const MotorCommand> commands);
+  void TakeAway(VehicleId vehicle);
+  void ForgetGone();
+  bool MayReturn(VehicleId vehicle) const;
+  void Announce(EventKind kind, VehicleId vehicle);
+  void Observe();
+  void FollowFaults();
+  void FollowAttendance();
+  void CheckEnd();
+  bool EveryoneLivingArrived() const;
+  bool IsEveryoneSilent() const;
+  void Finish();
+  Outcome TheOutcome() const;
+  void Publish();
+
+  Scenario scenario_;
+  bool open_;
+  WorldEpoch epoch_;
+  World world_;
+  FurtherSensing further_;
+  SignalHeads signals_;
+  FaultPlan faults_;
+  Judge judge_;
+  Attendance attendance_;
+  EventLog log_;
+  RunState state_ = RunState::kWaiting;
+  std::optional<std::uint32_t> duration_ticks_;  // empty: until End
+  bool started_ = false;                         // the start signal was given
+  std::uint32_t ticks_run_ = 0;                  // since then, without pauses
+  std::vector<WorldEvent> comings_and_goings_;   // since the last tick
+  std::vector<Gone> gone_;                       // still told of, as not present
+  std::vector<VehicleId> forgotten_;
+  std::string asked_end_;
+  std::string end_reason_;
+  RunFigures figures_;
+  std::vector<RangeScan> scans_;
+  std::vector<Truth> truths_;
+};
+
+}  // namespace giveway::sim

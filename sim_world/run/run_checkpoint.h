@@ -1,0 +1,40 @@
+// All of a run, and of who takes part in it, that a restarted world needs to go on: a value, and
+// the bytes of it. The bytes carry a version and a checksum; whatever is not exactly what ToBytes
+// wrote is refused. Knows no files.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "sim_world/checkpoint.h"
+#include "sim_world/run/attendance.h"
+#include "sim_world/run/fault_plan.h"
+#include "sim_world/run/judge.h"
+#include "sim_world/run/roster.h"
+
+namespace giveway::sim {
+
+struct RunCheckpoint {
+  WorldEpoch epoch = kNoEpoch;  // the one it was taken in
+  bool started = false;
+  std::uint32_t ticks_run = 0;
+  std::vector<FaultPlan::State> faults;
+  std::vector<Judge::Track> tracks;
+  std::vector<Attendance::Entry> attendance;
+  Checkpoint world;
+};
+
+struct FleetCheckpoint {
+  std::uint64_t scenario = 0;  // the caller's mark of the scenario: another one's is of no use
+  RunCheckpoint run;
+  std::vector<Seat> seats;
+};
+
+std::string ToBytes(FleetCheckpoint checkpoint);
+// The checkpoint, or why the bytes are none.
+std::variant<FleetCheckpoint, std::string> FromBytes(std::string_view bytes);
+
+}  // namespace giveway::sim

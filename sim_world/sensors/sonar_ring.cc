@@ -1,0 +1,152 @@
+#include "sim_world/sensors/sonar_ring.h"
+
+#include <algorithm>
+#include <ranges>
+
+#include "services/types/check.h"
+#include "services/types/math/math.h"
+#include "sim_world/geometry/geometry.h"
+
+namespace giveway::sim {
+namespace {
+
+// What is gathered may lie this much farther away than it could be heard from, so that rounding
+// loses nothing.
+constexpr double kRingSlack_m = 1e-9;
+
+void Keep(RangeReading* reading, std::optional<double> range_m) {
+  if (!range_m || (reading->kind == Echo::kEcho && reading->range_m <= *range_m)) return;
+  reading->kind = Echo::kEcho;
+  reading->range_m = *range_m;
+}
+
+}  // namespace
+
+SonarRing::SonarRing(const VehicleProfile& profile, SimdWidth width)
+    : kernel_(&KernelOf(width)), max_range_m_(profile.sonar_max_range_m) {
+  GIVEWAY_CHECK(profile.sonar_half_angle_rad > 0 && profile.sonar_half_angle_rad < kPi / 2,
+                profile.sonar_half_angle_rad);
+  const double cos_half = Cos(profile.sonar_half_angle_rad);
+  const double sin_half = Sin(profile.sonar_half_angle_rad);
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    const SensorMount& mount = profile.sonar[i];
+    cones_body_[i] = {.apex = mount.position_body,
+                      .axis = {Cos(mount.bearing_rad), Sin(mount.bearing_rad)},
+                      .cos_half = cos_half,
+                      .sin_half = sin_half,
+                      .max_range_m = max_range_m_};
+    enabled_[i] = mount.enabled;
+    if (!mount.enabled) continue;
+    sectors_ |= SectorOf(i);
+    apex_reach_m_ = std::max(apex_reach_m_, Norm(mount.position_body));
+  }
+  cones_ = RingOf(cones_body_);
+}
+
+bool operator==(const SonarRing& a, const SonarRing& b) {
+  return a.kernel_ == b.kernel_ && a.cones_ == b.cones_ && a.enabled_ == b.enabled_ &&
+         a.max_range_m_ == b.max_range_m_;
+}
+
+Lanes SonarRing::Hear(const Scene& scene, const Pose& world_from_body, Owner self,
+                      Incidence incidence, SectorSet sectors) const {
+  const Ear ear = {.position_world = world_from_body.position_world,
+                   .x_axis_world = Forward(world_from_body),
+                   .self = self,
+                   .reach_m = apex_reach_m_ + max_range_m_ + kRingSlack_m,
+                   .incidence = incidence,
+                   .sectors = sectors & sectors_};
+  Lanes range_m;
+  range_m.of.fill(kSilence_m);
+  HearDiscs(scene, ear, &range_m);
+  HearSegments(scene, ear, &range_m);
+  HearFromInBoxes(scene, ear, &range_m);
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    if (!enabled_[i] || range_m.of[i] > max_range_m_) range_m.of[i] = kSilence_m;
+  }
+  return range_m;
+}
+
+void SonarRing::HearDiscs(const Scene& scene, const Ear& ear, Lanes* range_m) const {
+  const SceneDiscs discs = scene.Discs();
+  NearDiscs near;
+  scene.DiscsNear(ear.position_world, ear.reach_m, [&](std::size_t begin, std::size_t end) {
+    while (begin < end) {
+      begin += kernel_->gather_discs(ear, discs, begin, end, &near);
+      if (begin >= end) return;
+      kernel_->hear_discs(cones_, ear, near, range_m);
+      near.Clear();
+    }
+  });
+  kernel_->hear_discs(cones_, ear, near, range_m);
+}
+
+void SonarRing::HearSegments(const Scene& scene, const Ear& ear, Lanes* range_m) const {
+  NearSegments near;
+  const auto hear = [&] {
+    kernel_->hear_segments(cones_, ear, near, range_m);
+    near.Clear();
+  };
+  const auto take_walls = [&](std::span<const std::uint32_t> walls) {
+    while (!walls.empty()) {
+      walls = walls.subspan(kernel_->gather_walls(ear, scene.Walls(), walls, &near));
+      if (!walls.empty()) hear();
+    }
+  };
+  if (ear.reach_m <= Scene::kListedReach_m) {
+    take_walls(scene.WallsListedAt(ear.position_world));
+  } else {
+    // Long walls come more than once: that costs time only.
+    scene.WallsNear(ear.position_world, ear.reach_m, [&](std::uint32_t wall) {
+      take_walls({&wall, 1});
+    });
+  }
+  scene.LooseSegmentsNear(ear.position_world, ear.reach_m, [&](const SceneSegment& segment) {
+    if (segment.owner == ear.self) return;
+    const Vec2 from = ear.ToBody(segment.from_world);
+    const Vec2 to = ear.ToBody(segment.to_world);
+    if (SquaredNorm(NearestOnSegment(from, to, {})) > ear.reach_m * ear.reach_m) return;
+    if (near.count == kNearListSize) hear();
+    near.Add(from, to);
+  });
+  if (near.count > 0) hear();
+}
+
+void SonarRing::HearFromInBoxes(const Scene& scene, const Ear& ear, Lanes* range_m) const {
+  scene.BoxesNear(ear.position_world, apex_reach_m_, [&](const SceneBox& box) {
+    if (box.owner == ear.self) return;
+    for (std::size_t i = 0; i < kSensorCount; ++i) {
+      if (box.Holds(ear.ToWorld(cones_body_[i].apex))) range_m->of[i] = 0;
+    }
+  });
+}
+
+Readings SonarRing::Sense(const Pose& world_from_body, Tick tick, std::span<const Disc> bodies,
+                          std::size_t self, std::span<const Wall> walls) const {
+  const Ear ear = {.position_world = world_from_body.position_world,
+                   .x_axis_world = Forward(world_from_body)};
+  Readings readings{};
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    if (!enabled_[i]) continue;
+    readings[i] = {.kind = Echo::kClear, .tick = tick};
+    const Cone& cone = cones_body_[i];
+    for (std::size_t body = 0; body < bodies.size(); ++body) {
+      if (body == self) continue;
+      Keep(&readings[i],
+           RangeToDisc(cone, ear.ToBody(bodies[body].centre_world), bodies[body].radius_m));
+    }
+    for (const Wall& wall : walls) {
+      Keep(&readings[i],
+           RangeToSegment(cone, ear.ToBody(wall.from_world), ear.ToBody(wall.to_world)));
+    }
+  }
+  return readings;
+}
+
+const SonarRing& SonarRings::Of(const VehicleProfile& profile) {
+  auto ring = std::make_unique<const SonarRing>(profile, width_);
+  const auto same = std::ranges::find_if(rings_, [&](const auto& held) { return *held == *ring; });
+  return same != rings_.end() ? **same : *rings_.emplace_back(std::move(ring));
+}
+
+}  // namespace giveway::sim

@@ -1,0 +1,34 @@
+// What the judges of a fleet see of one vehicle at one tick: by the truth, and by what it
+// published. Virtual runs fill it in from their brains, real ones from world/truth, beacons and
+// status.
+#pragma once
+
+#include "services/types/beacon.h"
+#include "services/types/ids.h"
+
+namespace giveway::sim {
+
+// Slower is standing.
+inline constexpr double kStandstill_m_s = 0.01;
+
+struct Observed {
+  VehicleId vehicle = kNobody;
+  bool present = false;  // its body stands in the world
+  bool lives = false;    // its process runs
+  bool arrived = false;
+  Vec2 position_world;
+  double forward_m_s = 0;
+  double rim_m_s = 0;       // of the faster wheel: what brakes is a wheel, not the middle
+  Tick answered = kNoTick;  // the scan its last command answers
+  Decision decision;        // as last published, like what follows
+  VehicleId gives_way_to = kNobody;
+  OrderKey order;
+  Tick stated = kNoTick;  // what its last beacon says of where it was at that tick
+  Vec2 stated_position_world;
+  PoseCovariance stated_covariance;
+};
+
+// Of the faster wheel.
+double RimSpeed(const DriveGeometry& drive, WheelSpeeds wheels);
+
+}  // namespace giveway::sim

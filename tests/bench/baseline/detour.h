@@ -1,0 +1,22 @@
+// The way a string takes that is pulled tight round discs in between: straight pieces that touch
+// the discs, and arcs along their rims.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "tests/bench/baseline/way.h"
+
+namespace giveway::bench {
+
+struct Standing {
+  Vec2 centre_world;
+  double radius_m = 0;  // the way keeps out of it
+};
+
+// From one place to another and straight on for beyond_m; it begins heading where it goes. Not
+// always the shortest. None if discs overlap so that none was found.
+std::optional<Way> WayRound(Vec2 from_world, Vec2 to_world, std::span<const Standing> discs,
+                            double beyond_m);
+
+}  // namespace giveway::bench

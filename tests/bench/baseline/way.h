@@ -1,0 +1,38 @@
+// A way along the ground, of straight pieces and arcs, given by the distance driven. No speeds.
+#pragma once
+
+#include <vector>
+
+#include "services/types/math/pose.h"
+
+namespace giveway::bench {
+
+struct WayPiece {
+  Pose world_from_start;
+  double length_m = 0;
+  double bend_per_m = 0;  // heading change a metre, counter-clockwise; 0: straight
+};
+
+class Way {
+ public:
+  // On from where the way ends so far, or from where it begins.
+  explicit Way(const Pose& world_from_start) : end_(world_from_start) {}
+  void Add(double length_m, double bend_per_m);
+
+  double Length_m() const { return length_m_; }
+  // Before the beginning and beyond the end: the nearest.
+  Pose PoseAt(double driven_m) const;
+  double BendAt(double driven_m) const;
+
+ private:
+  const WayPiece* PieceAt(double* driven_m) const;
+
+  std::vector<WayPiece> pieces_;
+  Pose end_;
+  double length_m_ = 0;
+};
+
+// Straight on from the pose.
+Way StraightWay(const Pose& world_from_start, double length_m);
+
+}  // namespace giveway::bench

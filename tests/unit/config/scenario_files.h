@@ -1,0 +1,41 @@
+// Scenario files for the tests of config: a folder that vanishes, and a good text to spoil.
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/config/problem.h"
+#include "services/config/scenario_overrides.h"
+
+namespace giveway {
+
+// A folder of its own, removed with everything in it.
+class TempFolder {
+ public:
+  TempFolder();
+  ~TempFolder();
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+  const std::string& Path() const { return path_; }
+  // Writes a file and gives its path.
+  std::string Write(const std::string& name, std::string_view text) const;
+
+ private:
+  std::string path_;
+};
+
+// Two vehicles, a wall, a fault and an expectation, all in order; the lines are counted on.
+extern const std::string kGoodScenario;
+
+// kGoodScenario with the one place where `from` stands replaced.
+std::string Spoilt(std::string_view from, std::string_view to);
+Scenario Load(const std::string& text, const ScenarioOverrides& overrides = {});
+// What is wrong with a scenario text; empty if it loads.
+std::vector<Problem> ProblemsOf(const std::string& text, const ScenarioOverrides& overrides = {});
+
+// For the messages of failed tests.
+inline void PrintTo(const Problem& problem, std::ostream* out) { *out << Format({problem}); }
+
+}  // namespace giveway

@@ -1,0 +1,103 @@
+// A failing run is reduced to what makes it fail, and the file that is left fails in the same way.
+#include "services/fleetctl/virtual/shrink.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "services/config/scenario_file.h"
+#include "services/config/scenario_write.h"
+#include "services/fleetctl/virtual/shrinker.h"
+#include "sim_world/virtual/generators.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+const ShrinkProgress kGoOn = [](const VirtualCase& /*smallest*/, std::uint32_t /*tries*/) {
+  return true;
+};
+
+// Six that drive by wheel rates alone; two of them head on, which ends in a contact.
+VirtualCase HeadOnAmongOthers() {
+  VirtualCase made;
+  made.scenario.name = "head_on";
+  made.scenario.duration_s = 60;
+  for (std::uint32_t i = 0; i < 6; ++i) {
+    VehicleOptions options;
+    options.id = VehicleId{i + 1};
+    options.profile = PioneerP3dx();
+    options.behaviour = Behaviour::kLectureAvoid;
+    options.braitenberg = {};  // no weights: straight on
+    options.start_world = {.position_world = {0, 12.0 * i}};
+    made.scenario.vehicles.push_back(options);
+  }
+  made.scenario.vehicles[4].start_world = {.position_world = {3.12345, 0}, .heading_rad = 3.14159};
+  made.scenario.walls = {{{-5, 20}, {-5, 22}}};
+  made.plan.radio.loss = 0.1;
+  made.plan.radio.jitter = Nanoseconds(70'000'000);
+  made.plan.faults = {
+      {.kind = sim::ProcessFaultKind::kPause, .vehicle = VehicleId{1}, .at_s = 50, .for_s = 0.2},
+      {.kind = sim::ProcessFaultKind::kPause, .vehicle = VehicleId{3}, .at_s = 1, .for_s = 0.2}};
+  return made;
+}
+
+TEST(Shrinking, LeavesOnlyTheTwoThatTouch) {
+  const auto shrunk = Shrink(HeadOnAmongOthers(), kGoOn);
+  ASSERT_TRUE(shrunk);
+  const Scenario& left = shrunk->made.scenario;
+  ASSERT_EQ(left.vehicles.size(), 2U);
+  EXPECT_EQ(left.vehicles[0].id, VehicleId{1});
+  EXPECT_EQ(left.vehicles[1].id, VehicleId{5});
+  EXPECT_EQ(shrunk->violation.invariant, sim::Invariant::kContact);
+  EXPECT_TRUE(left.walls.empty());
+  EXPECT_TRUE(shrunk->made.plan.faults.empty());
+  EXPECT_EQ(shrunk->made.plan.radio.loss, 0);
+  EXPECT_EQ(shrunk->made.plan.radio.jitter, Nanoseconds(0));
+  EXPECT_LE(left.duration_s, 12);
+  EXPECT_EQ(left.vehicles[1].start_world.position_world.x, 3.123);
+}
+
+TEST(Shrinking, TheFileFailsAsTheRunDid) {
+  const auto shrunk = Shrink(HeadOnAmongOthers(), kGoOn);
+  ASSERT_TRUE(shrunk);
+  Scenario scenario = shrunk->made.scenario;
+  scenario.vehicles[0].braitenberg = scenario.vehicles[1].braitenberg = LectureWeights();
+  const auto before = sim::RunVirtually(scenario, shrunk->made.plan);
+  const std::string file =
+      testing::TempDir() + "/shrunk_" + std::to_string(getpid()) + ".textproto";
+  std::ofstream(file) << WriteScenario(scenario, "left");
+  const Scenario read = LoadScenario(file, {});
+  std::filesystem::remove(file);
+  EXPECT_EQ(sim::RunVirtually(read, shrunk->made.plan).hash, before.hash);
+}
+
+TEST(Shrinking, TakesNothingFromARunThatHolds) {
+  VirtualCase fine;
+  fine.scenario = sim::MakeConvoy({2, 1});
+  EXPECT_FALSE(Shrink(fine, kGoOn));
+}
+
+TEST(Shrinking, StopsWhenItIsToldTo) {
+  const auto shrunk = Shrink(HeadOnAmongOthers(), [](const VirtualCase& /*smallest*/,
+                                                     std::uint32_t tries) { return tries < 3; });
+  ASSERT_TRUE(shrunk);
+  EXPECT_EQ(shrunk->tries, 3U);
+}
+
+TEST(ReplayFlags, NameEverythingThatGoesWrong) {
+  sim::VirtualPlan plan;
+  EXPECT_EQ(ReplayFlags(plan), "");
+  plan.seed = 17;
+  plan.radio.loss = 0.125;
+  plan.radio.jitter = Nanoseconds(60'000'000);
+  plan.faults = {
+      {.kind = sim::ProcessFaultKind::kRestart, .vehicle = VehicleId{3}, .at_s = 4.5, .for_s = 0.5},
+      {.kind = sim::ProcessFaultKind::kCrash, .vehicle = VehicleId{2}, .at_s = 8}};
+  EXPECT_EQ(ReplayFlags(plan),
+            " --loss 12.5 --jitter 60 --radio-seed 17 --fault restart:3@4.5+0.5 --fault crash:2@8");
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl

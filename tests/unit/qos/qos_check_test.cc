@@ -1,0 +1,112 @@
+#include <gmock/gmock.h>
+
+#include "services/qos/check.h"
+#include "services/qos/xml_tree.h"
+#include "tests/unit/qos/qos_files.h"
+
+namespace giveway::qos {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Field;
+using ::testing::IsEmpty;
+
+Findings CheckBytes(const std::string& bytes) { return Check({{"qos.xml", bytes}}, {}); }
+
+auto OfRule(const std::string& rule) { return Contains(Field(&Finding::rule, rule)); }
+
+TEST(Check, FindsNothingInTheShippedSets) {
+  for (const auto& file : XmlFilesIn(GIVEWAY_QOS_SETS)) {
+    for (const std::int64_t vehicles : {2, 8, 50, 100}) {
+      const Findings findings =
+          Check({{file.filename(), BytesOf(file)}}, Deployment{.vehicles = vehicles});
+      EXPECT_THAT(findings, IsEmpty())
+          << file << " with " << vehicles << " vehicles: " << findings.front().rule << " at "
+          << findings.front().place.line;
+    }
+  }
+}
+
+TEST(Check, RefusesAnEmptyFileABinaryOneAndOneTooLarge) {
+  EXPECT_THAT(CheckBytes(""), OfRule("empty_file"));
+  EXPECT_THAT(CheckBytes(" \n\t\n"), OfRule("empty_file"));
+  EXPECT_THAT(CheckBytes(std::string("\177ELF\0\1\2", 7)), OfRule("not_text"));
+  EXPECT_THAT(CheckBytes(std::string(10U << 20U, ' ') + "<dds/>"), OfRule("file_too_large"));
+}
+
+TEST(Check, RefusesAFileOfMoreElementsThanAPersonWrites) {
+  std::string bytes = "<dds>";
+  for (int i = 0; i < 200'000; ++i) bytes += "<a/>";
+  EXPECT_THAT(CheckBytes(bytes + "</dds>"), OfRule("file_too_large"));
+}
+
+TEST(Check, RefusesNestingWithoutEndInsteadOfFollowingIt) {
+  std::string bytes;
+  for (int i = 0; i < 100'000; ++i) bytes += "<dds>";
+  EXPECT_THAT(CheckBytes(bytes), OfRule("malformed_xml"));
+}
+
+TEST(Check, NamesTheLineOfTheElementThatIsNotClosed) {
+  const Findings findings = CheckBytes("<dds>\n<profiles>\n</profile>\n</dds>\n");
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings.front().rule, "malformed_xml");
+  EXPECT_EQ(findings.front().place.line, 2);
+}
+
+TEST(Check, StopsCountingAtANumberAPersonReads) {
+  std::string bytes = "<dds><profiles>";
+  for (int i = 0; i < 5000; ++i) bytes += "<data_writer profile_name=\"w\"/>";
+  const Findings findings = CheckBytes(bytes + "</profiles></dds>");
+  EXPECT_EQ(findings.size(), kMostFindings + 1);
+  EXPECT_EQ(findings.back().rule, "more_findings");
+  EXPECT_EQ(ExitCode(findings), 2);
+}
+
+// Both sets are whole and clean; only together do they starve a reader.
+TEST(Check, HoldsTheWritersOfOneFileAgainstTheReadersOfAnother) {
+  const std::string good = BytesOf(std::string(GIVEWAY_QOS_SETS) + "/default.xml");
+  std::string other = good;
+  for (std::size_t at; (at = other.find("150000000")) != std::string::npos;) {
+    other.replace(at, 9, "120000000");
+  }
+  for (std::size_t at; (at = other.find(">100000000")) != std::string::npos;) {
+    other.replace(at, 10, ">110000000");
+  }
+  std::string slow = good;
+  for (std::size_t at; (at = slow.find(">100000000")) != std::string::npos;) {
+    slow.replace(at, 10, ">140000000");
+  }
+  EXPECT_THAT(Check({{"other.xml", other}}, {}), IsEmpty());
+  EXPECT_THAT(Check({{"slow.xml", slow}}, {}), IsEmpty());
+  const Findings findings = Check({{"slow.xml", slow}, {"other.xml", other}}, {});
+  EXPECT_THAT(findings, OfRule("deadline_mismatch"));
+  for (const Finding& finding : findings) {
+    EXPECT_EQ(finding.rule, "deadline_mismatch");
+    EXPECT_EQ(finding.place.file, "other.xml");
+  }
+}
+
+TEST(Check, GivesBothValuesOfAMismatchWithTheirLines) {
+  const Findings findings = Check({{"qos.xml", R"(<dds><profiles>
+<data_writer profile_name="fleet_beacon_writer"><qos>
+  <deadline><period><nanosec>200000000</nanosec></period></deadline>
+</qos></data_writer>
+<data_reader profile_name="fleet_beacon_reader"><qos>
+  <deadline><period><nanosec>150000000</nanosec></period></deadline>
+</qos></data_reader></profiles></dds>)"}},
+                                  Deployment{.complete = false});
+  const auto found = std::ranges::find(findings, "deadline_mismatch", &Finding::rule);
+  ASSERT_NE(found, findings.end());
+  EXPECT_EQ(found->place.line, 6);
+  EXPECT_EQ(found->values,
+            "the writer offers 200 ms (line 3), the reader requests 150 ms (line 6)");
+}
+
+TEST(Check, ExitsCleanWithWarningsOrWithErrors) {
+  EXPECT_EQ(ExitCode({}), 0);
+  EXPECT_EQ(ExitCode({{.severity = Severity::kWarning}}), 1);
+  EXPECT_EQ(ExitCode({{.severity = Severity::kWarning}, {.severity = Severity::kError}}), 2);
+}
+
+}  // namespace
+}  // namespace giveway::qos

@@ -1,0 +1,142 @@
+// The pool of threads: every index once, whatever the count, the threads, and who else calls.
+#include "services/runtime/parallel_for.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace giveway {
+namespace {
+
+// How often each index was given out. Plain bytes: two threads on one index are a data race, which
+// the thread sanitizer tells.
+std::vector<std::uint8_t> Visits(const ParallelFor& parallel_for, std::size_t count) {
+  std::vector<std::uint8_t> visits(count, 0);
+  parallel_for(count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) ++visits[i];
+  });
+  return visits;
+}
+
+bool EachOnce(const std::vector<std::uint8_t>& visits) {
+  return std::all_of(visits.begin(), visits.end(), [](std::uint8_t n) { return n == 1; });
+}
+
+class ParallelPoolOf : public ::testing::TestWithParam<unsigned> {};
+
+TEST_P(ParallelPoolOf, VisitsEachIndexOnceWhateverTheCount) {
+  ParallelPool pool(GetParam());
+  const ParallelFor parallel_for = pool.Function();
+  for (std::size_t count = 0; count < 200; ++count) {
+    EXPECT_TRUE(EachOnce(Visits(parallel_for, count))) << count;
+  }
+  for (const std::size_t count : {1000U, 4096U, 65537U}) {
+    EXPECT_TRUE(EachOnce(Visits(parallel_for, count))) << count;
+  }
+}
+
+// Calls in close order: a worker that is late for one meets the next.
+TEST_P(ParallelPoolOf, KeepsItsCallsApart) {
+  ParallelPool pool(GetParam());
+  const ParallelFor parallel_for = pool.Function();
+  for (std::size_t call = 0; call < 20'000; ++call) {
+    std::array<std::size_t, 9> seen{};
+    const std::size_t count = 1 + call % seen.size();
+    parallel_for(count, [&seen, call](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) seen[i] += call + 1;
+    });
+    for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(seen[i], call + 1);
+  }
+}
+
+TEST_P(ParallelPoolOf, GivesOutNoEmptyPiece) {
+  ParallelPool pool(GetParam());
+  std::atomic<int> empty{0};
+  for (std::size_t count = 0; count < 50; ++count) {
+    pool.Function()(count, [&](std::size_t begin, std::size_t end) { empty += begin >= end; });
+  }
+  EXPECT_EQ(empty, 0);
+}
+
+TEST_P(ParallelPoolOf, RunsACallFromInsideABodyInOnePiece) {
+  ParallelPool pool(GetParam());
+  const ParallelFor parallel_for = pool.Function();
+  std::vector<std::vector<std::uint8_t>> visits(64);
+  parallel_for(visits.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) visits[i] = Visits(parallel_for, i + 2);
+  });
+  for (const auto& inner : visits) EXPECT_TRUE(EachOnce(inner));
+}
+
+TEST_P(ParallelPoolOf, ServesTwoCallersAtOnce) {
+  ParallelPool pool(GetParam());
+  const ParallelFor parallel_for = pool.Function();
+  std::atomic<int> wrong{0};
+  const auto call = [&] {
+    for (int i = 0; i < 500; ++i) wrong += !EachOnce(Visits(parallel_for, 300));
+  };
+  std::thread other(call);
+  call();
+  other.join();
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST_P(ParallelPoolOf, EndsUnusedToo) {
+  for (int i = 0; i < 100; ++i) ParallelPool pool(GetParam());
+}
+
+// Nested, the outer call's body goes on: the pool serves the next call as before.
+TEST_P(ParallelPoolOf, IsFreeAgainAfterEachCall) {
+  ParallelPool pool(GetParam());
+  const ParallelFor parallel_for = pool.Function();
+  const auto pieces = [&] {
+    std::atomic<int> count{0};
+    parallel_for(1000, [&](std::size_t, std::size_t) { ++count; });
+    return count.load();
+  };
+  const int first = pieces();
+  parallel_for(8, [&](std::size_t, std::size_t) { parallel_for(8, [](auto, auto) {}); });
+  EXPECT_EQ(pieces(), first);
+  EXPECT_GE(first, static_cast<int>(GetParam()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, ParallelPoolOf, ::testing::Values(0U, 1U, 2U, 3U, 8U),
+                         ::testing::PrintToStringParamName());
+
+// Every body waits for the other: only two threads at once ever end this.
+TEST(ParallelPool, TheCallerAndTheWorkersWorkTogether) {
+  ParallelPool pool(2);
+  std::atomic<int> here{0};
+  std::array<std::thread::id, 2> threads;
+  std::atomic<bool> done{false};
+  pool.Function()(2, [&](std::size_t begin, std::size_t) {
+    threads[begin] = std::this_thread::get_id();
+    ++here;
+    while (here < 2 && !done) std::this_thread::yield();
+    done = true;
+  });
+  EXPECT_NE(threads[0], threads[1]);
+  EXPECT_TRUE(std::count(threads.begin(), threads.end(), std::this_thread::get_id()) == 1);
+}
+
+TEST(ParallelPool, OneThreadIsTheCallers) {
+  ParallelPool pool(1);
+  std::set<std::thread::id> threads;
+  int pieces = 0;
+  pool.Function()(1000, [&](std::size_t begin, std::size_t end) {
+    threads.insert(std::this_thread::get_id());
+    ++pieces;
+    EXPECT_EQ(begin, 0U);
+    EXPECT_EQ(end, 1000U);
+  });
+  EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
+  EXPECT_EQ(pieces, 1);
+}
+
+}  // namespace
+}  // namespace giveway

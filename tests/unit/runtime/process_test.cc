@@ -1,0 +1,145 @@
+#include "services/runtime/process.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+
+#include "services/runtime/hang_signal.h"
+#include "services/runtime/identity.h"
+
+namespace giveway {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(HangSignal, TheFirstMakesTheLoopHangAndTheNextLetsItGo) {
+  EXPECT_FALSE(HangSignal::IsUp());
+  const HangSignal drill;
+  EXPECT_FALSE(HangSignal::IsUp());
+  std::raise(SIGUSR2);
+  EXPECT_TRUE(HangSignal::IsUp());
+  std::raise(SIGUSR2);
+  EXPECT_FALSE(HangSignal::IsUp());
+}
+
+TEST(Identity, IsReadFromTheProcessThatPublishesIt) {
+  const Identity before{kNobody, "010f45d2a3b1000001000000"};
+  const Identity after{VehicleId{4'000'000'000}, "010f45d2a3b1000001000000"};
+  EXPECT_EQ(ParseIdentity(ToText(after)), after);
+  PublishIdentity(before);
+  EXPECT_EQ(ReadIdentity("/proc/self"), before);
+  PublishIdentity(after);
+  EXPECT_EQ(ReadIdentity("/proc/self"), after);
+  PublishIdentity(before);
+  EXPECT_EQ(ReadIdentity("/proc/self"), before);
+}
+
+TEST(Identity, ThatIsNotWholeIsNone) {
+  const std::string whole = ToText({VehicleId{7}, "010f45d2a3b1000001000000"});
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    EXPECT_FALSE(ParseIdentity(whole.substr(0, length))) << length;
+  }
+  EXPECT_FALSE(ParseIdentity("vehicle 99999999999\nparticipant 010f45d2a3b1000001000000\n"));
+  EXPECT_FALSE(ParseIdentity("vehicle 7\nparticipant 010f45d2a3b100000100000x\n"));
+  EXPECT_FALSE(ReadIdentity("/proc/self/task"));
+}
+
+TEST(Ticker, OnTimeNothingIsMissed) {
+  const NextTick next = AfterDeadline(100ms, 50ms, 60ms);
+  EXPECT_EQ(next.deadline, SteadyTime{150ms});
+  EXPECT_EQ(next.missed, 0U);
+}
+
+TEST(Ticker, LateWithinAPeriodKeepsTheGrid) {
+  const NextTick next = AfterDeadline(100ms, 50ms, 149ms);
+  EXPECT_EQ(next.deadline, SteadyTime{150ms});
+  EXPECT_EQ(next.missed, 0U);
+}
+
+TEST(Ticker, WholePeriodsAreMissedAndNeverCaughtUp) {
+  const NextTick one = AfterDeadline(100ms, 50ms, 150ms);
+  EXPECT_EQ(one.deadline, SteadyTime{200ms});
+  EXPECT_EQ(one.missed, 1U);
+  const NextTick many = AfterDeadline(100ms, 50ms, 620ms);
+  EXPECT_EQ(many.deadline, SteadyTime{650ms});
+  EXPECT_EQ(many.missed, 10U);
+}
+
+TEST(Process, ARandomNumberIsNeverZeroAndRarelyTheSame) {
+  const std::uint32_t first = RandomNonZero();
+  EXPECT_NE(first, 0U);
+  EXPECT_FALSE(RandomNonZero() == first && RandomNonZero() == first);
+}
+
+TEST(StopSignal, SetsAFlagOnInterruptAndTerminate) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const StopSignal stop;
+    EXPECT_FALSE(stop.IsSet());
+    std::raise(signal);
+    EXPECT_TRUE(stop.IsSet());
+  }
+}
+
+TEST(StopSignal, SurvivesABrokenPipeAndRestoresWhatWasThere) {
+  struct sigaction before {};
+  sigaction(SIGPIPE, nullptr, &before);
+  {
+    const StopSignal stop;
+    std::raise(SIGPIPE);
+    EXPECT_FALSE(stop.IsSet());
+  }
+  struct sigaction after {};
+  sigaction(SIGPIPE, nullptr, &after);
+  EXPECT_EQ(after.sa_handler, before.sa_handler);
+  sigaction(SIGTERM, nullptr, &after);
+  EXPECT_EQ(after.sa_handler, SIG_DFL);
+}
+
+// One request may arrive twice: `timeout` signals its child and the child's process group.
+TEST(StopSignal, TheSameRequestSentTwiceEndsNothing) {
+  const StopSignal stop;
+  std::raise(SIGTERM);
+  for (int i = 0; i < 50; ++i) std::raise(SIGTERM);
+  EXPECT_TRUE(stop.IsSet());
+}
+
+// A library that hangs, and a loop that never asks: whatever the process does, it ends.
+TEST(StopSignalDeathTest, AProcessThatDoesNotLeaveIsEndedASecondAfterTheFirstSignal) {
+  EXPECT_EXIT(
+      {
+        const StopSignal stop;
+        std::raise(SIGTERM);
+        for (;;) ::pause();
+      },
+      testing::ExitedWithCode(128 + SIGTERM), "");
+}
+
+TEST(StopSignalDeathTest, TheSecondSignalEndsAProcessThatDoesNotLeave) {
+  const SteadyTime begun = SteadyNow();
+  EXPECT_EXIT(
+      {
+        const StopSignal stop;
+        std::raise(SIGTERM);
+        while (SteadyNow() - begun < 2 * StopSignal::kSameRequest) {
+        }
+        ::alarm(0);  // the limit on the time is not what ends it
+        std::raise(SIGINT);
+        for (;;) ::pause();
+      },
+      testing::ExitedWithCode(128 + SIGINT), "");
+}
+
+TEST(StopSignal, AFileThatMayNotGrowEndsNothing) {
+  const StopSignal stop;
+  std::raise(SIGXFSZ);
+  EXPECT_FALSE(stop.IsSet());
+}
+
+TEST(StopSignalDeathTest, TwoAtATimeAreOurBug) {
+  const StopSignal stop;
+  EXPECT_DEATH(StopSignal(), "check failed");
+}
+
+}  // namespace
+}  // namespace giveway

@@ -1,0 +1,210 @@
+#include "sim_world/run/judge.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/sim_world/sim_scenario.h"
+
+namespace giveway::sim {
+namespace {
+
+// One vehicle with a goal at (5, 0), moved by hand.
+class JudgeTest : public testing::Test {
+ protected:
+  JudgeTest() : judge_(ScenarioOf({Vehicle()})) {
+    body_.vehicle = kTwo;
+    body_.profile = PioneerP3dx();
+    body_.goal = Vehicle().goal;
+    body_.present = true;
+    body_.obeyed = true;
+    body_.command.decision = {.mode = Mode::kCooperative, .rule = Rule::kCruise};
+    SetSpeed(0.3);
+  }
+  static VehicleOptions Vehicle() {
+    VehicleOptions options = VehicleAt(2, {});
+    options.goal = {.set = true, .at_world = {5, 0}, .radius_m = 0.1};
+    return options;
+  }
+  void SetSpeed(double forward_m_s) {
+    body_.wheels = WheelsFromTwist(body_.profile.drive, {forward_m_s, 0});
+  }
+  // Observes `ticks` ticks; collects their events.
+  void Observe(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      log_.BeginTick(Tick{1}, 0);
+      time_s_ += 0.05;
+      judge_.Observe(time_s_, {&body_, 1}, {}, &log_);
+      events_.insert(events_.end(), log_.Events().begin(), log_.Events().end());
+    }
+  }
+
+  Judge judge_;
+  Body body_;
+  EventLog log_{kEpoch};
+  std::vector<WorldEvent> events_;
+  double time_s_ = 0;
+};
+
+TEST_F(JudgeTest, StandingHalfASecondToGiveWayIsAHaltAndOnlyOne) {
+  SetSpeed(0.009);
+  body_.command.decision = {.rule = Rule::kGiveWay, .peer = VehicleId{1}};
+  Observe(9);
+  EXPECT_TRUE(events_.empty());
+  Observe(50);
+  ASSERT_EQ(events_.size(), 1U);
+  EXPECT_EQ(events_[0].kind, EventKind::kHalted);
+  EXPECT_EQ(events_[0].vehicle, kTwo);
+  EXPECT_EQ(events_[0].other, VehicleId{1});
+  EXPECT_EQ(judge_.Halted(), std::vector{kTwo});
+}
+
+TEST_F(JudgeTest, AHaltNamesTheRuleThatBeganTheStop) {
+  body_.command.decision.rule = Rule::kDeaf;
+  Observe(3);  // braking: heard late, the other is given way to in the end
+  body_.command.decision = {.rule = Rule::kGiveWay, .peer = VehicleId{1}};
+  SetSpeed(0);
+  Observe(10);
+  ASSERT_EQ(events_.size(), 1U);
+  EXPECT_EQ(events_[0].text, "deaf");
+  EXPECT_EQ(judge_.HaltedFor(), std::vector{Rule::kDeaf});
+}
+
+TEST_F(JudgeTest, AStopThatWasCalledOffIsNoCauseOfTheNextHalt) {
+  body_.command.decision.rule = Rule::kDeaf;
+  Observe(3);
+  body_.command.decision.rule = Rule::kCruise;
+  Observe(1);
+  body_.command.decision.rule = Rule::kPeerLost;
+  SetSpeed(0);
+  Observe(10);
+  EXPECT_EQ(judge_.HaltedFor(), std::vector{Rule::kPeerLost});
+  SetSpeed(0.1);  // on its way again, and at once in the way of another
+  body_.command.decision.rule = Rule::kGiveWay;
+  Observe(2);
+  SetSpeed(0);
+  Observe(10);
+  EXPECT_EQ(judge_.HaltedFor(), (std::vector{Rule::kGiveWay, Rule::kPeerLost}));
+}
+
+TEST_F(JudgeTest, AVehicleThatMovesAgainWentOn) {
+  SetSpeed(0);
+  body_.command.decision = {.rule = Rule::kDeaf};
+  Observe(10);
+  body_.command.decision = {.rule = Rule::kCruise};
+  Observe(10);  // still stands: nothing new
+  EXPECT_EQ(events_.size(), 1U);
+  SetSpeed(0.02);
+  Observe(10);
+  ASSERT_EQ(events_.size(), 2U);
+  EXPECT_EQ(events_[1].kind, EventKind::kWentOn);
+}
+
+TEST_F(JudgeTest, StandingForAnotherReasonIsNoHalt) {
+  SetSpeed(0);
+  for (const Rule rule : {Rule::kObstacle, Rule::kRangesStale, Rule::kNotRunning, Rule::kCruise}) {
+    body_.command.decision = {.rule = rule};
+    Observe(40);
+  }
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+TEST_F(JudgeTest, AnInterruptedStandstillStartsAnew) {
+  body_.command.decision = {.rule = Rule::kGiveWay};
+  for (int i = 0; i < 5; ++i) {
+    SetSpeed(0);
+    Observe(9);
+    SetSpeed(0.05);
+    Observe(1);
+  }
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+// Its last command said "give way", but the process is gone and the world holds the brake.
+TEST_F(JudgeTest, ADeadVehicleDoesNotHaltToGiveWay) {
+  SetSpeed(0);
+  body_.command.decision = {.rule = Rule::kGiveWay};
+  body_.obeyed = false;
+  Observe(40);
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+TEST_F(JudgeTest, ArrivalIsToStandWithTheAxleCentreWithinTheGoalsRadiusAndOnlyOnce) {
+  SetSpeed(0);
+  body_.world_from_body.position_world = {4.89, 0};
+  Observe(1);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  body_.world_from_body.position_world = {4.95, 0.05};
+  Observe(5);
+  EXPECT_TRUE(judge_.HasArrived(kTwo));
+  EXPECT_EQ(judge_.Arrived(), std::vector{kTwo});
+  EXPECT_DOUBLE_EQ(judge_.LastArrival().value(), 0.1);
+  ASSERT_EQ(events_.size(), 1U);
+  EXPECT_EQ(events_[0].kind, EventKind::kArrived);
+  EXPECT_DOUBLE_EQ(events_[0].value, 0.1);
+}
+
+TEST_F(JudgeTest, DrivingThroughTheGoalIsNoArrival) {
+  for (const double x_m : {4.8, 4.95, 5.0, 5.05, 5.2}) {
+    body_.world_from_body.position_world = {x_m, 0};
+    Observe(1);
+  }
+  SetSpeed(0);
+  Observe(20);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  EXPECT_TRUE(judge_.Arrived().empty());
+  EXPECT_TRUE(events_.empty());
+}
+
+TEST_F(JudgeTest, WhoLeavesItsGoalAgainHasNotArrived) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  Observe(5);
+  ASSERT_TRUE(judge_.HasArrived(kTwo));
+  SetSpeed(0.3);
+  body_.world_from_body.position_world = {5.05, 0};
+  Observe(1);
+  EXPECT_TRUE(judge_.HasArrived(kTwo));
+  body_.world_from_body.position_world = {5.11, 0};
+  Observe(1);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  EXPECT_TRUE(judge_.Arrived().empty());
+  EXPECT_FALSE(judge_.LastArrival());
+  ASSERT_EQ(events_.size(), 2U);
+  EXPECT_EQ(events_[1].kind, EventKind::kWentOn);
+}
+
+TEST_F(JudgeTest, ABodyThatNobodyDrivesDoesNotArrive) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  body_.obeyed = false;
+  Observe(5);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+}
+
+TEST_F(JudgeTest, AnArrivalBeforeANewStartStillCounts) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  Observe(1);
+  judge_.BeginAnew(kTwo);
+  EXPECT_FALSE(judge_.HasArrived(kTwo));
+  EXPECT_EQ(judge_.Arrived(), std::vector{kTwo});
+}
+
+TEST_F(JudgeTest, AfterArrivalNothingIsAHalt) {
+  body_.world_from_body.position_world = {5, 0};
+  SetSpeed(0);
+  body_.command.decision = {.rule = Rule::kGiveWay};
+  Observe(40);
+  EXPECT_TRUE(judge_.Halted().empty());
+}
+
+TEST_F(JudgeTest, ContactsBecomeEvents) {
+  const Contact contact = {.vehicle = VehicleId{1}, .other = kTwo, .position_world = {1, 2}};
+  judge_.Observe(1, {&body_, 1}, {&contact, 1}, &log_);
+  ASSERT_EQ(log_.Events().size(), 1U);
+  EXPECT_EQ(log_.Events()[0].kind, EventKind::kContact);
+  EXPECT_EQ(log_.Events()[0].other, kTwo);
+  EXPECT_EQ(log_.Events()[0].position_world, (Vec2{1, 2}));
+}
+
+}  // namespace
+}  // namespace giveway::sim

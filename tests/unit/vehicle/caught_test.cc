@@ -1,0 +1,106 @@
+// One that gets no farther though it waits for nobody tries one heading after another.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "services/types/math/math.h"
+#include "tests/support/brain_bench.h"
+
+namespace giveway {
+namespace {
+
+using Neighbours = std::function<std::vector<Beacon>(std::uint32_t tick)>;
+
+// The headings taken one after another by a vehicle that is to drive east, and whose wheels turn as
+// `wheels` says instead: by default they are held.
+std::vector<double> HeadingsTried(std::uint32_t ticks, const Neighbours& beside,
+                                  WheelSpeeds wheels = {}) {
+  test::BrainBench bench(test::DefaultOptions());
+  const VehicleState& state = bench.Brain().State();
+  std::vector<double> tried;
+  Tick last = kNoTick;
+  for (std::uint32_t tick = 0; tick < ticks; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = wheels;
+    bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : beside(tick));
+    if (state.away_tick != last) tried.push_back(state.away_rad);
+    last = state.away_tick;
+  }
+  return tried;
+}
+
+std::vector<Beacon> Nobody(std::uint32_t /*tick*/) { return {}; }
+
+Beacon LeaderAhead(std::uint32_t tick) {
+  Beacon leader = test::BeaconOf(2, tick, {{0.8, 0}});
+  leader.toward_world = {20, 0};
+  leader.rule = Rule::kKeepClear;
+  return leader;
+}
+
+// Six seconds until it has no aim, ten until it is caught, then another heading every three.
+TEST(Caught, ItTriesHeadingsAllRound) {
+  EXPECT_TRUE(HeadingsTried(300, Nobody).empty());
+  std::vector<double> tried = HeadingsTried(300 + 20 * 61, Nobody);
+  ASSERT_GE(tried.size(), 19U);
+  std::ranges::sort(tried);
+  for (std::size_t i = 0; i + 1 < tried.size(); ++i) {
+    EXPECT_LT(tried[i + 1] - tried[i], 0.7);
+    EXPECT_GT(tried[i + 1] - tried[i], 0.05);
+  }
+}
+
+// Not where that leads into somebody: here one that stands to the north.
+TEST(Caught, ItTriesNoHeadingThatLeadsIntoAClaim) {
+  const auto parked = [](std::uint32_t tick) {
+    Beacon beacon = test::BeaconOf(2, tick, {{0, 0.6}});
+    beacon.toward_world = beacon.world_from_body.position_world;
+    beacon.rule = Rule::kArrived;
+    return std::vector{beacon};
+  };
+  const std::vector<double> tried = HeadingsTried(300 + 20 * 61, parked);
+  ASSERT_GE(tried.size(), 19U);
+  for (const double heading_rad : tried) EXPECT_LT(Sin(heading_rad), 0.7);
+}
+
+TEST(Caught, AQueueIsWaitedIn) {
+  const auto leader = [](std::uint32_t tick) { return std::vector{LeaderAhead(tick)}; };
+  EXPECT_TRUE(HeadingsTried(4000, leader).empty());
+}
+
+// The leader is held up by a third that waits for this very vehicle.
+std::vector<Beacon> CircleOfThree(std::uint32_t tick) {
+  Beacon leader = LeaderAhead(tick);
+  leader.blocked_by = VehicleId{3};
+  Beacon third = test::BeaconOf(3, tick, {{0.8, 1.5}});
+  third.toward_world = {-20, 1.5};
+  third.blocked_by = test::DefaultOptions().id;
+  return {leader, third};
+}
+
+TEST(Caught, AQueueThatClosesToACircleIsNone) {
+  EXPECT_FALSE(HeadingsTried(4000, CircleOfThree).empty());
+}
+
+TEST(Caught, ACircleIsLeftToTheSide) {
+  test::BrainBench bench(test::DefaultOptions());
+  Outputs out;
+  double farthest_m = 0;
+  for (std::uint32_t tick = 0; tick < 4000; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = out.command.target;
+    out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : CircleOfThree(tick));
+    farthest_m = std::max(farthest_m, Magnitude(out.beacon.world_from_body.position_world.y));
+  }
+  EXPECT_GT(farthest_m, 0.1);
+}
+
+// It comes no nearer, but it comes about: something else will look up on the way.
+TEST(Caught, WhoeverDrivesInCirclesIsNot) {
+  EXPECT_TRUE(HeadingsTried(2000, Nobody, {2, 3}).empty());
+}
+
+}  // namespace
+}  // namespace giveway

@@ -1,0 +1,219 @@
+#include "services/vehicle/decision/steering.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "services/types/math/math.h"
+#include "tests/support/brain_bench.h"
+
+namespace giveway {
+namespace {
+
+using std::chrono::milliseconds;
+
+RangeView Seeing(int sensor, double range_m) {
+  RangeScan scan = test::ClearScan(1);
+  test::SetEcho(&scan, sensor, range_m);
+  RangeView view;
+  view.Take(scan, milliseconds(50), milliseconds(50));
+  return view;
+}
+
+TEST(Steering, ActivationIsOneAtTheNearGateAndNothingAtTheFarOne) {
+  const BraitenbergWeights lecture = LectureWeights();
+  EXPECT_EQ(Avoid(lecture, Seeing(1, 1.0)).wheels, (WheelSpeeds{2, 2}));
+  EXPECT_NEAR(Avoid(lecture, Seeing(1, 0.6)).wheels.left_rad_s, 2.5, 1e-12);
+  EXPECT_NEAR(Avoid(lecture, Seeing(1, 0.2)).wheels.left_rad_s, 3, 1e-12);
+  EXPECT_NEAR(Avoid(lecture, Seeing(1, 0.05)).wheels.left_rad_s, 3, 1e-12);
+}
+
+TEST(Steering, TheLecturesVehicleTurnsAwayFromEitherSide) {
+  const BraitenbergWeights lecture = LectureWeights();
+  const WheelSpeeds left = Avoid(lecture, Seeing(1, 0.4)).wheels;
+  const WheelSpeeds right = Avoid(lecture, Seeing(6, 0.4)).wheels;
+  EXPECT_GT(left.left_rad_s, left.right_rad_s);  // object on the left: turns right
+  EXPECT_EQ(left.left_rad_s, right.right_rad_s);
+  EXPECT_EQ(left.right_rad_s, right.left_rad_s);
+}
+
+// The rule of a vehicle that drives two metres east once it has heard of one that has arrived there
+// on its way.
+Rule RuleBefore(double x_m) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  options.goal.at_world = {2, 0};
+  test::BrainBench bench(options);
+  bench.Step(test::ClearScan(0));
+  Beacon peer = test::BeaconOf(2, 1, {.position_world = {x_m, 0.01}});
+  peer.toward_world = peer.world_from_body.position_world;
+  peer.rule = Rule::kArrived;
+  return bench.Step(test::ClearScan(0), {peer}).command.decision.rule;
+}
+
+TEST(Steering, WhoeverStandsOnTheVeryGoalIsWaitedForAndNotSteeredRound) {
+  EXPECT_EQ(RuleBefore(1), Rule::kSteerRound);
+  EXPECT_NE(RuleBefore(2), Rule::kSteerRound);
+}
+
+// The stock script's table for base 2 rad/s: sensor 4 alone gives 1.2 and 1.0.
+TEST(Steering, TheStockVehicleBrakesAndTurnsAway) {
+  const WheelSpeeds wheels = Avoid(StockWeights(), Seeing(3, 0.1)).wheels;
+  EXPECT_NEAR(wheels.left_rad_s, 1.2, 1e-12);
+  EXPECT_NEAR(wheels.right_rad_s, 1.0, 1e-12);
+}
+
+TEST(Steering, ALargeErrorTurnsOnTheSpotFirst) {
+  const VehicleProfile p3dx = PioneerP3dx();
+  const WheelSpeeds wheels = Drive(p3dx, {}, {.heading_error_rad = 0.5}, 0.3, true);
+  EXPECT_NEAR(wheels.left_rad_s, -wheels.right_rad_s, 1e-12);
+  EXPECT_GT(wheels.right_rad_s, 0);
+}
+
+TEST(Steering, ADeadStopDoesNotTurn) {
+  EXPECT_EQ(Drive(PioneerP3dx(), {}, {.heading_error_rad = 0.5}, 0, false), WheelSpeeds{});
+}
+
+// The rim of a wheel after one tick of 50 ms towards `target`, radians a second.
+double RimAfterTick(const VehicleProfile& profile, double now, double target) {
+  const double limit = 0.05 * profile.acceleration_m_s2 / profile.drive.wheel_radius_m;
+  return now + std::clamp(target - now, -limit, limit);
+}
+
+TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
+  const VehicleProfile p3dx = PioneerP3dx();
+  WheelSpeeds wheels;
+  double error_rad = 1;
+  double most_rad = 0;  // beyond the wanted heading
+  for (int tick = 0; tick < 100; ++tick) {
+    const Twist now = TwistFromWheels(p3dx.drive, wheels);
+    const WheelSpeeds target = Drive(p3dx, now, {.heading_error_rad = error_rad}, 0.8, true);
+    error_rad -= 0.05 * now.turn_rad_s;
+    wheels = {RimAfterTick(p3dx, wheels.left_rad_s, target.left_rad_s),
+              RimAfterTick(p3dx, wheels.right_rad_s, target.right_rad_s)};
+    most_rad = std::max(most_rad, -error_rad);
+  }
+  EXPECT_LT(most_rad, 0.15);
+  EXPECT_NEAR(error_rad, 0, 0.02);
+  EXPECT_NEAR(TwistFromWheels(p3dx.drive, wheels).forward_m_s, 0.8, 1e-9);
+}
+
+// A wall near the left shoulder, as far as a cone tells; the goal is straight ahead. Where the
+// wall is does not change while the vehicle turns: what the sensors hear is set once.
+TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {
+  test::BrainBench bench(test::DefaultOptions());
+  RangeScan scan = test::ClearScan(0);
+  test::SetEcho(&scan, 1, 0.12);
+  Outputs out;
+  for (int tick = 0; tick < 100; ++tick) {  // 5 s: it waits for what may go away again
+    out = bench.Step(scan);
+    ASSERT_EQ(out.command.decision.rule, Rule::kObstacle);
+    EXPECT_EQ(out.command.target, WheelSpeeds{});
+  }
+  for (int tick = 0; tick < 40; ++tick) out = bench.Step(scan);
+  EXPECT_LT(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0);
+}
+
+// What a sensor hears of a wall along y = wall_y_m, south of it: the nearest that its cone holds.
+double RangeToWall(const VehicleProfile& profile, std::size_t sensor, const Pose& world_from_body,
+                   double wall_y_m) {
+  const SensorMount& mount = profile.sonar[sensor];
+  const double off_rad = WrapAngle(world_from_body.heading_rad + mount.bearing_rad + kPi / 2);
+  const double half_rad = profile.sonar_half_angle_rad;
+  const double slant_rad = off_rad - std::clamp(off_rad, -half_rad, half_rad);
+  const double above_m = ToWorld(world_from_body, mount.position_body).y - wall_y_m;
+  return Magnitude(slant_rad) < 1.5 ? above_m / Cos(slant_rad) : 1e9;
+}
+
+// Of corridor 474. One whose shell touches the own is in the way; it has no ears on that side. On
+// the other it hears the wall in so many directions that no heading past the other one is free.
+TEST(Steering, PastAVehicleItTurnsAlsoWhereEchoesLeaveNoHeading) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  for (std::size_t i = 3; i < 8; ++i) options.profile.sonar[i].enabled = true;
+  options.start_world.heading_rad = -kPi / 4;
+  test::BrainBench bench(options);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 1200; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = out.command.target;
+    for (std::size_t i = 3; i < 8; ++i) {
+      const double range_m = RangeToWall(options.profile, i, out.beacon.world_from_body, -0.54);
+      if (range_m < 3) test::SetEcho(&scan, static_cast<int>(i), range_m);
+    }
+    Beacon beside = test::BeaconOf(2, tick, {{0.427, 0.348}, 3 * kPi / 4});
+    beside.toward_world = {-10, 0.6};
+    beside.rule = Rule::kKeepClear;  // held up as well
+    out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
+  }
+  EXPECT_GT(out.beacon.world_from_body.position_world.x, 0.1);
+}
+
+// Of swarm 1130: shell to shell between two that stand. The only way out is square to the line
+// through all three, and no wider than a twenty-fourth of a radian.
+TEST(Steering, ANarrowWayOutBetweenTwoBodiesIsOne) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  options.start_world.heading_rad = 2.857;
+  options.goal.at_world = {-7.4, 2.17};
+  test::BrainBench bench(options);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 400; ++tick) {
+    const auto parked = [tick](std::uint32_t id, Vec2 at_world) {
+      Beacon beacon = test::BeaconOf(id, tick, {at_world});
+      beacon.toward_world = at_world;
+      beacon.rule = Rule::kArrived;
+      return beacon;
+    };
+    RangeScan scan = test::ClearScan(0);
+    scan.wheels = out.command.target;
+    if (tick == 0) scan.run_state = RunState::kWaiting;  // it hears the two before it starts
+    out = bench.Step(
+        scan, tick == 0 ? std::vector<Beacon>{}
+                        : std::vector{parked(2, {-0.5104, -0.2316}), parked(3, {0.5014, 0.2385})});
+  }
+  EXPECT_GT(Norm(out.beacon.world_from_body.position_world), 1);
+}
+
+// Of corridor 7354: one that comes the other way stands shell to shell with it, and the way past
+// leads towards a wall. A heading off both lies so far back that a hair decides whether it is one,
+// and with every bit that the vehicle turns the echoes turn as well.
+TEST(Steering, BesideAWallItDoesNotTurnToAndFroForEver) {
+  VehicleOptions options = test::OptionsWithoutUltrasonics();
+  for (std::size_t i = 0; i < 8; ++i) options.profile.sonar[i].enabled = true;
+  options.start_world.heading_rad = -2.3;
+  options.goal.at_world = {-10, -0.26};
+  test::BrainBench bench(options);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 320; ++tick) {
+    RangeScan scan = test::ClearScan(0);
+    if (tick >= 130) scan.wheels = out.command.target;  // until then it is held where it stands
+    for (std::size_t i = 0; i < 8; ++i) {
+      const double range_m = RangeToWall(options.profile, i, out.beacon.world_from_body, -0.675);
+      if (range_m < 3) test::SetEcho(&scan, static_cast<int>(i), range_m);
+    }
+    Beacon beside = test::BeaconOf(2, tick, {{-0.371, 0.421}, kPi / 4});
+    beside.toward_world = {10, 0.421};
+    beside.rule = Rule::kObstacle;
+    out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
+  }
+  EXPECT_LT(out.beacon.world_from_body.position_world.x, -0.5);
+}
+
+// Echoes all round, and one that stands beside the vehicle, not in its way: it has no reason to
+// turn along that one's edge.
+TEST(Steering, WhereEchoesAloneCoverTheWayItIsKept) {
+  test::BrainBench bench(test::DefaultOptions());
+  RangeScan scan = test::ClearScan(0);
+  for (int sensor = 0; sensor < 8; ++sensor) test::SetEcho(&scan, sensor, 0.35);
+  Outputs out;
+  for (std::uint32_t tick = 0; tick < 200; ++tick) {
+    Beacon beside = test::BeaconOf(2, tick, {{-0.1, 0.55}, kPi});
+    beside.toward_world = beside.world_from_body.position_world;
+    beside.rule = Rule::kArrived;
+    scan.wheels = {};  // it is held where it stands
+    out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
+  }
+  EXPECT_GE(bench.Brain().State().aimless_ticks, 120U);
+  EXPECT_NEAR(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0, 0.1);
+}
+
+}  // namespace
+}  // namespace giveway
