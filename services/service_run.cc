@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <exception>
+#include <memory>
 #include <string>
 
+#include "services/app/way_back.h"
 #include "services/link/qos_trial.h"
 #include "services/qos_at_start.h"
 #include "services/service_main.h"
@@ -28,31 +31,47 @@ int TryQosAndEnd(const std::string& file, link::LinkOptions options) {
   }
 }
 
-// The flags with which a process that cannot run with the profiles of an order comes back with
-// those it had before.
-app::NewFlags ToRollBack(const std::string& former_qos, const std::optional<app::Resumed>& resumed,
-                         const std::string& why) {
-  app::LogError("comes back with the QoS it had before: " + why);
-  return {{"--qos", former_qos},
-          {"--former-qos", ""},
-          {"--rolled-back", why},
-          {"--resume", resumed ? app::HoldText("resume", app::ToBytes(*resumed)) : ""}};
-}
+// A process that cannot run with the profiles of an order comes back with those it had before.
+class FormerQos {
+ public:
+  FormerQos(const app::ServiceFlags& flags, const app::StopSignal& stop)
+      : resume_(flags.resume
+                    ? std::make_unique<app::HeldText>("resume", app::ToBytes(*flags.resume))
+                    : nullptr),
+        way_back_({{"--qos", flags.former_qos},
+                   {"--former-qos", ""},
+                   {"--resume", resume_ ? resume_->Path() : ""}},
+                  "--rolled-back", stop) {}
+
+  app::NewFlags Because(const std::string& why) const { return way_back_.Because(why); }
+
+ private:
+  const std::unique_ptr<app::HeldText> resume_;
+  const app::WayBack way_back_;
+};
 
 }  // namespace
 
 int RunService(const app::ServiceFlags& flags, const Scenario& scenario,
-               const app::StopSignal& stop,
-               const std::function<std::optional<app::NewFlags>(int* exit_code)>& live) {
+               const app::StopSignal& stop, const Live& live) {
   if (!flags.try_qos.empty()) return TryQosAndEnd(flags.try_qos, LinkOptionsOf(flags, scenario));
+  if (!flags.rolled_back.empty()) {
+    app::LogError("comes back with the QoS it had before: " + flags.rolled_back);
+  }
+  std::unique_ptr<FormerQos> former;
+  if (!flags.former_qos.empty()) former = std::make_unique<FormerQos>(flags, stop);
+  const auto settled = [&] {
+    former.reset();
+    for (const std::string& held : {flags.former_qos, flags.go_on_from}) app::LetGo(held);
+  };
   int exit_code = 0;
   std::optional<app::NewFlags> new_flags;
   try {
     RequireSoundQos(flags.qos, scenario);
-    new_flags = live(&exit_code);
-  } catch (const link::LinkError& error) {
-    if (flags.former_qos.empty()) throw;
-    new_flags = ToRollBack(flags.former_qos, flags.resume, error.what());
+    new_flags = live(settled, &exit_code);
+  } catch (const std::exception& error) {
+    if (!former) throw;
+    new_flags = former->Because(error.what());
   }
   if (!new_flags) return exit_code;
   app::HoldSignalsBack();

@@ -4,6 +4,7 @@
 //
 // Waits for the roster, runs the scenario on absolute deadlines, and tells everyone why it ended.
 // With a checkpoint file it goes on, after a crash, from where it was.
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -69,9 +70,10 @@ WorldLoopOptions LoopOptionsOf(const app::ServiceFlags& flags, const Scenario& s
   return options;
 }
 
-// From the link's first moment to its last. The flags to come back with where it restarts.
-std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario& scenario,
-                                  const app::StopSignal& stop, int* exit_code) {
+// From the link's first moment to its last; see service_run.h.
+std::optional<app::NewFlags> LiveAsWorld(const app::ServiceFlags& flags, const Scenario& scenario,
+                                         const app::StopSignal& stop,
+                                         const std::function<void()>& settled, int* exit_code) {
   app::HealthService<app::WorldHealth> health(flags);
   app::ParallelPool pool(flags.threads);
   WorldLoopOptions options = LoopOptionsOf(flags, scenario);
@@ -86,10 +88,11 @@ std::optional<app::NewFlags> Live(const app::ServiceFlags& flags, const Scenario
   app::PublishIdentity({kNobody, link.ParticipantText()});
   ServiceAdmin admin(&link, link_options, kNobody,
                      {app::NameOf(flags.qos), app::ReadBytes(flags.qos)}, flags.lockstep);
-  for (const std::string& held : {flags.qos, flags.former_qos, flags.go_on_from}) app::LetGo(held);
-  if (flags.resume) {
-    options.on_back = [&] { admin.AnswerResumed(flags.resume->order, flags.rolled_back); };
-  }
+  app::LetGo(flags.qos);
+  options.on_back = [&] {
+    settled();
+    if (flags.resume) admin.AnswerResumed(flags.resume->order, flags.rolled_back);
+  };
   WorldLoop loop(scenario, &link, &admin, &health, options);
   const WorldEnd end = loop.Drive(stop);
   if (end == WorldEnd::kRestarts) {
@@ -110,7 +113,9 @@ int RunWorld(const app::ServiceFlags& flags, const app::StopSignal& stop) {
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
   return RunService(flags, scenario, stop,
-                    [&](int* exit_code) { return Live(flags, scenario, stop, exit_code); });
+                    [&](const std::function<void()>& settled, int* exit_code) {
+                      return LiveAsWorld(flags, scenario, stop, settled, exit_code);
+                    });
 }
 
 }  // namespace

@@ -125,6 +125,15 @@ listen_places() {
     LISTENERS+=("$!")
   done
 }
+# await_beacons NAME COUNT: until so many were heard, or ten seconds have passed.
+await_beacons() {
+  local _
+  for _ in $(seq 200); do
+    (($(wc -l <"$SCRATCH/$1.beacon") < $2)) || return 0
+    sleep 0.05
+  done
+  fail "$1: heard $(wc -l <"$SCRATCH/$1.beacon") beacons of $2"
+}
 end_listening() {
   local pid
   for pid in "${LISTENERS[@]}"; do kill -INT "$pid" 2>/dev/null || true; done
