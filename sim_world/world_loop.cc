@@ -345,7 +345,8 @@ bool WorldLoop::TellTheEnd(Nanoseconds patience) {
                  std::to_string(Milliseconds(longest_checkpoint_)) + " ms");
   }
   app::LogInfo("ended: " + reason + "; " +
-               (figures.passed ? "passed" : "failed: " + figures.reason));
+               (figures.passed ? "passed" : "failed: " + figures.reason) + "; late for " +
+               std::to_string(overruns_) + " ticks");
   return figures.passed;
 }
 
