@@ -27,8 +27,9 @@ free_memory() { rm -f /dev/shm/full; }
 # The process that tries a set for process $1, which stands still from then on: what is done now is done
 # before the restart. Fails once the process $2 that gave the order is gone.
 trial_of() {
-  local children
-  until read -r children _ <"/proc/$1/task/$1/children"; do
+  local children=
+  while [[ -z $children ]]; do # they stand on a line without an end
+    { read -r children _ <"/proc/$1/task/$1/children"; } 2>/dev/null || true
     kill -0 "$2" 2>/dev/null || return 1
   done
   kill -STOP "$1"
@@ -44,6 +45,7 @@ free_memory
 
 for id in 1 2; do start "$id" giveway-vehicle --id "$id" --qos "$QOS/default.xml"; done
 for id in 1 2; do await "at first: $id drives" 15 "$id" cruise; done
+[[ $failures -eq 0 ]] || exit 1
 listen_places 1 "$DOMAIN" 1
 await_beacons 1 25
 line=$(lines_of 1)
@@ -71,7 +73,7 @@ alive 1 || fail "it is gone: $(tail -n 3 1.log)"
 timeout 20 "$FLEETCTL" qos show --live 1 --domain "$DOMAIN" --qos default >out 2>err ||
   fail "it has another set than before: $(grep not out; cat err)"
 await_beacons 1 "$(($(wc -l <1.beacon) + 10))"
-if tail -n "+$((line_of_2 + 1))" 2.log | grep -q halt; then
+if tail -n "+$((line_of_2 + 1))" 2.log | grep halt | grep -qv ranges_stale; then # that the machine is late
   fail "the other was stopped by it: $(tail -n 3 2.log)"
 fi
 
