@@ -3,11 +3,14 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <exception>
+#include <memory>
 #include <string>
 
 #include "services/link/qos_trial.h"
 #include "services/node/qos_at_start.h"
 #include "services/node/service_main.h"
+#include "services/runtime/way_back.h"
 
 namespace giveway {
 namespace {
@@ -28,30 +31,46 @@ int TryQosAndEnd(const std::string& file, link::LinkOptions options) {
   }
 }
 
-// The flags with which a process that cannot run with the profiles of an order comes back with
-// those it had before.
-NewFlags ToRollBack(const std::string& former_qos, const std::optional<Resumed>& resumed,
-                    const std::string& why) {
-  LogError("comes back with the QoS it had before: " + why);
-  return {{"--qos", former_qos},
-          {"--former-qos", ""},
-          {"--rolled-back", why},
-          {"--resume", resumed ? HoldText("resume", ToBytes(*resumed)) : ""}};
-}
+// A process that cannot run with the profiles of an order comes back with those it had before.
+class FormerQos {
+ public:
+  FormerQos(const ServiceFlags& flags, const StopSignal& stop)
+      : resume_(flags.resume ? std::make_unique<HeldText>("resume", ToBytes(*flags.resume))
+                             : nullptr),
+        way_back_({{"--qos", flags.former_qos},
+                   {"--former-qos", ""},
+                   {"--resume", resume_ ? resume_->Path() : ""}},
+                  "--rolled-back", stop) {}
+
+  NewFlags Because(const std::string& why) const { return way_back_.Because(why); }
+
+ private:
+  const std::unique_ptr<HeldText> resume_;
+  const WayBack way_back_;
+};
 
 }  // namespace
 
 int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSignal& stop,
-               const std::function<std::optional<NewFlags>(int* exit_code)>& live) {
+               const Live& live) {
   if (!flags.try_qos.empty()) return TryQosAndEnd(flags.try_qos, LinkOptionsOf(flags, scenario));
+  if (!flags.rolled_back.empty()) {
+    LogError("comes back with the QoS it had before: " + flags.rolled_back);
+  }
+  std::unique_ptr<FormerQos> former;
+  if (!flags.former_qos.empty()) former = std::make_unique<FormerQos>(flags, stop);
+  const auto settled = [&] {
+    former.reset();
+    for (const std::string& held : {flags.former_qos, flags.go_on_from}) LetGo(held);
+  };
   int exit_code = 0;
   std::optional<NewFlags> new_flags;
   try {
     RequireSoundQos(flags.qos, scenario);
-    new_flags = live(&exit_code);
-  } catch (const link::LinkError& error) {
-    if (flags.former_qos.empty()) throw;
-    new_flags = ToRollBack(flags.former_qos, flags.resume, error.what());
+    new_flags = live(settled, &exit_code);
+  } catch (const std::exception& error) {
+    if (!former) throw;
+    new_flags = former->Because(error.what());
   }
   if (!new_flags) return exit_code;
   HoldSignalsBack();

@@ -13,10 +13,14 @@
 
 namespace giveway {
 
-// Runs `live`, which gives the flags to come back with, or nothing where the process ends with
-// `exit_code`. The exit code; it does not return where the process restarts. Throws what `live`
-// does.
+// The life of the service as a participant. It calls `settled` once it runs as it should: until
+// then an exception, or a signal that would end it, brings it back with the profiles it had before.
+// Gives the flags to come back with, or nothing where the process ends with `exit_code`.
+using Live =
+    std::function<std::optional<NewFlags>(const std::function<void()>& settled, int* exit_code)>;
+
+// The exit code of `live`; it does not return where the process restarts. Throws what `live` does.
 int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSignal& stop,
-               const std::function<std::optional<NewFlags>(int* exit_code)>& live);
+               const Live& live);
 
 }  // namespace giveway

@@ -4,6 +4,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -32,14 +33,34 @@ int HeldDescriptor(const std::string& path) {
   return read.ec == std::errc() && read.ptr == digits.end() ? number : -1;
 }
 
+std::string PathOf(int descriptor) { return std::string(kHeldFolder) + std::to_string(descriptor); }
+
 int MakeHeld(const std::string& name, const std::string& text) {
   const int descriptor = memfd_create(name.substr(0, kMostNameBytes).c_str(), 0);
   if (descriptor < 0) ThrowErrno("no memory for the profiles");
-  std::ofstream stream(std::string(kHeldFolder) + std::to_string(descriptor), std::ios::binary);
+  std::ofstream stream(PathOf(descriptor), std::ios::binary);
   stream << text;
   stream.close();
   if (!stream) ThrowErrno("no memory for the profiles");
   return descriptor;
+}
+
+struct OpenDescriptor {
+  int number;
+  bool held;
+};
+
+std::vector<OpenDescriptor> OpenDescriptors() {
+  namespace fs = std::filesystem;
+  std::vector<OpenDescriptor> found;
+  std::error_code error;
+  for (const fs::directory_entry& open : fs::directory_iterator(kHeldFolder, error)) {
+    const int descriptor = HeldDescriptor(open.path());
+    if (descriptor <= STDERR_FILENO) continue;
+    const bool held = fs::read_symlink(open.path(), error).string().starts_with("/memfd:");
+    found.push_back({descriptor, held});
+  }
+  return found;
 }
 
 }  // namespace
@@ -78,14 +99,18 @@ void HoldSignalsBack() {
   sigprocmask(SIG_BLOCK, &stops, nullptr);
 }
 
+std::vector<int> HeldDescriptors() {
+  std::vector<int> held;
+  for (const OpenDescriptor& open : OpenDescriptors()) {
+    if (open.held) held.push_back(open.number);
+  }
+  std::ranges::sort(held);
+  return held;
+}
+
 void LeaveOpenOnlyHeld() {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (const fs::directory_entry& open : fs::directory_iterator(kHeldFolder, error)) {
-    const int descriptor = HeldDescriptor(open.path());
-    if (descriptor <= STDERR_FILENO) continue;
-    const bool held = fs::read_symlink(open.path(), error).string().starts_with("/memfd:");
-    if (!held) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+  for (const OpenDescriptor& open : OpenDescriptors()) {
+    if (!open.held) fcntl(open.number, F_SETFD, FD_CLOEXEC);
   }
 }
 
@@ -100,13 +125,15 @@ void RestartWith(const NewFlags& flags) {
 }
 
 std::string HoldText(const std::string& name, const std::string& text) {
-  return std::string(kHeldFolder) + std::to_string(MakeHeld(name, text));
+  return PathOf(MakeHeld(name, text));
 }
 
 HeldText::HeldText(const std::string& name, const std::string& text)
     : descriptor_(MakeHeld(name, text)) {}
 
 HeldText::~HeldText() { close(descriptor_); }
+
+std::string HeldText::Path() const { return PathOf(descriptor_); }
 
 std::string NameOf(const std::string& path) {
   namespace fs = std::filesystem;

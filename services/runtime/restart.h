@@ -22,6 +22,8 @@ std::vector<std::string> OwnArguments();
 // From now on a stop signal waits for the next process image instead of being forgotten by it. What
 // came before is for the caller to look at.
 void HoldSignalsBack();
+// The descriptors of held texts, in rising order.
+std::vector<int> HeldDescriptors();
 // Of the descriptors open now only the standard ones and held texts outlive an exec.
 void LeaveOpenOnlyHeld();
 
@@ -37,6 +39,7 @@ class HeldText {
   HeldText(const HeldText&) = delete;
   HeldText& operator=(const HeldText&) = delete;
   int Descriptor() const { return descriptor_; }
+  std::string Path() const;
 
  private:
   int descriptor_;

@@ -5,6 +5,7 @@
 // The loop wakes on its own ranges, or when the next beacon is due without them. This file only
 // wires; deciding is services/vehicle, talking is services/link.
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -50,10 +51,10 @@ enum class DriveEnd { kOver, kRefused, kRestarts, kDeaf };
 // The loop and what it must remember between two turns.
 class Loop {
  public:
-  // `recorder` is null where nothing is recorded.
+  // `recorder` is null where nothing is recorded; `on_first_scan` is called once.
   Loop(link::VehicleLink* link, ServiceAdmin* admin, VehicleHealthTeller* health,
        const Scenario& scenario, const RosterEntry& entry, const ServiceFlags& flags,
-       Recorder* recorder)
+       Recorder* recorder, std::function<void()> on_first_scan)
       : link_(*link),
         admin_(*admin),
         health_(*health),
@@ -61,6 +62,7 @@ class Loop {
         lockstep_(flags.lockstep),
         stays_(flags.stay),
         recorder_(recorder),
+        on_first_scan_(std::move(on_first_scan)),
         place_(entry),
         options_(OptionsOf(scenario, entry)),
         boot_epoch_(RandomNonZero()),
@@ -209,6 +211,7 @@ class Loop {
     const bool looks = !leaving && !restarts_ && !lockstep_;
     if (looks) remedy_ = hearing_.Look(woke, inputs.scan.has_value());
     TellOfBeacons(inputs.now, woke);
+    if (inputs.scan && on_first_scan_) std::exchange(on_first_scan_, nullptr)();
     if (outputs.decision_changed || woke >= next_status_) {
       health_.Reported(report_.Send(vehicle_, link_));
       next_status_ = woke + kStatusPeriod;
@@ -273,6 +276,7 @@ class Loop {
   const bool lockstep_;
   const bool stays_;
   Recorder* const recorder_;
+  std::function<void()> on_first_scan_;
   RosterEntry place_;
   VehicleOptions options_;
   const std::uint32_t boot_epoch_;
@@ -301,9 +305,10 @@ NewFlags ToComeBack(const Loop& loop, const ServiceAdmin& admin) {
   return flags;
 }
 
-// From joining to the end of the link. Empty where the process ends with `exit_code`.
-std::optional<NewFlags> Live(const ServiceFlags& flags, const Scenario& scenario,
-                             const StopSignal& stop, int* exit_code) {
+// From joining to the end of the link; see service_run.h.
+std::optional<NewFlags> LiveAsVehicle(const ServiceFlags& flags, const Scenario& scenario,
+                                      const StopSignal& stop, const std::function<void()>& settled,
+                                      int* exit_code) {
   VehicleHealthTeller health(flags);
   std::optional<Recorder> recorder;
   if (!flags.record.empty()) recorder.emplace(flags.record, flags.record_split);
@@ -331,13 +336,16 @@ std::optional<NewFlags> Live(const ServiceFlags& flags, const Scenario& scenario
   const VehicleOptions options = OptionsOf(scenario, *entry);
   link.Open(options.id, options.profile, !scenario.signals.empty());
   ServiceAdmin admin(&link, link_options, options.id, profiles, flags.lockstep);
-  if (flags.resume && flags.resume->order != 0) {
+  // With shared memory the library touches some of it only when samples go.
+  const auto on_first_scan = [&] {
+    settled();
+    if (!flags.resume || flags.resume->order == 0) return;
     admin.AnswerResumed(flags.resume->order, flags.rolled_back);
-  }
-  LetGo(flags.former_qos);
+  };
   std::optional<HangSignal> hang;
   if (flags.hang_on_signal) hang.emplace();
-  Loop loop(&link, &admin, &health, scenario, *entry, flags, recorder ? &*recorder : nullptr);
+  Loop loop(&link, &admin, &health, scenario, *entry, flags, recorder ? &*recorder : nullptr,
+            on_first_scan);
   const DriveEnd end = loop.Drive(stop);
   LogInfo(Describe(link.Counters()));
   if (const auto impaired = link.Impaired()) LogInfo(Describe(*impaired));
@@ -355,7 +363,9 @@ int Run(const ServiceFlags& flags, const StopSignal& stop) {
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
   return RunService(flags, scenario, stop,
-                    [&](int* exit_code) { return Live(flags, scenario, stop, exit_code); });
+                    [&](const std::function<void()>& settled, int* exit_code) {
+                      return LiveAsVehicle(flags, scenario, stop, settled, exit_code);
+                    });
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 //
 // Waits for the roster, runs the scenario on absolute deadlines, and tells everyone why it ended.
 // With a checkpoint file it goes on, after a crash, from where it was.
+#include <functional>
 #include <optional>
 #include <variant>
 
@@ -70,9 +71,10 @@ WorldLoopOptions LoopOptionsOf(const ServiceFlags& flags, const Scenario& scenar
   return options;
 }
 
-// From the link's first moment to its last. The flags to come back with where it restarts.
-std::optional<NewFlags> Live(const ServiceFlags& flags, const Scenario& scenario,
-                             const StopSignal& stop, int* exit_code) {
+// From the link's first moment to its last; see service_run.h.
+std::optional<NewFlags> LiveAsWorld(const ServiceFlags& flags, const Scenario& scenario,
+                                    const StopSignal& stop, const std::function<void()>& settled,
+                                    int* exit_code) {
   HealthService<WorldHealth> health(flags);
   ParallelPool pool(flags.threads);
   WorldLoopOptions options = LoopOptionsOf(flags, scenario);
@@ -87,10 +89,11 @@ std::optional<NewFlags> Live(const ServiceFlags& flags, const Scenario& scenario
   PublishIdentity({kNobody, link.ParticipantText()});
   ServiceAdmin admin(&link, link_options, kNobody, {NameOf(flags.qos), ReadBytes(flags.qos)},
                      flags.lockstep);
-  for (const std::string& held : {flags.qos, flags.former_qos, flags.go_on_from}) LetGo(held);
-  if (flags.resume) {
-    options.on_back = [&] { admin.AnswerResumed(flags.resume->order, flags.rolled_back); };
-  }
+  LetGo(flags.qos);
+  options.on_back = [&] {
+    settled();
+    if (flags.resume) admin.AnswerResumed(flags.resume->order, flags.rolled_back);
+  };
   WorldLoop loop(scenario, &link, &admin, &health, options);
   const WorldEnd end = loop.Drive(stop);
   if (end == WorldEnd::kRestarts) {
@@ -110,7 +113,9 @@ int RunWorld(const ServiceFlags& flags, const StopSignal& stop) {
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
   return RunService(flags, scenario, stop,
-                    [&](int* exit_code) { return Live(flags, scenario, stop, exit_code); });
+                    [&](const std::function<void()>& settled, int* exit_code) {
+                      return LiveAsWorld(flags, scenario, stop, settled, exit_code);
+                    });
 }
 
 }  // namespace

@@ -343,7 +343,8 @@ bool WorldLoop::TellTheEnd(Nanoseconds patience) {
     LogInfo("the longest checkpoint took " + std::to_string(Milliseconds(longest_checkpoint_)) +
             " ms");
   }
-  LogInfo("ended: " + reason + "; " + (figures.passed ? "passed" : "failed: " + figures.reason));
+  LogInfo("ended: " + reason + "; " + (figures.passed ? "passed" : "failed: " + figures.reason) +
+          "; late for " + std::to_string(overruns_) + " ticks");
   return figures.passed;
 }
 

@@ -41,6 +41,14 @@ TEST(InterfaceWatch, SeesOneThatCameBackOtherwise) {
   EXPECT_THAT(ChangeOf("any", {kLo}, {kLo, kEth}), HasSubstr("was none"));
 }
 
+TEST(InterfaceWatch, WaitsForOneThatIsBackButNotUpYet) {
+  Interface down = Of("eth0", "172.18.0.4", 9);
+  down.up = false;
+  for (const char* meant : {"any", "eth0", "172.18.0.3"}) {
+    EXPECT_THAT(ChangeOf(meant, {kLo, kEth}, {kLo, down}), IsEmpty()) << meant;
+  }
+}
+
 TEST(InterfaceWatch, KeepsToTheInterfaceThatIsMeant) {
   EXPECT_THAT(ChangeOf("lo", {kLo, kEth}, {kLo, Of("eth0", "172.18.0.4", 9)}), IsEmpty());
   EXPECT_THAT(ChangeOf("eth0", {kLo, kEth}, {kLo, Of("eth1", "10.0.0.2", 9)}), IsEmpty());

@@ -4,6 +4,7 @@
 # never by name alone: other runs on the machine are nobody's business here.
 set -euo pipefail
 
+source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
 REPOSITORY=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 FLEETCTL=${GIVEWAY_BIN_DIR:-$REPOSITORY/build/release/bin}/fleetctl
 [[ -x $FLEETCTL ]] || {
@@ -81,18 +82,13 @@ all_gone() {
   [[ -z $(processes_on "$1") ]]
 }
 
-# excused REPORT LOGS: true if a run failed for nothing but who halted, while the machine stood still:
-# a vehicle whose ranges are 150 ms old halts, and has to. What was late tells; on a quiet machine not
-# one tick and not one scan is. An impaired channel makes scans late by itself: those do not count.
+# excused REPORT LOGS: true if nothing but the lateness of the machine explains that a run failed. An
+# impaired channel makes scans late by itself: those do not count.
 excused() {
-  local ticks scans
-  jq -e '.contacts == 0 and (.violations | all(. == 0)) and (.reason | test("^halted: [^;]*$"))' \
-    "$1" >/dev/null 2>&1 || return 1
-  ticks=$(jq '.tick_overruns' "$1")
-  scans=$(grep -L ' impairment: ' "$2"/vehicle-*.log | tr '\n' '\0' | xargs -0 -r cat |
-    sed -n 's/.* link: ranges_skipped=\([0-9]*\) .*/\1/p' | sort -n | tail -n 1)
-  ((ticks >= 2 || ${scans:-0} >= 2)) || return 1
-  echo "$(jq -r .reason "$1"); the world was late for $ticks ticks, a vehicle for ${scans:-0} scans"
+  jq -e '.contacts == 0 and (.violations | all(. == 0))' "$1" >/dev/null 2>&1 || return 1
+  only_late "$(jq -r .reason "$1")" "$(jq .tick_overruns "$1")" "$(
+    grep -L ' impairment: ' "$2"/vehicle-*.log | tr '\n' '\0' | xargs -0 -r cat | scans_missed
+  )"
 }
 
 # judged_run REPORT LOGS ARGUMENTS...: fleetctl run ARGUMENTS, with its JSON in REPORT, what it says
@@ -124,6 +120,15 @@ listen_places() {
       --domain "$2" --vehicle "$3" --qos lossy_radio >"$SCRATCH/$1.$topic" 2>/dev/null &
     LISTENERS+=("$!")
   done
+}
+# await_beacons NAME COUNT: until so many were heard, or ten seconds have passed.
+await_beacons() {
+  local _
+  for _ in $(seq 200); do
+    (($(wc -l <"$SCRATCH/$1.beacon") < $2)) || return 0
+    sleep 0.05
+  done
+  fail "$1: heard $(wc -l <"$SCRATCH/$1.beacon") beacons of $2"
 }
 end_listening() {
   local pid

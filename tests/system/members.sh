@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 BIN=$(dirname "$FLEETCTL")
-LANES=$(dirname "${BASH_SOURCE[0]}")/lanes.textproto
+LANES=$REPOSITORY/tests/system/lanes.textproto
 declare -A PID # of each member, by its name; its log is $SCRATCH/NAME.log
 
 end_members() {

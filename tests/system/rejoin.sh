@@ -14,10 +14,7 @@ await "the first two drive (b)" 15 b 'cruise'
 # As itself: its id is asked for, and its body still stands where it was left.
 id=$(id_of b)
 listen_places b "$DOMAIN" "$id"
-for _ in $(seq 100); do # until it is on its way
-  (($(wc -l <"$SCRATCH/b.beacon") < 25)) || break
-  sleep 0.05
-done
+await_beacons b 25 # it is on its way
 kill_now b
 start b2 giveway-vehicle --id "$id"
 await "killed and restarted by its id" 5 b2 'cruise'

@@ -42,7 +42,7 @@ one_run() {
   echo "seed $seed FAILED: exit code $code, $reason; again: fleetctl run $scenario --seed $seed"
   tail -n 3 "$SCRATCH/$seed.json.err" | sed 's/^/  /'
 }
-export -f one_run judged_run excused
+export -f one_run judged_run excused only_late scans_missed
 export FLEETCTL SCRATCH scenario
 
 # shellcheck disable=SC2016  # the inner shell expands it
