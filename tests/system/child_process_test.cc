@@ -1,4 +1,4 @@
-// Real processes and real time: what a pure test cannot say of ChildProcess.
+// Real processes and real time: what a pure test cannot say of ChildProcess and FleetProcesses.
 #include "services/fleetctl/process/child_process.h"
 
 #include <gmock/gmock.h>
@@ -7,11 +7,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <thread>
+
+#include "services/fleetctl/process/fleet_processes.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -25,10 +28,10 @@ ChildCommand Shell(const std::string& script) {
 }
 
 // Polls until `done`, at most five seconds.
-template <typename Condition>
-bool WaitFor(ChildProcess* child, Condition done) {
+template <typename Polled, typename Condition>
+bool WaitFor(Polled* processes, Condition done) {
   for (int i = 0; i < 500; ++i) {
-    child->Poll();
+    processes->Poll();
     if (done()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
@@ -183,31 +186,43 @@ INSTANTIATE_TEST_SUITE_P(ChildProcess, KilledParent,
                                          "trap '' TERM INT; while :; do sleep 1; done",
                                          "kill -STOP $$"));
 
-TEST_P(KilledParent, TakesItsChildWithIt) {
+// Kills a process that has started two others, and says whether these are gone then. `start` leaves
+// them running and hands their ids over.
+template <typename Start>
+void KillParentOfTwo(Start start) {
   std::array<int, 2> pipe{};
   ASSERT_EQ(::pipe(pipe.data()), 0);
   const pid_t parent = ::fork();
   ASSERT_GE(parent, 0);
   if (parent == 0) {
-    ChildProcess child(Shell(GetParam()));
-    const pid_t pid = child.Pid();
-    if (::write(pipe[1], &pid, sizeof pid) != sizeof pid) ::_exit(1);
-    for (;;) ::pause();
+    start([&pipe](const std::array<pid_t, 2>& pids) {
+      if (::write(pipe[1], pids.data(), sizeof pids) != sizeof pids) ::_exit(1);
+      for (;;) ::pause();
+    });
+    ::_exit(1);
   }
-  pid_t orphan = 0;
-  EXPECT_EQ(::read(pipe[0], &orphan, sizeof orphan), static_cast<ssize_t>(sizeof orphan));
+  ::close(pipe[1]);
+  std::array<pid_t, 2> orphans{};
+  EXPECT_EQ(::read(pipe[0], orphans.data(), sizeof orphans), ssize_t{sizeof orphans});
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  EXPECT_FALSE(IsGoneOrUnreaped(orphan));
+  EXPECT_FALSE(std::ranges::any_of(orphans, IsGoneOrUnreaped));
   ::kill(parent, SIGKILL);
   ::waitpid(parent, nullptr, 0);
   bool gone = false;
   for (int i = 0; i < 200 && !gone; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    gone = IsGoneOrUnreaped(orphan);
+    gone = std::ranges::all_of(orphans, IsGoneOrUnreaped);
   }
   EXPECT_TRUE(gone);
   ::close(pipe[0]);
-  ::close(pipe[1]);
+}
+
+TEST_P(KilledParent, TakesItsChildrenWithIt) {
+  KillParentOfTwo([](const auto& hand_over) {
+    ChildProcess one(Shell(GetParam()));
+    ChildProcess other(Shell(GetParam()));
+    hand_over({one.Pid(), other.Pid()});
+  });
 }
 
 TEST(ChildProcess, LogFileHoldsEverythingItSaid) {
@@ -221,6 +236,182 @@ TEST(ChildProcess, LogFileHoldsEverythingItSaid) {
   while (std::getline(log, line)) ++lines;
   EXPECT_EQ(lines, 100);
   std::filesystem::remove(command.log_file);
+}
+
+constexpr MemberId kOne = MemberOf(VehicleId{1});
+constexpr MemberId kTwo = MemberOf(VehicleId{2});
+constexpr auto kLate = std::chrono::milliseconds(200);
+constexpr const char* kSleep = "exec sleep 60";
+constexpr const char* kDeafToSigterm = "trap '' TERM; echo ready; while :; do sleep 0.01; done";
+
+MemberCommand Command(MemberId member, const std::string& script, Nanoseconds start_after = {}) {
+  return {member, Shell(script), start_after};
+}
+
+bool WaitForEnd(FleetProcesses* fleet, MemberId member) {
+  return WaitFor(fleet, [&] { return fleet->EndOf(member).has_value(); });
+}
+
+bool WaitForLine(FleetProcesses* fleet, MemberId member) {
+  return WaitFor(fleet, [&] { return !fleet->LastLines(member).empty(); });
+}
+
+TEST_P(KilledParent, TakesItsFleetWithItRestartedAndLateOnesAlike) {
+  KillParentOfTwo([](const auto& hand_over) {
+    FleetProcesses fleet({Command(kOne, "exit 0"), Command(kTwo, GetParam(), kLate)});
+    if (!WaitForEnd(&fleet, kOne)) return;
+    fleet.Restart(Command(kOne, GetParam()));
+    if (!WaitFor(&fleet, [&] { return fleet.IsRunning(kTwo); })) return;
+    hand_over({*fleet.PidOf(kOne), *fleet.PidOf(kTwo)});
+  });
+}
+
+TEST(FleetProcesses, StartEachInItsTime) {
+  const auto begin = std::chrono::steady_clock::now();
+  FleetProcesses fleet({Command(kOne, kSleep), Command(kTwo, kSleep, kLate)});
+  EXPECT_TRUE(fleet.IsRunning(kOne));
+  EXPECT_FALSE(fleet.AllEnded());
+  ASSERT_TRUE(WaitFor(&fleet, [&] { return fleet.IsRunning(kTwo); }));
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, kLate);
+}
+
+TEST(FleetProcesses, NothingMoreIsStartedOnceAllAreToStop) {
+  FleetProcesses fleet({Command(kOne, kSleep), Command(kTwo, kSleep, kLate)});
+  fleet.AskToStop();
+  ASSERT_TRUE(WaitFor(&fleet, [&] { return fleet.AllEnded(); }));
+  std::this_thread::sleep_for(2 * kLate);
+  fleet.Poll();
+  EXPECT_FALSE(fleet.IsRunning(kTwo));
+  EXPECT_THAT(fleet.TakeEnds(), SizeIs(1));
+}
+
+TEST(FleetProcesses, ARestartedOneIsAnotherProcessWithALogOfItsOwn) {
+  const std::filesystem::path folder =
+      testing::TempDir() + "fleet_logs_" + std::to_string(::getpid());
+  std::filesystem::create_directory(folder);
+  MemberCommand command = Command(kOne, "echo first; exit 3");
+  command.child.log_file = folder / "vehicle-1.log";
+  FleetProcesses fleet({command, Command(kTwo, kSleep)});
+  const pid_t other = *fleet.PidOf(kTwo);
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
+  EXPECT_THAT(fleet.TakeEnds(), SizeIs(1));
+  EXPECT_THAT(fleet.TakeEnds(), SizeIs(0));
+  fleet.Restart(kOne);
+  EXPECT_FALSE(fleet.EndOf(kOne).has_value());
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
+  EXPECT_EQ(fleet.EndOf(kOne)->how, (ProcessEnd{false, 3}));
+  EXPECT_THAT(fleet.TakeEnds(), SizeIs(1));
+  command.child.words.back() = "echo second; exit 4";
+  fleet.Restart(command);
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
+  EXPECT_EQ(fleet.EndOf(kOne)->how, (ProcessEnd{false, 4}));
+  EXPECT_THAT(fleet.LastLines(kOne), ElementsAre("second"));
+  EXPECT_EQ(fleet.PidOf(kTwo), other);
+  for (const auto& [file, word] : {std::pair("vehicle-1.log", "first"),
+                                   {"vehicle-1+.log", "first"},
+                                   {"vehicle-1++.log", "second"}}) {
+    std::string line;
+    std::ifstream(folder / file) >> line;
+    EXPECT_EQ(line, word) << file;
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(FleetProcesses, OnlyAnEndJustAsPlannedIsPlanned) {
+  FleetProcesses fleet({Command(kOne, kSleep), Command(kTwo, "exit 3")});
+  fleet.Kill(kOne);
+  fleet.Plan(kTwo, {false, 0});
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne) && WaitForEnd(&fleet, kTwo));
+  EXPECT_TRUE(fleet.EndOf(kOne)->planned);
+  EXPECT_FALSE(fleet.EndOf(kTwo)->planned);
+  fleet.Restart(kTwo);
+  fleet.Plan(kTwo, {false, 3});
+  ASSERT_TRUE(WaitForEnd(&fleet, kTwo));
+  EXPECT_TRUE(fleet.EndOf(kTwo)->planned);
+  // What was planned of the last process is not of the next.
+  fleet.Restart(kTwo);
+  ASSERT_TRUE(WaitForEnd(&fleet, kTwo));
+  EXPECT_FALSE(fleet.EndOf(kTwo)->planned);
+}
+
+// Somebody else was first, and that has not been noticed yet.
+TEST(FleetProcesses, AKillOfOneThatIsDeadAlreadyPlansNothing) {
+  FleetProcesses fleet({Command(kOne, kSleep)});
+  const pid_t pid = *fleet.PidOf(kOne);
+  ::kill(pid, SIGKILL);
+  while (!IsGoneOrUnreaped(pid)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  fleet.Kill(kOne);
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
+  EXPECT_EQ(fleet.EndOf(kOne)->how, (ProcessEnd{true, SIGKILL}));
+  EXPECT_FALSE(fleet.EndOf(kOne)->planned);
+}
+
+TEST(FleetProcesses, WhoMayEndIsForTheCallerToSay) {
+  FleetProcesses fleet(
+      {Command(kTheWorld, kSleep), Command(kOne, "exit 0"), Command(kTwo, "exit 3")});
+  const auto all = [](const MemberEnd&) { return true; };
+  const auto nobody = [](const MemberEnd&) { return false; };
+  const auto well = [](const MemberEnd& end) { return end.how == ProcessEnd{false, 0}; };
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne) && WaitForEnd(&fleet, kTwo));
+  EXPECT_FALSE(fleet.FirstEndNotAllowed(all));
+  ASSERT_TRUE(fleet.FirstEndNotAllowed(nobody) && fleet.FirstEndNotAllowed(well));
+  EXPECT_EQ(fleet.FirstEndNotAllowed(nobody)->member, kOne);
+  EXPECT_EQ(fleet.FirstEndNotAllowed(well)->member, kTwo);
+  EXPECT_TRUE(fleet.AnyRunning([](MemberId member) { return member == kTheWorld; }));
+  EXPECT_FALSE(fleet.AnyRunning([](MemberId member) { return member != kTheWorld; }));
+}
+
+TEST(FleetProcesses, OneThatIsPausedWakesAndLeavesWhenAskedTo) {
+  FleetProcesses fleet(
+      {Command(kOne, "trap 'exit 5' TERM; echo ready; while :; do sleep 0.01; done")});
+  ASSERT_TRUE(WaitForLine(&fleet, kOne));
+  fleet.Signal(kOne, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  fleet.AskToStop(kOne);
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
+  EXPECT_EQ(fleet.EndOf(kOne)->how, (ProcessEnd{false, 5}));
+}
+
+TEST(FleetProcesses, WhoDoesNotLeaveInTimeIsKilled) {
+  FleetProcesses fleet({Command(kOne, kDeafToSigterm), Command(kTwo, kSleep)});
+  ASSERT_TRUE(WaitForLine(&fleet, kOne));
+  fleet.EndAll(kLate, [&fleet] { fleet.Poll(); });
+  EXPECT_EQ(fleet.EndOf(kOne)->how, (ProcessEnd{true, SIGKILL}));
+  EXPECT_EQ(fleet.EndOf(kTwo)->how, (ProcessEnd{true, SIGTERM}));
+}
+
+TEST(FleetProcesses, LinesAreHandedOnWithWhoSaidThem) {
+  MemberCommand one = Command(kOne, "echo one");
+  MemberCommand two = Command(kTwo, "echo two");
+  one.child.hands_on_lines = two.child.hands_on_lines = true;
+  FleetProcesses fleet({one, two});
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne) && WaitForEnd(&fleet, kTwo));
+  const std::vector<MemberLine> lines = fleet.TakeLines();
+  ASSERT_THAT(lines, SizeIs(2));
+  EXPECT_EQ(lines[0].member, kOne);
+  EXPECT_EQ(lines[0].text, "one");
+  EXPECT_EQ(lines[1].text, "two");
+  EXPECT_THAT(fleet.TakeLines(), SizeIs(0));
+}
+
+TEST(FleetProcesses, ALiveOneIsMeasured) {
+  FleetProcesses fleet(
+      {Command(kOne, "exec 5</dev/null 6</dev/null; echo ready; while :; do :; done")});
+  ASSERT_TRUE(WaitForLine(&fleet, kOne));
+  std::optional<ProcessResources> resources;
+  EXPECT_TRUE(WaitFor(&fleet, [&] {
+    resources = fleet.ResourcesOf(kOne);
+    return resources && resources->cpu_s > 0;
+  }));
+  ASSERT_TRUE(resources);
+  EXPECT_EQ(resources->threads, 1U);
+  EXPECT_EQ(resources->descriptors, 5U);
+  EXPECT_GT(resources->private_bytes, 0U);
+  EXPECT_GT(resources->resident_bytes, resources->private_bytes);
+  fleet.Kill(kOne);
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
+  EXPECT_FALSE(fleet.ResourcesOf(kOne));
+  EXPECT_FALSE(fleet.PidOf(kOne));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ int RefuseToRun(const RunOptions& options, const char* reason, const std::except
     Report report;
     report.scenario = options.scenario;
     report.reason = reason;
-    report.seed = options.seed.value_or(0);
+    report.seed = options.fleet.seed.value_or(0);
     report.domain = options.domain.value_or(0);
     Print(options, report);
   }
@@ -48,18 +48,20 @@ int RefuseToRun(const RunOptions& options, const char* reason, const std::except
 
 // In lockstep the world waits for every command, and a vehicle answers scans alone.
 void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario) {
-  const Impairment impairment =
-      options.impair.empty() ? scenario.impairment : ParseImpairment(options.impair).impairment;
-  if (!options.lockstep || impairment.rules.empty()) return;
+  const Impairment impairment = options.fleet.impair.empty()
+                                    ? scenario.impairment
+                                    : ParseImpairment(options.fleet.impair).impairment;
+  if (!options.fleet.lockstep || impairment.rules.empty()) return;
   throw InputError({{options.scenario, 0, "--lockstep", "",
                      "the world would wait for ever for the answer to a scan that is lost",
                      "leave --lockstep out, or give --impair none"}});
 }
 
 int StartAndWatch(const RunOptions& options) {
-  const ScenarioOverrides overrides{options.seed, options.behaviour, options.duration_s};
+  const ScenarioOverrides overrides{options.fleet.seed, options.fleet.behaviour,
+                                    options.fleet.duration_s};
   const Scenario scenario = LoadScenario(options.scenario, overrides);
-  if (options.vehicles && scenario.spawns.empty()) {
+  if (options.fleet.vehicles && scenario.spawns.empty()) {
     throw InputError({{options.scenario, 0, "", "",
                        "--vehicles was given, but the scenario names all of its vehicles",
                        "leave --vehicles out, or write spawn { ... } in the scenario"}});
@@ -68,14 +70,19 @@ int StartAndWatch(const RunOptions& options) {
   const std::string qos_file = ResolveQosFile(options.qos_file);
   RequireSoundQos(qos_file, DeploymentOf(scenario));
   if (!options.picture_file.empty()) CheckWritable(options.picture_file);
-  if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
-  if (!options.record_folder.empty()) CheckFolder(options.record_folder);
+  if (!options.fleet.logs_folder.empty()) CheckFolder(options.fleet.logs_folder);
+  if (!options.fleet.record_folder.empty()) CheckFolder(options.fleet.record_folder);
 
   const DomainLock lock(options.domain);
-  FleetCommand command{ProgramFolder(), ResolveScenario(options.scenario), lock.Domain(), qos_file,
-                       lock.Fd()};
+  const FleetSpec spec{.program_folder = ProgramFolder(),
+                       .scenario_file = ResolveScenario(options.scenario),
+                       .domain = lock.Domain(),
+                       .qos_file = qos_file,
+                       .lock_fd = lock.Fd(),
+                       .hands_on_lines = true,
+                       .options = options.fleet};
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
-  RunSession session(options, scenario, command);
+  RunSession session(options, scenario, spec);
   const Report report = session.Run();
 
   const bool told = Print(options, report);

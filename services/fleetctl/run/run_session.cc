@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "services/fleetctl/run/run_ends.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -37,21 +38,15 @@ Nanoseconds TimeLimit(const Scenario& scenario, bool lockstep) {
   return FromSeconds(scenario.start_timeout_s + run_s + kSpareSeconds);
 }
 
-link::LinkOptions ObserverOptions(const RunOptions& options, const Scenario& scenario,
-                                  const FleetCommand& command) {
-  return {command.domain,
-          options.interface,
-          command.qos_file,
+link::LinkOptions ObserverOptions(const FleetSpec& spec, const Scenario& scenario) {
+  return {spec.domain,
+          spec.options.interface,
+          spec.qos_file,
           scenario.area,
           static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
           false,
           {},
-          options.discovery_servers};
-}
-
-std::vector<ChildCommand> WithLines(std::vector<ChildCommand> commands) {
-  for (ChildCommand& command : commands) command.hands_on_lines = true;
-  return commands;
+          spec.options.discovery_servers};
 }
 
 TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWatch& watch) {
@@ -69,29 +64,30 @@ TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWa
 
 }  // namespace
 
-RunSession::RunSession(const RunOptions& options, const Scenario& scenario,
-                       const FleetCommand& command)
+RunSession::RunSession(const RunOptions& options, const Scenario& scenario, const FleetSpec& spec)
     : scenario_(scenario),
-      domain_(command.domain),
-      time_limit_(TimeLimit(scenario, options.lockstep)),
+      open_(!scenario.spawns.empty()),
+      domain_(spec.domain),
+      time_limit_(TimeLimit(scenario, spec.options.lockstep)),
       watch_(scenario, !options.picture_file.empty()),
       invariants_(scenario),
-      observer_(ObserverOptions(options, scenario, command)),
-      processes_(WithLines(MakeCommands(options, command, scenario)), scenario),
+      observer_(ObserverOptions(spec, scenario)),
+      processes_(MakeCommands(spec, scenario)),
       screen_(!options.json && IsTerminal()) {}
 
 Report RunSession::Run() {
   std::optional<Overruled> overruled = Supervise();
   stopping_ = true;
   // The world first, so that it announces the end and the vehicles leave in good order.
-  if (overruled) processes_.World().AskToStop();
-  const bool announces = processes_.World().IsRunning();
-  StopAll(!overruled ? kLeaveGrace : announces ? kAnnounceGrace : Nanoseconds{0});
+  if (overruled) processes_.AskToStop(kTheWorld);
+  const bool announces = processes_.IsRunning(kTheWorld);
+  const Nanoseconds grace = !overruled ? kLeaveGrace : announces ? kAnnounceGrace : Nanoseconds{0};
+  const auto turn = [this] { Turn(); };
+  if (!processes_.WaitUntilEnded(grace, turn)) processes_.EndAll(kTermGrace, turn);
   DrainLast();
   if (!overruled) {
     overruled = JudgeExits();
-  } else if (const ChildProcess* bad = processes_.FirstBadEnd();
-             bad != nullptr && overruled->reason == kInterrupted) {
+  } else if (const auto bad = FirstBadEnd(); bad && overruled->reason == kInterrupted) {
     ShowTrouble(*bad, "did not leave in good order");
   }
   screen_.Finish();
@@ -108,13 +104,25 @@ std::optional<Overruled> RunSession::Supervise() {
     Turn();
     if (Interrupts::Count() > 0) return Overruled{Verdict::kFailed, kInterrupted};
     if (watch_.HasEnded()) return std::nullopt;
-    if (const ChildProcess* gone = processes_.FirstUnplannedEnd()) return JudgeEnd(*gone);
+    if (const auto gone = FirstEarlyEnd()) return JudgeEnd(*gone);
     if (SteadyNow() > limit) return Overruled{Verdict::kFailed, "overran"};
   }
 }
 
-std::optional<Overruled> RunSession::JudgeEnd(const ChildProcess& gone) {
-  const ProcessEnd end = *gone.End();
+std::optional<MemberEnd> RunSession::FirstEarlyEnd() const {
+  const bool any_vehicle =
+      processes_.AnyRunning([](MemberId member) { return member != kTheWorld; });
+  return processes_.FirstEndNotAllowed(
+      [&](const MemberEnd& end) { return MayEndEarly(end, open_, any_vehicle); });
+}
+
+std::optional<MemberEnd> RunSession::FirstBadEnd() const {
+  return processes_.FirstEndNotAllowed(
+      [this](const MemberEnd& end) { return IsGoodEnd(end, open_); });
+}
+
+std::optional<Overruled> RunSession::JudgeEnd(const MemberEnd& gone) {
+  const ProcessEnd end = gone.how;
   const SteadyTime limit = SteadyNow() + kNewsUnderway;
   while (!end.by_signal && SteadyNow() < limit) {
     Turn();
@@ -129,20 +137,6 @@ std::optional<Overruled> RunSession::JudgeEnd(const ChildProcess& gone) {
   return Overruled{Verdict::kFailed, "process_died"};
 }
 
-void RunSession::StopAll(Nanoseconds grace) {
-  if (WaitUntilAllEnded(grace)) return;
-  processes_.AskAllToStop();
-  if (WaitUntilAllEnded(kTermGrace)) return;
-  processes_.SignalAll(SIGKILL);
-  while (processes_.AnyRunning()) Turn();
-}
-
-bool RunSession::WaitUntilAllEnded(Nanoseconds grace) {
-  const SteadyTime limit = SteadyNow() + grace;
-  while (processes_.AnyRunning() && SteadyNow() < limit && Interrupts::Count() < 2) Turn();
-  return !processes_.AnyRunning();
-}
-
 void RunSession::DrainLast() {
   const SteadyTime limit = SteadyNow() + kLastWords;
   do {
@@ -154,13 +148,13 @@ void RunSession::DrainLast() {
 
 std::optional<Overruled> RunSession::JudgeExits() {
   if (Interrupts::Count() > 0) return Overruled{Verdict::kFailed, kInterrupted};
-  if (const ChildProcess* bad = processes_.FirstBadEnd()) {
+  if (const auto bad = FirstBadEnd()) {
     ShowTrouble(*bad, "ended badly after the run");
     return Overruled{Verdict::kFailed, "process_died"};
   }
-  const ProcessEnd world = *processes_.World().End();
-  if (world.number == kCouldNotStart) {
-    ShowTrouble(processes_.World(), "could not run");
+  const MemberEnd world = *processes_.EndOf(kTheWorld);
+  if (world.how.number == kCouldNotStart) {
+    ShowTrouble(world, "could not run");
     return Overruled{Verdict::kNotRun, "could_not_start"};
   }
   if (!watch_.HasFigures()) return Overruled{Verdict::kFailed, "no_figures"};
@@ -176,19 +170,24 @@ void RunSession::Drain() {
 void RunSession::Turn() {
   SleepUntil(SteadyNow() + kTurn);
   Drain();
-  for (const VehicleId vehicle : watch_.TakeDueKills()) processes_.Kill(vehicle);
+  for (const VehicleId vehicle : watch_.TakeDueKills()) processes_.Kill(MemberOf(vehicle));
   processes_.Poll();
   ShowErrors();
-  for (const ChildProcess* child : processes_.TakeNewlyEnded()) {
-    if (!stopping_ && !watch_.HasEnded()) ShowTrouble(*child, "ended");
+  for (const MemberEnd& gone : processes_.TakeEnds()) {
+    const bool is_news = open_ && gone.member != kTheWorld;
+    if (is_news && !stopping_ && !watch_.HasEnded()) ShowTrouble(gone, "ended");
   }
   TableView view = MakeView(scenario_, domain_, watch_);
   if (stopping_) view.state = "stopping";
   screen_.Show(view, SteadyNow());
 }
 
+// Of those that ended badly ShowTrouble shows the last lines.
 void RunSession::ShowErrors() {
-  for (const std::string& line : processes_.TakeErrors()) {
+  for (const auto& [member, line] : processes_.TakeLines()) {
+    const std::optional<MemberEnd>& end = processes_.EndOf(member);
+    const bool is_well = !end || end->how == ProcessEnd{false, 0};
+    if (!is_well || !IsErrorLine(line)) continue;
     if (errors_shown_ == kMostErrorsShown) return;
     screen_.Finish();
     std::fprintf(stderr, "%s\n", line.c_str());
@@ -197,11 +196,12 @@ void RunSession::ShowErrors() {
   }
 }
 
-void RunSession::ShowTrouble(const ChildProcess& child, const std::string& what) {
+void RunSession::ShowTrouble(const MemberEnd& gone, const std::string& what) {
   screen_.Finish();
-  std::string text = fmt::format("{} {}: {}", child.Name(), what, Describe(*child.End()));
-  text += child.LastLines().empty() ? "; it said nothing\n" : "; the last it said:\n";
-  for (const std::string& line : child.LastLines()) text += "  " + line + "\n";
+  const std::deque<std::string>& said = processes_.LastLines(gone.member);
+  std::string text = fmt::format("{} {}: {}", NameOf(gone.member), what, Describe(gone.how));
+  text += said.empty() ? "; it said nothing\n" : "; the last it said:\n";
+  for (const std::string& line : said) text += "  " + line + "\n";
   std::fputs(text.c_str(), stderr);
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "services/fleetctl/output/live_screen.h"
+#include "services/fleetctl/process/fleet_processes.h"
 #include "services/fleetctl/process/interrupts.h"
-#include "services/fleetctl/run/fleet_processes.h"
 #include "services/fleetctl/run/fleet_watch.h"
 #include "services/fleetctl/run/invariant_watch.h"
 #include "services/fleetctl/run/run_options.h"
@@ -20,7 +20,7 @@ namespace giveway::fleetctl {
 class RunSession {
  public:
   // Starts everything. `scenario` outlives the session. Throws LinkError, StartError.
-  RunSession(const RunOptions& options, const Scenario& scenario, const FleetCommand& command);
+  RunSession(const RunOptions& options, const Scenario& scenario, const FleetSpec& spec);
 
   // Returns when the last process is gone.
   Report Run();
@@ -30,10 +30,9 @@ class RunSession {
   // Waits for the run's end. A value where the verdict is not the world's to give.
   std::optional<Overruled> Supervise();
   // Somebody ended who should not have, unless the end of the run is just on its way to us.
-  std::optional<Overruled> JudgeEnd(const ChildProcess& gone);
-  // Everyone leaves: by themselves within `grace`, else told to, else killed.
-  void StopAll(Nanoseconds grace);
-  bool WaitUntilAllEnded(Nanoseconds grace);
+  std::optional<Overruled> JudgeEnd(const MemberEnd& gone);
+  std::optional<MemberEnd> FirstEarlyEnd() const;
+  std::optional<MemberEnd> FirstBadEnd() const;
   // Takes in what is still on its way after the last process is gone.
   void DrainLast();
   // How the processes ended says more than the world could know.
@@ -44,9 +43,10 @@ class RunSession {
   void Turn();
   // What a child goes on after, such as a full disk: nothing else would tell the operator.
   void ShowErrors();
-  void ShowTrouble(const ChildProcess& child, const std::string& what);
+  void ShowTrouble(const MemberEnd& gone, const std::string& what);
 
   const Scenario& scenario_;
+  bool open_;
   std::uint32_t domain_;
   Nanoseconds time_limit_;
   Interrupts interrupts_;

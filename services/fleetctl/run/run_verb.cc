@@ -59,23 +59,25 @@ Behaviour ParseBehaviour(const std::string& name) {
 void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
       ->required();
-  verb->add_option("--duration", options->duration_s, "End after this many seconds")
+  verb->add_option("--duration", options->fleet.duration_s, "End after this many seconds")
       ->check(CheckSeconds)
       ->envname("GIVEWAY_DURATION");
   verb->add_option_function<std::string>(
           "--behaviour",
-          [options](const std::string& name) { options->behaviour = ParseBehaviour(name); },
+          [options](const std::string& name) { options->fleet.behaviour = ParseBehaviour(name); },
           "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
           "lecture_printed, which shows the flaws of the printed scripts: it collides")
       ->envname("GIVEWAY_BEHAVIOUR");
-  verb->add_option("--seed", options->seed, "Moves start poses and cruise speeds; 0 moves nothing")
+  verb->add_option("--seed", options->fleet.seed,
+                   "Moves start poses and cruise speeds; 0 moves nothing")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->envname("GIVEWAY_SEED");
-  verb->add_option("--vehicles", options->vehicles,
+  verb->add_option("--vehicles", options->fleet.vehicles,
                    "Of an open fleet: start so many that the scenario does not name")
       ->check(CLI::Range(0U, kMostVehicles))
       ->envname("GIVEWAY_VEHICLES");
-  verb->add_flag("--lockstep", options->lockstep, "The world waits for every command of a tick")
+  verb->add_flag("--lockstep", options->fleet.lockstep,
+                 "The world waits for every command of a tick")
       ->envname("GIVEWAY_LOCKSTEP");
 }
 
@@ -83,15 +85,15 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
       ->check(CLI::Range(kFirstDomain, kLastDomain))
       ->envname("GIVEWAY_DOMAIN");
-  AddInterfaceFlag(verb, &options->interface);
-  AddDiscoveryFlag(verb, &options->discovery_servers);
+  AddInterfaceFlag(verb, &options->fleet.interface);
+  AddDiscoveryFlag(verb, &options->fleet.discovery_servers);
   verb->add_option(
           "--qos", options->qos_file,
           "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host, ...); without "
           "it the default")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
-  verb->add_option("--impair", options->impair,
+  verb->add_option("--impair", options->fleet.impair,
                    "Impair what every vehicle hears, instead of the scenario: "
                    "loss=0.1,delay=20ms, or none; the README lists the keys")
       ->check(CheckImpairment)
@@ -102,17 +104,18 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_option("--picture", options->picture_file, "Draw both paths as SVG into this file")
       ->check(CheckNotEmpty);
-  verb->add_option("--logs", options->logs_folder, "Keep the log of every process in this folder")
+  verb->add_option("--logs", options->fleet.logs_folder,
+                   "Keep the log of every process in this folder")
       ->check(CheckNotEmpty);
-  verb->add_option("--record", options->record_folder,
+  verb->add_option("--record", options->fleet.record_folder,
                    "Every vehicle records its inputs and decisions in this folder; see replay")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_RECORD");
-  verb->add_option("--record-split", options->record_split,
+  verb->add_option("--record-split", options->fleet.record_split,
                    "Begin another file of each recording at this size: 64MiB")
       ->check(CheckSplit)
       ->envname("GIVEWAY_RECORD_SPLIT");
-  verb->add_option("--log-level", options->log_level, "Of the world and the vehicles")
+  verb->add_option("--log-level", options->fleet.log_level, "Of the world and the vehicles")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()
       ->envname("GIVEWAY_LOG_LEVEL");

@@ -16,6 +16,7 @@
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/stopwatch/stopwatch_plan.h"
 #include "services/fleetctl/stopwatch/stopwatch_show.h"
 #include "services/fleetctl/stopwatch/stopwatch_trials.h"
 #include "services/link/fastdds/library_release.h"
@@ -114,9 +115,9 @@ std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {
 // Hands tasks out to threads, each with a fleet of its own, and gathers what they bring.
 class Session {
  public:
-  Session(const StopwatchOptions& options, StopwatchFleetCommand command, const Limits& limits)
+  Session(const StopwatchOptions& options, FleetSpec spec, const Limits& limits)
       : options_(options),
-        command_(std::move(command)),
+        spec_(std::move(spec)),
         limits_(limits),
         tasks_(TasksOf(options)),
         wanted_(options.trials * options.faults.size()),
@@ -134,7 +135,7 @@ class Session {
     report_.vehicles = options_.vehicles;
     report_.fleets = options_.fleets;
     report_.seed = options_.seed;
-    report_.qos_file = command_.qos_file;
+    report_.qos_file = spec_.qos_file;
     report_.limits = limits_;
     report_.library_major = link::LibraryMajor();
     report_.cells = Judge(trials_, limits_);
@@ -146,18 +147,17 @@ class Session {
   void Work() {
     try {
       while (const auto number = NextTask()) {
-        StopwatchFleetCommand command = command_;
+        FleetSpec spec = spec_;
         const StopwatchTask& task = tasks_[*number];
-        if (!command.logs_folder.empty()) {
-          command.logs_folder =
-              (fs::path(command.logs_folder) / fmt::format("{}-{}", *number + 1, Name(task.fault)))
-                  .string();
-          CheckFolder(command.logs_folder);
+        std::string& logs = spec.options.logs_folder;
+        if (!logs.empty()) {
+          logs = fs::path(logs) / fmt::format("{}-{}", *number + 1, Name(task.fault));
+          CheckFolder(logs);
         }
         StopwatchResult result;
         for (int i = 0; i < kAttempts && (i == 0 || result.too_soon); ++i) {
-          result = Conduct(task, command, limits_, monitor_,
-                           [this](std::size_t trials) { Tell(trials); });
+          result =
+              Conduct(task, spec, limits_, monitor_, [this](std::size_t trials) { Tell(trials); });
         }
         Gather(task, result);
       }
@@ -194,7 +194,7 @@ class Session {
   }
 
   const StopwatchOptions& options_;
-  const StopwatchFleetCommand command_;
+  const FleetSpec spec_;
   const Limits limits_;
   const std::vector<StopwatchTask> tasks_;
   const std::size_t wanted_;
@@ -224,9 +224,14 @@ int RunStopwatch(const StopwatchOptions& options) {
   }
   if (!options.logs_folder.empty()) CheckFolder(options.logs_folder);
   const Interrupts interrupts;
-  Session session(
-      options, {ProgramFolder(), scenario_file, qos_file, options.interface, options.logs_folder},
-      limits);
+  FleetSpec spec{.program_folder = ProgramFolder(),
+                 .scenario_file = scenario_file,
+                 .qos_file = qos_file,
+                 .flags_only = true};
+  spec.options.interface = options.interface;
+  spec.options.logs_folder = options.logs_folder;
+  spec.options.vehicles = 0;  // that nobody named
+  Session session(options, spec, limits);
   const StopwatchReport report = session.Run();
   std::fputs((options.json ? StopwatchJson(report) : StopwatchText(report)).c_str(), stdout);
   if (std::fflush(stdout) != 0) {

@@ -1,11 +1,8 @@
 #include "services/fleetctl/stopwatch/stopwatch_fleet.h"
 
 #include <algorithm>
-#include <csignal>
 
 #include "services/config/scenario_file.h"
-#include "services/fleetctl/process/interrupts.h"
-#include "services/fleetctl/run/fleet_processes.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -15,76 +12,40 @@ namespace {
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(10);
 constexpr Nanoseconds kGrace = std::chrono::seconds(2);
 
-std::string LossOf(const ChildProcess& gone) {
-  std::string text = gone.Name() + " ended unasked: " + Describe(*gone.End());
-  for (const std::string& line : gone.LastLines()) text += "\n  " + line;
-  return text;
+std::vector<MemberCommand> CommandsOf(FleetSpec spec, const DomainLock& lock,
+                                      const std::map<VehicleId, std::string>& impair) {
+  spec.domain = lock.Domain();
+  spec.lock_fd = lock.Fd();
+  spec.hands_on_lines = true;
+  for (const auto& [vehicle, rules] : impair) {
+    auto& words = spec.extra_words[MemberOf(vehicle)];
+    words = {"--log-format", "json", "--hang-on-signal"};
+    if (!rules.empty()) words.insert(words.end(), {"--impair", rules});
+  }
+  return MakeCommands(spec, LoadScenario(spec.scenario_file, {}));
 }
 
 }  // namespace
 
-StopwatchFleet::StopwatchFleet(const StopwatchFleetCommand& command,
-                               std::span<const VehicleId> fleet,
+StopwatchFleet::StopwatchFleet(const FleetSpec& spec,
                                const std::map<VehicleId, std::string>& impair)
-    : lock_(std::nullopt) {
-  RunOptions options;
-  options.interface = command.interface;
-  options.logs_folder = command.logs_folder;
-  options.vehicles = 0;  // that nobody named
-  const Scenario scenario = LoadScenario(command.scenario_file, {});
-  std::vector<ChildCommand> commands =
-      MakeCommands(options,
-                   {command.program_folder, command.scenario_file, lock_.Domain(), command.qos_file,
-                    lock_.Fd(), true},
-                   scenario);
-  world_ = std::make_unique<ChildProcess>(commands.front());
-  for (std::size_t i = 0; i < fleet.size(); ++i) {
-    ChildCommand& child = commands[i + 1];
-    child.hands_on_lines = true;
-    child.words.insert(child.words.end(), {"--log-format", "json", "--hang-on-signal"});
-    const auto rules = impair.find(fleet[i]);
-    if (rules != impair.end() && !rules->second.empty()) {
-      child.words.insert(child.words.end(), {"--impair", rules->second});
-    }
-    auto process = std::make_unique<ChildProcess>(child);
-    vehicles_.emplace(fleet[i], Vehicle{std::move(child), std::move(process)});
-  }
-}
+    : lock_(std::nullopt), processes_(CommandsOf(spec, lock_, impair)) {}
 
 StopwatchFleet::~StopwatchFleet() {
-  const auto signal_all = [this](int number) {
-    world_->Signal(number);
-    for (auto& [id, vehicle] : vehicles_) vehicle.process->Signal(number);
-  };
-  signal_all(SIGCONT);
-  signal_all(SIGTERM);
-  const SteadyTime limit = SteadyNow() + kGrace;
-  while (AnyRunning() && SteadyNow() < limit && Interrupts::Count() < 2) Turn();
+  processes_.EndAll(kGrace, [this] { Turn(); });
 }
 
 void StopwatchFleet::Turn() {
   SleepUntil(SteadyNow() + kTurn);
-  Poll();
-}
-
-void StopwatchFleet::Poll() {
-  world_->Poll();
-  for (auto& [id, vehicle] : vehicles_) {
-    vehicle.process->Poll();
-    for (const std::string& line : vehicle.process->TakeLines()) {
-      const std::optional<Word> word = WordOf(line);
-      if (!word) continue;
-      if (word->kind == WordKind::kBlackoutsCount) blackouts_since_[id] = word->at;
-      hearing_.Fold(id, *word);
-      said_.push_back({id, *word});
-    }
+  processes_.Poll();
+  for (const auto& [member, line] : processes_.TakeLines()) {
+    const std::optional<Word> word = member == kTheWorld ? std::nullopt : WordOf(line);
+    if (!word) continue;
+    const VehicleId vehicle{member.number};
+    if (word->kind == WordKind::kBlackoutsCount) blackouts_since_[vehicle] = word->at;
+    hearing_.Fold(vehicle, *word);
+    said_.push_back({vehicle, *word});
   }
-}
-
-bool StopwatchFleet::AnyRunning() const {
-  return world_->IsRunning() || std::ranges::any_of(vehicles_, [](const auto& entry) {
-           return entry.second.process->IsRunning();
-         });
 }
 
 std::optional<SteadyTime> StopwatchFleet::BlackoutsSince(VehicleId vehicle) const {
@@ -93,27 +54,19 @@ std::optional<SteadyTime> StopwatchFleet::BlackoutsSince(VehicleId vehicle) cons
   return since->second;
 }
 
-void StopwatchFleet::Signal(VehicleId vehicle, int signal_number) {
-  vehicles_.at(vehicle).process->Signal(signal_number);
-}
-
 void StopwatchFleet::Restart(VehicleId vehicle) {
-  Vehicle& restarted = vehicles_.at(vehicle);
   hearing_.Restart(vehicle);
-  restarted.process.reset();
-  if (const std::string& log = restarted.command.log_file; !log.empty()) {
-    restarted.command.log_file = log.substr(0, log.rfind(".log")) + "+.log";
-  }
-  restarted.process = std::make_unique<ChildProcess>(restarted.command);
+  processes_.Restart(MemberOf(vehicle));
 }
 
 std::optional<std::string> StopwatchFleet::Loss(std::span<const VehicleId> struck) const {
-  if (!world_->IsRunning()) return LossOf(*world_);
-  for (const auto& [id, vehicle] : vehicles_) {
-    const bool expected = std::ranges::find(struck, id) != struck.end();
-    if (!vehicle.process->IsRunning() && !expected) return LossOf(*vehicle.process);
-  }
-  return std::nullopt;
+  const auto gone = processes_.FirstEndNotAllowed([struck](const MemberEnd& end) {
+    return std::ranges::any_of(struck, [&](VehicleId id) { return MemberOf(id) == end.member; });
+  });
+  if (!gone) return std::nullopt;
+  std::string text = NameOf(gone->member) + " ended unasked: " + Describe(gone->how);
+  for (const std::string& line : processes_.LastLines(gone->member)) text += "\n  " + line;
+  return text;
 }
 
 }  // namespace giveway::fleetctl

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/stopwatch/stopwatch_plan.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -53,13 +54,13 @@ struct Struck {
 
 class Conductor {
  public:
-  Conductor(const StopwatchTask& task, const StopwatchFleetCommand& command, const Limits& limits,
+  Conductor(const StopwatchTask& task, const FleetSpec& spec, const Limits& limits,
             const StallMonitor& monitor)
       : task_(task),
         limits_(limits),
         monitor_(monitor),
         waves_(PlanWaves(task.fault, task.trials, task.fleet, limits, task.seed)),
-        fleet_(command, task.fleet, Impairments()) {}
+        fleet_(spec, Impairments()) {}
 
   StopwatchResult Run(const std::function<void(std::size_t)>& note) {
     try {
@@ -278,10 +279,9 @@ class Conductor {
 
 }  // namespace
 
-StopwatchResult Conduct(const StopwatchTask& task, const StopwatchFleetCommand& command,
-                        const Limits& limits, const StallMonitor& monitor,
-                        const std::function<void(std::size_t)>& note) {
-  return Conductor(task, command, limits, monitor).Run(note);
+StopwatchResult Conduct(const StopwatchTask& task, const FleetSpec& spec, const Limits& limits,
+                        const StallMonitor& monitor, const std::function<void(std::size_t)>& note) {
+  return Conductor(task, spec, limits, monitor).Run(note);
 }
 
 }  // namespace giveway::fleetctl

@@ -30,8 +30,7 @@ struct StopwatchResult {
 };
 
 // `note` is told of every wave how many trials it brought. Throws StartError, DomainError.
-StopwatchResult Conduct(const StopwatchTask& task, const StopwatchFleetCommand& command,
-                        const Limits& limits, const StallMonitor& monitor,
-                        const std::function<void(std::size_t)>& note);
+StopwatchResult Conduct(const StopwatchTask& task, const FleetSpec& spec, const Limits& limits,
+                        const StallMonitor& monitor, const std::function<void(std::size_t)>& note);
 
 }  // namespace giveway::fleetctl

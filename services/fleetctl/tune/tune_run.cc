@@ -68,12 +68,14 @@ class Tuning {
     store_.Write("scenario.textproto", TuneScenarioText(options_.vehicles));
     const std::string scenario_file = (store_.Folder() / "scenario.textproto").string();
     scenario_ = LoadScenario(scenario_file, {});
-    ground_ = {.program_folder = ProgramFolder(),
-               .scenario_file = scenario_file,
+    ground_ = {.fleet = {.program_folder = ProgramFolder(),
+                         .scenario_file = scenario_file,
+                         .flags_only = true},
                .scenario = &scenario_,
                .observer_qos = base_.name,
-               .impair = options_.impair,
                .alive_s = options_.trial_s};
+    ground_.fleet.options.impair = options_.impair;
+    ground_.fleet.options.vehicles = 0;  // beside those the scenario names
     MakeProfiles();
   }
 

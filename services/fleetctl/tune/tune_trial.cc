@@ -1,16 +1,11 @@
 #include "services/fleetctl/tune/tune_trial.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
-#include <sstream>
 
-#include "services/fleetctl/run/fleet_processes.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -27,13 +22,15 @@ constexpr Nanoseconds kFirstKilling = milliseconds(20);
 constexpr std::size_t kMostKillings = 3;
 constexpr Nanoseconds kLeaveGrace = seconds(3);
 
-RunOptions OptionsOf(const TuneGround& ground, const TrialOrder& order) {
-  RunOptions options;
-  options.seed = order.seed;
-  options.vehicles = 0;  // beside those the scenario names
-  options.impair = ground.impair;
-  options.record_folder = order.folder.string();
-  return options;
+std::vector<MemberCommand> CommandsOf(const TuneGround& ground, const TrialOrder& order,
+                                      const DomainLock& lock) {
+  FleetSpec spec = ground.fleet;
+  spec.domain = lock.Domain();
+  spec.lock_fd = lock.Fd();
+  spec.qos_file = order.qos_file;
+  spec.options.seed = order.seed;
+  spec.options.record_folder = order.folder.string();
+  return MakeCommands(spec, *ground.scenario);
 }
 
 link::LinkOptions ObserverOptions(const TuneGround& ground, std::uint32_t domain) {
@@ -43,22 +40,6 @@ link::LinkOptions ObserverOptions(const TuneGround& ground, std::uint32_t domain
   options.area = ground.scenario->area;
   options.fleet_size = static_cast<std::uint32_t>(ground.scenario->vehicles.size());
   return options;
-}
-
-// proc(5): utime and stime are fields 14 and 15; the name, field 2, may hold anything but ends with
-// the last ')'.
-double CpuSecondsOf(pid_t pid) {
-  std::ifstream stream("/proc/" + std::to_string(pid) + "/stat");
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const std::size_t name_end = text.rfind(')');
-  if (name_end == std::string::npos) return 0;
-  std::istringstream fields(text.substr(name_end + 1));
-  std::string skipped;
-  for (int field = 3; field < 14; ++field) fields >> skipped;
-  double user = 0;
-  double system = 0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
 }
 
 // "bytes=1234" of the line in which a vehicle says what was injected.
@@ -76,18 +57,13 @@ TuneTrial::TuneTrial(const TuneGround& ground, const TrialOrder& order)
     : ground_(ground), order_(order), lock_(std::nullopt), random_(order.seed) {
   std::filesystem::create_directories(order.folder);
   observer_.emplace(ObserverOptions(ground, lock_.Domain()));
-  const FleetCommand command{ground.program_folder, ground.scenario_file, lock_.Domain(),
-                             order.qos_file,        lock_.Fd(),           true};
-  for (const ChildCommand& child :
-       MakeCommands(OptionsOf(ground, order), command, *ground.scenario)) {
-    children_.emplace_back(child);
-  }
+  processes_.emplace(CommandsOf(ground, order, lock_));
   begun_ = SteadyNow();
   Enter(Phase::kStarting, begun_ + kStartLimit);
 }
 
 TuneTrial::~TuneTrial() {
-  children_.clear();
+  processes_.reset();
   std::error_code ignored;
   std::filesystem::remove_all(order_.folder, ignored);
 }
@@ -110,25 +86,19 @@ bool TuneTrial::AllHearAll() const {
 
 // Nobody but the killed may end before they are told to.
 void TuneTrial::CheckAlive() {
-  for (const ChildProcess& child : children_) {
-    const bool killed = std::ranges::any_of(
-        killed_, [&](const Killing& killing) { return &ChildOf(killing.victim) == &child; });
-    if (child.IsRunning() || killed) continue;
-    std::string why = child.Name() + " ended: " + Describe(*child.End());
-    if (!child.LastLines().empty()) why += "; it said: " + child.LastLines().back();
-    Fail(why);
-  }
-}
-
-ChildProcess& TuneTrial::ChildOf(VehicleId vehicle) {
-  const auto& vehicles = ground_.scenario->vehicles;
-  const auto found = std::ranges::find(vehicles, vehicle, &VehicleOptions::id);
-  return children_.at(static_cast<std::size_t>(found - vehicles.begin()) + 1);
+  const auto gone = processes_->FirstEndNotAllowed([](const auto& end) { return end.planned; });
+  if (!gone) return;
+  const auto& said = processes_->LastLines(gone->member);
+  Fail(NameOf(gone->member) + " ended: " + Describe(gone->how) +
+       (said.empty() ? "" : "; it said: " + said.back()));
 }
 
 double TuneTrial::CpuSeconds() const {
   double sum = 0;
-  for (std::size_t i = 1; i < children_.size(); ++i) sum += CpuSecondsOf(children_[i].Pid());
+  for (const VehicleOptions& vehicle : ground_.scenario->vehicles) {
+    const auto resources = processes_->ResourcesOf(MemberOf(vehicle.id));
+    if (resources) sum += resources->cpu_s;
+  }
   return sum;
 }
 
@@ -167,7 +137,7 @@ void TuneTrial::KillIfDue(SteadyTime now) {
   if (killed_.size() == planned_.size() || now < until_) return;
   const VehicleId victim = planned_[killed_.size()].victim;
   killed_.push_back({victim, SteadyNow()});
-  ChildOf(victim).Signal(SIGKILL);
+  processes_->Kill(MemberOf(victim));
   const bool last = killed_.size() == planned_.size();
   until_ = killed_.back().at + (last ? kBetweenKillings : planned_[killed_.size()].after);
 }
@@ -175,21 +145,20 @@ void TuneTrial::KillIfDue(SteadyTime now) {
 void TuneTrial::Stop(SteadyTime now) {
   stopped_ = now;
   // All alike: a vehicle that is told to go says what was injected.
-  for (ChildProcess& child : children_) child.Signal(SIGTERM);
+  processes_->AskToStop();
   Enter(Phase::kStopping, now + kLeaveGrace);
 }
 
 void TuneTrial::StopFurther(SteadyTime now) {
-  const bool any = std::ranges::any_of(children_, &ChildProcess::IsRunning);
-  if (any && now < until_) return;
-  for (ChildProcess& child : children_) child.Signal(SIGKILL);
+  if (!processes_->AllEnded() && now < until_) return;
+  processes_->ForceEnd();
   observer_.reset();
   Enter(Phase::kOver, now);
 }
 
 void TuneTrial::Turn(SteadyTime now) {
   if (phase_ == Phase::kKilling) KillIfDue(now);
-  for (ChildProcess& child : children_) child.Poll();
+  processes_->Poll();
   if (observer_) Hear();
   if (phase_ < Phase::kStopping) CheckAlive();
   if (phase_ < Phase::kStopping && !trouble_.empty()) return Stop(now);
@@ -218,8 +187,8 @@ void TuneTrial::Turn(SteadyTime now) {
 std::optional<double> TuneTrial::HeardBytesPerSecond() const {
   double sum = 0;
   int count = 0;
-  for (const ChildProcess& child : children_) {
-    for (const std::string& line : child.LastLines()) {
+  for (const VehicleOptions& vehicle : ground_.scenario->vehicles) {
+    for (const std::string& line : processes_->LastLines(MemberOf(vehicle.id))) {
       const std::optional<double> bytes = BytesIn(line);
       if (!bytes) continue;
       sum += *bytes;

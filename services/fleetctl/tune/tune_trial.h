@@ -3,15 +3,14 @@
 // ends the rest, and reads what they recorded. Several may run side by side: each turn is short.
 #pragma once
 
-#include <deque>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/domain_lock.h"
+#include "services/fleetctl/process/fleet_processes.h"
 #include "services/fleetctl/tune/tune_evidence.h"
 #include "services/fleetctl/tune/tune_reading.h"
 #include "services/link/observer_link.h"
@@ -22,11 +21,9 @@ namespace giveway::fleetctl {
 
 // What all trials of a search share.
 struct TuneGround {
-  std::filesystem::path program_folder;
-  std::string scenario_file;
+  FleetSpec fleet;  // but for the trial's own domain, QoS, seed and recordings
   const Scenario* scenario = nullptr;
   std::string observer_qos;  // the base's: the library keeps one set a process
-  std::string impair;
   double alive_s = 10;
 };
 
@@ -70,7 +67,6 @@ class TuneTrial {
   void KillIfDue(SteadyTime now);
   void Stop(SteadyTime now);
   void StopFurther(SteadyTime now);
-  ChildProcess& ChildOf(VehicleId vehicle);
   double CpuSeconds() const;
   std::optional<double> HeardBytesPerSecond() const;
 
@@ -79,7 +75,7 @@ class TuneTrial {
   DomainLock lock_;
   Random random_;
   std::optional<link::ObserverLink> observer_;
-  std::deque<ChildProcess> children_;  // the world, then the vehicles in the scenario's order
+  std::optional<FleetProcesses> processes_;
   Phase phase_ = Phase::kStarting;
   SteadyTime until_{0};
   SteadyTime begun_{0};

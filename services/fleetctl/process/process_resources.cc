@@ -1,0 +1,62 @@
+#include "services/fleetctl/process/process_resources.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+namespace giveway::fleetctl {
+namespace {
+
+// The value of "\nKEY:   1234 kB"; 0 where there is none, as of a process that has just ended.
+std::uint64_t NumberOf(std::string_view status, std::string_view key) {
+  const std::size_t at = status.find("\n" + std::string(key) + ":");
+  if (at == std::string_view::npos) return 0;
+  return std::strtoull(std::string(status.substr(at + key.size() + 2, 40)).c_str(), nullptr, 10);
+}
+
+std::string ReadAll(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+// utime and stime are fields 14 and 15; the name, field 2, may hold anything but ends with the last
+// ')'.
+std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view status,
+                                               double ticks_per_second) {
+  const std::size_t name_end = stat.rfind(')');
+  if (name_end == std::string_view::npos) return std::nullopt;
+  std::istringstream fields{std::string(stat.substr(name_end + 1))};
+  std::string skipped;
+  for (int field = 3; field < 14; ++field) fields >> skipped;
+  double user = 0;
+  double system = 0;
+  if (!(fields >> user >> system)) return std::nullopt;
+  constexpr std::uint64_t kKilobyte = 1024;
+  return ProcessResources{.cpu_s = (user + system) / ticks_per_second,
+                          .resident_bytes = NumberOf(status, "VmRSS") * kKilobyte,
+                          .private_bytes = NumberOf(status, "RssAnon") * kKilobyte,
+                          .threads = static_cast<std::uint32_t>(NumberOf(status, "Threads"))};
+}
+
+std::optional<ProcessResources> ReadResources(pid_t pid) {
+  const std::filesystem::path folder = "/proc/" + std::to_string(pid);
+  std::optional<ProcessResources> resources =
+      ParseResources(ReadAll(folder / "stat"), ReadAll(folder / "status"),
+                     static_cast<double>(::sysconf(_SC_CLK_TCK)));
+  if (!resources) return std::nullopt;
+  std::error_code gone;
+  for (std::filesystem::directory_iterator entry(folder / "fd", gone), end; !gone && entry != end;
+       entry.increment(gone)) {
+    ++resources->descriptors;
+  }
+  return resources;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,26 @@
+// What a process uses of the machine, by /proc; see proc(5).
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace giveway::fleetctl {
+
+struct ProcessResources {
+  double cpu_s = 0;  // user and system, since the process began
+  std::uint64_t resident_bytes = 0;
+  std::uint64_t private_bytes = 0;  // resident, shared with no other process, in no file
+  std::uint32_t threads = 0;
+  std::uint32_t descriptors = 0;
+};
+
+// All but the descriptors, from the text of stat and of status. Nothing if stat is not whole. Pure.
+std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view status,
+                                               double ticks_per_second);
+// Nothing if the process is gone.
+std::optional<ProcessResources> ReadResources(pid_t pid);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,59 @@
+#include "services/fleetctl/run/run_ends.h"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr MemberId kVehicle = MemberOf(VehicleId{2});
+constexpr ProcessEnd kLeft{false, 0};
+constexpr ProcessEnd kFailed{false, 1};
+constexpr ProcessEnd kKilled{true, SIGKILL};
+constexpr bool kOpen = true;
+constexpr bool kClosed = false;
+constexpr bool kOthersRun = true;
+
+TEST(RunEnds, OfAClosedFleetOnlyThePlannedAreNotTheEndOfTheRun) {
+  EXPECT_TRUE(MayEndEarly({kVehicle, kKilled, true}, kClosed, kOthersRun));
+  EXPECT_FALSE(MayEndEarly({kVehicle, kKilled, false}, kClosed, kOthersRun));
+  EXPECT_FALSE(MayEndEarly({kVehicle, kLeft, false}, kClosed, kOthersRun));
+  EXPECT_FALSE(MayEndEarly({kTheWorld, kLeft, false}, kClosed, kOthersRun));
+}
+
+TEST(RunEnds, AnOpenFleetGoesOnUntilItsLastVehicleOrTheWorldIsGone) {
+  EXPECT_TRUE(MayEndEarly({kVehicle, kKilled, false}, kOpen, kOthersRun));
+  EXPECT_FALSE(MayEndEarly({kVehicle, kKilled, false}, kOpen, !kOthersRun));
+  EXPECT_TRUE(MayEndEarly({kVehicle, kKilled, true}, kOpen, !kOthersRun));
+  EXPECT_FALSE(MayEndEarly({kTheWorld, kFailed, false}, kOpen, kOthersRun));
+}
+
+TEST(RunEnds, AVehicleOfAClosedFleetEndsWellWithCodeZeroOrAsPlanned) {
+  EXPECT_TRUE(IsGoodEnd({kVehicle, kLeft, false}, kClosed));
+  EXPECT_TRUE(IsGoodEnd({kVehicle, kKilled, true}, kClosed));
+  EXPECT_FALSE(IsGoodEnd({kVehicle, kFailed, false}, kClosed));
+  EXPECT_FALSE(IsGoodEnd({kVehicle, kKilled, false}, kClosed));
+}
+
+TEST(RunEnds, OfAnOpenFleetOnlyTheWorldCanEndBadly) {
+  EXPECT_TRUE(IsGoodEnd({kVehicle, kFailed, false}, kOpen));
+  EXPECT_TRUE(IsGoodEnd({kVehicle, kKilled, false}, kOpen));
+  EXPECT_FALSE(IsGoodEnd({kTheWorld, kKilled, false}, kOpen));
+}
+
+TEST(RunEnds, TheWorldsExitCodeIsAVerdict) {
+  EXPECT_TRUE(IsGoodEnd({kTheWorld, kFailed, false}, kClosed));
+  EXPECT_TRUE(IsGoodEnd({kTheWorld, kFailed, false}, kOpen));
+  EXPECT_FALSE(IsGoodEnd({kTheWorld, kKilled, false}, kClosed));
+}
+
+TEST(ErrorLines, AreThoseOfTheLogsErrorLevel) {
+  EXPECT_TRUE(IsErrorLine("12:00:00.000 error   vehicle 2: the recording ends here: No space"));
+  EXPECT_TRUE(IsErrorLine(R"({"time":"","steady_ns":1,"level":"error","process":"v","text":""})"));
+  EXPECT_FALSE(IsErrorLine("12:00:00.000 info    vehicle 2: no error here"));
+  EXPECT_FALSE(IsErrorLine(""));
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl
