@@ -50,12 +50,12 @@ void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options,
   }
   const bool others = udp_transports + shared_memories != list.size();
   if (udp_transports != 1 || others || qos.transport().use_builtin_transports) {
-    throw LinkError("QoS file " + options.qos_file + ": profile \"" + kParticipantProfile +
+    throw LinkError("QoS file " + options.qos.name + ": profile \"" + kParticipantProfile +
                     "\" must switch useBuiltinTransports off and name one UDPv4 transport, and "
                     "beside it at most shared memory (SHM)");
   }
   if (impairer != nullptr && shared_memories != 0) {
-    throw LinkError("QoS file " + options.qos_file + ": profile \"" + kParticipantProfile +
+    throw LinkError("QoS file " + options.qos.name + ": profile \"" + kParticipantProfile +
                     "\" names shared memory, which an impairment would not touch; take a set "
                     "that names UDPv4 alone");
   }
@@ -110,7 +110,7 @@ dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string&
 std::string ServersOf(const dds::DomainParticipantQos& qos, const LinkOptions& options) {
   if (!options.discovery_servers.empty()) return ToText(options.discovery_servers);
   const auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  return discovery.discoveryProtocol == Discovery::CLIENT ? "those of " + options.qos_file : "";
+  return discovery.discoveryProtocol == Discovery::CLIENT ? "those of " + options.qos.name : "";
 }
 
 [[noreturn]] void ThrowNotMade(const std::string& what) {
@@ -163,7 +163,7 @@ void Participant::DeleteAll::operator()(dds::DomainParticipant* participant) con
 Participant::Participant(const LinkOptions& options, const std::string& name,
                          DiscoveryListener& discovery) {
   CheckOptions(options);
-  LoadProfiles(options.qos_file);
+  LoadProfiles(options.qos);
   DiscoveryListener* listener = &discovery;
   if (!options.impairment.rules.empty()) {
     impairer_ = std::make_shared<Impairer>(options.impairment);

@@ -14,7 +14,7 @@ namespace {
 class SilentParticipant {
  public:
   explicit SilentParticipant(const LinkOptions& options) {
-    LoadProfiles(options.qos_file);
+    LoadProfiles(options.qos);
     qos_ = ParticipantQos(options, "giveway-qos");
     auto* factory = dds::DomainParticipantFactory::get_instance();
     dds::DomainParticipantFactoryQos before;
@@ -26,7 +26,7 @@ class SilentParticipant {
         factory->create_participant(options.domain, qos_, nullptr, dds::StatusMask::none()));
     factory->set_qos(before);
     if (participant_ == nullptr) {
-      throw LinkError("Fast DDS did not make a participant of " + options.qos_file +
+      throw LinkError("Fast DDS did not make a participant of " + options.qos.name +
                       LibraryComplaints());
     }
     publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);

@@ -4,12 +4,13 @@
 
 #include <string>
 
+#include "services/types/admin.h"
 #include "services/types/scenario.h"
 
 namespace giveway {
 
-// Throws LinkError if the rules of `fleetctl qos check` find an error in the set. A file that
-// cannot be read is left to the link, which says so.
-void RequireSoundQos(const std::string& file, const Scenario& scenario);
+// The set in the file, read once for all that need it. Throws LinkError if it cannot be read, or if
+// the rules of `fleetctl qos check` find an error in it.
+QosProfiles ReadSoundQos(const std::string& file, const Scenario& scenario);
 
 }  // namespace giveway

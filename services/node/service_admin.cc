@@ -44,12 +44,12 @@ std::vector<qos::Change> ChangesBetween(const QosProfiles& from, const QosProfil
 }  // namespace
 
 ServiceAdmin::ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options,
-                           VehicleId vehicle, QosProfiles in_use, bool lockstep)
+                           VehicleId vehicle, bool lockstep)
     : link_(*link),
       options_(options),
       vehicle_(vehicle),
       lockstep_(lockstep),
-      in_use_(std::move(in_use)) {}
+      in_use_{NameOf(options.qos.name), options.qos.text} {}
 
 void ServiceAdmin::AnswerResumed(std::uint64_t order, const std::string& rolled_back) {
   if (rolled_back.empty()) return Answer(order, AnswerState::kInEffect);

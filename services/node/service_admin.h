@@ -21,10 +21,10 @@ namespace giveway {
 
 class ServiceAdmin {
  public:
-  // `in_use` is what the link was made with; `vehicle` is kNobody for a world. In lockstep nothing
-  // that comes from outside the world may change a run, so orders to apply are refused.
+  // The link was made with `options`; `vehicle` is kNobody for a world. In lockstep nothing that
+  // comes from outside the world may change a run, so orders to apply are refused.
   ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options, VehicleId vehicle,
-               QosProfiles in_use, bool lockstep);
+               bool lockstep);
 
   // Answers the order that made this process restart: it is in effect now; or not, where
   // `rolled_back` says why the process came back with what it had.

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <exception>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "services/config/flags.h"
@@ -16,11 +17,12 @@
 
 namespace giveway {
 
-inline link::LinkOptions LinkOptionsOf(const ServiceFlags& flags, const Scenario& scenario) {
+inline link::LinkOptions LinkOptionsOf(const ServiceFlags& flags, const Scenario& scenario,
+                                       QosProfiles qos) {
   return {
       .domain = flags.domain,
       .interface = flags.interface,
-      .qos_file = flags.qos,
+      .qos = std::move(qos),
       .area = scenario.area,
       .fleet_size = static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
       .partition_free = flags.partition_free,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "services/link/fastdds/profile_file.h"
 #include "services/link/qos_trial.h"
 #include "services/node/qos_at_start.h"
 #include "services/node/service_main.h"
@@ -18,11 +19,10 @@ namespace {
 constexpr unsigned kMostTrialSeconds = 10;
 
 // Exit code 0, or 2 after the reason on stdout.
-int TryQosAndEnd(const std::string& file, link::LinkOptions options) {
+int TryQosAndEnd(const ServiceFlags& flags, const Scenario& scenario) {
   alarm(kMostTrialSeconds);  // its parent may be gone, and the library may hang
-  options.qos_file = file;
   try {
-    link::TryQos(options);
+    link::TryQos(LinkOptionsOf(flags, scenario, link::ReadProfileFile(flags.try_qos)));
     return 0;
   } catch (const std::exception& error) {
     std::puts(error.what());
@@ -53,7 +53,7 @@ class FormerQos {
 
 int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSignal& stop,
                const Live& live) {
-  if (!flags.try_qos.empty()) return TryQosAndEnd(flags.try_qos, LinkOptionsOf(flags, scenario));
+  if (!flags.try_qos.empty()) return TryQosAndEnd(flags, scenario);
   if (!flags.rolled_back.empty()) {
     LogError("comes back with the QoS it had before: " + flags.rolled_back);
   }
@@ -63,21 +63,22 @@ int RunService(const ServiceFlags& flags, const Scenario& scenario, const StopSi
     former.reset();
     for (const std::string& held : {flags.former_qos, flags.go_on_from}) LetGo(held);
   };
-  int exit_code = 0;
-  std::optional<NewFlags> new_flags;
+  LifeEnd end;
   try {
-    RequireSoundQos(flags.qos, scenario);
-    new_flags = live(settled, &exit_code);
+    const link::LinkOptions options =
+        LinkOptionsOf(flags, scenario, ReadSoundQos(flags.qos, scenario));
+    LetGo(flags.qos);
+    end = live(options, settled);
   } catch (const std::exception& error) {
     if (!former) throw;
-    new_flags = former->Because(error.what());
+    end.back = former->Because(error.what());
   }
-  if (!new_flags) return exit_code;
+  if (!end.back) return end.exit_code;
   HoldSignalsBack();
   // A stop that came while the link was closed would be forgotten by a new process image.
-  if (stop.IsSet()) return exit_code;
+  if (stop.IsSet()) return end.exit_code;
   FlushLog(kFlushLog);
-  RestartWith(*new_flags);
+  RestartWith(*end.back);
 }
 
 }  // namespace giveway

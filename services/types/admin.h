@@ -14,7 +14,7 @@ enum class OrderKind : std::uint8_t {
   kApply,  // run with these profiles: at once where that is enough, else after a restart
 };
 
-// A profile set as it travels: its text, because the vehicle may be on another machine.
+// A profile set by value: its text, because the file may be on another machine, or another by now.
 struct QosProfiles {
   static constexpr std::size_t kMostBytes = 60'000;  // the bound of the wire
 

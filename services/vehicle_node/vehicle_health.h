@@ -4,7 +4,7 @@
 #include <string>
 
 #include "services/health/health_service.h"
-#include "services/link/vehicle_link.h"
+#include "services/link/drive_link.h"
 
 namespace giveway {
 

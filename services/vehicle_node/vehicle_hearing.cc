@@ -1,5 +1,7 @@
 #include "services/vehicle_node/vehicle_hearing.h"
 
+#include "services/runtime/process.h"
+
 namespace giveway {
 namespace {
 

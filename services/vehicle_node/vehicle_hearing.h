@@ -3,8 +3,7 @@
 
 #include <cstdint>
 
-#include "services/link/vehicle_link.h"
-#include "services/runtime/process.h"
+#include "services/link/drive_link.h"
 #include "services/vehicle_node/deaf_watch.h"
 
 namespace giveway {
@@ -17,13 +16,13 @@ enum class Remedy : std::uint8_t {
 
 class Hearing {
  public:
-  explicit Hearing(const link::VehicleLink* link) : link_(*link), deaf_(SteadyNow()) {}
+  Hearing(const link::DriveLink* link, SteadyTime now) : link_(*link), deaf_(now) {}
 
   // Once a turn; `scan`: one came. Says in the log why, where there is a remedy.
   Remedy Look(SteadyTime now, bool scan);
 
  private:
-  const link::VehicleLink& link_;
+  const link::DriveLink& link_;
   DeafWatch deaf_;
   SteadyTime last_scan_{0};
   SteadyTime next_look_{0};

@@ -3,44 +3,16 @@
 #include <algorithm>
 #include <chrono>
 
+#include "services/vehicle_node/asking.h"
+#include "services/vehicle_node/vehicle_place.h"
+
 namespace giveway {
 namespace {
 
 constexpr Nanoseconds kPoll = std::chrono::milliseconds(20);
-constexpr Nanoseconds kAskAgain =
-    std::chrono::seconds(1);  // who waits and does not ask is forgotten
 constexpr Nanoseconds kReminder = std::chrono::seconds(5);
 
 }  // namespace
-
-Asking::Asking(link::VehicleLink* link, VehicleId wanted, const std::optional<SessionId>& session)
-    : link_(*link) {
-  request_.wanted = wanted;
-  if (session) {
-    request_.session = *session;
-  } else {
-    for (std::uint32_t& word : request_.session) word = RandomNonZero();
-  }
-  Ask();
-}
-
-void Asking::AskAgainIfDue() {
-  if (SteadyNow() >= again_) Ask();
-}
-
-bool Asking::IsFinal(const RosterEntry& entry) {
-  answered_ = true;
-  if (!entry.accepted && entry.waiting) {
-    waits_for_ = "the world lets it wait: " + entry.reason;
-    LogWarning(waits_for_);
-  }
-  return entry.accepted || !entry.waiting;
-}
-
-void Asking::Ask() {
-  link_.SendJoin(request_);
-  again_ = SteadyNow() + kAskAgain;
-}
 
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
   const auto& known = entry.spawn == 0 ? scenario.vehicles : scenario.spawns;
@@ -59,19 +31,22 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
   return options;
 }
 
-std::optional<RosterEntry> Join(link::VehicleLink* link, const StopSignal& stop, VehicleId wanted,
-                                const std::optional<SessionId>& session,
+std::optional<RosterEntry> Join(link::VehicleLink* link, Clock* clock, const StopSignal& stop,
+                                VehicleId wanted, const std::optional<SessionId>& session,
                                 VehicleHealthTeller* health) {
-  Asking asking(link, wanted, session);
-  SteadyTime remind = SteadyNow() + kReminder;
+  Asking asking(link, clock, wanted, session);
+  SteadyTime remind = clock->Now() + kReminder;
   while (!stop.IsSet()) {
     const auto entry = link->TakeRoster(asking.Session());
-    if (entry && asking.IsFinal(*entry)) return entry;
+    if (entry && asking.IsFinal(*entry)) {
+      if (!entry->accepted) LogRefusal(*entry);
+      return entry;
+    }
     asking.AskAgainIfDue();
     const std::string& answer = asking.WaitsFor();
     health->Joins(answer.empty() ? link->WhyNobodyIsFound() : answer);
-    SleepUntil(SteadyNow() + kPoll);
-    if (SteadyNow() < remind) continue;
+    clock->SleepUntil(clock->Now() + kPoll);
+    if (clock->Now() < remind) continue;
     remind += kReminder;
     const std::string change = link->InterfaceChange();
     if (!change.empty()) throw link::LinkError(change + "; ends, to be started again");

@@ -89,7 +89,7 @@ double VehicleReport::StepP99Us() {
   return *rank;
 }
 
-VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::VehicleLink& link) {
+VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::DriveLink& link) {
   const VehicleState& state = vehicle.State();
   const link::VehicleLinkCounters counters = link.Counters();
   const link::EffectiveBeaconQos qos = link.BeaconQos();
@@ -122,13 +122,13 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::VehicleL
   return status;
 }
 
-VehicleStatus VehicleReport::Send(const Vehicle& vehicle, link::VehicleLink& link) {
+VehicleStatus VehicleReport::Send(const Vehicle& vehicle, link::DriveLink& link) {
   const VehicleStatus status = Gather(vehicle, link);
   link.SendStatus(status);
   return status;
 }
 
-void VehicleReport::SendFinal(const Vehicle& vehicle, link::VehicleLink& link) {
+void VehicleReport::SendFinal(const Vehicle& vehicle, link::DriveLink& link) {
   VehicleStatus status = Gather(vehicle, link);
   status.final = true;
   link.SendStatus(status);

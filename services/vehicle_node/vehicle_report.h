@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "services/link/vehicle_link.h"
+#include "services/link/drive_link.h"
+#include "services/types/impairment.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {
@@ -29,11 +30,11 @@ class VehicleReport {
   void NoteStep(Nanoseconds step, Nanoseconds turn);
   void NoteEvents(std::span<const QosEvent> events);
   // Sends it to the fleet, and gives back what it sent.
-  VehicleStatus Send(const Vehicle& vehicle, link::VehicleLink& link);
-  void SendFinal(const Vehicle& vehicle, link::VehicleLink& link);
+  VehicleStatus Send(const Vehicle& vehicle, link::DriveLink& link);
+  void SendFinal(const Vehicle& vehicle, link::DriveLink& link);
 
  private:
-  VehicleStatus Gather(const Vehicle& vehicle, const link::VehicleLink& link);
+  VehicleStatus Gather(const Vehicle& vehicle, const link::DriveLink& link);
   double StepP99Us();
 
   std::vector<double> steps_us_;  // the last kKeptSteps, in a ring

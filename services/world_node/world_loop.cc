@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "services/runtime/state_file.h"
+#include "services/world_node/event_line.h"
 #include "sim_world/geometry/ticks.h"
 
 namespace giveway {
@@ -24,27 +25,6 @@ constexpr Nanoseconds kResumePatience = seconds(10);
 constexpr Nanoseconds kDeafStand = seconds(3);
 
 std::string Text(VehicleId vehicle) { return std::to_string(Number(vehicle)); }
-
-// What an operator should read of it; empty for what only observers need.
-std::string LogLine(const WorldEvent& event) {
-  switch (event.kind) {
-    case EventKind::kContact:
-      return "contact: vehicle " + Text(event.vehicle) + " touched " +
-             (event.other == kNobody ? "something" : "vehicle " + Text(event.other));
-    case EventKind::kFaultDue:
-      return "fault due: " + event.text;
-    case EventKind::kSilent:
-      return "vehicle " + Text(event.vehicle) + " fell silent";
-    case EventKind::kRemoved:
-      return "vehicle " + Text(event.vehicle) + " was silent for long: its body is taken away";
-    case EventKind::kJoined:
-      return "vehicle " + Text(event.vehicle) + " joined the run";
-    case EventKind::kLeft:
-      return "vehicle " + Text(event.vehicle) + " left the run";
-    default:
-      return {};
-  }
-}
 
 WorldEpoch EpochOf(const WorldLoopOptions& options) {
   const std::optional<sim::FleetCheckpoint>& checkpoint = options.checkpoint;

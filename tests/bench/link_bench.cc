@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/link/convert/convert.h"
+#include "services/link/fastdds/profile_file.h"
 #include "services/link/inbox/beacon_inbox.h"
 #include "services/link/participant.h"
 #include "tests/bench/measure.h"
@@ -25,7 +26,7 @@ constexpr std::uint32_t kBatch = 8;
 LinkOptions Options(const test::DomainLock& domain) {
   LinkOptions options;
   options.domain = domain.Domain();
-  options.qos_file = GIVEWAY_QOS_FILE;
+  options.qos = ReadProfileFile(GIVEWAY_QOS_FILE);
   return options;
 }
 

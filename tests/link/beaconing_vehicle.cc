@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "services/link/fastdds/profile_file.h"
 #include "tests/link/fleet.h"
 
 int main(int argc, char** argv) {
@@ -16,7 +17,7 @@ int main(int argc, char** argv) {
   if (argc != 4 || getppid() != parent) return 2;
   giveway::link::LinkOptions options;
   options.domain = static_cast<std::uint32_t>(std::atoi(argv[1]));
-  options.qos_file = argv[3];
+  options.qos = giveway::link::ReadProfileFile(argv[3]);
   giveway::test::Beaconing vehicle(options,
                                    giveway::VehicleId{static_cast<std::uint32_t>(atoi(argv[2]))});
   while (true) {

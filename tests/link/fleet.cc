@@ -7,6 +7,8 @@
 #include <string>
 #include <thread>
 
+#include "services/link/fastdds/profile_file.h"
+
 namespace giveway::test {
 
 using std::chrono::milliseconds;
@@ -15,7 +17,7 @@ using std::chrono::steady_clock;
 link::LinkOptions OptionsIn(const DomainLock& domain) {
   link::LinkOptions options;
   options.domain = domain.Domain();
-  options.qos_file = GIVEWAY_QOS_FILE;
+  options.qos = link::ReadProfileFile(GIVEWAY_QOS_FILE);
   return options;
 }
 
@@ -57,7 +59,7 @@ BeaconingProcess::BeaconingProcess(const link::LinkOptions& options, VehicleId i
   pid_ = fork();
   if (pid_ == 0) {
     execl(GIVEWAY_BEACONING_VEHICLE, GIVEWAY_BEACONING_VEHICLE, domain.c_str(), number.c_str(),
-          options.qos_file.c_str(), nullptr);
+          options.qos.name.c_str(), nullptr);
     _exit(127);
   }
 }

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "services/link/fastdds/profile_file.h"
 #include "services/link/vehicle_link.h"
 
 int main(int argc, char** argv) {
@@ -17,7 +18,7 @@ int main(int argc, char** argv) {
   if (argc != 5) return 2;
   giveway::link::LinkOptions options;
   options.domain = static_cast<std::uint32_t>(std::atoi(argv[1]));
-  options.qos_file = argv[4];
+  options.qos = giveway::link::ReadProfileFile(argv[4]);
   const auto requests = static_cast<std::uint32_t>(std::atoi(argv[2]));
   const std::chrono::duration<double> all(std::atof(argv[3]));
   std::vector<std::unique_ptr<giveway::link::VehicleLink>> links;

@@ -36,7 +36,7 @@ qos::ProfileSet SetOf(const std::string& text) {
 class Endpoints {
  public:
   explicit Endpoints(const link::LinkOptions& options) {
-    link::LoadProfiles(options.qos_file);
+    link::LoadProfiles(options.qos);
     auto* factory = dds::DomainParticipantFactory::get_instance();
     participant_ =
         factory->create_participant(options.domain, link::ParticipantQos(options, "qos-pairs"),
@@ -110,7 +110,7 @@ Seen Look(const MadePair& pair) {
 
 class QosPrediction : public ::testing::Test {
  protected:
-  QosPrediction() : options_(OptionsIn(domain_)) { link::LoadProfiles(options_.qos_file); }
+  QosPrediction() : options_(OptionsIn(domain_)) { link::LoadProfiles(options_.qos); }
 
   static void Load(const std::string& text) {
     ASSERT_TRUE(link::Ok(dds::DomainParticipantFactory::get_instance()->load_XML_profiles_string(

@@ -25,7 +25,7 @@ std::vector<EffectiveEndpoint> EffectiveOf(const fs::path& file) {
   EXPECT_TRUE(read.root.has_value());
   link::LinkOptions options;
   options.domain = 1;
-  options.qos_file = file;
+  options.qos = {file, text};
   return EffectiveQos(ResolveQosApart(options), qos::ReadProfiles(*read.root, file));
 }
 

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "services/link/fastdds/fastdds_version.h"
+#include "services/link/fastdds/profile_file.h"
 #include "services/link/qos_trial.h"
 #include "services/link/resolved_qos.h"
 #include "tests/link/fleet.h"
@@ -16,6 +16,9 @@ namespace giveway::test {
 namespace {
 
 using ::testing::ExitedWithCode;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+using ::testing::ThrowsMessage;
 
 // As a main does: the error on stderr, exit 2.
 [[noreturn]] void Start(const link::LinkOptions& options) {
@@ -60,25 +63,17 @@ class StartErrors : public ::testing::Test {
   }
   ~StartErrors() override { std::filesystem::remove_all(folder_); }
 
-  std::string Write(const std::string& text) {
-    const std::string path = folder_ / "qos.xml";
-    std::ofstream(path) << text;
-    return path;
-  }
-  std::string DefaultText() {
-    std::ostringstream text;
-    text << std::ifstream(options_.qos_file).rdbuf();
-    return text.str();
-  }
-  std::string DefaultWith(const std::string& what, const std::string& instead) {
-    std::string text = DefaultText();
+  static QosProfiles Named(const std::string& text) { return {"a/qos.xml", text}; }
+  QosProfiles DefaultWith(const std::string& what, const std::string& instead) {
+    std::string text = default_;
     const std::size_t at = text.find(what);
     EXPECT_NE(at, std::string::npos) << what;
-    return text.replace(at, what.size(), instead);
+    return Named(text.replace(at, what.size(), instead));
   }
 
   DomainLock domain_;
   link::LinkOptions options_;
+  const std::string default_ = options_.qos.text;
   std::filesystem::path folder_;
 };
 
@@ -87,53 +82,52 @@ TEST_F(StartErrors, AreNoneWithTheDefaultProfiles) {
 }
 
 TEST_F(StartErrors, NameAFileThatIsNotThere) {
-  options_.qos_file = "/nowhere/qos.xml";
-  EXPECT_EXIT(Start(options_), ExitedWithCode(2),
-              "start error: QoS file /nowhere/qos.xml: does not exist; give .*default.xml");
+  EXPECT_THAT([] { link::ReadProfileFile("/nowhere/qos.xml"); },
+              ThrowsMessage<link::LinkError>(
+                  MatchesRegex("QoS file /nowhere/qos.xml: does not exist; give .*default.xml")));
 }
 
 TEST_F(StartErrors, NameAFolderGivenAsFile) {
-  options_.qos_file = folder_;
-  EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*is not a file");
+  EXPECT_THAT([this] { link::ReadProfileFile(folder_); },
+              ThrowsMessage<link::LinkError>(HasSubstr("is not a file")));
 }
 
 TEST_F(StartErrors, RefuseAnEmptyAndABinaryFile) {
-  options_.qos_file = Write("");
+  options_.qos = Named("");
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*qos.xml: the library refuses it");
-  options_.qos_file = Write(std::string("\0\1\2\377\376 ELF", 9));
+  options_.qos = Named(std::string("\0\1\2\377\376 ELF", 9));
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*qos.xml: the library refuses it");
 }
 
 TEST_F(StartErrors, RefuseMalformedXml) {
-  options_.qos_file = Write(DefaultText().substr(0, 3000));
+  options_.qos = Named(default_.substr(0, 3000));
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*qos.xml: the library refuses it");
 }
 
 TEST_F(StartErrors, QuoteTheLibraryOnAnUnknownElement) {
-  options_.qos_file = Write(DefaultWith("<deadline>", "<deadlines></deadlines><deadline>"));
+  options_.qos = DefaultWith("<deadline>", "<deadlines></deadlines><deadline>");
   EXPECT_EXIT(Start(options_), ExitedWithCode(2),
               "start error: .*the library refuses it.*\n.*Fast DDS: .*deadlines");
 }
 
 TEST_F(StartErrors, NameAProfileThatIsMissing) {
-  options_.qos_file = Write(DefaultWith("fleet_beacon_writer", "fleet_bacon_writer"));
+  options_.qos = DefaultWith("fleet_beacon_writer", "fleet_bacon_writer");
   EXPECT_EXIT(Start(options_), ExitedWithCode(2),
               "start error: QoS file .*qos.xml: has no profile \"fleet_beacon_writer\"; .*copy");
-  options_.qos_file = Write(DefaultWith("giveway_participant", "participant"));
+  options_.qos = DefaultWith("giveway_participant", "participant");
   EXPECT_EXIT(Start(options_), ExitedWithCode(2),
               "start error: .*has no profile \"giveway_participant\"");
 }
 
 TEST_F(StartErrors, RefuseTheBuiltinTransports) {
-  options_.qos_file =
-      Write(DefaultWith("<useBuiltinTransports>false", "<useBuiltinTransports>true"));
+  options_.qos = DefaultWith("<useBuiltinTransports>false", "<useBuiltinTransports>true");
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*useBuiltinTransports");
 }
 
 // What passes through shared memory no impairment would touch: a run would be called impaired and
 // hear everything.
 TEST_F(StartErrors, RefuseAnImpairmentBesideSharedMemory) {
-  options_.qos_file = GIVEWAY_QOS_SETS "/same_host.xml";
+  options_.qos = link::ReadProfileFile(GIVEWAY_QOS_SETS "/same_host.xml");
   options_.impairment.rules = {{.loss = 0.5}};
   options_.impairment.seed = 1;
   EXPECT_EXIT(Start(options_), ExitedWithCode(2), "start error: .*names shared memory");
@@ -143,22 +137,22 @@ TEST_F(StartErrors, RefuseAnImpairmentBesideSharedMemory) {
 TEST_F(StartErrors, AreFoundByATrialOfTheSet) {
   EXPECT_EXIT(Try(options_), ExitedWithCode(0), "^$");
   const std::string profile = "profile_name=\"fleet_beacon_writer\"";
-  std::string text = DefaultText();
+  std::string text = default_;
   const std::size_t at = text.find("<kind>OFF", text.find("<data_sharing>", text.find(profile)));
-  options_.qos_file = Write(text.replace(at, 9, "<kind>ON"));
+  options_.qos = Named(text.replace(at, 9, "<kind>ON"));
   EXPECT_EXIT(Try(options_), ExitedWithCode(2), "start error: .*fleet_beacon_writer");
 }
 
 TEST_F(StartErrors, AreNoneForNumbersThatTheRulesRead) {
   for (const char* four : {" 4 ", "\n  4\n", "+4", "4.0", "0x4", "4ms"}) {
-    options_.qos_file = Write(DefaultWith("<depth>1<", std::string("<depth>") + four + "<"));
+    options_.qos = DefaultWith("<depth>1<", std::string("<depth>") + four + "<");
     EXPECT_EXIT(TellDepth(options_, "fleet_beacon_writer"), ExitedWithCode(4), "^$") << four;
   }
 }
 
 // As the rule buffer_above_limit says.
 TEST_F(StartErrors, OfABufferOfMinusOneAreThoseOfFastDds3Alone) {
-  options_.qos_file = Write(DefaultWith(">1048576<", ">-1<"));
+  options_.qos = DefaultWith(">1048576<", ">-1<");
   EXPECT_EXIT(Start(options_), ExitedWithCode(link::kLibraryMajor < 3 ? 0 : 2), "");
 }
 
@@ -182,9 +176,10 @@ TEST_F(StartErrors, RefuseADomainOrAreaOutOfRange) {
 
 TEST_F(StartErrors, AreNoneWhereStrayProfilesLieAboutOrAreNamedByTheEnvironment) {
   // Heard, it would take the names of our profiles, and the second ones would be refused.
-  std::ofstream(folder_ / "DEFAULT_FASTRTPS_PROFILES.xml") << DefaultText();
-  std::ofstream(folder_ / "DEFAULT_FASTDDS_PROFILES.xml") << DefaultText();
-  const std::string stray = Write("<broken");
+  std::ofstream(folder_ / "DEFAULT_FASTRTPS_PROFILES.xml") << default_;
+  std::ofstream(folder_ / "DEFAULT_FASTDDS_PROFILES.xml") << default_;
+  const std::string stray = folder_ / "stray.xml";
+  std::ofstream(stray) << "<broken";
   EXPECT_EXIT(
       {
         std::filesystem::current_path(folder_);

@@ -242,6 +242,8 @@ constexpr MemberId kOne = MemberOf(VehicleId{1});
 constexpr MemberId kTwo = MemberOf(VehicleId{2});
 constexpr auto kLate = std::chrono::milliseconds(200);
 constexpr const char* kSleep = "exec sleep 60";
+constexpr const char* kLeavesWithFive =
+    "trap 'exit 5' TERM; echo ready; while :; do sleep 0.01; done";
 constexpr const char* kDeafToSigterm = "trap '' TERM; echo ready; while :; do sleep 0.01; done";
 
 MemberCommand Command(MemberId member, const std::string& script, Nanoseconds start_after = {}) {
@@ -282,7 +284,9 @@ TEST(FleetProcesses, NothingMoreIsStartedOnceAllAreToStop) {
   std::this_thread::sleep_for(2 * kLate);
   fleet.Poll();
   EXPECT_FALSE(fleet.IsRunning(kTwo));
-  EXPECT_THAT(fleet.TakeEnds(), SizeIs(1));
+  const std::vector<MemberEnd> ends = fleet.TakeEnds();
+  ASSERT_THAT(ends, SizeIs(1));
+  EXPECT_EQ(ends[0].how, (ProcessEnd{true, SIGTERM}));
 }
 
 TEST(FleetProcesses, ARestartedOneIsAnotherProcessWithALogOfItsOwn) {
@@ -318,19 +322,25 @@ TEST(FleetProcesses, ARestartedOneIsAnotherProcessWithALogOfItsOwn) {
 }
 
 TEST(FleetProcesses, OnlyAnEndJustAsPlannedIsPlanned) {
-  FleetProcesses fleet({Command(kOne, kSleep), Command(kTwo, "exit 3")});
+  FleetProcesses fleet({Command(kOne, kSleep), Command(kTwo, kLeavesWithFive)});
+  const auto leave = [&fleet] {
+    ASSERT_TRUE(WaitForLine(&fleet, kTwo));
+    fleet.AskToStop(kTwo);
+    ASSERT_TRUE(WaitForEnd(&fleet, kTwo));
+  };
   fleet.Kill(kOne);
-  fleet.Plan(kTwo, {false, 0});
-  ASSERT_TRUE(WaitForEnd(&fleet, kOne) && WaitForEnd(&fleet, kTwo));
+  ASSERT_TRUE(WaitForEnd(&fleet, kOne));
   EXPECT_TRUE(fleet.EndOf(kOne)->planned);
+  fleet.Plan(kTwo, {false, 0});
+  leave();
   EXPECT_FALSE(fleet.EndOf(kTwo)->planned);
   fleet.Restart(kTwo);
-  fleet.Plan(kTwo, {false, 3});
-  ASSERT_TRUE(WaitForEnd(&fleet, kTwo));
+  fleet.Plan(kTwo, {false, 5});
+  leave();
   EXPECT_TRUE(fleet.EndOf(kTwo)->planned);
   // What was planned of the last process is not of the next.
   fleet.Restart(kTwo);
-  ASSERT_TRUE(WaitForEnd(&fleet, kTwo));
+  leave();
   EXPECT_FALSE(fleet.EndOf(kTwo)->planned);
 }
 
@@ -362,8 +372,7 @@ TEST(FleetProcesses, WhoMayEndIsForTheCallerToSay) {
 }
 
 TEST(FleetProcesses, OneThatIsPausedWakesAndLeavesWhenAskedTo) {
-  FleetProcesses fleet(
-      {Command(kOne, "trap 'exit 5' TERM; echo ready; while :; do sleep 0.01; done")});
+  FleetProcesses fleet({Command(kOne, kLeavesWithFive)});
   ASSERT_TRUE(WaitForLine(&fleet, kOne));
   fleet.Signal(kOne, SIGSTOP);
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -373,11 +382,10 @@ TEST(FleetProcesses, OneThatIsPausedWakesAndLeavesWhenAskedTo) {
 }
 
 TEST(FleetProcesses, WhoDoesNotLeaveInTimeIsKilled) {
-  FleetProcesses fleet({Command(kOne, kDeafToSigterm), Command(kTwo, kSleep)});
+  FleetProcesses fleet({Command(kOne, kDeafToSigterm)});
   ASSERT_TRUE(WaitForLine(&fleet, kOne));
   fleet.EndAll(kLate, [&fleet] { fleet.Poll(); });
   EXPECT_EQ(fleet.EndOf(kOne)->how, (ProcessEnd{true, SIGKILL}));
-  EXPECT_EQ(fleet.EndOf(kTwo)->how, (ProcessEnd{true, SIGTERM}));
 }
 
 TEST(FleetProcesses, LinesAreHandedOnWithWhoSaidThem) {

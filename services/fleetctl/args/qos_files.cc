@@ -10,6 +10,7 @@
 
 #include "services/config/config_dir.h"
 #include "services/link/fastdds/link_options.h"
+#include "services/link/fastdds/profile_file.h"
 #include "services/qos/xml_tree.h"
 
 namespace giveway::fleetctl {
@@ -66,6 +67,13 @@ void RequireSoundQos(const std::string& path, const qos::Deployment& fleet) {
   if (file == nullptr) return;
   const std::string why = qos::WhyRefused(*file, fleet);
   if (!why.empty()) throw link::LinkError(why);
+}
+
+QosProfiles ReadSoundQos(const std::string& path) {
+  QosProfiles profiles = link::ReadProfileFile(path);
+  const std::string why = qos::WhyRefused({profiles.name, profiles.text}, UnknownFleet());
+  if (!why.empty()) throw link::LinkError(why);
+  return profiles;
 }
 
 std::vector<std::string> OwnEnvironment() {

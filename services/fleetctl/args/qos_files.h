@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/qos/check.h"
+#include "services/types/admin.h"
 #include "services/types/scenario.h"
 
 namespace giveway::fleetctl {
@@ -25,6 +26,9 @@ inline qos::Deployment UnknownFleet() { return {.vehicles = 1, .tick_ns = 0}; }
 // Throws LinkError if the rules of `qos check` find an error in the set, before the library hangs
 // on it. A file that cannot be read is left to whoever opens it.
 void RequireSoundQos(const std::string& path, const qos::Deployment& fleet = UnknownFleet());
+// The set in the file, for a link of this process. Throws LinkError if it cannot be read, or as
+// RequireSoundQos.
+QosProfiles ReadSoundQos(const std::string& path);
 
 qos::Deployment DeploymentOf(const Scenario& scenario);
 

@@ -22,8 +22,7 @@ link::LinkOptions LinkOptionsOf(const ObserverOptions& options) {
   link::LinkOptions link;
   link.domain = options.domain;
   link.interface = options.interface;
-  link.qos_file = ResolveQosFile(options.qos_file);
-  RequireSoundQos(link.qos_file);
+  link.qos = ReadSoundQos(ResolveQosFile(options.qos_file));
   link.area = options.area;
   link.fleet_size = kFleetSize;
   link.discovery_servers = options.discovery_servers;

@@ -47,7 +47,7 @@ std::vector<link::ResolvedEntity> ResolveQosApart(const link::LinkOptions& optio
   const auto [text, whole] = AskChild([&] { return ResolvedText(options); }, kResolvePatience);
   if (!text.empty() && text.front() == kComplaint) throw link::LinkError(text.substr(1));
   if (!whole || text.empty()) {
-    throw link::LinkError("QoS file " + options.qos_file +
+    throw link::LinkError("QoS file " + options.qos.name +
                           ": the library crashed or hung on it; fleetctl "
                           "qos check says more");
   }

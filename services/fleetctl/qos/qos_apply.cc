@@ -141,12 +141,9 @@ void Applying::Plan() {
     const auto is_it = [&](const AppliedTo& applied) { return applied.vehicle == process; };
     if (std::ranges::none_of(report_.vehicles, is_it)) add(process, false);
   }
-  const auto own = ReadQosFile(link_.qos_file);
-  if (const auto* file = std::get_if<qos::ProfileFile>(&own)) {
-    const QosProfiles profiles{file->name, file->bytes};
-    processes.push_back({"this fleetctl", qos::Role::kOperator,
-                         qos::ReadProfiles(RootOf(profiles), profiles.name), false});
-  }
+  const QosProfiles& own = link_.qos;
+  processes.push_back(
+      {"this fleetctl", qos::Role::kOperator, qos::ReadProfiles(RootOf(own), own.name), false});
   const auto first = options_.canary == 0 ? std::nullopt : std::optional<std::size_t>(0);
   rollout_ = qos::PlanRollout(processes, wanted_.text, wanted_.name, first);
   if (!options_.force) return;
@@ -306,7 +303,7 @@ int RunQosApply(const QosApplyOptions& options) {
   link::LinkOptions link = LinkOptionsOf(options.where);
   // The library's own word, before this process touches it and before any vehicle depends on it.
   link::LinkOptions tried = link;
-  tried.qos_file = ResolveQosFile(options.profile);
+  tried.qos = {ResolveQosFile(options.profile), wanted.text};
   // Where the rules find errors the report tells them, and the library is not asked.
   if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
   const Interrupts interrupts;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <variant>
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/qos/qos_apart.h"
+#include "services/link/fastdds/profile_file.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
 
@@ -35,14 +35,10 @@ QosRow PartitionRow(const qos::Topic& topic, qos::Owner owner) {
           QosOrigin::kCode};
 }
 
-// Empty where the file cannot be read: the library will refuse it in its own words.
-qos::ProfileSet SetOf(const std::string& path) {
-  const auto read = ReadQosFile(path);
-  if (const auto* file = std::get_if<qos::ProfileFile>(&read)) {
-    const qos::XmlRead xml = qos::ReadXml(file->bytes, path);
-    if (xml.root) return qos::ReadProfiles(*xml.root, path);
-  }
-  return {};
+// Empty where it is no XML: the library will refuse it in its own words.
+qos::ProfileSet SetOf(const QosProfiles& profiles) {
+  const qos::XmlRead xml = qos::ReadXml(profiles.text, profiles.name);
+  return xml.root ? qos::ReadProfiles(*xml.root, profiles.name) : qos::ProfileSet{};
 }
 
 QosRow InterfaceRow(const std::string& interface) {
@@ -101,9 +97,8 @@ EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& 
   options.domain = 1;  // nothing is opened in it
   options.interface = interface;
   options.fleet_size = vehicles;
-  options.qos_file = ResolveQosFile(argument);
-  EffectiveSet set{options.qos_file,
-                   EffectiveQos(ResolveQosApart(options), SetOf(options.qos_file))};
+  options.qos = link::ReadProfileFile(ResolveQosFile(argument));
+  EffectiveSet set{options.qos.name, EffectiveQos(ResolveQosApart(options), SetOf(options.qos))};
   set.endpoints.front().rows.push_back(InterfaceRow(interface));
   return set;
 }

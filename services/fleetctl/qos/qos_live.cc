@@ -48,9 +48,8 @@ link::LinkOptions LinkOptionsOf(const QosLiveOptions& options, const std::string
   link::LinkOptions link_options;
   link_options.domain = options.domain;
   link_options.interface = options.set.interface;
-  link_options.qos_file = file;
   link_options.fleet_size = options.set.vehicles;
-  RequireSoundQos(file);
+  link_options.qos = ReadSoundQos(file);
   return link_options;
 }
 

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 
+#include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/run/run_ends.h"
 #include "services/runtime/process.h"
 
@@ -41,7 +42,7 @@ Nanoseconds TimeLimit(const Scenario& scenario, bool lockstep) {
 link::LinkOptions ObserverOptions(const FleetSpec& spec, const Scenario& scenario) {
   return {spec.domain,
           spec.options.interface,
-          spec.qos_file,
+          ReadSoundQos(spec.qos_file),
           scenario.area,
           static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
           false,

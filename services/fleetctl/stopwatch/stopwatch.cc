@@ -20,6 +20,7 @@
 #include "services/fleetctl/stopwatch/stopwatch_show.h"
 #include "services/fleetctl/stopwatch/stopwatch_trials.h"
 #include "services/link/fastdds/library_release.h"
+#include "services/link/fastdds/profile_file.h"
 #include "services/link/resolved_qos.h"
 #include "services/runtime/process.h"
 #include "services/types/vehicle_options.h"
@@ -78,7 +79,7 @@ Limits LimitsOf(const StopwatchOptions& options, const std::string& qos_file,
   link::LinkOptions of_any;
   of_any.domain = kFirstDomain;
   of_any.interface = options.interface;
-  of_any.qos_file = qos_file;
+  of_any.qos = link::ReadProfileFile(qos_file);
   of_any.fleet_size = options.vehicles + 1;
   const auto entities = link::ResolveQos(of_any);
   const auto of_reader = [&](std::string_view policy) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "services/fleetctl/args/qos_files.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -36,7 +37,7 @@ std::vector<MemberCommand> CommandsOf(const TuneGround& ground, const TrialOrder
 link::LinkOptions ObserverOptions(const TuneGround& ground, std::uint32_t domain) {
   link::LinkOptions options;
   options.domain = domain;
-  options.qos_file = ground.observer_qos;
+  options.qos = ReadSoundQos(ground.observer_qos);
   options.area = ground.scenario->area;
   options.fleet_size = static_cast<std::uint32_t>(ground.scenario->vehicles.size());
   return options;

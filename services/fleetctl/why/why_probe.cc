@@ -71,8 +71,7 @@ link::LinkOptions OptionsOf(const Instructions& told) {
   link::LinkOptions options;
   options.domain = told.domain;
   options.interface = told.interface;
-  options.qos_file = told.qos_file;
-  RequireSoundQos(options.qos_file);
+  options.qos = ReadSoundQos(told.qos_file);
   options.area = told.area;
   options.fleet_size = told.fleet_size;
   return options;

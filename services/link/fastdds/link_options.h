@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/types/admin.h"
 #include "services/types/discovery_server.h"
 #include "services/types/impairment.h"
 
@@ -14,7 +15,7 @@ namespace giveway::link {
 struct LinkOptions {
   std::uint32_t domain = 0;             // 1..99; above 101 ports collide with ephemeral ones
   std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
-  std::string qos_file;                 // a complete Fast DDS XML profile set
+  QosProfiles qos;                      // a complete Fast DDS XML set, see ReadProfileFile
   std::string area = "main";            // [a-z0-9_-]+
   std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
   bool partition_free = false;          // vehicle: a second beacon, for readers without a partition

@@ -1,0 +1,31 @@
+#include "services/vehicle_node/vehicle_end.h"
+
+#include <string>
+
+namespace giveway {
+namespace {
+
+NewFlags ToComeBack(const VehicleLoop& loop, const ServiceAdmin& admin) {
+  NewFlags flags = admin.ToComeBack();
+  flags["--id"] = std::to_string(Number(loop.Id()));
+  flags["--resume"] = HoldText("resume", ToBytes({loop.Session(), admin.Order(), loop.HandOver()}));
+  return flags;
+}
+
+}  // namespace
+
+LifeEnd EndOf(DriveEnd end, const VehicleLoop& loop, const ServiceAdmin& admin) {
+  switch (end) {
+    case DriveEnd::kOver:
+      return {};
+    case DriveEnd::kRefused:
+      return {2, {}};
+    case DriveEnd::kDeaf:
+      return {1, {}};
+    case DriveEnd::kRestarts:
+      return {0, ToComeBack(loop, admin)};
+  }
+  return {};
+}
+
+}  // namespace giveway

@@ -1,0 +1,70 @@
+#include "services/vehicle_node/vehicle_log.h"
+
+#include <algorithm>
+
+#include "services/runtime/process.h"
+#include "services/vehicle/refused_beacon.h"
+#include "services/vehicle_node/vehicle_report.h"
+
+namespace giveway {
+namespace {
+
+bool HasLeft(VehicleId peer, const Vehicle& vehicle) {
+  const auto peers = vehicle.State().peers.Peers();
+  const auto found = std::ranges::find(peers, peer, &Peer::id);
+  return found != peers.end() && found->left;
+}
+
+}  // namespace
+
+void VehicleLog::TellOfLink(std::span<const Refusal> refusals,
+                            const std::vector<std::string>& unfit, SteadyTime now) {
+  LogNews(refusals, unfit, now, &refusal_log_);
+}
+
+void VehicleLog::TellOfEvents(std::span<const QosEvent> events, const Vehicle& vehicle) {
+  for (const QosEvent& event : events) {
+    switch (event.kind) {
+      case QosEventKind::kDeadlineMissed:
+      case QosEventKind::kLivelinessLost:
+        // Its writer is gone a moment after its good-bye.
+        if (HasLeft(event.vehicle, vehicle)) break;
+        [[fallthrough]];
+      case QosEventKind::kIncompatibleQos:
+        LogWarning(Describe(event), event.at);
+        break;
+      case QosEventKind::kSampleLost:
+        LogDebug(Describe(event));
+        break;
+      default:
+        LogInfo(Describe(event), event.at);
+    }
+  }
+}
+
+void VehicleLog::TellOfRefusals(std::span<const ReceivedBeacon> beacons, const Vehicle& vehicle,
+                                SteadyTime now) {
+  std::vector<Refusal> refusals;
+  for (const RefusedBeacon& refused : vehicle.Refused()) {
+    if (refused.why == BeaconRefusal::kCrc || refused.why == BeaconRefusal::kWrongName) continue;
+    refusals.push_back(Explain(beacons[refused.index], refused.why, vehicle.State()));
+  }
+  LogNews(refusals, {}, now, &refusal_log_);
+}
+
+void VehicleLog::TellOfBeacons(const Vehicle& vehicle, const VehicleOptions& options,
+                               SteadyTime now, SteadyTime woke) {
+  beacon_news_.Look(vehicle.State().peers.Peers(), now, vehicle.State().tick, options);
+  for (const BeaconNewsItem& item : beacon_news_.Items()) {
+    const bool is_trouble = item.kind == BeaconNewsKind::kStale;
+    is_trouble ? LogWarning(Describe(item), woke) : LogInfo(Describe(item), woke);
+  }
+}
+
+void VehicleLog::TellOfBlackouts(const std::optional<SteadyTime>& since) {
+  if (told_blackouts_ || !since) return;
+  told_blackouts_ = true;
+  LogInfo("impairment: blackouts are counted from here", *since);
+}
+
+}  // namespace giveway

@@ -1,0 +1,43 @@
+// What a vehicle's loop tells its log of the others: who comes and goes, what of theirs is refused,
+// and whose beacons can be decided by. Each once, when it changes.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/runtime/refusal_log.h"
+#include "services/types/refusal.h"
+#include "services/types/vehicle_io.h"
+#include "services/types/vehicle_options.h"
+#include "services/vehicle/vehicle.h"
+#include "services/vehicle_node/beacon_news.h"
+
+namespace giveway {
+
+class VehicleLog {
+ public:
+  // What the link could not read, and endpoints that will never match.
+  void TellOfLink(std::span<const Refusal> refusals, const std::vector<std::string>& unfit,
+                  SteadyTime now);
+  // What the middleware says of the peers. Whoever comes or goes is news, the rest is trouble; that
+  // a beacon was lost is neither on a radio, and would be said many times a second.
+  void TellOfEvents(std::span<const QosEvent> events, const Vehicle& vehicle);
+  // What the brain refused of these. What is broken or misnamed the link has said, and knows more
+  // of it.
+  void TellOfRefusals(std::span<const ReceivedBeacon> beacons, const Vehicle& vehicle,
+                      SteadyTime now);
+  // Whose beacons can be decided by, and whose no more. `now` is what the brain takes for the time.
+  void TellOfBeacons(const Vehicle& vehicle, const VehicleOptions& options, SteadyTime now,
+                     SteadyTime woke);
+  // Once, when it is known.
+  void TellOfBlackouts(const std::optional<SteadyTime>& since);
+
+ private:
+  BeaconNews beacon_news_;
+  RefusalLog refusal_log_;
+  bool told_blackouts_ = false;
+};
+
+}  // namespace giveway
