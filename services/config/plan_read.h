@@ -8,6 +8,8 @@
 
 namespace giveway {
 
+inline constexpr Allowed kDuration{0, 86400, "s", true};  // of a run
+
 // The ids of a scenario that its plans may name.
 struct KnownIds {
   std::set<VehicleId> vehicles;  // of the file

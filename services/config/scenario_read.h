@@ -10,8 +10,6 @@
 
 namespace giveway {
 
-inline constexpr Allowed kDuration{0, 86400, "s", true};
-
 struct ReadScenario {
   Scenario scenario;
   // Where scenario.vehicles[i] and so on were written.
