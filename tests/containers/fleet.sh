@@ -165,7 +165,7 @@ holds() {
 # excused WORLD: true if nothing but the lateness of the machine explains that its run failed.
 excused() {
   local ended reason vehicle
-  ended=$(docker logs "$1" 2>&1 | sed -n 's/.* ended: .*; failed: \(.*\); late for \([0-9]*\) ticks$/\2 \1/p')
+  ended=$(docker logs "$1" 2>&1 | sed -n 's/.*ended: .*; failed: \(.*\); late for \([0-9]*\) ticks.*/\2 \1/p')
   [[ -n $ended ]] && ! docker logs "$1" 2>&1 | grep -q 'contact:' || return 1
   reason=${ended#* }
   only_late "$reason" "${ended%% *}" "$(

@@ -10,5 +10,5 @@ only_late() {
 }
 # The scans that the vehicle missed of whose logs these are that missed most; 0 of none.
 scans_missed() {
-  sed -n 's/.* link: ranges_skipped=\([0-9]*\) .*/\1/p' | sort -n | tail -n 1 | grep . || echo 0
+  sed -n 's/.*link: ranges_skipped=\([0-9]*\)[ ,"].*/\1/p' | sort -n | tail -n 1 | grep . || echo 0
 }
