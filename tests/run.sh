@@ -87,9 +87,7 @@ export CCACHE_BASEDIR=$GIVEWAY_ROOT CCACHE_NOHASHDIR=1
 # The library frees some objects by another size than it made them with.
 export ASAN_OPTIONS=new_delete_type_mismatch=0:${ASAN_OPTIONS:-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
-# The library locks by pthread_mutex_clocklock, which this sanitizer does not see: every unlock of
-# such a mutex would be called an unlock too many.
-export TSAN_OPTIONS=report_mutex_bugs=0:suppressions=$GIVEWAY_ROOT/tests/support/tsan.supp:${TSAN_OPTIONS:-}
+export TSAN_OPTIONS=suppressions=$GIVEWAY_ROOT/tests/support/tsan.supp:${TSAN_OPTIONS:-}
 
 passed_total=0
 failed_total=0
