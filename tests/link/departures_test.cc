@@ -1,6 +1,8 @@
 // Vehicles that fall silent, leave and come back: each is named, and a gone one stays gone.
 #include <gmock/gmock.h>
 
+#include <map>
+
 #include "services/link/fastdds/library_log.h"
 #include "tests/link/fleet.h"
 #include "tests/link/raw_vehicle.h"
@@ -123,6 +125,55 @@ TEST(Departures, OfFiftyVehiclesLeaveThePublishedCountersStill) {
     listener.Listen();
     return listener.RawMissesOf(VehicleId{id}) > 0;
   })) << "the library stopped watching deadlines";
+}
+
+// One that had its whole history read at once and then fell silent was drained, and missed for
+// ever.
+TEST(Departures, OfVehiclesWhoseHistoryWasAllNewLeaveNoInstance) {
+  const DomainLock domain;
+  const link::LinkOptions options = OptionsIn(domain);
+  RawListener listener(options);
+  const auto missed_of_four = [&listener] {
+    std::size_t vehicles = 0;
+    std::map<VehicleId, std::size_t> before;
+    for (std::uint32_t id = 1; id <= 4; ++id) {
+      before[VehicleId{id}] = listener.RawMissesOf(VehicleId{id});
+    }
+    Repeat(milliseconds(400), [&] { listener.Listen(); });
+    for (const auto& [vehicle, misses] : before) {
+      if (listener.RawMissesOf(vehicle) > misses) ++vehicles;
+    }
+    return vehicles;
+  };
+  {
+    std::vector<std::unique_ptr<RawSender>> fleet;
+    for (int i = 1; i <= 4; ++i) {
+      fleet.push_back(std::make_unique<RawSender>(options, "main/v" + std::to_string(i)));
+    }
+    std::uint32_t seq = 0;
+    const auto send = [&] {
+      ++seq;
+      for (std::uint32_t i = 0; i < 4; ++i) {
+        fleet[i]->Send(link::ToWire(BeaconFrom(VehicleId{i + 1}, seq).beacon));
+      }
+    };
+    ASSERT_TRUE(Eventually([&] {
+      send();
+      listener.Listen();
+      return listener.Matched() == 4 && listener.Vehicles().size() == 4;
+    }));
+    // More than the history holds, before the listener's next look.
+    for (int i = 0; i < 12; ++i) send();
+    Repeat(milliseconds(100), [&] { listener.FollowMatches(); });
+    listener.Listen();
+    ASSERT_EQ(missed_of_four(), 4U);
+  }
+  ASSERT_TRUE(Eventually([&] {
+    listener.Listen();
+    return listener.Matched() == 0;
+  }));
+  // The one that the library's timer is set for stays.
+  EXPECT_TRUE(Eventually([&] { return missed_of_four() <= 1; }, seconds(5)));
 }
 
 // Issue 21, number 22: the library removed the instance that its timer was set for, and no deadline

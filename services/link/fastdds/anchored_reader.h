@@ -4,13 +4,14 @@
 //   only in a take that finds it not alive, and one that was drained before it died is never found.
 // - If it removes the very instance its timer is set for, it stops watching every deadline of the
 //   reader ("Could not set next deadline in the history").
-// So of a living instance all samples are taken but one, its anchor, by which it can be found
-// later; and one that is not alive is only read. RemoveDeparted removes those, and is to be called
-// from the callback of a missed deadline: there it is known which instance the timer is set for.
+// So what is read stays in the reader until there is more of it: each instance keeps a sample from
+// its first on, its anchor, by which it can be found later. RemoveDeparted removes those that are
+// not alive, and is to be called from the callback of a missed deadline: there it is known which
+// instance the timer is set for.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <set>
 
 #include "services/link/fastdds/endpoint.h"
@@ -28,10 +29,13 @@ class AnchoredReader {
   // As Reader::TakeEach.
   template <typename Visit>
   void TakeEach(Visit&& visit) {
-    LeaveAnchors(visit);
-    if (depth_ >= kLeastDepth) ReadAll(dds::NEW_VIEW_STATE, dds::ALIVE_INSTANCE_STATE, visit);
-    TakeLiving(visit);
-    ReadAll(dds::ANY_VIEW_STATE, dds::NOT_ALIVE_INSTANCE_STATE, visit);
+    if (depth_ < kLeastDepth) {
+      TakeLiving(visit);
+      ReadAll(dds::NOT_ALIVE_INSTANCE_STATE, visit);
+    } else {
+      ReadAll(dds::ANY_INSTANCE_STATE, visit);
+    }
+    if (most_held_ + 1 >= depth_) KeepAnchors();
   }
   dds::DataReader& Entity() const { return reader_; }
 
@@ -47,66 +51,55 @@ class AnchoredReader {
   }
 
   template <typename Visit>
-  void LeaveAnchors(Visit&& visit) {
-    std::erase_if(bare_, [&](const dds::InstanceHandle_t& instance) {
-      const Loan<Wire> anchor = OfInstance(instance, dds::READ_SAMPLE_STATE, 1);
-      if (anchor.Size() > 0 || IsUnknownInstance(anchor.Code())) return true;
-      const Loan<Wire> fresh = OfInstance(instance, dds::NOT_READ_SAMPLE_STATE, 1);
-      if (fresh.Size() == 0) return false;
-      if (fresh.Info(0).valid_data) visit(fresh.Sample(0), fresh.Info(0));
-      return true;
-    });
-  }
-
-  template <typename Visit>
   void TakeLiving(Visit&& visit) {
-    dds::InstanceHandle_t last;
-    std::int32_t in_a_row = 0;
     while (true) {
       const Loan<Wire> loan(reader_, [&](auto& samples, auto& infos) {
         return reader_.take(samples, infos, dds::LENGTH_UNLIMITED, dds::NOT_READ_SAMPLE_STATE,
                             dds::ANY_VIEW_STATE, dds::ALIVE_INSTANCE_STATE);
       });
       if (loan.Size() == 0) return;
-      for (int i = 0; i < loan.Size(); ++i) {
-        const dds::SampleInfo& info = loan.Info(i);
-        in_a_row = info.instance_handle == last ? in_a_row + 1 : 1;
-        last = info.instance_handle;
-        NoteTaken(info, in_a_row);
-        if (info.valid_data) visit(loan.Sample(i), info);
-      }
+      VisitEach(loan, visit);
     }
   }
 
-  // One that came a moment ago has no anchor yet; that of another has been overwritten where all
-  // that the history holds is new.
-  void NoteTaken(const dds::SampleInfo& info, std::int32_t in_a_row) {
-    if (depth_ < kLeastDepth) return;
-    if (info.view_state == dds::NEW_VIEW_STATE || in_a_row >= depth_) {
-      bare_.insert(info.instance_handle);
-    }
-  }
-
-  // Leaves one sample of each behind.
   template <typename Visit>
-  void ReadAll(dds::ViewStateMask view, dds::InstanceStateMask state, Visit&& visit) {
-    std::set<dds::InstanceHandle_t> instances;
+  void ReadAll(dds::InstanceStateMask state, Visit&& visit) {
+    std::int32_t most = 0;
     while (true) {
       const Loan<Wire> loan(reader_, [&](auto& samples, auto& infos) {
-        return reader_.read(samples, infos, dds::LENGTH_UNLIMITED, dds::NOT_READ_SAMPLE_STATE, view,
-                            state);
+        return reader_.read(samples, infos, dds::LENGTH_UNLIMITED, dds::NOT_READ_SAMPLE_STATE,
+                            dds::ANY_VIEW_STATE, state);
       });
       if (loan.Size() == 0) break;
-      for (int i = 0; i < loan.Size(); ++i) {
-        instances.insert(loan.Info(i).instance_handle);
-        if (loan.Info(i).valid_data) visit(loan.Sample(i), loan.Info(i));
-      }
+      most += VisitEach(loan, visit);
+      for (int i = 0; i < loan.Size(); ++i) read_.insert(loan.Info(i).instance_handle);
     }
-    for (const dds::InstanceHandle_t& instance : instances) KeepOne(instance);
+    most_held_ = std::min(most_held_ + most, depth_);
+  }
+
+  // Returns the most samples of one instance.
+  template <typename Visit>
+  static std::int32_t VisitEach(const Loan<Wire>& loan, Visit&& visit) {
+    std::int32_t in_a_row = 0;
+    std::int32_t most = 0;
+    for (int i = 0; i < loan.Size(); ++i) {
+      const bool goes_on =
+          i > 0 && loan.Info(i).instance_handle == loan.Info(i - 1).instance_handle;
+      in_a_row = goes_on ? in_a_row + 1 : 1;
+      most = std::max(most, in_a_row);
+      if (loan.Info(i).valid_data) visit(loan.Sample(i), loan.Info(i));
+    }
+    return most;
   }
 
   // A full history refuses what is older than all it holds, by the writers' clocks: one that comes
-  // back with an earlier clock would not be heard.
+  // back with an earlier clock would not be heard. So none gets full of what has been read.
+  void KeepAnchors() {
+    for (const dds::InstanceHandle_t& instance : read_) KeepOne(instance);
+    read_.clear();
+    most_held_ = 1;
+  }
+
   void KeepOne(const dds::InstanceHandle_t& instance) {
     const std::int32_t more =
         OfInstance(instance, dds::READ_SAMPLE_STATE, dds::LENGTH_UNLIMITED).Size() - 1;
@@ -117,8 +110,9 @@ class AnchoredReader {
   }
 
   dds::DataReader& reader_;
-  std::int32_t depth_ = std::numeric_limits<std::int32_t>::max();
-  std::set<dds::InstanceHandle_t> bare_;  // living, and without an anchor
+  std::int32_t depth_ = kLeastDepth;      // of a history that keeps all: trimmed at every turn
+  std::set<dds::InstanceHandle_t> read_;  // since anchors were all that is kept
+  std::int32_t most_held_ = 1;            // of one instance, at most, of what has been read
 };
 
 // Removes the instances of a reader that are not alive and were drained by AnchoredReader, all but

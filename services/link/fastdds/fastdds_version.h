@@ -68,10 +68,6 @@ inline constexpr std::array<Respelt, 0> kRespelt{};
 inline constexpr bool kServersByPrefix = true;  // in discoveryServersList
 
 inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
-// What a reader answers that is asked for an instance it does not have.
-inline bool IsUnknownInstance(const ReturnCode& code) {
-  return code == ReturnCode::RETCODE_BAD_PARAMETER;
-}
 // The result of DataWriter::write: true is good in 2.9.1, and 0 is good in 3.1.2.
 inline bool Ok(bool written) { return written; }
 
@@ -147,7 +143,6 @@ inline constexpr std::array kRespelt = {
 inline constexpr bool kServersByPrefix = false;
 
 inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
-inline bool IsUnknownInstance(ReturnCode code) { return code == dds::RETCODE_BAD_PARAMETER; }
 
 inline void SetHeartbeatPeriod(dds::DataWriterQos& qos, const Duration& period) {
   qos.reliable_writer_qos().times.heartbeat_period = period;
