@@ -164,10 +164,27 @@ of_failed() {
        shown'
 }
 
+# count_cases PRESET LABEL: cases that ran and cases that failed in the programs that run all of theirs
+# in one process, then the names of those that failed. A program that was ended before it wrote its
+# file is a failed test of ctest, which counts it.
+count_cases() {
+  local files
+  mapfile -t files < <(find "$GIVEWAY_ROOT/build/$1/cases/$2" -name '*.xml' 2>/dev/null)
+  [[ ${#files[@]} -gt 0 ]] || return 0
+  awk '/<testsuites / {match($0, / tests="[0-9]+"/); ran += substr($0, RSTART + 8)
+                       match($0, / failures="[0-9]+"/); bad += substr($0, RSTART + 11)}
+       /<testcase / {match($0, / name="[^"]*"/); name = substr($0, RSTART + 7, RLENGTH - 8)
+                     match($0, / classname="[^"]*"/)
+                     name = substr($0, RSTART + 12, RLENGTH - 13) "." name}
+       /<failure / && name != told {told = name; names = names name "\n"}
+       END {print ran + 0, bad + 0; printf "%s", names}' "${files[@]}"
+}
+
 # run_ctest PRESET LABEL JOBS [CTEST_ARGUMENTS]
 run_ctest() {
-  local preset=$1 label=$2 jobs=$3 report code=0 ran bad skipped names
+  local preset=$1 label=$2 jobs=$3 report code=0 ran bad bad_cases skipped names cases
   shift 3
+  rm -rf "$GIVEWAY_ROOT/build/$preset/cases/$label"
   report="$GIVEWAY_ROOT/build/$preset/junit-$label.xml"
   rm -f "$report"
   ctest --test-dir "build/$preset" -L "^$label\$" -j "$jobs" --output-on-failure --no-tests=error \
@@ -181,6 +198,14 @@ run_ctest() {
     bad=$((skipped > 0 ? skipped : 1))
     skipped=0
     ran=$((ran > bad ? ran : bad))
+  fi
+  mapfile -t cases < <(count_cases "$preset" "$label")
+  if [[ ${#cases[@]} -gt 0 ]]; then
+    read -r ran bad_cases <<<"${cases[0]}"
+    # More programs than cases: some failed beside their cases, or left no file.
+    bad=$((bad_cases > bad ? bad_cases : bad))
+    ran=$((ran > bad ? ran : bad))
+    failed_names+=("${cases[@]:1}")
   fi
   passed=$((passed + ran - bad - skipped))
   failed=$((failed + bad))
