@@ -69,6 +69,8 @@ class ChildProcess {
   void Poll();
   const std::optional<ProcessEnd>& End() const { return end_; }
   bool IsRunning() const { return !end_.has_value(); }
+  // While not heard, what it says stays in the pipe, which gets full. An end is noticed all the same.
+  void HearOutput(bool hear) { hears_ = hear; }
   // Nothing happens to a child that has ended: its id may be another process by now.
   void Signal(int signal_number);
   // SIGTERM, once: a second one would end a service before it has left in good order.
@@ -90,6 +92,7 @@ class ChildProcess {
   FileDescriptor output_;
   std::ofstream log_;
   bool hands_on_lines_;
+  bool hears_ = true;
   bool asked_to_stop_ = false;
   std::optional<ProcessEnd> end_;
   std::string unfinished_line_;

@@ -92,6 +92,10 @@ void FleetProcesses::Kill(MemberId member) {
   Signal(member, SIGKILL);
 }
 
+void FleetProcesses::HearLog(MemberId member, bool hear) {
+  if (At(member).process) At(member).process->HearOutput(hear);
+}
+
 void FleetProcesses::Restart(MemberId member) { Restart(At(member).command); }
 
 void FleetProcesses::Restart(MemberCommand command) {

@@ -46,6 +46,8 @@ class FleetProcesses {
   // has a log of its own.
   void Restart(MemberId member);
   void Restart(MemberCommand command);
+  // Whether anybody reads what its process says. As it starts, somebody does.
+  void HearLog(MemberId member, bool hear);
   // SIGTERM, once a process, and SIGCONT for those that were paused by Signal.
   void AskToStop(MemberId member);
   // That, or SIGKILL, for all. Nothing more is started then.

@@ -1,0 +1,41 @@
+// How long and how often the machine did not let the supervisor run: what it does to the supervisor
+// it does to the fleet. Pure: the time is told.
+#pragma once
+
+#include <cstdint>
+
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+class MachinePauses {
+ public:
+  // A turn that was to last `meant` lasted from `from` to `to`.
+  void Note(SteadyTime from, SteadyTime to, Nanoseconds meant) {
+    total_ += to - from;
+    const Nanoseconds late = to - from - meant;
+    if (late < kLeast) return;
+    ++count_;
+    paused_ += late;
+    longest_ = late > longest_ ? late : longest_;
+  }
+  std::uint64_t Count() const { return count_; }
+  Nanoseconds Longest() const { return longest_; }
+  // Of all the time that was told of; 0 to 1.
+  double Share() const {
+    return total_.count() > 0 ? Seconds(paused_) / Seconds(total_) : 0;
+  }
+  // No verdict can be given then.
+  bool TooBusy() const { return Share() > kMostShare; }
+
+ private:
+  static constexpr Nanoseconds kLeast = std::chrono::milliseconds(50);  // a tick of the fleet
+  static constexpr double kMostShare = 0.02;
+
+  std::uint64_t count_ = 0;
+  Nanoseconds paused_{0};
+  Nanoseconds longest_{0};
+  Nanoseconds total_{0};
+};
+
+}  // namespace giveway::fleetctl

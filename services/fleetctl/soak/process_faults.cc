@@ -1,0 +1,372 @@
+#include "services/fleetctl/soak/process_faults.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+
+namespace giveway::fleetctl {
+namespace {
+
+using faults::Fault;
+using faults::Kind;
+using faults::Target;
+using std::chrono::milliseconds;
+
+constexpr Nanoseconds kDuty = milliseconds(200);      // one turn of stopped and running
+constexpr Nanoseconds kChurnLife = milliseconds(1500);  // of each process that comes and is killed
+constexpr std::uint32_t kFirstChurnId = 1'000'000;
+
+// The flags that follow a process through its faults; those it is given once, by name.
+void Replace(std::vector<std::string>* words, const std::string& flag, const std::string& value) {
+  const auto found = std::ranges::find(*words, flag);
+  if (found != words->end() && std::next(found) != words->end()) {
+    *std::next(found) = value;
+  } else {
+    words->push_back(flag);
+    words->push_back(value);
+  }
+}
+
+// Nothing of a double's is written over what the member itself writes.
+void DropFlag(std::vector<std::string>* words, const std::string& flag) {
+  const auto found = std::ranges::find(*words, flag);
+  if (found != words->end()) words->erase(found, std::next(found, 2));
+}
+
+// The third field of proc_pid_stat(5), after the name in parentheses: T where it is stopped.
+bool IsStopped(pid_t pid) {
+  std::ifstream stat(fmt::format("/proc/{}/stat", pid));
+  std::string text;
+  std::getline(stat, text);
+  const std::size_t name_end = text.rfind(')');
+  return name_end != std::string::npos && name_end + 2 < text.size() && text[name_end + 2] == 'T';
+}
+
+// Empty where it may use as much as it ever may.
+std::string LimitOf(pid_t pid, __rlimit_resource resource) {
+  rlimit limit{};
+  if (::prlimit(pid, resource, nullptr, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return {};
+  return fmt::format("limited to {}", limit.rlim_cur);
+}
+
+// Of proc(5): address space in bytes, from the first field of statm.
+std::uint64_t AddressSpaceOf(pid_t pid) {
+  std::ifstream statm(fmt::format("/proc/{}/statm", pid));
+  std::uint64_t pages = 0;
+  statm >> pages;
+  return pages * 4096;
+}
+
+}  // namespace
+
+ProcessFaults::ProcessFaults(FaultTools tools, FleetProcesses* processes)
+    : tools_(std::move(tools)), processes_(processes) {}
+
+const char* ProcessFaults::WhyNot(const Fault& fault) {
+  const bool world = fault.target.what == Target::What::kWorld;
+  const bool vehicles =
+      fault.target.what == Target::What::kVehicle || fault.target.what == Target::What::kAll;
+  switch (fault.kind) {
+    case Kind::kKill:
+    case Kind::kRestart:
+    case Kind::kPause:
+    case Kind::kSlow:
+    case Kind::kMemoryLimit:
+    case Kind::kDescriptorLimit:
+    case Kind::kLogReaderStops:
+      return world || vehicles ? nullptr : "there is no discovery server in this fleet";
+    case Kind::kHang:
+    case Kind::kDiskFull:
+    case Kind::kQosMismatch:
+    case Kind::kQosApply:
+    case Kind::kDuplicateId:
+      return vehicles ? nullptr : "only a vehicle can be struck so";
+    case Kind::kChurn:
+      return nullptr;
+    case Kind::kClockStep:
+      return "the clock of a process that runs cannot be stepped from outside";
+    case Kind::kSharedMemoryGone:
+    case Kind::kSharedMemoryLeftOver:
+    case Kind::kSharedMemorySmall:
+      return "/dev/shm is shared with every other fleet of this machine";
+    default:
+      return "it is not the supervisor's";
+  }
+}
+
+std::vector<MemberId> ProcessFaults::MembersOf(const Target& target) const {
+  switch (target.what) {
+    case Target::What::kVehicle:
+      return {MemberOf(target.vehicle)};
+    case Target::What::kWorld:
+      return {kTheWorld};
+    case Target::What::kDiscoveryServer:
+      return {};
+    case Target::What::kAll:
+      break;
+  }
+  std::vector<MemberId> all;
+  for (const MemberCommand& command : tools_.commands) all.push_back(command.member);
+  return all;
+}
+
+const MemberCommand* ProcessFaults::CommandOf(MemberId member) const {
+  const auto found = std::ranges::find(tools_.commands, member, &MemberCommand::member);
+  return found == tools_.commands.end() ? nullptr : &*found;
+}
+
+std::string ProcessFaults::EffectOf(const Fault& fault) const {
+  for (const MemberId member : MembersOf(fault.target)) {
+    if (CommandOf(member) == nullptr) continue;
+    const std::string effect = EffectOn(fault, member);
+    if (!effect.empty()) return effect;
+  }
+  if (fault.kind == Kind::kChurn && churned_ > 0) {
+    return fmt::format("{} processes came and were killed", churned_);
+  }
+  return {};
+}
+
+std::string ProcessFaults::EffectOn(const Fault& fault, MemberId member) const {
+  const auto pid = processes_->PidOf(member);
+  if (!pid) return {};
+  switch (fault.kind) {
+    case Kind::kPause:
+    case Kind::kSlow:
+      return IsStopped(*pid) ? "the process is stopped" : "";
+    case Kind::kMemoryLimit:
+      return LimitOf(*pid, RLIMIT_AS);
+    case Kind::kDescriptorLimit:
+      return LimitOf(*pid, RLIMIT_NOFILE);
+    case Kind::kDiskFull:
+      return LimitOf(*pid, RLIMIT_FSIZE);
+    case Kind::kLogReaderStops:
+      return "nobody reads its log";
+    case Kind::kDuplicateId:
+      return doubles_.contains(&fault) ? "a second process asks for its id" : "";
+    default:
+      return {};
+  }
+}
+
+std::vector<std::size_t> ProcessFaults::KillersOf(MemberId member,
+                                                  const faults::Schedule& schedule) const {
+  std::vector<std::size_t> killers;
+  const auto away = away_.find(member);
+  if (away == away_.end()) return killers;
+  for (std::size_t i = 0; i < schedule.size(); ++i) {
+    if (&schedule[i] == away->second) killers.push_back(i);
+  }
+  return killers;
+}
+
+bool ProcessFaults::IsAwayForGood(MemberId member) const {
+  const auto away = away_.find(member);
+  return away != away_.end() && away->second->kind == Kind::kKill;
+}
+
+void ProcessFaults::Begin(const Fault& fault) {
+  if (fault.kind == Kind::kChurn) {
+    churns_[&fault].left = fault.parameters.count.value_or(1);
+    return;
+  }
+  for (const MemberId member : MembersOf(fault.target)) BeginOn(fault, member);
+}
+
+void ProcessFaults::End(const Fault& fault) {
+  churns_.erase(&fault);
+  doubles_.erase(&fault);
+  for (const MemberId member : MembersOf(fault.target)) EndOn(fault, member);
+}
+
+void ProcessFaults::BeginOn(const Fault& fault, MemberId member) {
+  if (CommandOf(member) == nullptr || !processes_->IsRunning(member)) return;
+  const faults::Parameters& with = fault.parameters;
+  switch (fault.kind) {
+    case Kind::kKill:
+    case Kind::kRestart:
+    case Kind::kQosMismatch:
+      away_[member] = &fault;
+      processes_->Kill(member);
+      break;
+    case Kind::kPause:
+      processes_->Signal(member, SIGSTOP);
+      break;
+    case Kind::kHang:
+      processes_->Signal(member, SIGUSR2);
+      break;
+    case Kind::kSlow:
+      slow_[member].share = with.share.value_or(1);
+      break;
+    case Kind::kMemoryLimit:
+      if (const auto pid = processes_->PidOf(member)) {
+        Limit(member, RLIMIT_AS,
+              AddressSpaceOf(*pid) + static_cast<std::uint64_t>(with.bytes.value_or(0)));
+      }
+      break;
+    case Kind::kDescriptorLimit:
+      if (const auto resources = processes_->ResourcesOf(member)) {
+        Limit(member, RLIMIT_NOFILE, resources->descriptors + with.count.value_or(0));
+      }
+      break;
+    case Kind::kDiskFull:
+      Limit(member, RLIMIT_FSIZE, 1);
+      break;
+    case Kind::kLogReaderStops:
+      processes_->HearLog(member, false);
+      break;
+    case Kind::kQosApply:
+      GiveOrder(fault, member);
+      break;
+    case Kind::kDuplicateId:
+      doubles_[&fault].push_back(StartBeside(
+          member, member.number, fmt::format("double of {}", NameOf(member))));
+      break;
+    default:
+      break;
+  }
+}
+
+void ProcessFaults::EndOn(const Fault& fault, MemberId member) {
+  if (CommandOf(member) == nullptr) return;
+  switch (fault.kind) {
+    case Kind::kRestart:
+    case Kind::kQosMismatch:
+      // Of one that was away for another fault nothing began.
+      if (const auto away = away_.find(member); away != away_.end() && away->second == &fault) {
+        if (processes_->IsRunning(member)) processes_->Kill(member);
+        away_.erase(away);
+        returning_.insert(member);
+      }
+      break;
+    case Kind::kPause:
+      processes_->Signal(member, SIGCONT);
+      break;
+    case Kind::kHang:
+      processes_->Signal(member, SIGUSR2);
+      break;
+    case Kind::kSlow:
+      if (slow_.erase(member) > 0) processes_->Signal(member, SIGCONT);
+      break;
+    case Kind::kMemoryLimit:
+      Limit(member, RLIMIT_AS, std::nullopt);
+      break;
+    case Kind::kDescriptorLimit:
+      Limit(member, RLIMIT_NOFILE, std::nullopt);
+      break;
+    case Kind::kDiskFull:
+      Limit(member, RLIMIT_FSIZE, std::nullopt);
+      break;
+    case Kind::kLogReaderStops:
+      processes_->HearLog(member, true);
+      break;
+    default:
+      break;
+  }
+}
+
+void ProcessFaults::Turn(SteadyTime now) {
+  std::erase_if(returning_, [this](MemberId member) {
+    if (!processes_->EndOf(member)) return false;
+    processes_->Restart(*CommandOf(member));
+    return true;
+  });
+  for (auto& [member, away] : away_) {
+    // Gone as planned: it comes back at once, with a set that matches nobody's.
+    if (away->kind == Kind::kQosMismatch && !processes_->IsRunning(member) &&
+        processes_->EndOf(member)) {
+      processes_->Restart(WithOtherSet(member));
+    }
+  }
+  for (auto& [member, slow] : slow_) TurnSlow(member, now, &slow);
+  for (auto& [fault, churn] : churns_) TurnChurn(now, &churn);
+  for (auto& [fault, doubles] : doubles_) {
+    for (const auto& process : doubles) process->Poll();
+  }
+  std::erase_if(orders_, [this](const auto& order) {
+    order.second->Poll();
+    if (order.second->IsRunning()) return false;
+    const auto& said = order.second->LastLines();
+    order_ends_.push_back(
+        {order.first, *order.second->End(), said.empty() ? std::string() : said.back()});
+    return true;
+  });
+}
+
+std::vector<ProcessFaults::OrderEnd> ProcessFaults::TakeOrderEnds() {
+  return std::exchange(order_ends_, {});
+}
+
+MemberCommand ProcessFaults::WithOtherSet(MemberId member) const {
+  MemberCommand command = *CommandOf(member);
+  Replace(&command.child.words, "--qos", tools_.other_qos);
+  return command;
+}
+
+std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::uint32_t id,
+                                                         const std::string& name) const {
+  ChildCommand child = CommandOf(member)->child;
+  child.name = name;
+  child.hands_on_lines = false;
+  if (!child.log_file.empty()) child.log_file += fmt::format(".beside-{}", id);
+  Replace(&child.words, "--id", std::to_string(id));
+  DropFlag(&child.words, "--record");
+  DropFlag(&child.words, "--record-split");
+  return std::make_unique<ChildProcess>(child);
+}
+
+void ProcessFaults::GiveOrder(const Fault& fault, MemberId member) {
+  ChildCommand order;
+  order.name = fmt::format("order to {}", NameOf(member));
+  order.words = {tools_.fleetctl, "qos",      "apply",
+                 fault.parameters.qos, "--to", std::to_string(member.number),
+                 "--domain",       std::to_string(tools_.domain)};
+  if (!tools_.interface.empty()) {
+    order.words.insert(order.words.end(), {"--interface", tools_.interface});
+  }
+  orders_[&fault] = std::make_unique<ChildProcess>(order);
+}
+
+// A share of each turn it runs, and is stopped for the rest.
+void ProcessFaults::TurnSlow(MemberId member, SteadyTime now, Slow* slow) {
+  if (now - slow->since >= kDuty) slow->since = now;
+  const double gone = static_cast<double>((now - slow->since).count()) /
+                      static_cast<double>(kDuty.count());
+  const bool stop = gone >= slow->share;
+  if (stop == slow->stopped) return;
+  slow->stopped = stop;
+  processes_->Signal(member, stop ? SIGSTOP : SIGCONT);
+}
+
+void ProcessFaults::TurnChurn(SteadyTime now, Churn* churn) {
+  if (churn->process) {
+    churn->process->Poll();
+    if (now < churn->until && churn->process->IsRunning()) return;
+    churn->process.reset();  // kills it
+  }
+  if (churn->left == 0) return;
+  const auto any = std::ranges::find_if(
+      tools_.commands, [](const MemberCommand& command) { return command.member != kTheWorld; });
+  if (any == tools_.commands.end()) return;
+  const std::uint32_t id = kFirstChurnId + churned_++;
+  churn->process = StartBeside(any->member, id, fmt::format("passer-by {}", id));
+  churn->until = now + kChurnLife;
+  --churn->left;
+}
+
+// Nothing is put back as high as it may go: the hard limit was never changed.
+void ProcessFaults::Limit(MemberId member, int resource, std::optional<std::uint64_t> most) {
+  const auto pid = processes_->PidOf(member);
+  if (!pid) return;
+  rlimit limit{};
+  const auto which = static_cast<__rlimit_resource>(resource);
+  if (::prlimit(*pid, which, nullptr, &limit) != 0) return;
+  limit.rlim_cur = most ? std::min<rlim_t>(*most, limit.rlim_max) : limit.rlim_max;
+  ::prlimit(*pid, which, &limit, nullptr);
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,103 @@
+// Makes the supervisor's faults happen to the processes of a fleet, and undoes them. Whatever it
+// does dies with this process: what is stopped is a child that is killed with its parent, limits go
+// with the process they are of, and the processes started here are children too.
+// Knows no DDS; whether a fault had an effect is found out elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "services/faults/fault.h"
+#include "services/fleetctl/process/child_process.h"
+#include "services/fleetctl/process/fleet_processes.h"
+
+namespace giveway::fleetctl {
+
+// What the faults are made with.
+struct FaultTools {
+  std::vector<MemberCommand> commands;  // of every member, as it was started
+  std::string fleetctl;                 // the program, for orders
+  std::uint32_t domain = 0;
+  std::string interface;
+  std::string other_qos;  // a set that matches nobody's; for kQosMismatch
+};
+
+class ProcessFaults {
+ public:
+  // `processes` outlives this. On the thread that made it.
+  ProcessFaults(FaultTools tools, FleetProcesses* processes);
+
+  // Null: this kind can be made to happen to this target. Otherwise why not.
+  static const char* WhyNot(const faults::Fault& fault);
+
+  // Faults of other actors are none of ours: nothing happens. `fault` outlives its end. Throws
+  // StartError where a process cannot be started.
+  void Begin(const faults::Fault& fault);
+  void End(const faults::Fault& fault);
+  // What goes on during a fault: stops and continues slow ones, polls its own children. Often.
+  void Turn(SteadyTime now);
+
+  // True while its process is gone, and planned to be.
+  bool IsAway(MemberId member) const {
+    return away_.contains(member) || returning_.contains(member);
+  }
+  // Ends of orders given by `fleetctl qos apply`, each once: the fault and the exit code.
+  struct OrderEnd {
+    const faults::Fault* fault = nullptr;
+    ProcessEnd how;
+    std::string last_line;
+  };
+  std::vector<OrderEnd> TakeOrderEnds();
+  // What is seen from outside of a fault under way: that the process is stopped, gone, limited; empty
+  // where nothing is seen, or it shows elsewhere.
+  std::string EffectOf(const faults::Fault& fault) const;
+  // Of the member's planned end: the faults, by their place in the schedule, that killed it.
+  std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;
+  // Killed, and not to come back.
+  bool IsAwayForGood(MemberId member) const;
+  // Processes of churn that were started so far.
+  std::uint32_t Churned() const { return churned_; }
+
+ private:
+  struct Slow {
+    double share = 1;
+    SteadyTime since{0};
+    bool stopped = false;
+  };
+  struct Churn {
+    std::uint32_t left = 0;
+    std::unique_ptr<ChildProcess> process;
+    SteadyTime until{0};
+  };
+
+  std::string EffectOn(const faults::Fault& fault, MemberId member) const;
+  void BeginOn(const faults::Fault& fault, MemberId member);
+  void EndOn(const faults::Fault& fault, MemberId member);
+  std::vector<MemberId> MembersOf(const faults::Target& target) const;
+  const MemberCommand* CommandOf(MemberId member) const;
+  MemberCommand WithOtherSet(MemberId member) const;
+  std::unique_ptr<ChildProcess> StartBeside(MemberId member, std::uint32_t id,
+                                            const std::string& name) const;
+  void GiveOrder(const faults::Fault& fault, MemberId member);
+  void TurnSlow(MemberId member, SteadyTime now, Slow* slow);
+  void TurnChurn(SteadyTime now, Churn* churn);
+  void Limit(MemberId member, int resource, std::optional<std::uint64_t> most);
+
+  FaultTools tools_;
+  FleetProcesses* processes_;
+  std::map<MemberId, const faults::Fault*> away_;
+  std::set<MemberId> returning_;  // killed, and started anew once that is over
+  std::map<MemberId, Slow> slow_;
+  std::map<const faults::Fault*, Churn> churns_;
+  std::map<const faults::Fault*, std::unique_ptr<ChildProcess>> orders_;
+  std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;
+  std::vector<OrderEnd> order_ends_;
+  std::uint32_t churned_ = 0;
+};
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,25 @@
+// What the operator asked of `fleetctl soak`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace giveway::fleetctl {
+
+struct SoakOptions {
+  std::string scenario;                 // a file, or the name of a shipped scenario
+  std::string faults = "calm";          // a file, or the name of a shipped one
+  double duration_s = 300;              // from the start signal to the verdict
+  std::uint32_t seed = 1;               // of scenario and faults
+  std::string report_folder;
+  std::optional<std::uint32_t> vehicles;  // of an open fleet; absent: one a place
+  std::optional<std::uint32_t> domain;    // absent: the first free one
+  std::string qos_file;                   // empty: the shipped one
+  std::string interface = "127.0.0.1";
+  bool skip_unsupported = false;  // leave out what this host cannot do, and say so in the report
+  bool record = false;            // every vehicle records into the report folder
+  bool json = false;              // the report as one JSON object on stdout and nothing else
+};
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,230 @@
+#include "services/fleetctl/soak/soak_session.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "services/fleetctl/args/qos_files.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/runtime/process.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using faults::Fault;
+using faults::Kind;
+using faults::Target;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr Nanoseconds kTurn = milliseconds(20);
+constexpr Nanoseconds kUntilAllDrive = seconds(60);
+constexpr Nanoseconds kSampleEvery = seconds(1);
+constexpr Nanoseconds kProgressEvery = seconds(10);
+constexpr Nanoseconds kLeaveGrace = seconds(2);
+constexpr Nanoseconds kTermGrace = seconds(3);
+constexpr std::size_t kMostEnds = 256;  // kept with their last lines
+
+link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
+  return {spec.domain,
+          spec.options.interface,
+          ReadSoundQos(spec.qos_file),
+          scenario.area,
+          static_cast<std::uint32_t>(scenario.vehicles.size() + scenario.spawns.size()),
+          false,
+          {},
+          spec.options.discovery_servers};
+}
+
+}  // namespace
+
+std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers) {
+  std::vector<VehicleId> fleet;
+  for (const VehicleOptions& vehicle : scenario.vehicles) fleet.push_back(vehicle.id);
+  for (std::uint32_t id = 1; id <= newcomers; ++id) fleet.push_back(VehicleId{id});
+  return fleet;
+}
+
+SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
+                         const faults::Schedule& schedule, const SoakPhases& phases,
+                         FaultTools tools)
+    : schedule_(schedule),
+      phases_(phases),
+      fleet_(SoakFleet(scenario, NewcomerCount(spec.options, scenario))),
+      watch_(fleet_, schedule),
+      invariants_(scenario),
+      observer_(ObserverOf(spec, scenario)),
+      processes_(tools.commands),
+      faults_(std::move(tools), &processes_),
+      clock_(schedule),
+      turned_(SteadyNow()) {}
+
+SoakSeen SoakSession::Run() {
+  seen_.started = WaitUntilAllDrive();
+  if (seen_.started) {
+    std::fprintf(stderr, "%zu vehicles drive; faults from %.0f to %.0f s, verdict at %.0f s\n",
+                 fleet_.size(), phases_.faults_from_s, phases_.faults_until_s, phases_.end_s);
+    while (Interrupts::Count() == 0 && watch_.TimeSeconds(SteadyNow()) < phases_.end_s) {
+      Turn();
+      CarryOut(clock_.TakeDue(watch_.TimeSeconds(SteadyNow())));
+    }
+  }
+  seen_.interrupted = Interrupts::Count() > 0;
+  seen_.lasted_s = watch_.TimeSeconds(SteadyNow());
+  CarryOut(clock_.EndAll(seen_.lasted_s));
+  Stop();
+  invariants_.Finish(false);
+  seen_.courses.assign(watch_.Courses().begin(), watch_.Courses().end());
+  return std::move(seen_);
+}
+
+bool SoakSession::WaitUntilAllDrive() {
+  const SteadyTime limit = SteadyNow() + kUntilAllDrive;
+  while (SteadyNow() < limit && Interrupts::Count() == 0) {
+    Turn();
+    if (watch_.HasStarted() && watch_.AreAllWell(SteadyNow())) return true;
+  }
+  for (const VehicleId vehicle : watch_.Unwell(SteadyNow())) {
+    const auto& said = processes_.LastLines(MemberOf(vehicle));
+    std::fprintf(stderr, "vehicle %u does not drive%s%s\n", Number(vehicle),
+                 said.empty() ? "" : "; the last it said: ",
+                 said.empty() ? "" : said.back().c_str());
+  }
+  return false;
+}
+
+void SoakSession::Turn() {
+  SleepUntil(SteadyNow() + kTurn);
+  const SteadyTime now = SteadyNow();
+  pauses_.Note(turned_, now, kTurn);
+  turned_ = now;
+  Drain();
+  processes_.Poll();
+  faults_.Turn(now);
+  for (const VehicleId vehicle : fleet_) {
+    watch_.SetAway(vehicle, faults_.IsAway(MemberOf(vehicle)));
+  }
+  NoteProcessEffects();
+  HearLines();
+  NoteEnds();
+  Sample(now);
+  SeekHealing(now);
+  ShowProgress(now);
+}
+
+void SoakSession::Drain() {
+  const link::Observed observed = observer_.Take();
+  watch_.Fold(observed, SteadyNow());
+  invariants_.Fold(observed);
+  if (watch_.HasStarted() && started_at_ == SteadyTime{0}) {
+    started_at_ = SteadyNow() - FromSeconds(watch_.TimeSeconds(SteadyNow()));
+  }
+}
+
+void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
+  for (const FaultEdge& edge : edges) {
+    const Fault& fault = schedule_[edge.fault];
+    if (edge.begins) {
+      watch_.NoteBegin(edge.fault, SteadyNow());
+      faults_.Begin(fault);
+    } else {
+      faults_.End(fault);
+      watch_.NoteEnd(edge.fault, SteadyNow());
+    }
+  }
+}
+
+// What is seen of a process from outside: that it is stopped or gone, what it may use, what an order
+// came to.
+void SoakSession::NoteProcessEffects() {
+  for (const std::size_t i : clock_.UnderWay()) {
+    const Fault& fault = schedule_[i];
+    if (faults::ActorOf(fault.kind) != faults::Actor::kSupervisor) continue;
+    const std::string effect = faults_.EffectOf(fault);
+    if (!effect.empty()) watch_.NoteEffect(i, effect);
+  }
+  for (const ProcessFaults::OrderEnd& order : faults_.TakeOrderEnds()) {
+    const auto i = static_cast<std::size_t>(order.fault - schedule_.data());
+    watch_.NoteEffect(i, fmt::format("the order ended with {}: {}", Describe(order.how),
+                                     order.last_line));
+  }
+}
+
+void SoakSession::HearLines() {
+  for (const auto& [member, line] : processes_.TakeLines()) {
+    if (member.kind != MemberKind::kVehicle) continue;
+    if (const auto word = WordOf(line)) watch_.Fold(VehicleId{member.number}, *word);
+  }
+}
+
+// One that was killed as planned is no news. Who ended otherwise is started again, as a container's
+// restart policy would do; that it ended stands in the verdict.
+void SoakSession::NoteEnds() {
+  for (const MemberEnd& end : processes_.TakeEnds()) {
+    if (stopping_) continue;
+    if (end.planned) {
+      for (const std::size_t i : faults_.KillersOf(end.member, schedule_)) {
+        watch_.NoteEffect(i, "the process ended: " + Describe(end.how));
+      }
+      continue;
+    }
+    if (seen_.ends.size() < kMostEnds) {
+      const auto& said = processes_.LastLines(end.member);
+      seen_.ends.push_back({watch_.TimeSeconds(SteadyNow()), end.member, Describe(end.how),
+                            {said.begin(), said.end()}});
+    }
+    ++seen_.restarts;
+    processes_.Restart(end.member);
+  }
+}
+
+void SoakSession::Sample(SteadyTime now) {
+  if (now < next_sample_) return;
+  next_sample_ = now + kSampleEvery;
+  const double time_s = watch_.TimeSeconds(now);
+  const auto sample = [&](MemberId member) {
+    const auto resources = processes_.ResourcesOf(member);
+    if (resources) resources_.Add(NameOf(member), *processes_.PidOf(member), time_s, *resources);
+  };
+  sample(kTheWorld);
+  for (const VehicleId vehicle : fleet_) sample(MemberOf(vehicle));
+}
+
+void SoakSession::SeekHealing(SteadyTime now) {
+  const double time_s = watch_.TimeSeconds(now);
+  if (!seen_.started || stopping_ || time_s < clock_.LastEnd_s()) return;
+  if (!healed_from_) healed_from_ = now;
+  for (const VehicleId vehicle : fleet_) {
+    if (faults_.IsAwayForGood(MemberOf(vehicle))) continue;
+    auto& healed = seen_.healing[vehicle];
+    if (!healed && watch_.IsWell(vehicle, now)) healed = Seconds(now - *healed_from_);
+  }
+}
+
+void SoakSession::ShowProgress(SteadyTime now) {
+  if (!seen_.started || stopping_ || now < next_progress_) return;
+  next_progress_ = now + kProgressEvery;
+  std::size_t begun = 0;
+  for (const FaultCourse& course : watch_.Courses()) begun += course.began ? 1 : 0;
+  std::uint32_t broken = 0;
+  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+    broken += invariants_.Judged().Count(static_cast<sim::Invariant>(i));
+  }
+  const auto unwell = watch_.Unwell(now);
+  std::string names;
+  for (const VehicleId vehicle : unwell) names += fmt::format(" {}", Number(vehicle));
+  std::fprintf(stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu under way  invariants broken %u%s%s\n",
+               watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(),
+               clock_.UnderWay().size(), broken, names.empty() ? "" : "  not driving:",
+               names.c_str());
+}
+
+// The world first, so that it announces the end and the vehicles leave in good order.
+void SoakSession::Stop() {
+  stopping_ = true;
+  processes_.AskToStop(kTheWorld);
+  const auto turn = [this] { Turn(); };
+  if (!processes_.WaitUntilEnded(kLeaveGrace, turn)) processes_.EndAll(kTermGrace, turn);
+}
+
+}  // namespace giveway::fleetctl

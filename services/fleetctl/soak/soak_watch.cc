@@ -1,0 +1,243 @@
+#include "services/fleetctl/soak/soak_watch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace giveway::fleetctl {
+namespace {
+
+using faults::Fault;
+using faults::Kind;
+using faults::Target;
+using std::chrono::seconds;
+
+constexpr double kMoves_m_s = 0.01;
+constexpr Nanoseconds kAfterwards = seconds(10);
+// A status says what was counted until it was made; it may come a little after the fault's end.
+constexpr Nanoseconds kStatusUnderway = seconds(2);
+
+// What each kind of a hearer's fault is counted as by who hears.
+std::uint32_t CountOf(Kind kind, const VehicleStatus& status) {
+  switch (kind) {
+    case Kind::kCorrupt:
+      return status.beacons.rejected_crc + status.beacons.lost;
+    case Kind::kDuplicate:
+    case Kind::kReorder:
+      return status.beacons.rejected_replayed + status.beacons.lost;
+    case Kind::kQosMismatch:
+      return status.qos.incompatible_qos;
+    default:
+      return status.beacons.lost + status.qos.deadline_missed;
+  }
+}
+
+std::string_view CounterOf(Kind kind) {
+  switch (kind) {
+    case Kind::kCorrupt:
+      return "refused by CRC, or lost";
+    case Kind::kDuplicate:
+    case Kind::kReorder:
+      return "refused as repeated or old, or lost";
+    case Kind::kQosMismatch:
+      return "incompatible QoS";
+    default:
+      return "lost, or deadlines missed";
+  }
+}
+
+bool TellsOfAbsence(WordKind kind) {
+  return kind == WordKind::kBeaconStale || kind == WordKind::kDeadlineMissed ||
+         kind == WordKind::kLivelinessLost || kind == WordKind::kUnmatched;
+}
+
+}  // namespace
+
+bool IsWell(const VehicleStatus& status) {
+  const Decision& decision = status.decision;
+  if (decision.mode == Mode::kHalt || decision.mode == Mode::kLeaving) return false;
+  switch (decision.rule) {
+    case Rule::kNotRunning:
+    case Rule::kRangesStale:
+    case Rule::kLeaving:
+    case Rule::kPeerLost:
+    case Rule::kDeaf:
+      return false;
+    case Rule::kCruise:
+      return std::abs(status.forward_m_s) > kMoves_m_s;
+    default:
+      return true;
+  }
+}
+
+SoakWatch::SoakWatch(std::vector<VehicleId> fleet, std::span<const Fault> schedule)
+    : schedule_(schedule), courses_(schedule.size()), before_(schedule.size()) {
+  for (const VehicleId vehicle : fleet) views_[vehicle];
+}
+
+void SoakWatch::Fold(const link::Observed& observed, SteadyTime now) {
+  refused_ += observed.refused;
+  for (const Truth& truth : observed.truths) {
+    if (!started_ && truth.time_s >= 0) started_ = now - FromSeconds(truth.time_s);
+    const auto view = views_.find(truth.vehicle);
+    if (view != views_.end()) view->second.truth = truth;
+  }
+  for (const WorldEvent& event : observed.events) FoldEvent(event);
+  for (const VehicleStatus& status : observed.statuses) FoldStatus(status, now);
+  SeekRecovery(now);
+}
+
+void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
+  const auto found = views_.find(status.vehicle);
+  if (found == views_.end() || status.final) return;
+  found->second.status = status;
+  found->second.status_at = now;
+  for (std::size_t i = 0; i < courses_.size(); ++i) {
+    const FaultCourse& course = courses_[i];
+    if (!course.began || !course.effect.empty()) continue;
+    if (course.ended && now > *course.ended + kStatusUnderway) continue;
+    SeekEffect(i, status);
+  }
+}
+
+// Those of the world say so themselves.
+void SoakWatch::FoldEvent(const WorldEvent& event) {
+  if (event.kind != EventKind::kFaultDue) return;
+  for (std::size_t i = 0; i < courses_.size(); ++i) {
+    const Fault& fault = schedule_[i];
+    if (faults::ActorOf(fault.kind) != faults::Actor::kWorld || !courses_[i].began) continue;
+    if (courses_[i].effect.empty() && fault.target.vehicle == event.vehicle &&
+        event.text.find(faults::ToString(fault.kind)) != std::string::npos) {
+      courses_[i].effect = "the world said so";
+    }
+  }
+}
+
+// A partition is seen from both of its sides: of the target alone, or of whoever lost it.
+bool SoakWatch::Concerns(const Fault& fault, VehicleId vehicle) const {
+  return fault.target.what != Target::What::kVehicle || fault.target.vehicle == vehicle ||
+         fault.kind == Kind::kPartition || fault.kind == Kind::kFlapping ||
+         fault.kind == Kind::kQosMismatch;
+}
+
+void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
+  const Fault& fault = schedule_[i];
+  const bool seen_by_counters =
+      faults::ActorOf(fault.kind) == faults::Actor::kHearer || fault.kind == Kind::kQosMismatch;
+  if (!seen_by_counters || !Concerns(fault, status.vehicle)) return;
+  const auto before = before_[i].find(status.vehicle);
+  if (before == before_[i].end()) {
+    before_[i][status.vehicle] = status;
+    return;
+  }
+  const std::uint32_t was = CountOf(fault.kind, before->second);
+  const std::uint32_t is = CountOf(fault.kind, status);
+  if (is < was) {  // another life of it
+    before->second = status;
+  } else if (is > was) {
+    courses_[i].effect =
+        fmt::format("vehicle {}: +{} {}", Number(status.vehicle), is - was, CounterOf(fault.kind));
+  }
+}
+
+void SoakWatch::Fold(VehicleId by, const Word& word) {
+  for (std::size_t i = 0; i < courses_.size(); ++i) {
+    const Fault& fault = schedule_[i];
+    FaultCourse& course = courses_[i];
+    if (!course.began || word.at < *course.began) continue;
+    if (word.kind == WordKind::kHangs && fault.kind == Kind::kHang &&
+        fault.target.vehicle == by && course.effect.empty()) {
+      course.effect = "its log says that it hangs";
+    }
+    if (course.noticed || !TellsOfAbsence(word.kind)) continue;
+    if (course.ended && word.at > *course.ended + kAfterwards && fault.for_s > 0) continue;
+    const bool about_it =
+        fault.target.what == Target::What::kVehicle && fault.target.vehicle == word.about;
+    if (about_it && by != word.about) course.noticed = word.at;
+  }
+}
+
+void SoakWatch::NoteBegin(std::size_t fault, SteadyTime now) {
+  courses_[fault].began = now;
+  if (schedule_[fault].for_s <= 0) courses_[fault].ended = now;
+  for (const auto& [vehicle, view] : views_) {
+    if (view.status) before_[fault][vehicle] = *view.status;
+  }
+}
+
+void SoakWatch::NoteEnd(std::size_t fault, SteadyTime now) { courses_[fault].ended = now; }
+
+void SoakWatch::NoteEffect(std::size_t fault, std::string effect) {
+  if (courses_[fault].effect.empty()) courses_[fault].effect = std::move(effect);
+}
+
+void SoakWatch::SetAway(VehicleId vehicle, bool away) {
+  View& view = views_[vehicle];
+  if (away) view.status.reset();
+  view.away = away;
+}
+
+double SoakWatch::TimeSeconds(SteadyTime now) const {
+  return started_ ? std::max(0.0, Seconds(now - *started_)) : 0;
+}
+
+bool SoakWatch::IsWell(VehicleId vehicle, SteadyTime now) const {
+  const auto view = views_.find(vehicle);
+  return view != views_.end() && view->second.status && now - view->second.status_at <= kFresh &&
+         fleetctl::IsWell(*view->second.status);
+}
+
+std::vector<VehicleId> SoakWatch::Unwell(SteadyTime now) const {
+  std::vector<VehicleId> unwell;
+  for (const auto& [vehicle, view] : views_) {
+    if (!view.away && !IsWell(vehicle, now)) unwell.push_back(vehicle);
+  }
+  return unwell;
+}
+
+std::uint32_t SoakWatch::Living() const {
+  return static_cast<std::uint32_t>(
+      std::ranges::count_if(views_, [](const auto& view) { return !view.second.away; }));
+}
+
+bool SoakWatch::AreAllWell(SteadyTime now) const { return Living() > 0 && Unwell(now).empty(); }
+
+// Where it struck one vehicle, that one; else everyone.
+void SoakWatch::SeekRecovery(SteadyTime now) {
+  for (std::size_t i = 0; i < courses_.size(); ++i) {
+    FaultCourse& course = courses_[i];
+    if (!course.ended || course.recovered || schedule_[i].kind == Kind::kKill) continue;
+    if (now - *course.ended < kFresh / 2) continue;  // what was said before its end does not count
+    const Target& target = schedule_[i].target;
+    const bool of_one = target.what == Target::What::kVehicle;
+    const auto view = views_.find(target.vehicle);
+    if (of_one && (view == views_.end() || view->second.status_at <= *course.ended)) continue;
+    if (of_one ? IsWell(target.vehicle, now) : AreAllWell(now)) course.recovered = now;
+  }
+}
+
+std::optional<std::size_t> SoakWatch::FaultBehind(VehicleId vehicle, SteadyTime at) const {
+  std::optional<std::size_t> behind;
+  for (std::size_t i = 0; i < courses_.size(); ++i) {
+    const FaultCourse& course = courses_[i];
+    if (!course.began || *course.began > at) continue;
+    if (course.ended && at > *course.ended + kAfterwards) continue;
+    const Target& target = schedule_[i].target;
+    const bool struck = target.what != Target::What::kVehicle || target.vehicle == vehicle;
+    if (struck || !behind) behind = i;
+  }
+  return behind;
+}
+
+const VehicleStatus* SoakWatch::StatusOf(VehicleId vehicle) const {
+  const auto view = views_.find(vehicle);
+  return view != views_.end() && view->second.status ? &*view->second.status : nullptr;
+}
+
+const Truth* SoakWatch::TruthOf(VehicleId vehicle) const {
+  const auto view = views_.find(vehicle);
+  return view != views_.end() && view->second.truth ? &*view->second.truth : nullptr;
+}
+
+}  // namespace giveway::fleetctl
