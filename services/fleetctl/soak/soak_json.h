@@ -1,0 +1,23 @@
+// A soak's result as report.json, through idl/soak.proto, and read back.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "services/fleetctl/soak/soak_result.h"
+
+namespace giveway::fleetctl {
+
+// One JSON object on one line, proto field names, defaults printed, absent values left out.
+std::string ToJson(const SoakResult& result);
+
+// Either a result or, in words, all that is wrong with the text.
+struct ReadSoak {
+  SoakResult result;
+  std::string complaint;  // empty: the result stands
+};
+ReadSoak SoakFromJson(std::string_view json);
+// `path` is a report.json or the folder that holds one. The complaint names the file.
+ReadSoak ReadSoakReport(const std::string& path);
+
+}  // namespace giveway::fleetctl

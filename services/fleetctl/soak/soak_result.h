@@ -1,0 +1,200 @@
+// What a soak came to, as values: what was run, what was done to it, what was seen, and the
+// verdict. Who fills it is the supervisor; soak_json.h writes and reads it, soak_page.h shows it.
+// Field names, units and meaning are those of idl/soak.proto. Lists hold at most kMostListed; what
+// did not fit is counted.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/statistics/slope.h"
+#include "services/types/histogram.h"
+#include "services/types/ids.h"
+
+namespace giveway::fleetctl {
+
+// Of each list of a result, so that weeks fit into a page.
+inline constexpr std::size_t kMostListed = 5000;
+// More of the time spent in pauses of the machine, and nothing is judged.
+inline constexpr double kMostPausedShare = 0.02;
+
+enum class SoakVerdict : std::uint8_t {
+  kPassed,
+  kFailed,
+  kNotRun,       // "machine_too_busy" or what else the reasons say
+  kInterrupted,  // ended early, on order; all up to there held
+};
+
+struct SoakVersions {
+  std::string project_commit;  // empty: not known
+  std::string fast_dds;        // "2.11.2"
+  std::string kernel;          // as uname -r
+  std::uint32_t host_cores = 0;
+};
+
+// Times count from the start signal. What has not happened is absent.
+struct SoakFault {
+  std::string rule;  // that planned it, and its how-manieth, from 0
+  std::uint32_t nth = 0;
+  double at_s = 0;
+  double for_s = 0;          // 0: takes no time
+  std::string kind;          // "pause"; see services/faults/fault.h
+  std::string target;        // "vehicle 3", "world"
+  bool observed = false;     // by its effect, not by the order given
+  std::string observed_how;  // "waitpid: signal 9"
+  std::optional<double> observed_s;
+  std::optional<double> noticed_after_s;    // by peers, from its beginning
+  std::optional<double> promised_s;         // to be noticed within
+  std::optional<double> recovered_after_s;  // until everyone concerned drove again, from its end
+};
+// "burst#3", as violations name a fault.
+std::string NameOf(const SoakFault& fault);
+
+struct SoakViolation {
+  double time_s = 0;
+  VehicleId vehicle = kNobody;  // at fault, or first concerned
+  VehicleId other = kNobody;
+  std::string invariant;  // "contact", or the promise: "detection", "recovery"
+  std::string words;      // what was seen, for people
+  std::string fault;      // NameOf the one it follows; empty: none
+};
+
+// Two bodies, shell to shell, that came near each other, where the nearer one was.
+struct NearMiss {
+  double time_s = 0;
+  VehicleId vehicle = kNobody;
+  VehicleId other = kNobody;
+  double x_m = 0;  // world
+  double y_m = 0;
+  double distance_m = 0;
+};
+
+// A vehicle's mode from then on: "drive", "halt", "gone" ...
+struct ModeChange {
+  double time_s = 0;
+  VehicleId vehicle = kNobody;
+  std::string mode;
+};
+
+enum class HistogramUnit : std::uint8_t { kNanoseconds, kMicrometres };
+
+// At most `most`, in the histogram's unit, for the share `quantile` of all.
+struct HistogramBudget {
+  double quantile = 0.99;
+  std::int64_t most = 0;
+};
+
+struct SoakHistogram {
+  std::string name;  // "reaction", "beacon_age", "tick_jitter"
+  HistogramUnit unit = HistogramUnit::kNanoseconds;
+  Histogram histogram;
+  std::vector<HistogramBudget> budgets;
+};
+// All budgets are kept, or nothing was measured.
+bool WithinBudgets(const SoakHistogram& measured);
+
+enum class ResourceKind : std::uint8_t {
+  kPrivateBytes,
+  kResidentBytes,
+  kDescriptors,
+  kThreads,
+  kProcessors,  // processor time a second
+  kSharedMemoryBytes,
+};
+inline constexpr std::size_t kResourceKinds = 6;
+// "private_bytes"; and the other way.
+const char* ToString(ResourceKind kind);
+std::optional<ResourceKind> ResourceKindOf(const std::string& word);
+
+// One resource of one life of one process: from a start to its end.
+struct ResourceSlope {
+  std::string process;     // "vehicle-3", "world"; "fleet" for what belongs to all
+  std::uint32_t life = 0;  // counted from 0
+  ResourceKind kind = ResourceKind::kPrivateBytes;
+  statistics::Slope slope;  // without warm-up
+  double last = 0;          // the figure at the life's end
+  bool leak = false;
+  std::vector<statistics::Sample>
+      curve;  // of private bytes: at most 60 points to draw; time of soak
+};
+
+// One writer as one reader accounts for it.
+struct AccountingRow {
+  std::string writer;  // "vehicle 2"
+  std::string reader;
+  std::string topic;       // "fleet/beacon"
+  std::uint64_t sent = 0;  // while the reader was matched
+  std::uint64_t accepted = 0;
+  std::uint64_t not_heard = 0;   // dropped by an impairment
+  std::uint64_t refused = 0;     // heard, and refused by a check
+  std::uint64_t superseded = 0;  // a newer one came before it was taken
+  std::uint64_t lost = 0;        // as the library counts
+
+  std::int64_t Difference() const {
+    return static_cast<std::int64_t>(sent) -
+           static_cast<std::int64_t>(accepted + not_heard + refused + superseded + lost);
+  }
+};
+
+// Times at which the machine ran nothing of ours, so that lateness says nothing.
+struct MachinePauses {
+  std::uint64_t count = 0;
+  double total_s = 0;
+  double longest_s = 0;
+  double share = 0;  // of the time judged, 0 to 1
+};
+
+// The reaction that left least of its free distance.
+struct NarrowestMargin {
+  double time_s = 0;
+  VehicleId vehicle = kNobody;
+  double reaction_m = 0;  // driven from cause to applied command
+  double free_m = 0;      // that there was
+  double share_left = 0;  // of free_m; alarm budget_spent below a fifth
+};
+
+struct SoakResult {
+  SoakVerdict verdict = SoakVerdict::kNotRun;
+  std::vector<std::string> reasons;  // one line each, the worst first
+
+  std::string scenario;
+  std::uint64_t seed = 0;
+  double planned_s = 0;
+  double ran_s = 0;  // from the start signal
+  std::uint32_t vehicles = 0;
+  std::uint32_t domain = 0;
+  bool virtual_time = false;
+  std::string faults_file;  // empty: none
+  std::string qos_set;      // name or file
+  std::string qos_hash;     // 16 hex digits
+  SoakVersions versions;
+  std::string command;  // that runs the same again
+
+  std::vector<SoakFault> faults;            // by at_s
+  std::vector<std::string> skipped_faults;  // what the host cannot do, with the reason
+  std::vector<SoakViolation> violations;    // by time_s
+  std::uint64_t violations_counted = 0;     // with those not listed
+  std::vector<NearMiss> near_misses;
+  std::uint64_t near_misses_counted = 0;
+  std::vector<ModeChange> modes;
+  std::uint64_t modes_counted = 0;
+
+  std::vector<SoakHistogram> histograms;
+  std::vector<ResourceSlope> slopes;
+  std::uint64_t lives_too_short = 0;  // for a slope
+  std::vector<AccountingRow> accounting;
+  MachinePauses pauses;
+  std::optional<NarrowestMargin> narrowest_margin;
+  std::uint32_t restarts_planned = 0;
+  std::uint32_t restarts_unplanned = 0;        // a process ended and no fault says why
+  std::optional<double> supervisor_cpu_share;  // of the fleet's processor time
+};
+
+// 0 passed, 1 failed or interrupted, 2 not run.
+int ExitCode(SoakVerdict verdict);
+// "passed", "failed", "not_run", "interrupted".
+const char* ToString(SoakVerdict verdict);
+
+}  // namespace giveway::fleetctl
