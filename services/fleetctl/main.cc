@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddShrinkVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddSoakVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddStopwatchVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddTopVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);

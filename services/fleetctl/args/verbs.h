@@ -16,6 +16,7 @@ void AddQosVerb(CLI::App* fleetctl, int* exit_code);
 void AddReplayVerb(CLI::App* fleetctl, int* exit_code);
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);
 void AddShrinkVerb(CLI::App* fleetctl, int* exit_code);
+void AddSoakVerb(CLI::App* fleetctl, int* exit_code);
 void AddStopwatchVerb(CLI::App* fleetctl, int* exit_code);
 void AddTopVerb(CLI::App* fleetctl, int* exit_code);
 void AddVirtualVerb(CLI::App* fleetctl, int* exit_code);

@@ -87,7 +87,7 @@ std::vector<MemberCommand> MakeCommands(const FleetSpec& spec, const Scenario& s
   add(kTheWorld);
   for (const VehicleOptions& vehicle : scenario.vehicles) add(MemberOf(vehicle.id));
   for (std::uint32_t i = 1; i <= NewcomerCount(spec.options, scenario); ++i) {
-    add({MemberKind::kNewcomer, i});
+    add({spec.names_newcomers ? MemberKind::kVehicle : MemberKind::kNewcomer, i});
   }
   return commands;
 }

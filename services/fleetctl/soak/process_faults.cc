@@ -8,6 +8,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "services/fleetctl/args/qos_files.h"
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -16,20 +18,9 @@ using faults::Kind;
 using faults::Target;
 using std::chrono::milliseconds;
 
-constexpr Nanoseconds kDuty = milliseconds(200);      // one turn of stopped and running
+constexpr Nanoseconds kDuty = milliseconds(200);        // one turn of stopped and running
 constexpr Nanoseconds kChurnLife = milliseconds(1500);  // of each process that comes and is killed
 constexpr std::uint32_t kFirstChurnId = 1'000'000;
-
-// The flags that follow a process through its faults; those it is given once, by name.
-void Replace(std::vector<std::string>* words, const std::string& flag, const std::string& value) {
-  const auto found = std::ranges::find(*words, flag);
-  if (found != words->end() && std::next(found) != words->end()) {
-    *std::next(found) = value;
-  } else {
-    words->push_back(flag);
-    words->push_back(value);
-  }
-}
 
 // Nothing of a double's is written over what the member itself writes.
 void DropFlag(std::vector<std::string>* words, const std::string& flag) {
@@ -62,6 +53,16 @@ std::uint64_t AddressSpaceOf(pid_t pid) {
 }
 
 }  // namespace
+
+void SetFlag(std::vector<std::string>* words, const std::string& flag, const std::string& value) {
+  const auto found = std::ranges::find(*words, flag);
+  if (found != words->end() && std::next(found) != words->end()) {
+    *std::next(found) = value;
+  } else {
+    words->push_back(flag);
+    words->push_back(value);
+  }
+}
 
 ProcessFaults::ProcessFaults(FaultTools tools, FleetProcesses* processes)
     : tools_(std::move(tools)), processes_(processes) {}
@@ -223,8 +224,8 @@ void ProcessFaults::BeginOn(const Fault& fault, MemberId member) {
       GiveOrder(fault, member);
       break;
     case Kind::kDuplicateId:
-      doubles_[&fault].push_back(StartBeside(
-          member, member.number, fmt::format("double of {}", NameOf(member))));
+      doubles_[&fault].push_back(
+          StartBeside(member, member.number, fmt::format("double of {}", NameOf(member))));
       break;
     default:
       break;
@@ -269,21 +270,27 @@ void ProcessFaults::EndOn(const Fault& fault, MemberId member) {
   }
 }
 
-void ProcessFaults::Turn(SteadyTime now) {
+void ProcessFaults::Turn(SteadyTime now, double time_s) {
+  time_s_ = time_s;
   std::erase_if(returning_, [this](MemberId member) {
     if (!processes_->EndOf(member)) return false;
-    processes_->Restart(*CommandOf(member));
+    processes_->Restart(CommandNow(member));
     return true;
   });
   for (auto& [member, away] : away_) {
     // Gone as planned: it comes back at once, with a set that matches nobody's.
     if (away->kind == Kind::kQosMismatch && !processes_->IsRunning(member) &&
         processes_->EndOf(member)) {
-      processes_->Restart(WithOtherSet(member));
+      MemberCommand command = CommandNow(member);
+      SetFlag(&command.child.words, "--qos", ResolveQosFile(away->parameters.qos));
+      processes_->Restart(std::move(command));
     }
   }
   for (auto& [member, slow] : slow_) TurnSlow(member, now, &slow);
   for (auto& [fault, churn] : churns_) TurnChurn(now, &churn);
+  std::erase_if(churns_, [](const auto& churn) {
+    return churn.second.left == 0 && churn.second.process == nullptr;
+  });
   for (auto& [fault, doubles] : doubles_) {
     for (const auto& process : doubles) process->Poll();
   }
@@ -301,9 +308,12 @@ std::vector<ProcessFaults::OrderEnd> ProcessFaults::TakeOrderEnds() {
   return std::exchange(order_ends_, {});
 }
 
-MemberCommand ProcessFaults::WithOtherSet(MemberId member) const {
+MemberCommand ProcessFaults::CommandNow(MemberId member) const {
   MemberCommand command = *CommandOf(member);
-  Replace(&command.child.words, "--qos", tools_.other_qos);
+  if (member == kTheWorld) return command;
+  DropFlag(&command.child.words, "--impair");
+  const std::string impair = tools_.impairment_since(VehicleId{member.number}, time_s_);
+  if (!impair.empty()) SetFlag(&command.child.words, "--impair", impair);
   return command;
 }
 
@@ -313,7 +323,7 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   child.name = name;
   child.hands_on_lines = false;
   if (!child.log_file.empty()) child.log_file += fmt::format(".beside-{}", id);
-  Replace(&child.words, "--id", std::to_string(id));
+  SetFlag(&child.words, "--id", std::to_string(id));
   DropFlag(&child.words, "--record");
   DropFlag(&child.words, "--record-split");
   return std::make_unique<ChildProcess>(child);
@@ -322,9 +332,10 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
 void ProcessFaults::GiveOrder(const Fault& fault, MemberId member) {
   ChildCommand order;
   order.name = fmt::format("order to {}", NameOf(member));
-  order.words = {tools_.fleetctl, "qos",      "apply",
-                 fault.parameters.qos, "--to", std::to_string(member.number),
-                 "--domain",       std::to_string(tools_.domain)};
+  order.words = {tools_.fleetctl, "qos",
+                 "apply",         fault.parameters.qos,
+                 "--to",          std::to_string(member.number),
+                 "--domain",      std::to_string(tools_.domain)};
   if (!tools_.interface.empty()) {
     order.words.insert(order.words.end(), {"--interface", tools_.interface});
   }
@@ -334,8 +345,8 @@ void ProcessFaults::GiveOrder(const Fault& fault, MemberId member) {
 // A share of each turn it runs, and is stopped for the rest.
 void ProcessFaults::TurnSlow(MemberId member, SteadyTime now, Slow* slow) {
   if (now - slow->since >= kDuty) slow->since = now;
-  const double gone = static_cast<double>((now - slow->since).count()) /
-                      static_cast<double>(kDuty.count());
+  const double gone =
+      static_cast<double>((now - slow->since).count()) / static_cast<double>(kDuty.count());
   const bool stop = gone >= slow->share;
   if (stop == slow->stopped) return;
   slow->stopped = stop;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -24,8 +25,13 @@ struct FaultTools {
   std::string fleetctl;                 // the program, for orders
   std::uint32_t domain = 0;
   std::string interface;
-  std::string other_qos;  // a set that matches nobody's; for kQosMismatch
+  // What a vehicle that is started so many seconds after the start signal is told with --impair:
+  // its clock of the rules begins when it joins. Empty: nothing is impaired any more.
+  std::function<std::string(VehicleId, double)> impairment_since;
 };
+
+// Sets a flag of a command line to a value, or adds it.
+void SetFlag(std::vector<std::string>* words, const std::string& flag, const std::string& value);
 
 class ProcessFaults {
  public:
@@ -40,7 +46,8 @@ class ProcessFaults {
   void Begin(const faults::Fault& fault);
   void End(const faults::Fault& fault);
   // What goes on during a fault: stops and continues slow ones, polls its own children. Often.
-  void Turn(SteadyTime now);
+  // `time_s` since the start signal.
+  void Turn(SteadyTime now, double time_s);
 
   // True while its process is gone, and planned to be.
   bool IsAway(MemberId member) const {
@@ -53,8 +60,10 @@ class ProcessFaults {
     std::string last_line;
   };
   std::vector<OrderEnd> TakeOrderEnds();
-  // What is seen from outside of a fault under way: that the process is stopped, gone, limited; empty
-  // where nothing is seen, or it shows elsewhere.
+  // How a member is to be started that ended just now.
+  MemberCommand CommandNow(MemberId member) const;
+  // What is seen from outside of a fault under way: that the process is stopped, gone, limited;
+  // empty where nothing is seen, or it shows elsewhere.
   std::string EffectOf(const faults::Fault& fault) const;
   // Of the member's planned end: the faults, by their place in the schedule, that killed it.
   std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;
@@ -80,7 +89,6 @@ class ProcessFaults {
   void EndOn(const faults::Fault& fault, MemberId member);
   std::vector<MemberId> MembersOf(const faults::Target& target) const;
   const MemberCommand* CommandOf(MemberId member) const;
-  MemberCommand WithOtherSet(MemberId member) const;
   std::unique_ptr<ChildProcess> StartBeside(MemberId member, std::uint32_t id,
                                             const std::string& name) const;
   void GiveOrder(const faults::Fault& fault, MemberId member);
@@ -98,6 +106,7 @@ class ProcessFaults {
   std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;
   std::vector<OrderEnd> order_ends_;
   std::uint32_t churned_ = 0;
+  double time_s_ = 0;
 };
 
 }  // namespace giveway::fleetctl

@@ -16,8 +16,8 @@ struct SoakPhases {
 // Everyone living drives again within this, when nothing is broken any more.
 inline constexpr double kHealWithin_s = 5;
 
-// Discovery is through after a few seconds, and lasts longer with more vehicles; healing must show a
-// vehicle that restarted last, and its slowest right of way.
+// Discovery is through after a few seconds, and lasts longer with more vehicles; healing must show
+// a vehicle that restarted last, and its slowest right of way.
 inline SoakPhases PhasesOf(double duration_s, std::size_t vehicles) {
   const double warm_up_s = std::min(duration_s / 4, 10 + 0.5 * static_cast<double>(vehicles));
   const double heal_s = std::min(duration_s / 4, 20.0);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "services/fleetctl/args/qos_files.h"
@@ -23,7 +24,8 @@ constexpr Nanoseconds kSampleEvery = seconds(1);
 constexpr Nanoseconds kProgressEvery = seconds(10);
 constexpr Nanoseconds kLeaveGrace = seconds(2);
 constexpr Nanoseconds kTermGrace = seconds(3);
-constexpr std::size_t kMostEnds = 256;  // kept with their last lines
+constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it takes reading every map
+constexpr std::size_t kMostEnds = 256;            // kept with their last lines
 
 link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
   return {spec.domain,
@@ -34,6 +36,25 @@ link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
           false,
           {},
           spec.options.discovery_servers};
+}
+
+// "vehicle-3", "world": as in the report.
+std::string ProcessName(MemberId member) {
+  return member == kTheWorld ? "world" : fmt::format("vehicle-{}", member.number);
+}
+
+// In an open fleet who takes which place is not known: the largest body counts for all.
+std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet) {
+  double largest_m = 0;
+  for (const VehicleOptions& spawn : scenario.spawns) {
+    largest_m = std::max(largest_m, spawn.profile.body_radius_m);
+  }
+  std::map<VehicleId, double> radius_m;
+  for (const VehicleId vehicle : fleet) radius_m[vehicle] = largest_m;
+  for (const VehicleOptions& vehicle : scenario.vehicles) {
+    radius_m[vehicle.id] = vehicle.profile.body_radius_m;
+  }
+  return radius_m;
 }
 
 }  // namespace
@@ -57,6 +78,9 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       processes_(tools.commands),
       faults_(std::move(tools), &processes_),
       clock_(schedule),
+      resources_(phases.faults_from_s),
+      near_(RadiiOf(scenario, fleet_)),
+      tick_period_s_(Seconds(scenario.tick_period)),
       turned_(SteadyNow()) {}
 
 SoakSeen SoakSession::Run() {
@@ -86,9 +110,9 @@ bool SoakSession::WaitUntilAllDrive() {
   }
   for (const VehicleId vehicle : watch_.Unwell(SteadyNow())) {
     const auto& said = processes_.LastLines(MemberOf(vehicle));
-    std::fprintf(stderr, "vehicle %u does not drive%s%s\n", Number(vehicle),
-                 said.empty() ? "" : "; the last it said: ",
-                 said.empty() ? "" : said.back().c_str());
+    std::fprintf(
+        stderr, "vehicle %u does not drive%s%s\n", Number(vehicle),
+        said.empty() ? "" : "; the last it said: ", said.empty() ? "" : said.back().c_str());
   }
   return false;
 }
@@ -100,7 +124,7 @@ void SoakSession::Turn() {
   turned_ = now;
   Drain();
   processes_.Poll();
-  faults_.Turn(now);
+  faults_.Turn(now, watch_.TimeSeconds(now));
   for (const VehicleId vehicle : fleet_) {
     watch_.SetAway(vehicle, faults_.IsAway(MemberOf(vehicle)));
   }
@@ -108,6 +132,7 @@ void SoakSession::Turn() {
   HearLines();
   NoteEnds();
   Sample(now);
+  NoteModes(now);
   SeekHealing(now);
   ShowProgress(now);
 }
@@ -116,6 +141,8 @@ void SoakSession::Drain() {
   const link::Observed observed = observer_.Take();
   watch_.Fold(observed, SteadyNow());
   invariants_.Fold(observed);
+  near_.Fold(observed.truths);
+  if (!observed.truths.empty()) any_truth_ = observed.truths.back();
   if (watch_.HasStarted() && started_at_ == SteadyTime{0}) {
     started_at_ = SteadyNow() - FromSeconds(watch_.TimeSeconds(SteadyNow()));
   }
@@ -134,19 +161,22 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
   }
 }
 
-// What is seen of a process from outside: that it is stopped or gone, what it may use, what an order
-// came to.
+// What is seen of a process from outside: that it is stopped or gone, what it may use, what an
+// order came to.
 void SoakSession::NoteProcessEffects() {
-  for (const std::size_t i : clock_.UnderWay()) {
+  for (std::size_t i = 0; i < schedule_.size(); ++i) {
     const Fault& fault = schedule_[i];
-    if (faults::ActorOf(fault.kind) != faults::Actor::kSupervisor) continue;
+    const FaultCourse& course = watch_.Courses()[i];
+    const bool sought = course.began && course.effect.empty() &&
+                        faults::ActorOf(fault.kind) == faults::Actor::kSupervisor;
+    if (!sought) continue;
     const std::string effect = faults_.EffectOf(fault);
     if (!effect.empty()) watch_.NoteEffect(i, effect);
   }
   for (const ProcessFaults::OrderEnd& order : faults_.TakeOrderEnds()) {
     const auto i = static_cast<std::size_t>(order.fault - schedule_.data());
-    watch_.NoteEffect(i, fmt::format("the order ended with {}: {}", Describe(order.how),
-                                     order.last_line));
+    watch_.NoteEffect(
+        i, fmt::format("the order ended with {}: {}", Describe(order.how), order.last_line));
   }
 }
 
@@ -162,6 +192,7 @@ void SoakSession::HearLines() {
 void SoakSession::NoteEnds() {
   for (const MemberEnd& end : processes_.TakeEnds()) {
     if (stopping_) continue;
+    resources_.EndLife(ProcessName(end.member));
     if (end.planned) {
       for (const std::size_t i : faults_.KillersOf(end.member, schedule_)) {
         watch_.NoteEffect(i, "the process ended: " + Describe(end.how));
@@ -170,24 +201,58 @@ void SoakSession::NoteEnds() {
     }
     if (seen_.ends.size() < kMostEnds) {
       const auto& said = processes_.LastLines(end.member);
-      seen_.ends.push_back({watch_.TimeSeconds(SteadyNow()), end.member, Describe(end.how),
+      seen_.ends.push_back({watch_.TimeSeconds(SteadyNow()),
+                            end.member,
+                            Describe(end.how),
                             {said.begin(), said.end()}});
     }
     ++seen_.restarts;
-    processes_.Restart(end.member);
+    processes_.Restart(faults_.CommandNow(end.member));
   }
 }
 
 void SoakSession::Sample(SteadyTime now) {
   if (now < next_sample_) return;
   next_sample_ = now + kSampleEvery;
+  if (!watch_.HasStarted() || stopping_) return;
   const double time_s = watch_.TimeSeconds(now);
+  std::vector<pid_t> living;
   const auto sample = [&](MemberId member) {
     const auto resources = processes_.ResourcesOf(member);
-    if (resources) resources_.Add(NameOf(member), *processes_.PidOf(member), time_s, *resources);
+    if (!resources) return;
+    resources_.Add(ProcessName(member), time_s, *resources);
+    living.push_back(*processes_.PidOf(member));
   };
   sample(kTheWorld);
   for (const VehicleId vehicle : fleet_) sample(MemberOf(vehicle));
+  if (++samples_ % kSharedMemoryEvery == 0) {
+    resources_.AddSharedMemory(time_s, ReadSharedMemory(living));
+  }
+}
+
+double SoakSession::TimeOfTick(Tick tick) const {
+  if (!any_truth_) return 0;
+  const double ticks =
+      static_cast<double>(Number(tick)) - static_cast<double>(Number(any_truth_->tick));
+  return any_truth_->time_s + ticks * tick_period_s_;
+}
+
+void SoakSession::NoteModes(SteadyTime now) {
+  if (!watch_.HasStarted() || stopping_) return;
+  for (const VehicleId vehicle : fleet_) {
+    const VehicleStatus* const status = watch_.StatusOf(vehicle);
+    std::string mode = faults_.IsAway(MemberOf(vehicle)) ? "gone"
+                       : status == nullptr               ? "silent"
+                       : watch_.IsWell(vehicle, now)     ? "drive"
+                                                         : std::string(Name(status->decision.rule));
+    std::string& before = mode_[vehicle];
+    if (before == mode) continue;
+    before = mode;
+    ++modes_counted_;
+    if (modes_.size() < kMostListed) {
+      modes_.push_back({watch_.TimeSeconds(now), vehicle, std::move(mode)});
+    }
+  }
 }
 
 void SoakSession::SeekHealing(SteadyTime now) {
@@ -213,10 +278,10 @@ void SoakSession::ShowProgress(SteadyTime now) {
   const auto unwell = watch_.Unwell(now);
   std::string names;
   for (const VehicleId vehicle : unwell) names += fmt::format(" {}", Number(vehicle));
-  std::fprintf(stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu under way  invariants broken %u%s%s\n",
-               watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(),
-               clock_.UnderWay().size(), broken, names.empty() ? "" : "  not driving:",
-               names.c_str());
+  std::fprintf(
+      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu under way  invariants broken %u%s%s\n",
+      watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(), clock_.UnderWay().size(),
+      broken, names.empty() ? "" : "  not driving:", names.c_str());
 }
 
 // The world first, so that it announces the end and the vehicles leave in good order.

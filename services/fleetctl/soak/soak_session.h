@@ -3,6 +3,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,8 @@
 #include "services/fleetctl/process/fleet_processes.h"
 #include "services/fleetctl/run/invariant_watch.h"
 #include "services/fleetctl/soak/fault_clock.h"
-#include "services/fleetctl/soak/machine_pauses.h"
+#include "services/fleetctl/soak/near_misses.h"
+#include "services/fleetctl/soak/pause_meter.h"
 #include "services/fleetctl/soak/process_faults.h"
 #include "services/fleetctl/soak/resource_series.h"
 #include "services/fleetctl/soak/soak_phases.h"
@@ -55,8 +58,14 @@ class SoakSession {
   const SoakWatch& Watch() const { return watch_; }
   const InvariantWatch& Judged() const { return invariants_; }
   const ResourceSeries& Resources() const { return resources_; }
-  const MachinePauses& Pauses() const { return pauses_; }
+  const PauseMeter& Pauses() const { return pauses_; }
   const StallMonitor& Stalls() const { return stalls_; }
+  const NearMisses& Near() const { return near_; }
+  // The first ones; and how many there were.
+  const std::vector<ModeChange>& Modes() const { return modes_; }
+  std::uint64_t ModesCounted() const { return modes_counted_; }
+  // Since the start signal.
+  double TimeOfTick(Tick tick) const;
   // Of the steady clock.
   SteadyTime StartedAt() const { return started_at_; }
 
@@ -69,6 +78,7 @@ class SoakSession {
   void HearLines();
   void NoteEnds();
   void Sample(SteadyTime now);
+  void NoteModes(SteadyTime now);
   void SeekHealing(SteadyTime now);
   void ShowProgress(SteadyTime now);
   void Stop();
@@ -83,9 +93,16 @@ class SoakSession {
   ProcessFaults faults_;
   FaultClock clock_;
   ResourceSeries resources_;
-  MachinePauses pauses_;
+  PauseMeter pauses_;
   StallMonitor stalls_;
+  NearMisses near_;
+  std::map<VehicleId, std::string> mode_;
+  std::vector<ModeChange> modes_;
+  std::uint64_t modes_counted_ = 0;
+  double tick_period_s_;
+  std::optional<Truth> any_truth_;
   SoakSeen seen_;
+  std::uint64_t samples_ = 0;
   SteadyTime turned_{0};
   SteadyTime started_at_{0};
   SteadyTime next_sample_{0};

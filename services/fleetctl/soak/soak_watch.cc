@@ -146,8 +146,8 @@ void SoakWatch::Fold(VehicleId by, const Word& word) {
     const Fault& fault = schedule_[i];
     FaultCourse& course = courses_[i];
     if (!course.began || word.at < *course.began) continue;
-    if (word.kind == WordKind::kHangs && fault.kind == Kind::kHang &&
-        fault.target.vehicle == by && course.effect.empty()) {
+    if (word.kind == WordKind::kHangs && fault.kind == Kind::kHang && fault.target.vehicle == by &&
+        course.effect.empty()) {
       course.effect = "its log says that it hangs";
     }
     if (course.noticed || !TellsOfAbsence(word.kind)) continue;

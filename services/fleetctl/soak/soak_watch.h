@@ -1,6 +1,6 @@
-// What an observer learns of a fleet under faults: who drives, which fault had which effect, how soon
-// the peers noticed it, and how soon all was well again. Folds what the link and the logs bring;
-// bounded by the fleet and the schedule, however long it lasts. Pure.
+// What an observer learns of a fleet under faults: who drives, which fault had which effect, how
+// soon the peers noticed it, and how soon all was well again. Folds what the link and the logs
+// bring; bounded by the fleet and the schedule, however long it lasts. Pure.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,8 @@ class SoakWatch {
   void NoteEnd(std::size_t fault, SteadyTime now);
   // The supervisor saw it happen. The first words stay.
   void NoteEffect(std::size_t fault, std::string effect);
-  // Of a process that is meant to be gone nothing is expected; a new one has everything to tell anew.
+  // Of a process that is meant to be gone nothing is expected; a new one has everything to tell
+  // anew.
   void SetAway(VehicleId vehicle, bool away);
 
   bool HasStarted() const { return started_.has_value(); }

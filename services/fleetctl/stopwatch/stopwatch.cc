@@ -16,12 +16,11 @@
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/stopwatch/stopwatch_limits.h"
 #include "services/fleetctl/stopwatch/stopwatch_plan.h"
 #include "services/fleetctl/stopwatch/stopwatch_show.h"
 #include "services/fleetctl/stopwatch/stopwatch_trials.h"
 #include "services/link/fastdds/library_release.h"
-#include "services/link/fastdds/profile_file.h"
-#include "services/link/resolved_qos.h"
 #include "services/runtime/process.h"
 #include "services/types/vehicle_options.h"
 
@@ -58,44 +57,6 @@ class ScratchFolder {
  private:
   fs::path path_;
 };
-
-std::int64_t NumberOf(const std::vector<link::ResolvedEntity>& entities, std::string_view profile,
-                      std::string_view policy) {
-  const auto entity = std::ranges::find(entities, profile, &link::ResolvedEntity::profile);
-  if (entity == entities.end()) throw link::LinkError("no profile " + std::string(profile));
-  const auto value = std::ranges::find(entity->values, policy, &link::ResolvedValue::policy);
-  if (value == entity->values.end()) throw link::LinkError("no value " + std::string(policy));
-  return value->number;
-}
-
-std::optional<Nanoseconds> FiniteOf(std::int64_t number) {
-  if (number == link::kInfiniteDuration) return std::nullopt;
-  return Nanoseconds{number};
-}
-
-// As the library made them of the file.
-Limits LimitsOf(const StopwatchOptions& options, const std::string& qos_file,
-                const Scenario& scenario) {
-  link::LinkOptions of_any;
-  of_any.domain = kFirstDomain;
-  of_any.interface = options.interface;
-  of_any.qos = link::ReadProfileFile(qos_file);
-  of_any.fleet_size = options.vehicles + 1;
-  const auto entities = link::ResolveQos(of_any);
-  const auto of_reader = [&](std::string_view policy) {
-    return NumberOf(entities, "fleet_beacon_reader", policy);
-  };
-  const VehicleOptions& vehicle = scenario.vehicles.front();
-  Limits limits;
-  limits.beacon_period = vehicle.tick_period;
-  limits.beacon_age = vehicle.beacon_age_limit;
-  limits.deadline = FiniteOf(of_reader("deadline"));
-  limits.liveliness = FiniteOf(of_reader("liveliness_lease"));
-  limits.asserted = LivelinessKind(NumberOf(entities, "fleet_beacon_writer", "liveliness"));
-  limits.tracked = LivelinessKind(of_reader("liveliness"));
-  limits.lease = FiniteOf(NumberOf(entities, "giveway_participant", "participant_lease"));
-  return limits;
-}
 
 std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {
   std::vector<StopwatchTask> tasks;
@@ -218,7 +179,8 @@ int RunStopwatch(const StopwatchOptions& options) {
   const std::string qos_file = ResolveQosFile(options.qos_file);
   const Scenario scenario = LoadScenario(scenario_file, {});
   RequireSoundQos(qos_file, DeploymentOf(scenario));
-  const Limits limits = LimitsOf(options, qos_file, scenario);
+  const Limits limits =
+      ReadLimits(qos_file, options.interface, options.vehicles + 1, scenario.vehicles.front());
   if (options.table) {
     std::fputs(TableText(limits).c_str(), stdout);
     return 0;

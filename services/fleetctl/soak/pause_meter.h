@@ -8,7 +8,7 @@
 
 namespace giveway::fleetctl {
 
-class MachinePauses {
+class PauseMeter {
  public:
   // A turn that was to last `meant` lasted from `from` to `to`.
   void Note(SteadyTime from, SteadyTime to, Nanoseconds meant) {
@@ -20,17 +20,13 @@ class MachinePauses {
     longest_ = late > longest_ ? late : longest_;
   }
   std::uint64_t Count() const { return count_; }
+  Nanoseconds Paused() const { return paused_; }
   Nanoseconds Longest() const { return longest_; }
   // Of all the time that was told of; 0 to 1.
-  double Share() const {
-    return total_.count() > 0 ? Seconds(paused_) / Seconds(total_) : 0;
-  }
-  // No verdict can be given then.
-  bool TooBusy() const { return Share() > kMostShare; }
+  double Share() const { return total_.count() > 0 ? Seconds(paused_) / Seconds(total_) : 0; }
 
  private:
   static constexpr Nanoseconds kLeast = std::chrono::milliseconds(50);  // a tick of the fleet
-  static constexpr double kMostShare = 0.02;
 
   std::uint64_t count_ = 0;
   Nanoseconds paused_{0};

@@ -1,0 +1,47 @@
+// Which vehicles came near each other, how near and where, by the truth. Bodies are taken as discs
+// round their axle centres, as large as they are anywhere: a box may have been farther away than it
+// says, never nearer. Each encounter counts once, at its narrowest. Bounded. Pure.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "services/fleetctl/soak/soak_result.h"
+#include "services/types/fleet_facts.h"
+
+namespace giveway::fleetctl {
+
+class NearMisses {
+ public:
+  // Shell to shell; an encounter begins nearer than kNear_m and is over farther than kApart_m.
+  static constexpr double kNear_m = 0.15;
+  static constexpr double kApart_m = 0.30;
+  // The narrowest ones are kept.
+  static constexpr std::size_t kMostKept = 256;
+
+  explicit NearMisses(std::map<VehicleId, double> radius_m) : radius_m_(std::move(radius_m)) {}
+
+  void Fold(std::span<const Truth> truths);
+  // Encounters that are over or go on, by time.
+  std::vector<NearMiss> Narrowest() const;
+  std::uint64_t Count() const { return count_; }
+  // Of any two, encounter or not; nothing while there are not two.
+  std::optional<NearMiss> Nearest() const { return nearest_; }
+
+ private:
+  void Look(const Truth& truth);
+  void Keep(const NearMiss& miss);
+
+  std::map<VehicleId, double> radius_m_;
+  std::map<VehicleId, Truth> newest_;
+  std::map<std::pair<VehicleId, VehicleId>, NearMiss> under_way_;
+  std::vector<NearMiss> kept_;
+  std::optional<NearMiss> nearest_;
+  std::uint64_t count_ = 0;
+};
+
+}  // namespace giveway::fleetctl

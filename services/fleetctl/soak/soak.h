@@ -1,0 +1,13 @@
+// The verb `fleetctl soak`: drives a fleet under a seeded schedule of faults, watches every
+// promise, and ends in a verdict with a report. Values in; the exit code out.
+#pragma once
+
+#include "services/fleetctl/soak/soak_options.h"
+
+namespace giveway::fleetctl {
+
+// 0 passed; 1 failed or interrupted; 2 not run. Throws InputError, OutputError, DomainError,
+// LinkError, StartError.
+int Soak(const SoakOptions& options);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,107 @@
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/process/domain_lock.h"
+#include "services/fleetctl/soak/soak.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+Starts a world and one process a vehicle, waits until all drive, breaks things by a seeded schedule,
+heals everything, and judges: every invariant, every fault's effect, how soon peers noticed, that all
+drive again within 5 s, that no process grows. Who ends by itself is started again, and told of.
+The report folder gets report.html, report.json, the logs, the scenario and the list of faults as they
+were run; `fleetctl report` reads it. The first Ctrl-C ends the soak with an honest report.
+
+A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or shipped sets: calm,
+radio_storm, flaky_hardware, everything; `fleetctl faults expand` prints what comes of one.
+
+Examples
+  fleetctl soak patrol --faults calm --duration 2m --report soak
+  fleetctl soak patrol --faults everything --skip-unsupported --duration 30m --seed 7 --report soak
+  fleetctl report soak
+
+Exit code: 0 passed; 1 failed or interrupted; 2 could not run, or the machine was too busy to judge.
+)";
+
+constexpr std::uint32_t kMostVehicles = 1024;
+constexpr double kLeastDuration_s = 30;
+constexpr double kMostDuration_s = 30 * 86400.0;
+
+// Nothing where the text is no duration.
+std::optional<double> ParseDuration(const std::string& text) {
+  std::size_t end = 0;
+  double number = 0;
+  try {
+    number = std::stod(text, &end);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+  const std::string unit = text.substr(end);
+  const double seconds = unit.empty() || unit == "s" ? 1
+                         : unit == "m"               ? 60
+                         : unit == "h"               ? 3600
+                         : unit == "d"               ? 86400
+                                                     : 0;
+  const double duration_s = number * seconds;
+  if (!(duration_s >= kLeastDuration_s && duration_s <= kMostDuration_s)) return std::nullopt;
+  return duration_s;
+}
+
+void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
+  verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
+      ->required();
+  verb->add_option("--faults", options->faults, "A fault file, or the name of a shipped one")
+      ->check(CheckNotEmpty)
+      ->capture_default_str();
+  verb->add_option_function<std::string>(
+          "--duration",
+          [options](const std::string& text) {
+            const auto duration_s = ParseDuration(text);
+            if (!duration_s) {
+              throw CLI::ValidationError(
+                  "--duration",
+                  "must be 30 s to 30 d, as 90, 90s, 30m, 12h or 7d, not '" + text + "'");
+            }
+            options->duration_s = *duration_s;
+          },
+          "From the start signal to the verdict")
+      ->type_name("DURATION")
+      ->default_str("5m");
+  verb->add_option("--seed", options->seed, "Of start poses, cruise speeds and faults")
+      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
+      ->capture_default_str();
+  verb->add_option("--report", options->report_folder, "Folder of the report; made where it is not")
+      ->required()
+      ->check(CheckNotEmpty);
+  verb->add_option("--vehicles", options->vehicles, "Of an open fleet; without it one a place")
+      ->check(CLI::Range(1U, kMostVehicles));
+  verb->add_option("--qos", options->qos_file,
+                   "Fast DDS XML profiles: a file, or a shipped set; without it the default")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_QOS");
+  verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
+      ->check(CLI::Range(kFirstDomain, kLastDomain));
+  AddInterfaceFlag(verb, &options->interface);
+  verb->add_flag("--record", options->record, "Every vehicle records into the report folder");
+  verb->add_flag("--skip-unsupported", options->skip_unsupported,
+                 "Leave out what this host cannot do; the report says so");
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+}
+
+}  // namespace
+
+void AddSoakVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<SoakOptions>();
+  CLI::App* verb = fleetctl->add_subcommand(
+      "soak", "Drive a fleet under faults for minutes or days, and judge it");
+  verb->footer(kFooter);
+  AddSoakFlags(verb, options.get());
+  verb->callback([options, exit_code] { *exit_code = Soak(*options); });
+}
+
+}  // namespace giveway::fleetctl

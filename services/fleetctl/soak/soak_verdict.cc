@@ -1,0 +1,240 @@
+#include "services/fleetctl/soak/soak_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/faults/kind_table.h"
+#include "sim_world/virtual/invariants.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using faults::Fault;
+using faults::Kind;
+using faults::Target;
+using std::chrono::milliseconds;
+
+constexpr double kHealP99_s = 2;
+// For a word to be written and read, beside the promise itself.
+constexpr Nanoseconds kNoticing = milliseconds(200);
+
+class Judging {
+ public:
+  Judging(const SoakEvidence& evidence, SoakResult* result) : from_(evidence), result_(*result) {}
+
+  void Run() {
+    TellFaults();
+    TellInvariants();
+    TellEnds();
+    TellHealing();
+    TellSlopes();
+    const NearMisses& near = from_.session.Near();
+    result_.near_misses = near.Narrowest();
+    result_.near_misses_counted = near.Count();
+    result_.modes = from_.session.Modes();
+    result_.modes_counted = from_.session.ModesCounted();
+    TellPauses();
+    std::ranges::stable_sort(result_.violations, {}, &SoakViolation::time_s);
+    Conclude();
+  }
+
+ private:
+  double TimeOf(SteadyTime at) const { return Seconds(at - from_.session.StartedAt()); }
+
+  std::string FaultNameBehind(VehicleId vehicle, double time_s) const {
+    const SteadyTime at = from_.session.StartedAt() + FromSeconds(time_s);
+    const auto behind = from_.session.Watch().FaultBehind(vehicle, at);
+    return behind ? NameOf(result_.faults[*behind]) : std::string();
+  }
+
+  void Tell(double time_s, VehicleId vehicle, std::string invariant, std::string words,
+            VehicleId other = kNobody) {
+    ++result_.violations_counted;
+    if (result_.violations.size() == kMostListed) return;
+    std::string fault = FaultNameBehind(vehicle, time_s);
+    result_.violations.push_back(
+        {time_s, vehicle, other, std::move(invariant), std::move(words), std::move(fault)});
+  }
+
+  void TellFaults() {
+    const Nanoseconds promised = PromisedWithin(Mechanism::kDeadline, from_.limits);
+    for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
+      result_.faults.push_back(FaultOf(from_.schedule[i], from_.seen.courses[i], promised));
+    }
+    for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
+      JudgeFault(from_.schedule[i], from_.seen.courses[i], promised, result_.faults[i]);
+    }
+    std::uint32_t planned = 0;
+    for (const Fault& fault : from_.schedule) {
+      planned += fault.kind == Kind::kRestart || fault.kind == Kind::kQosMismatch ? 1 : 0;
+    }
+    result_.restarts_planned = planned;
+    result_.restarts_unplanned = from_.seen.restarts;
+  }
+
+  SoakFault FaultOf(const Fault& fault, const FaultCourse& course, Nanoseconds promised) const {
+    SoakFault told{.rule = fault.rule,
+                   .nth = fault.nth,
+                   .at_s = fault.at_s,
+                   .for_s = fault.for_s,
+                   .kind = std::string(faults::ToString(fault.kind)),
+                   .target = faults::ToString(fault.target),
+                   .observed = !course.effect.empty(),
+                   .observed_how = course.effect};
+    if (course.began && course.noticed) {
+      told.noticed_after_s = Seconds(*course.noticed - *course.began);
+    }
+    if (MustBeNoticed(fault, promised)) told.promised_s = Seconds(promised);
+    if (course.ended && course.recovered) {
+      told.recovered_after_s = Seconds(*course.recovered - *course.ended);
+    }
+    return told;
+  }
+
+  // One that the run ended before is no news.
+  void JudgeFault(const Fault& fault, const FaultCourse& course, Nanoseconds promised,
+                  const SoakFault& told) {
+    if (!course.began) return;
+    if (!told.observed) {
+      Tell(fault.at_s, fault.target.vehicle, "effect",
+           fmt::format("{} was ordered, and no effect of it was seen", NameOf(told)));
+    }
+    const bool lasted = !course.ended || fault.for_s <= 0 ||
+                        Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;
+    if (!MustBeNoticed(fault, promised) || !lasted) return;
+    const SteadyTime latest = *course.began + promised + kNoticing;
+    const Nanoseconds pause = from_.session.Stalls().LongestPause(*course.began, latest);
+    if (!course.noticed) {
+      Tell(fault.at_s, fault.target.vehicle, "detection",
+           fmt::format("no peer noticed {}", NameOf(told)));
+    } else if (*course.noticed > latest + pause) {
+      Tell(fault.at_s, fault.target.vehicle, "detection",
+           fmt::format("{} was noticed after {:.3f} s, promised are {:.3f} s", NameOf(told),
+                       *told.noticed_after_s, *told.promised_s));
+    }
+  }
+
+  void TellInvariants() {
+    const sim::Invariants& judged = from_.session.Judged().Judged();
+    std::uint64_t counted = 0;
+    for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+      counted += judged.Count(static_cast<sim::Invariant>(i));
+    }
+    for (const sim::Violation& broken : judged.First()) {
+      const double time_s = from_.session.TimeOfTick(broken.tick);
+      Tell(time_s, broken.vehicle, std::string(sim::Name(broken.invariant)),
+           fmt::format("tick {}", Number(broken.tick)), broken.other);
+    }
+    // Of those that were counted and not kept, the number is what is known.
+    if (counted > judged.First().size()) {
+      result_.violations_counted += counted - judged.First().size();
+    }
+  }
+
+  // A process may end of a limit it was given.
+  void TellEnds() {
+    for (const UnplannedEnd& end : from_.seen.ends) {
+      const VehicleId vehicle{end.member.number};
+      const SteadyTime at = from_.session.StartedAt() + FromSeconds(end.time_s);
+      const auto behind = from_.session.Watch().FaultBehind(vehicle, at);
+      const Kind kind = behind ? from_.schedule[*behind].kind : Kind::kKill;
+      if (behind && (kind == Kind::kMemoryLimit || kind == Kind::kDescriptorLimit ||
+                     kind == Kind::kQosMismatch)) {
+        continue;
+      }
+      std::string words = fmt::format("{} ended: {}", NameOf(end.member), end.how);
+      if (!end.last_lines.empty()) words += "; the last it said: " + end.last_lines.back();
+      Tell(end.time_s, vehicle, "process_ended", std::move(words));
+    }
+  }
+
+  void TellHealing() {
+    SoakHistogram healing{.name = "healing",
+                          .budgets = {{0.99, FromSeconds(kHealP99_s).count()},
+                                      {1.0, FromSeconds(kHealWithin_s).count()}}};
+    for (const auto& [vehicle, healed_s] : from_.seen.healing) {
+      if (healed_s) healing.histogram.Add(FromSeconds(*healed_s));
+      if (healed_s && *healed_s <= kHealWithin_s) continue;
+      Tell(from_.seen.lasted_s, vehicle, "healing",
+           healed_s ? fmt::format("drove {:.1f} s after the last fault, promised are {} s",
+                                  *healed_s, kHealWithin_s)
+                    : "did not drive again after the last fault");
+    }
+    if (healing.histogram.Count() > 0) result_.histograms.push_back(std::move(healing));
+    AddTimes("noticed", &SoakFault::noticed_after_s);
+    AddTimes("recovered", &SoakFault::recovered_after_s);
+  }
+
+  void AddTimes(const char* name, std::optional<double> SoakFault::*member) {
+    SoakHistogram times{.name = name};
+    for (const SoakFault& fault : result_.faults) {
+      if (fault.*member) times.histogram.Add(FromSeconds(*(fault.*member)));
+    }
+    if (times.histogram.Count() > 0) result_.histograms.push_back(std::move(times));
+  }
+
+  void TellSlopes() {
+    result_.slopes = from_.session.Resources().Slopes();
+    result_.lives_too_short = from_.session.Resources().LivesTooShort();
+    for (const ResourceSlope& slope : result_.slopes) {
+      if (!slope.leak) continue;
+      Tell(from_.seen.lasted_s, kNobody, "leak",
+           fmt::format("{} life {}: {} grows by {:.0f} an hour (95 %: {:.0f} to {:.0f})",
+                       slope.process, slope.life, ToString(slope.kind), slope.slope.per_hour,
+                       slope.slope.low_per_hour, slope.slope.high_per_hour));
+    }
+  }
+
+  void TellPauses() {
+    const PauseMeter& pauses = from_.session.Pauses();
+    result_.pauses = {pauses.Count(), Seconds(pauses.Paused()), Seconds(pauses.Longest()),
+                      pauses.Share()};
+  }
+
+  void Conclude() {
+    result_.ran_s = from_.seen.lasted_s;
+    if (!from_.seen.started) {
+      result_.verdict = from_.seen.interrupted ? SoakVerdict::kInterrupted : SoakVerdict::kNotRun;
+      result_.reasons.emplace_back(from_.seen.interrupted ? "interrupted before the fleet drove"
+                                                          : "not all vehicles drove within 60 s");
+      return;
+    }
+    std::map<std::string, std::uint64_t> by_kind;
+    for (const SoakViolation& broken : result_.violations) ++by_kind[broken.invariant];
+    for (const auto& [kind, count] : by_kind) {
+      result_.reasons.push_back(fmt::format("{}: {}", kind, count));
+    }
+    if (result_.pauses.share > kMostPausedShare) {
+      result_.verdict = SoakVerdict::kNotRun;
+      result_.reasons.insert(result_.reasons.begin(), "machine_too_busy");
+    } else if (result_.violations_counted > 0) {
+      result_.verdict = SoakVerdict::kFailed;
+    } else {
+      result_.verdict = from_.seen.interrupted ? SoakVerdict::kInterrupted : SoakVerdict::kPassed;
+    }
+  }
+
+  const SoakEvidence& from_;
+  SoakResult& result_;
+};
+
+}  // namespace
+
+bool MustBeNoticed(const Fault& fault, Nanoseconds promised) {
+  if (fault.target.what != Target::What::kVehicle || promised == Nanoseconds{0}) return false;
+  switch (fault.kind) {
+    case Kind::kKill:
+      return true;
+    case Kind::kRestart:
+    case Kind::kPause:
+    case Kind::kHang:
+      return FromSeconds(fault.for_s) > promised + kNoticing;
+    default:
+      return false;
+  }
+}
+
+void Judge(const SoakEvidence& evidence, SoakResult* result) { Judging(evidence, result).Run(); }
+
+}  // namespace giveway::fleetctl
