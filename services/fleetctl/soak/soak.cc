@@ -221,7 +221,11 @@ int Soak(const SoakOptions& options) {
   SoakSession session(spec, prepared.scenario, prepared.schedule, prepared.phases,
                       ToolsOf(spec, prepared));
   const SoakSeen seen = session.Run();
-  Judge({session, seen, prepared.schedule, prepared.phases, limits}, &result);
+  Judge({seen, prepared.schedule, limits,
+         [&session](SteadyTime from, SteadyTime to) {
+           return session.Stalls().LongestPause(from, to);
+         }},
+        &result);
   std::fputs((options.json ? ToJson(result) + "\n" : ToText(result)).c_str(), stdout);
   const bool told = std::fflush(stdout) == 0;
   Interrupts::AllowSeconds(kWriting_s);

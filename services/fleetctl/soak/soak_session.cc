@@ -98,8 +98,25 @@ SoakSeen SoakSession::Run() {
   CarryOut(clock_.EndAll(seen_.lasted_s));
   Stop();
   invariants_.Finish(false);
-  seen_.courses.assign(watch_.Courses().begin(), watch_.Courses().end());
+  Gather();
   return std::move(seen_);
+}
+
+void SoakSession::Gather() {
+  seen_.courses.assign(watch_.Courses().begin(), watch_.Courses().end());
+  const sim::Invariants& judged = invariants_.Judged();
+  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+    seen_.broken_counted += judged.Count(static_cast<sim::Invariant>(i));
+  }
+  for (const sim::Violation& broken : judged.First()) {
+    seen_.broken.push_back({TimeOfTick(broken.tick), broken});
+  }
+  seen_.near_misses = near_.Narrowest();
+  seen_.near_misses_counted = near_.Count();
+  seen_.slopes = resources_.Slopes();
+  seen_.lives_too_short = resources_.LivesTooShort();
+  seen_.pauses = {pauses_.Count(), Seconds(pauses_.Paused()), Seconds(pauses_.Longest()),
+                  pauses_.Share()};
 }
 
 bool SoakSession::WaitUntilAllDrive() {
@@ -143,8 +160,8 @@ void SoakSession::Drain() {
   invariants_.Fold(observed);
   near_.Fold(observed.truths);
   if (!observed.truths.empty()) any_truth_ = observed.truths.back();
-  if (watch_.HasStarted() && started_at_ == SteadyTime{0}) {
-    started_at_ = SteadyNow() - FromSeconds(watch_.TimeSeconds(SteadyNow()));
+  if (watch_.HasStarted() && seen_.started_at == SteadyTime{0}) {
+    seen_.started_at = SteadyNow() - FromSeconds(watch_.TimeSeconds(SteadyNow()));
   }
 }
 
@@ -248,9 +265,9 @@ void SoakSession::NoteModes(SteadyTime now) {
     std::string& before = mode_[vehicle];
     if (before == mode) continue;
     before = mode;
-    ++modes_counted_;
-    if (modes_.size() < kMostListed) {
-      modes_.push_back({watch_.TimeSeconds(now), vehicle, std::move(mode)});
+    ++seen_.modes_counted;
+    if (seen_.modes.size() < kMostListed) {
+      seen_.modes.push_back({watch_.TimeSeconds(now), vehicle, std::move(mode)});
     }
   }
 }

@@ -17,34 +17,13 @@
 #include "services/fleetctl/soak/process_faults.h"
 #include "services/fleetctl/soak/resource_series.h"
 #include "services/fleetctl/soak/soak_phases.h"
+#include "services/fleetctl/soak/soak_seen.h"
 #include "services/fleetctl/soak/soak_watch.h"
 #include "services/fleetctl/stopwatch/stall_monitor.h"
 #include "services/link/observer_link.h"
 #include "services/types/scenario.h"
 
 namespace giveway::fleetctl {
-
-// Somebody ended who was not to.
-struct UnplannedEnd {
-  double time_s = 0;  // since the start signal
-  MemberId member;
-  std::string how;
-  std::vector<std::string> last_lines;
-};
-
-// Time at which a vehicle was well again after the last fault had ended; absent: it never was.
-using Healing = std::map<VehicleId, std::optional<double>>;
-
-// All that a soak saw.
-struct SoakSeen {
-  bool started = false;      // everyone drove before the first fault
-  bool interrupted = false;  // by the operator
-  double lasted_s = 0;       // since the start signal
-  std::vector<FaultCourse> courses;
-  std::vector<UnplannedEnd> ends;
-  Healing healing;  // seconds since the last fault's end
-  std::uint32_t restarts = 0;
-};
 
 class SoakSession {
  public:
@@ -55,21 +34,12 @@ class SoakSession {
   // Returns when the last process is gone.
   SoakSeen Run();
 
-  const SoakWatch& Watch() const { return watch_; }
-  const InvariantWatch& Judged() const { return invariants_; }
-  const ResourceSeries& Resources() const { return resources_; }
-  const PauseMeter& Pauses() const { return pauses_; }
+  // How long the machine stood still at most, in some time of the run.
   const StallMonitor& Stalls() const { return stalls_; }
-  const NearMisses& Near() const { return near_; }
-  // The first ones; and how many there were.
-  const std::vector<ModeChange>& Modes() const { return modes_; }
-  std::uint64_t ModesCounted() const { return modes_counted_; }
-  // Since the start signal.
-  double TimeOfTick(Tick tick) const;
-  // Of the steady clock.
-  SteadyTime StartedAt() const { return started_at_; }
 
  private:
+  double TimeOfTick(Tick tick) const;  // since the start signal
+  void Gather();
   bool WaitUntilAllDrive();
   void Turn();
   void Drain();
@@ -97,14 +67,11 @@ class SoakSession {
   StallMonitor stalls_;
   NearMisses near_;
   std::map<VehicleId, std::string> mode_;
-  std::vector<ModeChange> modes_;
-  std::uint64_t modes_counted_ = 0;
   double tick_period_s_;
   std::optional<Truth> any_truth_;
   SoakSeen seen_;
   std::uint64_t samples_ = 0;
   SteadyTime turned_{0};
-  SteadyTime started_at_{0};
   SteadyTime next_sample_{0};
   SteadyTime next_progress_{0};
   std::optional<SteadyTime> healed_from_;

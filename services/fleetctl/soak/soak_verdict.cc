@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
 
 #include "services/faults/kind_table.h"
 #include "sim_world/virtual/invariants.h"
@@ -29,22 +32,23 @@ class Judging {
     TellEnds();
     TellHealing();
     TellSlopes();
-    const NearMisses& near = from_.session.Near();
-    result_.near_misses = near.Narrowest();
-    result_.near_misses_counted = near.Count();
-    result_.modes = from_.session.Modes();
-    result_.modes_counted = from_.session.ModesCounted();
-    TellPauses();
+    result_.near_misses = from_.seen.near_misses;
+    result_.near_misses_counted = from_.seen.near_misses_counted;
+    result_.modes = from_.seen.modes;
+    result_.modes_counted = from_.seen.modes_counted;
+    result_.pauses = from_.seen.pauses;
     std::ranges::stable_sort(result_.violations, {}, &SoakViolation::time_s);
     Conclude();
   }
 
  private:
-  double TimeOf(SteadyTime at) const { return Seconds(at - from_.session.StartedAt()); }
+  std::optional<std::size_t> Behind(VehicleId vehicle, double time_s) const {
+    return FaultBehind(from_.schedule, from_.seen.courses, vehicle,
+                       from_.seen.started_at + FromSeconds(time_s));
+  }
 
   std::string FaultNameBehind(VehicleId vehicle, double time_s) const {
-    const SteadyTime at = from_.session.StartedAt() + FromSeconds(time_s);
-    const auto behind = from_.session.Watch().FaultBehind(vehicle, at);
+    const auto behind = Behind(vehicle, time_s);
     return behind ? NameOf(result_.faults[*behind]) : std::string();
   }
 
@@ -104,7 +108,7 @@ class Judging {
                         Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;
     if (!MustBeNoticed(fault, promised) || !lasted) return;
     const SteadyTime latest = *course.began + promised + kNoticing;
-    const Nanoseconds pause = from_.session.Stalls().LongestPause(*course.began, latest);
+    const Nanoseconds pause = from_.longest_pause(*course.began, latest);
     if (!course.noticed) {
       Tell(fault.at_s, fault.target.vehicle, "detection",
            fmt::format("no peer noticed {}", NameOf(told)));
@@ -116,28 +120,19 @@ class Judging {
   }
 
   void TellInvariants() {
-    const sim::Invariants& judged = from_.session.Judged().Judged();
-    std::uint64_t counted = 0;
-    for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-      counted += judged.Count(static_cast<sim::Invariant>(i));
+    for (const BrokenInvariant& broken : from_.seen.broken) {
+      Tell(broken.time_s, broken.what.vehicle, std::string(sim::Name(broken.what.invariant)),
+           fmt::format("tick {}", Number(broken.what.tick)), broken.what.other);
     }
-    for (const sim::Violation& broken : judged.First()) {
-      const double time_s = from_.session.TimeOfTick(broken.tick);
-      Tell(time_s, broken.vehicle, std::string(sim::Name(broken.invariant)),
-           fmt::format("tick {}", Number(broken.tick)), broken.other);
-    }
-    // Of those that were counted and not kept, the number is what is known.
-    if (counted > judged.First().size()) {
-      result_.violations_counted += counted - judged.First().size();
-    }
+    // Of those that were not kept the number is what is known.
+    result_.violations_counted += from_.seen.broken_counted - from_.seen.broken.size();
   }
 
   // A process may end of a limit it was given.
   void TellEnds() {
     for (const UnplannedEnd& end : from_.seen.ends) {
       const VehicleId vehicle{end.member.number};
-      const SteadyTime at = from_.session.StartedAt() + FromSeconds(end.time_s);
-      const auto behind = from_.session.Watch().FaultBehind(vehicle, at);
+      const auto behind = Behind(vehicle, end.time_s);
       const Kind kind = behind ? from_.schedule[*behind].kind : Kind::kKill;
       if (behind && (kind == Kind::kMemoryLimit || kind == Kind::kDescriptorLimit ||
                      kind == Kind::kQosMismatch)) {
@@ -175,8 +170,8 @@ class Judging {
   }
 
   void TellSlopes() {
-    result_.slopes = from_.session.Resources().Slopes();
-    result_.lives_too_short = from_.session.Resources().LivesTooShort();
+    result_.slopes = from_.seen.slopes;
+    result_.lives_too_short = from_.seen.lives_too_short;
     for (const ResourceSlope& slope : result_.slopes) {
       if (!slope.leak) continue;
       Tell(from_.seen.lasted_s, kNobody, "leak",
@@ -184,12 +179,6 @@ class Judging {
                        slope.process, slope.life, ToString(slope.kind), slope.slope.per_hour,
                        slope.slope.low_per_hour, slope.slope.high_per_hour));
     }
-  }
-
-  void TellPauses() {
-    const PauseMeter& pauses = from_.session.Pauses();
-    result_.pauses = {pauses.Count(), Seconds(pauses.Paused()), Seconds(pauses.Longest()),
-                      pauses.Share()};
   }
 
   void Conclude() {

@@ -1,24 +1,23 @@
 // From what a soak saw to its result: which promise was broken when, by whom and after which fault,
-// and the verdict. Starts and measures nothing.
+// and the verdict. Starts and measures nothing. Pure.
 #pragma once
 
-#include <map>
-#include <string>
-#include <vector>
+#include <functional>
 
 #include "services/faults/fault.h"
+#include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/soak_result.h"
-#include "services/fleetctl/soak/soak_session.h"
+#include "services/fleetctl/soak/soak_seen.h"
 #include "services/fleetctl/stopwatch/stopwatch_table.h"
 
 namespace giveway::fleetctl {
 
 struct SoakEvidence {
-  const SoakSession& session;
   const SoakSeen& seen;
   const faults::Schedule& schedule;
-  SoakPhases phases;
   Limits limits;  // what the profile set promises
+  // The longest time that the machine stood still between two moments of the run.
+  std::function<Nanoseconds(SteadyTime, SteadyTime)> longest_pause;
 };
 
 // A fault that peers must notice: its victim falls silent for longer than they may take.

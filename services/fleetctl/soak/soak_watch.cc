@@ -217,19 +217,6 @@ void SoakWatch::SeekRecovery(SteadyTime now) {
   }
 }
 
-std::optional<std::size_t> SoakWatch::FaultBehind(VehicleId vehicle, SteadyTime at) const {
-  std::optional<std::size_t> behind;
-  for (std::size_t i = 0; i < courses_.size(); ++i) {
-    const FaultCourse& course = courses_[i];
-    if (!course.began || *course.began > at) continue;
-    if (course.ended && at > *course.ended + kAfterwards) continue;
-    const Target& target = schedule_[i].target;
-    const bool struck = target.what != Target::What::kVehicle || target.vehicle == vehicle;
-    if (struck || !behind) behind = i;
-  }
-  return behind;
-}
-
 const VehicleStatus* SoakWatch::StatusOf(VehicleId vehicle) const {
   const auto view = views_.find(vehicle);
   return view != views_.end() && view->second.status ? &*view->second.status : nullptr;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "services/faults/fault.h"
+#include "services/fleetctl/soak/soak_seen.h"
 #include "services/fleetctl/stopwatch/stopwatch_words.h"
 #include "services/link/observer_link.h"
 #include "services/types/fleet_facts.h"
@@ -20,15 +21,6 @@ namespace giveway::fleetctl {
 // Drives, or stands for a reason that traffic has: ranges are fresh, and nobody it must hear is
 // missing.
 bool IsWell(const VehicleStatus& status);
-
-// One fault as it went.
-struct FaultCourse {
-  std::optional<SteadyTime> began;
-  std::optional<SteadyTime> ended;      // or, of one that takes no time, the moment it began
-  std::string effect;                   // that was seen; empty: none yet
-  std::optional<SteadyTime> noticed;    // by the first peer
-  std::optional<SteadyTime> recovered;  // after its end all that it struck were well again
-};
 
 class SoakWatch {
  public:
@@ -59,9 +51,6 @@ class SoakWatch {
   std::vector<VehicleId> Unwell(SteadyTime now) const;
   std::uint32_t Living() const;
   std::span<const FaultCourse> Courses() const { return courses_; }
-  // The fault that may have to do with what befell the vehicle: the last that began before, and
-  // struck it or everyone, and had not been over for ten seconds.
-  std::optional<std::size_t> FaultBehind(VehicleId vehicle, SteadyTime at) const;
   const VehicleStatus* StatusOf(VehicleId vehicle) const;
   const Truth* TruthOf(VehicleId vehicle) const;
   std::uint64_t StatusesRefused() const { return refused_; }

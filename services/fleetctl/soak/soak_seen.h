@@ -1,0 +1,68 @@
+// All that a soak saw, as values: what its verdict is made of.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/faults/fault.h"
+#include "services/fleetctl/process/fleet_commands.h"
+#include "services/fleetctl/soak/soak_result.h"
+#include "services/types/time.h"
+#include "sim_world/virtual/invariants.h"
+
+namespace giveway::fleetctl {
+
+// One fault as it went.
+struct FaultCourse {
+  std::optional<SteadyTime> began;
+  std::optional<SteadyTime> ended;      // or, of one that takes no time, the moment it began
+  std::string effect;                   // that was seen; empty: none yet
+  std::optional<SteadyTime> noticed;    // by the first peer
+  std::optional<SteadyTime> recovered;  // after its end all that it struck were well again
+};
+
+// The fault that may have to do with what befell the vehicle: the last that began before and had
+// not been over for ten seconds, of those that struck it or everyone if there is one.
+std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
+                                       std::span<const FaultCourse> courses, VehicleId vehicle,
+                                       SteadyTime at);
+
+// Somebody ended who was not to.
+struct UnplannedEnd {
+  double time_s = 0;  // since the start signal
+  MemberId member;
+  std::string how;
+  std::vector<std::string> last_lines;
+};
+
+struct BrokenInvariant {
+  double time_s = 0;  // since the start signal
+  sim::Violation what;
+};
+
+struct SoakSeen {
+  bool started = false;      // everyone drove before the first fault
+  bool interrupted = false;  // by the operator
+  SteadyTime started_at{0};
+  double lasted_s = 0;               // since the start signal
+  std::vector<FaultCourse> courses;  // of each fault of the schedule
+  std::vector<UnplannedEnd> ends;
+  std::uint32_t restarts = 0;  // after those
+  // When each vehicle that lives was well again after the last fault's end, seconds; absent: never.
+  std::map<VehicleId, std::optional<double>> healing;
+  std::vector<BrokenInvariant> broken;  // the first ones
+  std::uint64_t broken_counted = 0;
+  std::vector<NearMiss> near_misses;
+  std::uint64_t near_misses_counted = 0;
+  std::vector<ModeChange> modes;
+  std::uint64_t modes_counted = 0;
+  std::vector<ResourceSlope> slopes;
+  std::uint64_t lives_too_short = 0;
+  MachinePauses pauses;
+};
+
+}  // namespace giveway::fleetctl

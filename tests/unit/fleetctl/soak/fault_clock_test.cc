@@ -1,0 +1,53 @@
+#include "services/fleetctl/soak/fault_clock.h"
+
+#include <gmock/gmock.h>
+
+namespace giveway::fleetctl {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+faults::Fault FaultAt(double at_s, double for_s) {
+  faults::Fault fault;
+  fault.at_s = at_s;
+  fault.for_s = for_s;
+  return fault;
+}
+
+TEST(FaultClock, TellsEachEdgeOnceWhenItIsDue) {
+  const faults::Schedule schedule{FaultAt(1, 2), FaultAt(2, 0)};
+  FaultClock clock(schedule);
+  EXPECT_THAT(clock.TakeDue(0.9), IsEmpty());
+  EXPECT_THAT(clock.TakeDue(2), ElementsAre(FaultEdge{0, 1, true}, FaultEdge{1, 2, true}));
+  EXPECT_THAT(clock.TakeDue(2.5), IsEmpty());
+  EXPECT_THAT(clock.TakeDue(10), ElementsAre(FaultEdge{0, 3, false}));
+  EXPECT_DOUBLE_EQ(clock.LastEnd_s(), 3);
+}
+
+TEST(FaultClock, EndsOneBeforeAnotherBeginsAtTheSameTime) {
+  const faults::Schedule schedule{FaultAt(2, 1), FaultAt(1, 1)};
+  FaultClock clock(schedule);
+  EXPECT_THAT(clock.TakeDue(2),
+              ElementsAre(FaultEdge{1, 1, true}, FaultEdge{1, 2, false}, FaultEdge{0, 2, true}));
+}
+
+TEST(FaultClock, KnowsWhatIsUnderWay) {
+  const faults::Schedule schedule{FaultAt(1, 5), FaultAt(2, 0), FaultAt(3, 1)};
+  FaultClock clock(schedule);
+  clock.TakeDue(3);
+  EXPECT_THAT(clock.UnderWay(), ElementsAre(0, 2));
+  clock.TakeDue(4.5);
+  EXPECT_THAT(clock.UnderWay(), ElementsAre(0));
+}
+
+TEST(FaultClock, EndsEarlyWhatIsUnderWayAndBeginsNothingMore) {
+  const faults::Schedule schedule{FaultAt(1, 5), FaultAt(9, 1)};
+  FaultClock clock(schedule);
+  clock.TakeDue(2);
+  EXPECT_THAT(clock.EndAll(2.5), ElementsAre(FaultEdge{0, 2.5, false}));
+  EXPECT_THAT(clock.TakeDue(100), IsEmpty());
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl

@@ -1,0 +1,137 @@
+#include "services/fleetctl/soak/soak_watch.h"
+
+#include <gmock/gmock.h>
+
+namespace giveway::fleetctl {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr VehicleId kOne{1};
+constexpr VehicleId kTwo{2};
+
+VehicleStatus Driving(VehicleId vehicle) {
+  VehicleStatus status;
+  status.vehicle = vehicle;
+  status.decision = {Mode::kCooperative, Rule::kCruise};
+  status.forward_m_s = 0.3;
+  return status;
+}
+
+faults::Fault On(VehicleId vehicle, faults::Kind kind, double for_s) {
+  faults::Fault fault;
+  fault.kind = kind;
+  fault.for_s = for_s;
+  fault.target.vehicle = vehicle;
+  return fault;
+}
+
+class SoakWatchTest : public testing::Test {
+ protected:
+  void Say(const VehicleStatus& status, SteadyTime now) {
+    link::Observed observed;
+    observed.statuses.push_back(status);
+    watch_.Fold(observed, now);
+  }
+  faults::Schedule schedule_{On(kOne, faults::Kind::kPause, 2), On(kTwo, faults::Kind::kLoss, 2),
+                             On(kTwo, faults::Kind::kKill, 0)};
+  SoakWatch watch_{{kOne, kTwo}, schedule_};
+};
+
+TEST(SoakWatch, OneIsWellThatDrivesOrStandsAsTrafficHasIt) {
+  VehicleStatus status = Driving(kOne);
+  EXPECT_TRUE(IsWell(status));
+  status.forward_m_s = 0;
+  EXPECT_FALSE(IsWell(status)) << "cruises, and does not move";
+  status.decision.rule = Rule::kGiveWay;
+  EXPECT_TRUE(IsWell(status));
+  for (const Rule rule : {Rule::kRangesStale, Rule::kDeaf, Rule::kPeerLost, Rule::kNotRunning}) {
+    status.decision.rule = rule;
+    EXPECT_FALSE(IsWell(status)) << Name(rule);
+  }
+  status = Driving(kOne);
+  status.decision.mode = Mode::kHalt;
+  EXPECT_FALSE(IsWell(status));
+}
+
+TEST_F(SoakWatchTest, WhoIsSilentForASecondIsNotWell) {
+  Say(Driving(kOne), seconds(1));
+  Say(Driving(kTwo), milliseconds(1900));
+  EXPECT_TRUE(watch_.AreAllWell(seconds(2)));
+  EXPECT_THAT(watch_.Unwell(milliseconds(2100)), ElementsAre(kOne));
+}
+
+TEST_F(SoakWatchTest, OfWhoIsAwayNothingIsExpectedAndOfNobodyNothingIsWell) {
+  Say(Driving(kOne), seconds(1));
+  watch_.SetAway(kTwo, true);
+  EXPECT_TRUE(watch_.AreAllWell(seconds(1)));
+  watch_.SetAway(kOne, true);
+  EXPECT_FALSE(watch_.AreAllWell(seconds(1)));
+  EXPECT_EQ(watch_.Living(), 0U);
+}
+
+TEST_F(SoakWatchTest, AFaultIsNoticedWhenTheFirstPeerSaysSo) {
+  watch_.NoteBegin(0, seconds(10));
+  watch_.Fold(kTwo, {seconds(9), WordKind::kBeaconStale, kOne});
+  watch_.Fold(kOne, {milliseconds(10100), WordKind::kDeadlineMissed, kOne});
+  watch_.Fold(kTwo, {milliseconds(10100), WordKind::kBeaconHeard, kOne});
+  EXPECT_FALSE(watch_.Courses()[0].noticed);
+  watch_.Fold(kTwo, {milliseconds(10200), WordKind::kDeadlineMissed, kOne});
+  watch_.Fold(kTwo, {milliseconds(10300), WordKind::kLivelinessLost, kOne});
+  EXPECT_EQ(watch_.Courses()[0].noticed, milliseconds(10200));
+}
+
+TEST_F(SoakWatchTest, AFaultIsOverForItsVictimWhenThatIsWellAgain) {
+  Say(Driving(kOne), seconds(9));
+  watch_.NoteBegin(0, seconds(10));
+  watch_.NoteEnd(0, seconds(12));
+  Say(Driving(kTwo), milliseconds(12600));
+  EXPECT_FALSE(watch_.Courses()[0].recovered) << "the other one drives";
+  Say(Driving(kOne), milliseconds(12700));
+  EXPECT_EQ(watch_.Courses()[0].recovered, milliseconds(12700));
+}
+
+TEST_F(SoakWatchTest, AHearersFaultIsSeenByWhatItCounts) {
+  VehicleStatus status = Driving(kTwo);
+  status.beacons.lost = 7;
+  Say(status, seconds(9));
+  watch_.NoteBegin(1, seconds(10));
+  Say(status, milliseconds(10500));
+  EXPECT_EQ(watch_.Courses()[1].effect, "");
+  VehicleStatus other = Driving(kOne);
+  other.beacons.lost = 100;
+  Say(other, milliseconds(10600));
+  EXPECT_EQ(watch_.Courses()[1].effect, "") << "of whom it is not";
+  status.beacons.lost = 9;
+  Say(status, seconds(11));
+  EXPECT_THAT(watch_.Courses()[1].effect, HasSubstr("+2"));
+}
+
+TEST_F(SoakWatchTest, ANewLifeOfAHearerIsCountedAnew) {
+  VehicleStatus status = Driving(kTwo);
+  status.beacons.lost = 70;
+  Say(status, seconds(9));
+  watch_.NoteBegin(1, seconds(10));
+  status.beacons.lost = 1;
+  Say(status, seconds(11));
+  EXPECT_EQ(watch_.Courses()[1].effect, "");
+  status.beacons.lost = 2;
+  Say(status, milliseconds(11500));
+  EXPECT_NE(watch_.Courses()[1].effect, "");
+}
+
+TEST_F(SoakWatchTest, ACounterThatRisesLongAfterIsNotItsEffect) {
+  VehicleStatus status = Driving(kTwo);
+  Say(status, seconds(9));
+  watch_.NoteBegin(1, seconds(10));
+  watch_.NoteEnd(1, seconds(12));
+  status.beacons.lost = 1;
+  Say(status, seconds(20));
+  EXPECT_EQ(watch_.Courses()[1].effect, "");
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl
