@@ -1,8 +1,8 @@
 // Makes the thread sanitizer see the locks of Fast DDS. The library locks its timed mutexes by
 // pthread_mutex_clocklock, which libtsan of g++ 12 does not intercept: every access under such a
-// mutex looked like a race, in whatever function touched the memory last. This one, which the linker
-// puts before libc's, waits by pthread_mutex_timedlock, which libtsan intercepts. Linked into the
-// programs of the thread sanitizer's tree alone.
+// mutex looked like a race, in whatever function touched the memory last. This one, which the
+// linker puts before libc's, waits by pthread_mutex_timedlock, which libtsan intercepts. Linked
+// into the programs of the thread sanitizer's tree alone.
 #include <pthread.h>
 
 #include <cerrno>

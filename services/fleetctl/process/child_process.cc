@@ -141,7 +141,8 @@ void ChildProcess::Poll() {
   if (!IsRunning()) return;
   int status = 0;
   const bool ended = ::waitpid(pid_, &status, WNOHANG) == pid_;
-  if (hears_ || ended) ReadOutput();  // after waitpid: nothing the child said before it ended is missed
+  if (hears_ || ended)
+    ReadOutput();  // after waitpid: nothing the child said before it ended is missed
   if (!ended) return;
   end_ = WIFSIGNALED(status) ? ProcessEnd{true, WTERMSIG(status)}
                              : ProcessEnd{false, WEXITSTATUS(status)};

@@ -69,7 +69,8 @@ class ChildProcess {
   void Poll();
   const std::optional<ProcessEnd>& End() const { return end_; }
   bool IsRunning() const { return !end_.has_value(); }
-  // While not heard, what it says stays in the pipe, which gets full. An end is noticed all the same.
+  // While not heard, what it says stays in the pipe, which gets full. An end is noticed all the
+  // same.
   void HearOutput(bool hear) { hears_ = hear; }
   // Nothing happens to a child that has ended: its id may be another process by now.
   void Signal(int signal_number);

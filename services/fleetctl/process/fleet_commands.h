@@ -57,8 +57,8 @@ struct FleetSpec {
   int lock_fd = -1;             // inherited: the domain stays taken until the last process is gone
   bool flags_only = false;      // a measurement: no variable of the shell has a say
   bool hands_on_lines = false;  // see ChildCommand
-  // Those that the scenario does not name ask for the ids 1, 2, 3 ..., and are vehicles of the fleet
-  // by these, not newcomers.
+  // Those that the scenario does not name ask for the ids 1, 2, 3 ..., and are vehicles of the
+  // fleet by these, not newcomers.
   bool names_newcomers = false;
   FleetOptions options;
   std::map<MemberId, std::vector<std::string>> extra_words;  // at the end of the command line

@@ -1,0 +1,141 @@
+#include "services/fleetctl/soak/soak_verdict.h"
+
+#include <gmock/gmock.h>
+
+namespace giveway::fleetctl {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr VehicleId kOne{1};
+constexpr VehicleId kTwo{2};
+
+// A run in which vehicle 1 was killed at 10 s, was noticed after 150 ms, and all was well.
+class SoakVerdictTest : public testing::Test {
+ protected:
+  SoakVerdictTest() {
+    faults::Fault kill;
+    kill.rule = "die";
+    kill.at_s = 10;
+    kill.target.vehicle = kOne;
+    schedule_.push_back(kill);
+    seen_.started = true;
+    seen_.lasted_s = 60;
+    seen_.courses = {{seconds(10), seconds(10), "the process ended", milliseconds(10150), {}}};
+    seen_.healing[kTwo] = 0.5;
+    limits_.beacon_period = milliseconds(50);
+    limits_.deadline = milliseconds(150);
+  }
+  SoakResult Judged() const {
+    SoakResult result;
+    Judge({seen_, schedule_, limits_, [this](SteadyTime, SteadyTime) { return pause_; }}, &result);
+    return result;
+  }
+
+  faults::Schedule schedule_;
+  SoakSeen seen_;
+  Limits limits_;
+  Nanoseconds pause_{0};
+};
+
+TEST_F(SoakVerdictTest, PassesWhereEveryPromiseWasKept) {
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.verdict, SoakVerdict::kPassed);
+  EXPECT_THAT(result.reasons, IsEmpty());
+  ASSERT_THAT(result.faults, SizeIs(1));
+  EXPECT_NEAR(*result.faults[0].noticed_after_s, 0.15, 1e-9);
+  EXPECT_TRUE(result.faults[0].observed);
+}
+
+TEST_F(SoakVerdictTest, FailsWhereAFaultHadNoEffect) {
+  seen_.courses[0].effect.clear();
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.verdict, SoakVerdict::kFailed);
+  ASSERT_THAT(result.violations, SizeIs(1));
+  EXPECT_EQ(result.violations[0].invariant, "effect");
+  EXPECT_EQ(result.violations[0].fault, "die#0");
+}
+
+TEST_F(SoakVerdictTest, FailsWhereNobodyNoticedOrTooLate) {
+  seen_.courses[0].noticed = seconds(14);
+  EXPECT_EQ(Judged().violations.at(0).invariant, "detection");
+  pause_ = seconds(5);
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the machine stood still meanwhile";
+  seen_.courses[0].noticed.reset();
+  EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("no peer noticed"));
+}
+
+TEST_F(SoakVerdictTest, DoesNotJudgeAFaultThatNeverBegan) {
+  seen_.courses[0] = {};
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+}
+
+TEST_F(SoakVerdictTest, FailsWhereOneDoesNotDriveAgain) {
+  seen_.healing[kTwo] = 5.5;
+  EXPECT_EQ(Judged().violations.at(0).invariant, "healing");
+  seen_.healing[kTwo].reset();
+  EXPECT_EQ(Judged().violations.at(0).vehicle, kTwo);
+}
+
+TEST_F(SoakVerdictTest, TellsOfABrokenInvariantWithTheFaultBehindIt) {
+  seen_.broken = {{12, {sim::Invariant::kContact, Tick{240}, kOne, kTwo}}};
+  seen_.broken_counted = 3;
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.verdict, SoakVerdict::kFailed);
+  EXPECT_EQ(result.violations.at(0).invariant, "contact");
+  EXPECT_EQ(result.violations.at(0).fault, "die#0");
+  EXPECT_EQ(result.violations_counted, 3U);
+}
+
+TEST_F(SoakVerdictTest, FailsWhereAProcessEndsAndNoLimitExplainsIt) {
+  seen_.ends = {{12, MemberOf(kTwo), "exit code 1", {"why"}}};
+  EXPECT_EQ(Judged().violations.at(0).invariant, "process_ended");
+  schedule_[0].kind = faults::Kind::kMemoryLimit;
+  schedule_[0].for_s = 5;
+  schedule_[0].target.vehicle = kTwo;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+}
+
+TEST_F(SoakVerdictTest, FailsWhereAProcessGrows) {
+  seen_.slopes = {{.process = "vehicle-2", .slope = {1e6, 9e5, 1.1e6, 100, 600}, .leak = true}};
+  EXPECT_EQ(Judged().violations.at(0).invariant, "leak");
+}
+
+TEST_F(SoakVerdictTest, GivesNoneWhereTheMachineWasTooBusyOrTheFleetNeverDrove) {
+  seen_.pauses.share = 0.021;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kNotRun);
+  EXPECT_EQ(Judged().reasons.at(0), "machine_too_busy");
+  seen_.pauses.share = 0.02;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+  seen_.started = false;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kNotRun);
+}
+
+TEST_F(SoakVerdictTest, SaysThatItWasInterruptedAndFailsIfSomethingHadBrokenBefore) {
+  seen_.interrupted = true;
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kInterrupted);
+  seen_.courses[0].effect.clear();
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed);
+}
+
+TEST(MustBeNoticed, WhoeverIsSilentForLongerThanThePromise) {
+  faults::Fault fault;
+  fault.kind = faults::Kind::kPause;
+  fault.target.vehicle = kOne;
+  fault.for_s = 0.3;
+  EXPECT_FALSE(MustBeNoticed(fault, milliseconds(300)));
+  fault.for_s = 1;
+  EXPECT_TRUE(MustBeNoticed(fault, milliseconds(300)));
+  fault.kind = faults::Kind::kLoss;
+  EXPECT_FALSE(MustBeNoticed(fault, milliseconds(300)));
+  fault.kind = faults::Kind::kPause;
+  fault.target.what = faults::Target::What::kWorld;
+  EXPECT_FALSE(MustBeNoticed(fault, milliseconds(300)));
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl
