@@ -57,6 +57,7 @@ int main(int argc, char** argv) {
   giveway::fleetctl::AddPlanVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddReportVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddShrinkVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddSoakVerb(&fleetctl, &exit_code);

@@ -14,6 +14,7 @@ void AddQosApply(CLI::App* qos, int* exit_code);  // of the verb qos
 void AddQosTune(CLI::App* qos, int* exit_code);   // of the verb qos
 void AddQosVerb(CLI::App* fleetctl, int* exit_code);
 void AddReplayVerb(CLI::App* fleetctl, int* exit_code);
+void AddReportVerb(CLI::App* fleetctl, int* exit_code);
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);
 void AddShrinkVerb(CLI::App* fleetctl, int* exit_code);
 void AddSoakVerb(CLI::App* fleetctl, int* exit_code);

@@ -6,6 +6,8 @@
 // outside its resident private memory is seen, which an allocator may keep though it is free.
 #pragma once
 
+#include <sys/types.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

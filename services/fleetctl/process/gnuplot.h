@@ -1,0 +1,14 @@
+// Runs gnuplot, if it is installed.
+#pragma once
+
+#include <string>
+
+namespace giveway::fleetctl {
+
+// Empty if it has carried out the program in that file within 20 s, else why not, with the remedy.
+std::string RunGnuplot(const std::string& program_file);
+
+// A text in gnuplot's single quotes, quotes included.
+std::string GnuplotQuoted(const std::string& text);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,53 @@
+// What got worse from one soak to another, and whether chance explains it. Pure.
+//
+//   figures    histograms: on the whole (Mann-Whitney) and in the tail (how many lie above the 99 %
+//              quantile of both, Fisher). Worse only from 5 % of the median or of the 99 % quantile
+//              on.
+//   slopes     each resource of each process by its longest life: the slopes' difference against
+//   the
+//              widths of both intervals. Worse only from what counts as a leak on.
+//   faults     by kind, how long until noticed, until recovered (Mann-Whitney). Worse only from 5 %
+//   on. counts     violations by invariant, near misses, unplanned restarts: events over
+//   vehicle-hours
+//              (conditional binomial).
+//   verdict    that passed and no longer does; samples that are not accounted for; leaks that are
+//              new. No test is asked about these.
+//
+// All tests together say worse of two equal soaks with a chance of at most 0.5 % (Holm at 1 %,
+// both directions). The values of a histogram are not independent: no more than one a vehicle and
+// second is counted as evidence.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/soak/soak_result.h"
+
+namespace giveway::fleetctl {
+
+inline constexpr double kSignificance = 0.01;
+
+enum class Change : std::uint8_t { kSame, kBetter, kWorse };
+const char* ToString(Change change);
+
+struct ComparedFigure {
+  std::string what;    // "beacon_age, tail"
+  std::string before;  // with unit
+  std::string after;
+  Change change = Change::kSame;
+  std::optional<double> p;  // adjusted; absent: no test was asked
+};
+
+struct SoakComparison {
+  std::vector<ComparedFigure> figures;  // worse ones first, then better ones
+  bool AnyWorse() const;
+};
+
+// Empty if the two can be compared, else why not, all at once: another scenario, other faults or
+// numbers of vehicles, or one that was not run.
+std::string WhyNotComparable(const SoakResult& before, const SoakResult& after);
+
+SoakComparison Compare(const SoakResult& before, const SoakResult& after);
+
+}  // namespace giveway::fleetctl

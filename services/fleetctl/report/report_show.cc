@@ -1,0 +1,70 @@
+#include "services/fleetctl/report/report_show.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "services/fleetctl/output/json_object.h"
+#include "services/runtime/utf8.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr std::size_t kNameColumns = 34;
+constexpr std::size_t kFigureColumns = 15;
+
+std::string ChanceWords(const std::optional<double>& p) {
+  if (!p) return "-";
+  return *p < 0.0001 ? "<0.0001" : fmt::format("{:.4f}", *p);
+}
+
+// A name too long for its column stands in a line of its own.
+std::string FigureLine(const std::string& change, const std::string& what,
+                       const std::string& before, const std::string& after,
+                       const std::string& chance) {
+  const std::string figures =
+      fmt::format("{:>{}} {:>{}} {:>8}", before, kFigureColumns, after, kFigureColumns, chance);
+  if (what.size() <= kNameColumns) {
+    return fmt::format("{:<7}{:<{}}{}\n", change, what, kNameColumns, figures);
+  }
+  return fmt::format("{:<7}{}\n{:<{}}{}\n", change, Shortened(what, 68), "", kNameColumns + 7,
+                     figures);
+}
+
+}  // namespace
+
+std::string ToText(const SoakComparison& comparison, bool all) {
+  std::string text = FigureLine("", "", "before", "after", "chance");
+  std::size_t same = 0;
+  for (const ComparedFigure& figure : comparison.figures) {
+    if (figure.change == Change::kSame) {
+      ++same;
+      if (!all) continue;
+    }
+    text += FigureLine(ToString(figure.change), figure.what, figure.before, figure.after,
+                       ChanceWords(figure.p));
+  }
+  const auto count = [&comparison](Change change) {
+    return std::ranges::count(comparison.figures, change, &ComparedFigure::change);
+  };
+  return text + fmt::format("{} worse, {} better, {} the same{}\n", count(Change::kWorse),
+                            count(Change::kBetter), same,
+                            all || same == 0 ? "" : " (--all shows them)");
+}
+
+std::string ToJson(const SoakComparison& comparison) {
+  JsonObject json;
+  json.Add("worse", comparison.AnyWorse());
+  json.AddRaw("figures", JsonArray(comparison.figures, [](const ComparedFigure& figure) {
+                JsonObject object;
+                object.Add("what", std::string_view(WellFormed(figure.what)));
+                object.Add("before", std::string_view(WellFormed(figure.before)));
+                object.Add("after", std::string_view(WellFormed(figure.after)));
+                object.Add("change", ToString(figure.change));
+                object.Add("p", figure.p);
+                return object.Text();
+              }));
+  return json.Text();
+}
+
+}  // namespace giveway::fleetctl

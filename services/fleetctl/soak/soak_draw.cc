@@ -1,0 +1,74 @@
+#include "services/fleetctl/soak/soak_draw.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/process/child_process.h"
+#include "services/fleetctl/process/gnuplot.h"
+#include "services/fleetctl/soak/soak_json.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Gone when it is left, whatever happens.
+class PassingFile {
+ public:
+  explicit PassingFile(fs::path path) : path_(std::move(path)) {}
+  ~PassingFile() {
+    std::error_code ignored;
+    fs::remove(path_, ignored);
+  }
+  PassingFile(const PassingFile&) = delete;
+  PassingFile& operator=(const PassingFile&) = delete;
+  std::string Path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+// Empty if it is drawn, else why not.
+std::string DrawOne(const SoakPlot& plot, const fs::path& folder,
+                    std::vector<DrawnSoakPlot>* drawn) {
+  const PassingFile program(folder / (plot.name + ".gnuplot"));
+  const PassingFile svg(folder / (plot.name + ".svg"));
+  WriteFile(program.Path(), "set output " + GnuplotQuoted(svg.Path()) + "\n" + plot.program);
+  std::string complaint = RunGnuplot(program.Path());
+  if (!complaint.empty()) return complaint;
+  std::ifstream stream(svg.Path());
+  drawn->push_back({plot.name, plot.title, {std::istreambuf_iterator<char>(stream), {}}});
+  return "";
+}
+
+}  // namespace
+
+std::vector<DrawnSoakPlot> Draw(const std::vector<SoakPlot>& plots, const std::string& folder) {
+  std::vector<DrawnSoakPlot> drawn;
+  std::string complaint;
+  try {
+    for (const SoakPlot& plot : plots) {
+      complaint = DrawOne(plot, folder, &drawn);
+      if (!complaint.empty()) break;
+    }
+  } catch (const OutputError& error) {
+    complaint = error.what();
+  } catch (const StartError& error) {
+    complaint = error.what();
+  }
+  if (complaint.empty()) return drawn;
+  std::fprintf(stderr, "no pictures: %s\n", complaint.c_str());
+  return {};
+}
+
+void WriteSoakReport(const SoakResult& result, const std::string& folder) {
+  const fs::path place(folder);
+  WriteFile((place / "report.json").string(), ToJson(result) + "\n");
+  WriteFile((place / "report.html").string(), ToHtml(result, Draw(PlotsOf(result), folder)));
+}
+
+}  // namespace giveway::fleetctl

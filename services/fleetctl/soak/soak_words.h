@@ -1,0 +1,52 @@
+// The figures of a soak as people read them, for page, terminal and comparison alike.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/soak/soak_result.h"
+
+namespace giveway::fleetctl {
+
+std::string VerdictWords(const SoakResult& result);  // "FAILED: vehicle-3 leaks; 2 contacts"
+std::string SpanWords(double seconds);               // "1 h 30 min", "42 s"
+std::string SecondsWords(const std::optional<double>& seconds);  // "0.350 s", "-"
+// A value of a histogram: "12.3 ms", "0.42 m".
+std::string ValueWords(HistogramUnit unit, std::int64_t value);
+// "99 % at most 40 ms: kept", by budget.
+std::vector<std::string> BudgetWords(const SoakHistogram& measured);
+// What a resource is, or by how much it grows: "12.5 MiB", "+64 KiB", "3", "0.120".
+std::string ResourceWords(ResourceKind kind, double value);
+
+// One kind of fault, over all that happened.
+struct FaultSummary {
+  std::string kind;
+  std::size_t planned = 0;
+  std::size_t observed = 0;
+  std::size_t late = 0;           // noticed later than promised
+  std::vector<double> noticed_s;  // ascending, those that were
+  std::vector<double> recovered_s;
+};
+// By kind, in alphabetical order.
+std::vector<FaultSummary> SummariesOf(const std::vector<SoakFault>& faults);
+// The value in the middle, or above it; nothing if there is none. Ascending.
+std::optional<double> MedianOf(const std::vector<double>& ascending);
+std::optional<double> GreatestOf(const std::vector<double>& ascending);
+
+struct AccountingSums {
+  AccountingRow sums;  // without names
+  std::size_t rows = 0;
+  std::size_t rows_that_differ = 0;
+};
+AccountingSums SumsOf(const std::vector<AccountingRow>& rows);
+
+// What belongs to the whole run, as label and text: the summary's and the page's first table.
+struct SummaryRow {
+  std::string label;
+  std::string text;
+};
+std::vector<SummaryRow> SummaryOf(const SoakResult& result);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,190 @@
+// A soak's result as the message of idl/soak.proto.
+#include <algorithm>
+#include <cmath>
+
+#include "services/fleetctl/soak/soak_schema.h"
+#include "services/runtime/utf8.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+// Micrometres, microseconds: no digit printed is noise.
+double Printable(double value) {
+  return std::isfinite(value) ? std::round(value * 1e6) / 1e6 : 0.0;
+}
+
+bool Exists(const std::optional<double>& value) { return value && std::isfinite(*value); }
+
+template <typename Whole>
+double AsDouble(Whole value) {
+  return static_cast<double>(value);
+}
+
+void Write(const SoakFault& fault, schema::SoakFault* message) {
+  message->set_rule(WellFormed(fault.rule));
+  message->set_nth(fault.nth);
+  message->set_at_s(Printable(fault.at_s));
+  message->set_for_s(Printable(fault.for_s));
+  message->set_kind(WellFormed(fault.kind));
+  message->set_target(WellFormed(fault.target));
+  message->set_observed(fault.observed);
+  message->set_observed_how(WellFormed(fault.observed_how));
+  if (Exists(fault.observed_s)) message->set_observed_s(Printable(*fault.observed_s));
+  if (Exists(fault.noticed_after_s)) {
+    message->set_noticed_after_s(Printable(*fault.noticed_after_s));
+  }
+  if (Exists(fault.promised_s)) message->set_promised_s(Printable(*fault.promised_s));
+  if (Exists(fault.recovered_after_s)) {
+    message->set_recovered_after_s(Printable(*fault.recovered_after_s));
+  }
+}
+
+void Write(const SoakViolation& violation, schema::SoakViolation* message) {
+  message->set_time_s(Printable(violation.time_s));
+  message->set_vehicle(Number(violation.vehicle));
+  message->set_other(Number(violation.other));
+  message->set_invariant(WellFormed(violation.invariant));
+  message->set_words(WellFormed(violation.words));
+  message->set_fault(WellFormed(violation.fault));
+}
+
+void Write(const NearMiss& miss, schema::SoakNearMiss* message) {
+  message->set_time_s(Printable(miss.time_s));
+  message->set_vehicle(Number(miss.vehicle));
+  message->set_other(Number(miss.other));
+  message->set_x_m(Printable(miss.x_m));
+  message->set_y_m(Printable(miss.y_m));
+  message->set_distance_m(Printable(miss.distance_m));
+}
+
+void Write(const ModeChange& change, schema::SoakMode* message) {
+  message->set_time_s(Printable(change.time_s));
+  message->set_vehicle(Number(change.vehicle));
+  message->set_mode(WellFormed(change.mode));
+}
+
+void Write(const SoakHistogram& measured, schema::SoakHistogram* message) {
+  const Histogram& histogram = measured.histogram;
+  message->set_name(WellFormed(measured.name));
+  message->set_unit(measured.unit == HistogramUnit::kNanoseconds ? "ns" : "um");
+  message->set_min(AsDouble(histogram.Min()));
+  message->set_max(AsDouble(histogram.Max()));
+  message->set_clamped(AsDouble(histogram.Clamped()));
+  for (const HistogramBucket& bucket : histogram.Buckets()) {
+    message->add_lowest(AsDouble(bucket.lowest));
+    message->add_count(AsDouble(bucket.count));
+  }
+  for (const HistogramBudget& budget : measured.budgets) {
+    schema::SoakBudget& written = *message->add_budgets();
+    written.set_quantile(Printable(budget.quantile));
+    written.set_most(AsDouble(budget.most));
+  }
+  message->set_values(AsDouble(histogram.Count()));
+  message->set_p50(AsDouble(histogram.Quantile(0.5)));
+  message->set_p99(AsDouble(histogram.Quantile(0.99)));
+  message->set_p999(AsDouble(histogram.Quantile(0.999)));
+}
+
+void Write(const ResourceSlope& row, schema::SoakSlope* message) {
+  message->set_process(WellFormed(row.process));
+  message->set_life(row.life);
+  message->set_kind(ToString(row.kind));
+  message->set_per_hour(Printable(row.slope.per_hour));
+  message->set_low_per_hour(Printable(row.slope.low_per_hour));
+  message->set_high_per_hour(Printable(row.slope.high_per_hour));
+  message->set_samples(static_cast<std::uint32_t>(row.slope.samples));
+  message->set_spans_s(Printable(row.slope.spans_s));
+  message->set_last(Printable(row.last));
+  message->set_leak(row.leak);
+  for (const statistics::Sample& sample : row.curve) {
+    message->add_curve_s(Printable(sample.time_s));
+    message->add_curve(Printable(sample.value));
+  }
+}
+
+void Write(const AccountingRow& row, schema::SoakAccounting* message) {
+  message->set_writer(WellFormed(row.writer));
+  message->set_reader(WellFormed(row.reader));
+  message->set_topic(WellFormed(row.topic));
+  message->set_sent(AsDouble(row.sent));
+  message->set_accepted(AsDouble(row.accepted));
+  message->set_not_heard(AsDouble(row.not_heard));
+  message->set_refused(AsDouble(row.refused));
+  message->set_superseded(AsDouble(row.superseded));
+  message->set_lost(AsDouble(row.lost));
+  message->set_difference(AsDouble(row.Difference()));
+}
+
+template <typename Items, typename Add>
+void WriteAll(const Items& items, Add&& add) {
+  const std::size_t listed = std::min(items.size(), kMostListed);
+  for (std::size_t i = 0; i < listed; ++i) Write(items[i], add());
+}
+
+void WriteHead(const SoakResult& result, schema::SoakReport* message) {
+  message->set_format(kSoakFormat);
+  message->set_verdict(result.verdict == SoakVerdict::kPassed   ? schema::SoakReport::passed
+                       : result.verdict == SoakVerdict::kFailed ? schema::SoakReport::failed
+                       : result.verdict == SoakVerdict::kInterrupted
+                           ? schema::SoakReport::interrupted
+                           : schema::SoakReport::not_run);
+  for (const std::string& reason : result.reasons) message->add_reasons(WellFormed(reason));
+  message->set_scenario(WellFormed(result.scenario));
+  message->set_seed(AsDouble(result.seed));
+  message->set_planned_s(Printable(result.planned_s));
+  message->set_ran_s(Printable(result.ran_s));
+  message->set_vehicles(result.vehicles);
+  message->set_domain(result.domain);
+  message->set_virtual_time(result.virtual_time);
+  message->set_faults_file(WellFormed(result.faults_file));
+  message->set_qos_set(WellFormed(result.qos_set));
+  message->set_qos_hash(WellFormed(result.qos_hash));
+  message->mutable_versions()->set_project_commit(WellFormed(result.versions.project_commit));
+  message->mutable_versions()->set_fast_dds(WellFormed(result.versions.fast_dds));
+  message->mutable_versions()->set_kernel(WellFormed(result.versions.kernel));
+  message->mutable_versions()->set_host_cores(result.versions.host_cores);
+  message->set_command(WellFormed(result.command));
+}
+
+}  // namespace
+
+schema::SoakReport SchemaOf(const SoakResult& result) {
+  schema::SoakReport message;
+  WriteHead(result, &message);
+  WriteAll(result.faults, [&message] { return message.add_faults(); });
+  for (const std::string& skipped : result.skipped_faults) {
+    message.add_skipped_faults(WellFormed(skipped));
+  }
+  WriteAll(result.violations, [&message] { return message.add_violations(); });
+  message.set_violations_counted(
+      AsDouble(std::max<std::uint64_t>(result.violations_counted, result.violations.size())));
+  WriteAll(result.near_misses, [&message] { return message.add_near_misses(); });
+  message.set_near_misses_counted(
+      AsDouble(std::max<std::uint64_t>(result.near_misses_counted, result.near_misses.size())));
+  WriteAll(result.modes, [&message] { return message.add_modes(); });
+  message.set_modes_counted(
+      AsDouble(std::max<std::uint64_t>(result.modes_counted, result.modes.size())));
+  WriteAll(result.histograms, [&message] { return message.add_histograms(); });
+  WriteAll(result.slopes, [&message] { return message.add_slopes(); });
+  message.set_lives_too_short(AsDouble(result.lives_too_short));
+  WriteAll(result.accounting, [&message] { return message.add_accounting(); });
+  message.mutable_pauses()->set_count(AsDouble(result.pauses.count));
+  message.mutable_pauses()->set_total_s(Printable(result.pauses.total_s));
+  message.mutable_pauses()->set_longest_s(Printable(result.pauses.longest_s));
+  message.mutable_pauses()->set_share(Printable(result.pauses.share));
+  if (const auto& margin = result.narrowest_margin) {
+    message.mutable_narrowest_margin()->set_time_s(Printable(margin->time_s));
+    message.mutable_narrowest_margin()->set_vehicle(Number(margin->vehicle));
+    message.mutable_narrowest_margin()->set_reaction_m(Printable(margin->reaction_m));
+    message.mutable_narrowest_margin()->set_free_m(Printable(margin->free_m));
+    message.mutable_narrowest_margin()->set_share_left(Printable(margin->share_left));
+  }
+  message.set_restarts_planned(result.restarts_planned);
+  message.set_restarts_unplanned(result.restarts_unplanned);
+  if (Exists(result.supervisor_cpu_share)) {
+    message.set_supervisor_cpu_share(Printable(*result.supervisor_cpu_share));
+  }
+  return message;
+}
+
+}  // namespace giveway::fleetctl

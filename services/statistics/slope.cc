@@ -1,0 +1,126 @@
+#include "services/statistics/slope.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "services/statistics/ranks.h"
+
+namespace giveway::statistics {
+namespace {
+
+constexpr double kTwoSided95 = 1.959963984540054;  // of the normal distribution
+constexpr double kSecondsPerHour = 3600;
+
+double MedianOf(std::vector<double>* values) {
+  const std::size_t half = values->size() / 2;
+  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(half);
+  std::nth_element(values->begin(), middle, values->end());
+  if (values->size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values->begin(), middle)) / 2;
+}
+
+// An hour, of every pair of samples that have two times.
+std::vector<double> PairSlopes(const std::vector<Sample>& samples) {
+  std::vector<double> slopes;
+  slopes.reserve(samples.size() * (samples.size() - 1) / 2);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t j = i + 1; j < samples.size(); ++j) {
+      const double time_s = samples[j].time_s - samples[i].time_s;
+      if (time_s > 0) {
+        slopes.push_back((samples[j].value - samples[i].value) / time_s * kSecondsPerHour);
+      }
+    }
+  }
+  return slopes;
+}
+
+// Of Kendall's S without a trend; values that are alike take from it.
+double KendallVariance(const std::vector<Sample>& samples) {
+  std::vector<double> values;
+  for (const Sample& sample : samples) values.push_back(sample.value);
+  std::ranges::sort(values);
+  const auto part = [](double n) { return n * (n - 1) * (2 * n + 5) / 18; };
+  double variance = part(static_cast<double>(values.size()));
+  for (std::size_t i = 0; i < values.size();) {
+    std::size_t end = i;
+    while (end < values.size() && values[end] == values[i]) ++end;
+    variance -= part(static_cast<double>(end - i));
+    i = end;
+  }
+  return std::max(variance, 0.0);
+}
+
+// By how much the variance grows because a sample resembles those before it: Hamed and Rao 1998,
+// by the ranks of what is left without the trend. Never below 1: nothing is made surer than it is.
+double Resemblance(const std::vector<Sample>& samples, double per_hour) {
+  std::vector<double> rest;
+  for (const Sample& sample : samples) {
+    rest.push_back(sample.value - per_hour / kSecondsPerHour * sample.time_s);
+  }
+  std::vector<double> ranks = MidRanks(rest);
+  const double n = static_cast<double>(ranks.size());
+  double square = 0;
+  for (double& rank : ranks) {
+    rank -= (n + 1) / 2;
+    square += rank * rank;
+  }
+  if (square <= 0) return 1;
+  const double chance = kTwoSided95 / std::sqrt(n);  // what of a correlation may be chance
+  double sum = 0;
+  for (std::size_t lag = 1; lag <= ranks.size() / 4; ++lag) {
+    double product = 0;
+    for (std::size_t i = lag; i < ranks.size(); ++i) product += ranks[i] * ranks[i - lag];
+    const double correlation = product / square;
+    const double left = n - static_cast<double>(lag);
+    if (std::abs(correlation) > chance) sum += left * (left - 1) * (left - 2) * correlation;
+  }
+  return std::max(1.0, 1 + 2 * sum / (n * (n - 1) * (n - 2)));
+}
+
+}  // namespace
+
+std::vector<Sample> BlockMedians(std::span<const Sample> samples, std::size_t blocks) {
+  if (samples.size() <= blocks) return {samples.begin(), samples.end()};
+  std::vector<Sample> medians;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    const std::size_t begin = block * samples.size() / blocks;
+    const std::size_t end = (block + 1) * samples.size() / blocks;
+    std::vector<double> times;
+    std::vector<double> values;
+    for (std::size_t i = begin; i < end; ++i) {
+      times.push_back(samples[i].time_s);
+      values.push_back(samples[i].value);
+    }
+    medians.push_back({MedianOf(&times), MedianOf(&values)});
+  }
+  return medians;
+}
+
+std::optional<Slope> TheilSen(std::span<const Sample> all) {
+  if (all.size() < kLeastSamples) return std::nullopt;
+  const std::vector<Sample> samples = BlockMedians(all, kMostSlopeSamples);
+  std::vector<double> slopes = PairSlopes(samples);
+  if (slopes.empty()) return std::nullopt;
+  Slope slope;
+  slope.samples = all.size();
+  slope.spans_s = all.back().time_s - all.front().time_s;
+  slope.per_hour = MedianOf(&slopes);
+  const double half =
+      kTwoSided95 * std::sqrt(KendallVariance(samples) * Resemblance(samples, slope.per_hour)) / 2;
+  const double middle = static_cast<double>(slopes.size()) / 2;
+  const double last = static_cast<double>(slopes.size() - 1);
+  const auto at = [&slopes, last](double place) {
+    const auto nth = slopes.begin() + static_cast<std::ptrdiff_t>(std::clamp(place, 0.0, last));
+    std::nth_element(slopes.begin(), nth, slopes.end());
+    return *nth;
+  };
+  slope.low_per_hour = std::min(slope.per_hour, at(std::floor(middle - half) - 1));
+  slope.high_per_hour = std::max(slope.per_hour, at(std::ceil(middle + half)));
+  return slope;
+}
+
+bool IsLeak(const Slope& slope, double least_per_hour) {
+  return slope.low_per_hour > 0 && slope.per_hour >= least_per_hour;
+}
+
+}  // namespace giveway::statistics

@@ -1,0 +1,192 @@
+#include "services/statistics/two_sample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "services/statistics/ranks.h"
+
+namespace giveway::statistics {
+namespace {
+
+// Up to here all ways to deal the values out are counted.
+constexpr std::size_t kMostExact = 40;
+constexpr double kTail = 0.99;
+
+double NormalAbove(double z) { return std::erfc(z / std::numbers::sqrt2) / 2; }
+
+double LogChoose(double n, double k) {
+  return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
+}
+
+// The share of all choices of `chosen` out of the ranks whose sum is at least theirs. Ranks are
+// doubled to be whole.
+double ExactGreater(const std::vector<double>& ranks, std::size_t chosen, double rank_sum) {
+  std::size_t most = 0;
+  for (const double rank : ranks) most += static_cast<std::size_t>(2 * rank);
+  // ways[k][s]: to choose k ranks of sum s
+  std::vector<std::vector<double>> ways(chosen + 1, std::vector<double>(most + 1));
+  ways[0][0] = 1;
+  for (const double rank : ranks) {
+    const auto doubled = static_cast<std::size_t>(2 * rank);
+    for (std::size_t k = chosen; k > 0; --k) {
+      for (std::size_t s = doubled; s <= most; ++s) ways[k][s] += ways[k - 1][s - doubled];
+    }
+  }
+  const auto least = static_cast<std::ptrdiff_t>(std::llround(2 * rank_sum));
+  const auto& sums = ways[chosen];
+  const double all = std::accumulate(sums.begin(), sums.end(), 0.0);
+  return std::accumulate(sums.begin() + least, sums.end(), 0.0) / all;
+}
+
+// `u` pairs of n * m in which `after` is greater; `tied` is the sum of t^3 - t over groups alike.
+double NormalGreater(double u, double n, double m, double tied) {
+  const double all = n + m;
+  const double variance = n * m / 12 * (all + 1 - tied / (all * (all - 1)));
+  if (variance <= 0) return 1;
+  return NormalAbove((u - n * m / 2 - 0.5) / std::sqrt(variance));
+}
+
+// Both histograms' buckets side by side: how many of each lie in it.
+struct SharedBucket {
+  double before = 0;
+  double after = 0;
+};
+
+std::vector<SharedBucket> SideBySide(const Histogram& before, const Histogram& after) {
+  const std::vector<HistogramBucket> a = before.Buckets();
+  const std::vector<HistogramBucket> b = after.Buckets();
+  std::vector<SharedBucket> shared;
+  for (std::size_t i = 0, j = 0; i < a.size() || j < b.size();) {
+    const bool of_a = j == b.size() || (i < a.size() && a[i].lowest <= b[j].lowest);
+    const bool of_b = i == a.size() || (j < b.size() && b[j].lowest <= a[i].lowest);
+    SharedBucket bucket;
+    if (of_a) bucket.before = static_cast<double>(a[i++].count);
+    if (of_b) bucket.after = static_cast<double>(b[j++].count);
+    shared.push_back(bucket);
+  }
+  return shared;
+}
+
+double Weight(const Histogram& histogram, double most) {
+  const double count = static_cast<double>(histogram.Count());
+  return std::min(1.0, most / count);
+}
+
+}  // namespace
+
+double MannWhitneyGreater(std::span<const double> before, std::span<const double> after) {
+  if (before.empty() || after.empty()) return 1;
+  std::vector<double> all(before.begin(), before.end());
+  all.insert(all.end(), after.begin(), after.end());
+  const std::vector<double> ranks = MidRanks(all);
+  const double rank_sum =
+      std::accumulate(ranks.begin() + static_cast<std::ptrdiff_t>(before.size()), ranks.end(), 0.0);
+  if (all.size() <= kMostExact) return ExactGreater(ranks, after.size(), rank_sum);
+  std::ranges::sort(all);
+  double tied = 0;
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t end = i;
+    while (end < all.size() && all[end] == all[i]) ++end;
+    const double alike = static_cast<double>(end - i);
+    tied += alike * alike * alike - alike;
+    i = end;
+  }
+  const double n = static_cast<double>(before.size());
+  const double m = static_cast<double>(after.size());
+  return NormalGreater(rank_sum - m * (m + 1) / 2, n, m, tied);
+}
+
+double MannWhitneyGreater(const Histogram& before, double most_before, const Histogram& after,
+                          double most_after) {
+  if (before.Count() == 0 || after.Count() == 0) return 1;
+  const double weight_before = Weight(before, most_before);
+  const double weight_after = Weight(after, most_after);
+  double below = 0;
+  double u = 0;
+  double tied = 0;
+  for (const SharedBucket& bucket : SideBySide(before, after)) {
+    const double a = bucket.before * weight_before;
+    const double b = bucket.after * weight_after;
+    u += b * (below + a / 2);
+    below += a;
+    const double alike = a + b;
+    if (alike > 1) tied += alike * alike * alike - alike;
+  }
+  const double m = static_cast<double>(after.Count()) * weight_after;
+  return NormalGreater(u, below, m, tied);
+}
+
+double TailGreater(const Histogram& before, double most_before, const Histogram& after,
+                   double most_after) {
+  if (before.Count() == 0 || after.Count() == 0) return 1;
+  const double weight_before = Weight(before, most_before);
+  const double weight_after = Weight(after, most_after);
+  const double n = static_cast<double>(before.Count()) * weight_before;
+  const double m = static_cast<double>(after.Count()) * weight_after;
+  double tail_before = 0;
+  double tail_after = 0;
+  const std::vector<SharedBucket> shared = SideBySide(before, after);
+  for (std::size_t i = shared.size(); i-- > 1;) {
+    const double a = tail_before + shared[i].before * weight_before;
+    const double b = tail_after + shared[i].after * weight_after;
+    if (a + b > (1 - kTail) * (n + m)) break;
+    tail_before = a;
+    tail_after = b;
+  }
+  const auto whole = [](double value) { return static_cast<std::uint64_t>(std::llround(value)); };
+  return ShareGreater(whole(tail_before), whole(n), whole(tail_after), whole(m));
+}
+
+// The hypergeometric tail, summed from its mode outwards in logarithms.
+double ShareGreater(std::uint64_t hits_before, std::uint64_t of_before, std::uint64_t hits_after,
+                    std::uint64_t of_after) {
+  if (of_before == 0 || of_after == 0) return 1;
+  const double n = static_cast<double>(of_before);
+  const double m = static_cast<double>(of_after);
+  const double hits = static_cast<double>(hits_before + hits_after);
+  const double all = LogChoose(n + m, hits);
+  double p = 0;
+  const std::uint64_t most = std::min(hits_before + hits_after, of_after);
+  for (std::uint64_t k = hits_after; k <= most; ++k) {
+    const double chosen = static_cast<double>(k);
+    if (hits - chosen > n) continue;
+    const double term = std::exp(LogChoose(m, chosen) + LogChoose(n, hits - chosen) - all);
+    p += term;
+    if (term < p * 1e-12 && chosen > hits * m / (n + m)) break;
+  }
+  return std::min(p, 1.0);
+}
+
+double RateGreater(std::uint64_t events_before, double exposure_before, std::uint64_t events_after,
+                   double exposure_after) {
+  const double share = exposure_after / (exposure_before + exposure_after);
+  if (!(share > 0 && share < 1)) return 1;
+  const double n = static_cast<double>(events_before + events_after);
+  double p = 0;
+  for (std::uint64_t k = events_after; k <= events_before + events_after; ++k) {
+    const double hits = static_cast<double>(k);
+    const double term =
+        std::exp(LogChoose(n, hits) + hits * std::log(share) + (n - hits) * std::log1p(-share));
+    p += term;
+    if (term < p * 1e-12 && hits > n * share) break;
+  }
+  return std::min(p, 1.0);
+}
+
+std::vector<double> HolmAdjusted(std::span<const double> p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&p_values](std::size_t i) { return p_values[i]; });
+  std::vector<double> adjusted(p_values.size());
+  double greatest = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const double times = static_cast<double>(order.size() - i);
+    greatest = std::max(greatest, std::min(1.0, times * p_values[order[i]]));
+    adjusted[order[i]] = greatest;
+  }
+  return adjusted;
+}
+
+}  // namespace giveway::statistics
