@@ -1,6 +1,7 @@
 // All that a soak saw, as values: what its verdict is made of.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/fleet_commands.h"
 #include "services/fleetctl/soak/soak_result.h"
+#include "services/fleetctl/stopwatch/stopwatch_table.h"
 #include "services/types/time.h"
 #include "sim_world/virtual/invariants.h"
 
@@ -19,9 +21,10 @@ namespace giveway::fleetctl {
 // One fault as it went.
 struct FaultCourse {
   std::optional<SteadyTime> began;
-  std::optional<SteadyTime> ended;      // or, of one that takes no time, the moment it began
-  std::string effect;                   // that was seen; empty: none yet
-  std::optional<SteadyTime> noticed;    // by the first peer
+  std::optional<SteadyTime> ended;  // or, of one that takes no time, the moment it began
+  std::string effect;               // that was seen; empty: none yet
+  // By the first peer, by each mechanism that told of it.
+  std::array<std::optional<SteadyTime>, kMechanisms> noticed;
   std::optional<SteadyTime> recovered;  // after its end all that it struck were well again
 };
 

@@ -22,6 +22,21 @@ constexpr double kHealP99_s = 2;
 // For a word to be written and read, beside the promise itself.
 constexpr Nanoseconds kNoticing = milliseconds(200);
 
+// The stopwatch's name for a silence.
+std::optional<fleetctl::Fault> AsOfStopwatch(Kind kind) {
+  switch (kind) {
+    case Kind::kKill:
+    case Kind::kRestart:
+      return fleetctl::Fault::kKill;
+    case Kind::kPause:
+      return fleetctl::Fault::kPause;
+    case Kind::kHang:
+      return fleetctl::Fault::kHung;
+    default:
+      return std::nullopt;
+  }
+}
+
 class Judging {
  public:
   Judging(const SoakEvidence& evidence, SoakResult* result) : from_(evidence), result_(*result) {}
@@ -62,12 +77,11 @@ class Judging {
   }
 
   void TellFaults() {
-    const Nanoseconds promised = PromisedWithin(Mechanism::kDeadline, from_.limits);
     for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
-      result_.faults.push_back(FaultOf(from_.schedule[i], from_.seen.courses[i], promised));
+      result_.faults.push_back(FaultOf(from_.schedule[i], from_.seen.courses[i]));
     }
     for (std::size_t i = 0; i < from_.schedule.size(); ++i) {
-      JudgeFault(from_.schedule[i], from_.seen.courses[i], promised, result_.faults[i]);
+      JudgeFault(from_.schedule[i], from_.seen.courses[i], result_.faults[i]);
     }
     std::uint32_t planned = 0;
     for (const Fault& fault : from_.schedule) {
@@ -77,7 +91,7 @@ class Judging {
     result_.restarts_unplanned = from_.seen.restarts;
   }
 
-  SoakFault FaultOf(const Fault& fault, const FaultCourse& course, Nanoseconds promised) const {
+  SoakFault FaultOf(const Fault& fault, const FaultCourse& course) const {
     SoakFault told{.rule = fault.rule,
                    .nth = fault.nth,
                    .at_s = fault.at_s,
@@ -86,10 +100,15 @@ class Judging {
                    .target = faults::ToString(fault.target),
                    .observed = !course.effect.empty(),
                    .observed_how = course.effect};
-    if (course.began && course.noticed) {
-      told.noticed_after_s = Seconds(*course.noticed - *course.began);
+    for (const std::optional<SteadyTime>& noticed : course.noticed) {
+      if (!noticed) continue;
+      const double after_s = Seconds(*noticed - *course.began);
+      if (!told.noticed_after_s || after_s < *told.noticed_after_s) told.noticed_after_s = after_s;
     }
-    if (MustBeNoticed(fault, promised)) told.promised_s = Seconds(promised);
+    for (const Expected& expected : ExpectedOf(fault, from_.limits)) {
+      const double within_s = Seconds(expected.within);
+      told.promised_s = std::min(told.promised_s.value_or(within_s), within_s);
+    }
     if (course.ended && course.recovered) {
       told.recovered_after_s = Seconds(*course.recovered - *course.ended);
     }
@@ -97,8 +116,7 @@ class Judging {
   }
 
   // One that the run ended before is no news.
-  void JudgeFault(const Fault& fault, const FaultCourse& course, Nanoseconds promised,
-                  const SoakFault& told) {
+  void JudgeFault(const Fault& fault, const FaultCourse& course, const SoakFault& told) {
     if (!course.began) return;
     if (!told.observed) {
       Tell(fault.at_s, fault.target.vehicle, "effect",
@@ -106,16 +124,24 @@ class Judging {
     }
     const bool lasted = !course.ended || fault.for_s <= 0 ||
                         Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;
-    if (!MustBeNoticed(fault, promised) || !lasted) return;
-    const SteadyTime latest = *course.began + promised + kNoticing;
-    const Nanoseconds pause = from_.longest_pause(*course.began, latest);
-    if (!course.noticed) {
+    if (!lasted) return;
+    for (const Expected& expected : ExpectedOf(fault, from_.limits)) {
+      JudgeDetection(fault, course, expected, NameOf(told));
+    }
+  }
+
+  void JudgeDetection(const Fault& fault, const FaultCourse& course, const Expected& expected,
+                      const std::string& name) {
+    const auto& noticed = course.noticed[static_cast<std::size_t>(expected.mechanism)];
+    const std::string_view mechanism = fleetctl::Name(expected.mechanism);
+    const SteadyTime latest = *course.began + expected.within + kNoticing;
+    if (!noticed) {
       Tell(fault.at_s, fault.target.vehicle, "detection",
-           fmt::format("no peer noticed {}", NameOf(told)));
-    } else if (*course.noticed > latest + pause) {
+           fmt::format("no peer noticed {} by its {}", name, mechanism));
+    } else if (*noticed > latest + from_.longest_pause(*course.began, latest)) {
       Tell(fault.at_s, fault.target.vehicle, "detection",
-           fmt::format("{} was noticed after {:.3f} s, promised are {:.3f} s", NameOf(told),
-                       *told.noticed_after_s, *told.promised_s));
+           fmt::format("{} was noticed by its {} after {:.3f} s, promised are {:.3f} s", name,
+                       mechanism, Seconds(*noticed - *course.began), Seconds(expected.within)));
     }
   }
 
@@ -210,18 +236,18 @@ class Judging {
 
 }  // namespace
 
-bool MustBeNoticed(const Fault& fault, Nanoseconds promised) {
-  if (fault.target.what != Target::What::kVehicle || promised == Nanoseconds{0}) return false;
-  switch (fault.kind) {
-    case Kind::kKill:
-      return true;
-    case Kind::kRestart:
-    case Kind::kPause:
-    case Kind::kHang:
-      return FromSeconds(fault.for_s) > promised + kNoticing;
-    default:
-      return false;
+std::vector<Expected> ExpectedOf(const Fault& fault, const Limits& limits) {
+  std::vector<Expected> expected;
+  const auto as = AsOfStopwatch(fault.kind);
+  if (!as || fault.target.what != Target::What::kVehicle) return expected;
+  for (const Mechanism mechanism : {Mechanism::kDeadline, Mechanism::kLiveliness}) {
+    const Nanoseconds within = PromisedWithin(mechanism, limits);
+    const bool lasts = fault.for_s <= 0 || FromSeconds(fault.for_s) > within + kNoticing;
+    if (lasts && DutyOf(*as, mechanism, limits) == Duty::kMust) {
+      expected.push_back({mechanism, within});
+    }
   }
+  return expected;
 }
 
 void Judge(const SoakEvidence& evidence, SoakResult* result) { Judging(evidence, result).Run(); }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "services/faults/fault.h"
 #include "services/fleetctl/soak/soak_phases.h"
@@ -20,8 +21,14 @@ struct SoakEvidence {
   std::function<Nanoseconds(SteadyTime, SteadyTime)> longest_pause;
 };
 
-// A fault that peers must notice: its victim falls silent for longer than they may take.
-bool MustBeNoticed(const faults::Fault& fault, Nanoseconds promised);
+// What must tell peers of a fault, and within what time: its victim falls silent for longer. Not
+// the age of beacons, which is of those that are near, and not the lease, which outlasts most
+// faults.
+struct Expected {
+  Mechanism mechanism = Mechanism::kDeadline;
+  Nanoseconds within{0};
+};
+std::vector<Expected> ExpectedOf(const faults::Fault& fault, const Limits& limits);
 
 // Fills in faults, violations, near misses, histograms, slopes, pauses, verdict and reasons; what
 // was run is in `result` already.

@@ -47,9 +47,19 @@ std::string_view CounterOf(Kind kind) {
   }
 }
 
-bool TellsOfAbsence(WordKind kind) {
-  return kind == WordKind::kBeaconStale || kind == WordKind::kDeadlineMissed ||
-         kind == WordKind::kLivelinessLost || kind == WordKind::kUnmatched;
+std::optional<Mechanism> MechanismOf(WordKind kind) {
+  switch (kind) {
+    case WordKind::kBeaconStale:
+      return Mechanism::kBeaconAge;
+    case WordKind::kDeadlineMissed:
+      return Mechanism::kDeadline;
+    case WordKind::kLivelinessLost:
+      return Mechanism::kLiveliness;
+    case WordKind::kUnmatched:
+      return Mechanism::kLease;
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -150,11 +160,12 @@ void SoakWatch::Fold(VehicleId by, const Word& word) {
         course.effect.empty()) {
       course.effect = "its log says that it hangs";
     }
-    if (course.noticed || !TellsOfAbsence(word.kind)) continue;
+    const std::optional<Mechanism> mechanism = MechanismOf(word.kind);
+    if (!mechanism || by == word.about) continue;
     if (course.ended && word.at > *course.ended + kAfterwards && fault.for_s > 0) continue;
-    const bool about_it =
-        fault.target.what == Target::What::kVehicle && fault.target.vehicle == word.about;
-    if (about_it && by != word.about) course.noticed = word.at;
+    if (fault.target.what != Target::What::kVehicle || fault.target.vehicle != word.about) continue;
+    std::optional<SteadyTime>& noticed = course.noticed[static_cast<std::size_t>(*mechanism)];
+    if (!noticed) noticed = word.at;
   }
 }
 

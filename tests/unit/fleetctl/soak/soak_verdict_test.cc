@@ -25,10 +25,14 @@ class SoakVerdictTest : public testing::Test {
     schedule_.push_back(kill);
     seen_.started = true;
     seen_.lasted_s = 60;
-    seen_.courses = {{seconds(10), seconds(10), "the process ended", milliseconds(10150), {}}};
+    seen_.courses = {{seconds(10), seconds(10), "the process ended"}};
+    Noticed() = milliseconds(10150);
     seen_.healing[kTwo] = 0.5;
     limits_.beacon_period = milliseconds(50);
     limits_.deadline = milliseconds(150);
+  }
+  std::optional<SteadyTime>& Noticed() {
+    return seen_.courses[0].noticed[static_cast<std::size_t>(Mechanism::kDeadline)];
   }
   SoakResult Judged() const {
     SoakResult result;
@@ -61,11 +65,11 @@ TEST_F(SoakVerdictTest, FailsWhereAFaultHadNoEffect) {
 }
 
 TEST_F(SoakVerdictTest, FailsWhereNobodyNoticedOrTooLate) {
-  seen_.courses[0].noticed = seconds(14);
+  Noticed() = seconds(14);
   EXPECT_EQ(Judged().violations.at(0).invariant, "detection");
   pause_ = seconds(5);
   EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the machine stood still meanwhile";
-  seen_.courses[0].noticed.reset();
+  Noticed().reset();
   EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("no peer noticed"));
 }
 
@@ -122,19 +126,24 @@ TEST_F(SoakVerdictTest, SaysThatItWasInterruptedAndFailsIfSomethingHadBrokenBefo
   EXPECT_EQ(Judged().verdict, SoakVerdict::kFailed);
 }
 
-TEST(MustBeNoticed, WhoeverIsSilentForLongerThanThePromise) {
+TEST(ExpectedOf, IsASilenceThatLastsLongerThanItsPromise) {
+  Limits limits;
+  limits.beacon_period = milliseconds(50);
+  limits.deadline = milliseconds(150);
   faults::Fault fault;
   fault.kind = faults::Kind::kPause;
   fault.target.vehicle = kOne;
-  fault.for_s = 0.3;
-  EXPECT_FALSE(MustBeNoticed(fault, milliseconds(300)));
-  fault.for_s = 1;
-  EXPECT_TRUE(MustBeNoticed(fault, milliseconds(300)));
+  fault.for_s = 0.2;
+  EXPECT_THAT(ExpectedOf(fault, limits), IsEmpty());
+  fault.for_s = 2;
+  EXPECT_THAT(ExpectedOf(fault, limits), SizeIs(1)) << "liveliness is off in this set";
+  limits.liveliness = milliseconds(300);
+  EXPECT_THAT(ExpectedOf(fault, limits), SizeIs(2));
   fault.kind = faults::Kind::kLoss;
-  EXPECT_FALSE(MustBeNoticed(fault, milliseconds(300)));
+  EXPECT_THAT(ExpectedOf(fault, limits), IsEmpty());
   fault.kind = faults::Kind::kPause;
   fault.target.what = faults::Target::What::kWorld;
-  EXPECT_FALSE(MustBeNoticed(fault, milliseconds(300)));
+  EXPECT_THAT(ExpectedOf(fault, limits), IsEmpty());
 }
 
 }  // namespace

@@ -36,6 +36,9 @@ class SoakWatchTest : public testing::Test {
     observed.statuses.push_back(status);
     watch_.Fold(observed, now);
   }
+  std::optional<SteadyTime> NoticedBy(Mechanism mechanism) const {
+    return watch_.Courses()[0].noticed[static_cast<std::size_t>(mechanism)];
+  }
   faults::Schedule schedule_{On(kOne, faults::Kind::kPause, 2), On(kTwo, faults::Kind::kLoss, 2),
                              On(kTwo, faults::Kind::kKill, 0)};
   SoakWatch watch_{{kOne, kTwo}, schedule_};
@@ -78,10 +81,13 @@ TEST_F(SoakWatchTest, AFaultIsNoticedWhenTheFirstPeerSaysSo) {
   watch_.Fold(kTwo, {seconds(9), WordKind::kBeaconStale, kOne});
   watch_.Fold(kOne, {milliseconds(10100), WordKind::kDeadlineMissed, kOne});
   watch_.Fold(kTwo, {milliseconds(10100), WordKind::kBeaconHeard, kOne});
-  EXPECT_FALSE(watch_.Courses()[0].noticed);
+  EXPECT_FALSE(NoticedBy(Mechanism::kDeadline));
   watch_.Fold(kTwo, {milliseconds(10200), WordKind::kDeadlineMissed, kOne});
   watch_.Fold(kTwo, {milliseconds(10300), WordKind::kLivelinessLost, kOne});
-  EXPECT_EQ(watch_.Courses()[0].noticed, milliseconds(10200));
+  watch_.Fold(kTwo, {milliseconds(10400), WordKind::kDeadlineMissed, kOne});
+  EXPECT_EQ(NoticedBy(Mechanism::kDeadline), milliseconds(10200));
+  EXPECT_EQ(NoticedBy(Mechanism::kLiveliness), milliseconds(10300));
+  EXPECT_FALSE(NoticedBy(Mechanism::kBeaconAge));
 }
 
 TEST_F(SoakWatchTest, AFaultIsOverForItsVictimWhenThatIsWellAgain) {
