@@ -66,6 +66,7 @@ struct SoakSeen {
   std::vector<ResourceSlope> slopes;
   std::uint64_t lives_too_short = 0;
   MachinePauses pauses;
+  std::map<VehicleId, double> step_p99_us;  // the highest that each said of itself
 };
 
 }  // namespace giveway::fleetctl

@@ -114,6 +114,9 @@ void SoakSession::Gather() {
   seen_.near_misses = near_.Narrowest();
   seen_.near_misses_counted = near_.Count();
   seen_.slopes = resources_.Slopes();
+  for (const VehicleId vehicle : fleet_) {
+    seen_.step_p99_us[vehicle] = watch_.HighestStepP99_us(vehicle);
+  }
   seen_.lives_too_short = resources_.LivesTooShort();
   seen_.pauses = {pauses_.Count(), Seconds(pauses_.Paused()), Seconds(pauses_.Longest()),
                   pauses_.Share()};

@@ -19,6 +19,8 @@ using faults::Target;
 using std::chrono::milliseconds;
 
 constexpr double kHealP99_s = 2;
+// Of a step of the brain, which takes a thousandth of that: a fifth of the usual tick.
+constexpr double kMostStep_us = 10'000;
 // For a word to be written and read, beside the promise itself.
 constexpr Nanoseconds kNoticing = milliseconds(200);
 
@@ -47,6 +49,7 @@ class Judging {
     TellEnds();
     TellHealing();
     TellSlopes();
+    TellSlowLoops();
     result_.near_misses = from_.seen.near_misses;
     result_.near_misses_counted = from_.seen.near_misses_counted;
     result_.modes = from_.seen.modes;
@@ -204,6 +207,15 @@ class Judging {
            fmt::format("{} life {}: {} grows by {:.0f} an hour (95 %: {:.0f} to {:.0f})",
                        slope.process, slope.life, ToString(slope.kind), slope.slope.per_hour,
                        slope.slope.low_per_hour, slope.slope.high_per_hour));
+    }
+  }
+
+  void TellSlowLoops() {
+    for (const auto& [vehicle, step_us] : from_.seen.step_p99_us) {
+      if (step_us <= kMostStep_us) continue;
+      Tell(from_.seen.lasted_s, vehicle, "slow_loop",
+           fmt::format("a hundredth of its steps took {:.1f} ms and more, of a tick at most {:.0f}",
+                       step_us / 1000, kMostStep_us / 1000));
     }
   }
 

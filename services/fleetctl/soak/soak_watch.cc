@@ -103,6 +103,7 @@ void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
   if (found == views_.end() || status.final) return;
   found->second.status = status;
   found->second.status_at = now;
+  found->second.step_p99_us = std::max(found->second.step_p99_us, status.step_p99_us);
   for (std::size_t i = 0; i < courses_.size(); ++i) {
     const FaultCourse& course = courses_[i];
     if (!course.began || !course.effect.empty()) continue;
@@ -226,6 +227,11 @@ void SoakWatch::SeekRecovery(SteadyTime now) {
     if (of_one && (view == views_.end() || view->second.status_at <= *course.ended)) continue;
     if (of_one ? IsWell(target.vehicle, now) : AreAllWell(now)) course.recovered = now;
   }
+}
+
+double SoakWatch::HighestStepP99_us(VehicleId vehicle) const {
+  const auto view = views_.find(vehicle);
+  return view == views_.end() ? 0 : view->second.step_p99_us;
 }
 
 const VehicleStatus* SoakWatch::StatusOf(VehicleId vehicle) const {

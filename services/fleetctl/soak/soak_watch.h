@@ -51,6 +51,7 @@ class SoakWatch {
   std::vector<VehicleId> Unwell(SteadyTime now) const;
   std::uint32_t Living() const;
   std::span<const FaultCourse> Courses() const { return courses_; }
+  double HighestStepP99_us(VehicleId vehicle) const;
   const VehicleStatus* StatusOf(VehicleId vehicle) const;
   const Truth* TruthOf(VehicleId vehicle) const;
   std::uint64_t StatusesRefused() const { return refused_; }
@@ -61,6 +62,7 @@ class SoakWatch {
     SteadyTime status_at{0};
     std::optional<Truth> truth;
     bool away = false;
+    double step_p99_us = 0;
   };
 
   void FoldStatus(const VehicleStatus& status, SteadyTime now);

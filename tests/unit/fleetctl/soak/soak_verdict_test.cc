@@ -109,6 +109,12 @@ TEST_F(SoakVerdictTest, FailsWhereAProcessGrows) {
   EXPECT_EQ(Judged().violations.at(0).invariant, "leak");
 }
 
+TEST_F(SoakVerdictTest, FailsWhereABrainTakesLongerThanItMay) {
+  seen_.step_p99_us = {{kOne, 9'000}, {kTwo, 11'000}};
+  EXPECT_EQ(Judged().violations.at(0).invariant, "slow_loop");
+  EXPECT_EQ(Judged().violations.at(0).vehicle, kTwo);
+}
+
 TEST_F(SoakVerdictTest, GivesNoneWhereTheMachineWasTooBusyOrTheFleetNeverDrove) {
   seen_.pauses.share = 0.021;
   EXPECT_EQ(Judged().verdict, SoakVerdict::kNotRun);

@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# A soak that cannot fail is none. One vehicle of the fleet is not sound (planted_vehicle.cc), or one
+# fault does silently nothing, and the soak must name it. A line "ok" or "FAILED" each.
+# Exit code 0: all were found; 1: one was not; 2: could not run.
+# Usage: mutants.sh [MUTANT ...]
+set -euo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/../system/fleet.sh"
+BIN=$(dirname "$FLEETCTL")
+export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$REPOSITORY/config}
+[[ -x $BIN/planted_vehicle ]] || {
+  echo "no $BIN/planted_vehicle; build the target planted_vehicle" >&2
+  exit 2
+}
+
+# The invariant or promise that must be named of each. Of several one is enough.
+declare -A EXPECTED=(
+  [none]=none
+  [leak]=leak
+  [descriptor]=leak
+  [slow_loop]=slow_loop
+  [stale_beacon_trusted]="contact all_halted stale_motion order"
+  [priority_reversed]="order all_halted contact"
+  [deadline_ignored]=detection
+  [fault_without_effect]=effect
+)
+ORDER=(none leak descriptor slow_loop priority_reversed deadline_ignored fault_without_effect
+  stale_beacon_trusted)
+
+# programs MUTANT: a folder in which every vehicle is planted so.
+programs() {
+  local folder=$SCRATCH/$1 name
+  mkdir -p "$folder"
+  for name in giveway-world fleetctl; do cp "$BIN/$name" "$folder/"; done
+  local deadline=''
+  if [[ $1 == deadline_ignored ]]; then
+    # The reader's deadline is no more: the last one of the file that is finite.
+    sed '/fleet_beacon_reader/,/<\/data_reader>/ s|<deadline>|<deadline><!-- planted -->|' \
+      "$REPOSITORY/config/qos/default.xml" >"$folder/no_deadline.xml"
+    deadline=$folder/no_deadline.xml
+  fi
+  cat >"$folder/giveway-vehicle" <<END
+#!/bin/sh
+$([[ $1 == none || $1 == deadline_ignored || $1 == fault_without_effect ]] || echo "export PLANTED=$1")
+exec $BIN/planted_vehicle "\$@" ${deadline:+--qos "$deadline"}
+END
+  chmod +x "$folder/giveway-vehicle"
+  echo "$folder"
+}
+
+# schedule MUTANT: a fault file that gives the mutant something to be wrong about.
+schedule() {
+  cat <<'END'
+name: "mutants"
+description: "One silence that peers must notice, and beacons that are lost."
+at { name: "pause" time_s: 20 kind: pause target { vehicle: 2 } for_s: 3 }
+at { name: "loss" time_s: 30 kind: loss target { vehicle: 3 } for_s: 20 probability: 0.6 }
+END
+}
+
+for mutant in "${@:-${ORDER[@]}}"; do
+  [[ -n ${EXPECTED[$mutant]:-} ]] || {
+    echo "mutants.sh: no mutant is called '$mutant'; there are: ${ORDER[*]}" >&2
+    exit 2
+  }
+  folder=$(programs "$mutant")
+  schedule >"$folder/faults.textproto"
+  # Its text says that it happens, and no vehicle can lose what it does not hear.
+  [[ $mutant != fault_without_effect ]] ||
+    sed -i 's/probability: 0.6/probability: 0/' "$folder/faults.textproto"
+  code=0
+  "$folder/fleetctl" soak patrol --vehicles 4 --faults "$folder/faults.textproto" --duration 150 \
+    --seed 1 --report "$folder/report" --json >"$folder/report.json" 2>"$folder/log" || code=$?
+  named=$(jq -r '[.violations[]?.invariant] | unique | join(" ")' "$folder/report.json")
+  found=false
+  if [[ $mutant == none ]]; then
+    [[ $code -eq 0 && -z $named ]] && found=true
+  else
+    for wanted in ${EXPECTED[$mutant]}; do
+      [[ $code -eq 1 && " $named " == *" $wanted "* ]] && found=true
+    done
+  fi
+  if $found; then
+    echo "ok      mutant $mutant: ${named:-nothing broken}"
+  else
+    tail -n 5 "$folder/log" >&2
+    echo "FAILED  mutant $mutant: expected ${EXPECTED[$mutant]}, found ${named:-nothing}, exit code $code"
+    failures=$((failures + 1))
+  fi
+done
+[[ $failures -eq 0 ]]
