@@ -157,9 +157,7 @@ void CompareSlopes(const SoakResult& before, const SoakResult& after, Figures* f
   for (const ResourceSlope& row : after.slopes) {
     const std::string name = row.process + " " + ToString(row.kind);
     if (!row.leak || !leaked.insert(name).second) continue;
-    figures->AddSure(name, "no leak",
-                     "leak, " + ResourceWords(row.kind, row.slope.per_hour) + " an hour",
-                     Change::kWorse);
+    figures->AddSure(name, "no leak", "leak", Change::kWorse);
   }
 }
 
