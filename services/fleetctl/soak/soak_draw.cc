@@ -65,10 +65,15 @@ std::vector<DrawnSoakPlot> Draw(const std::vector<SoakPlot>& plots, const std::s
   return {};
 }
 
+void WriteSoakPage(const SoakResult& result, const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  WriteFile(file, ToHtml(result, Draw(PlotsOf(result), folder.empty() ? "." : folder.string())));
+}
+
 void WriteSoakReport(const SoakResult& result, const std::string& folder) {
   const fs::path place(folder);
   WriteFile((place / "report.json").string(), ToJson(result) + "\n");
-  WriteFile((place / "report.html").string(), ToHtml(result, Draw(PlotsOf(result), folder)));
+  WriteSoakPage(result, (place / "report.html").string());
 }
 
 }  // namespace giveway::fleetctl

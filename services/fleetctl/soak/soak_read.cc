@@ -227,13 +227,12 @@ void ReadFigures(const schema::SoakReport& message, SoakResult* result, Complain
 
 }  // namespace
 
-ReadSoak SoakFrom(const schema::SoakReport& message) {
-  SoakResult result;
+std::string ReadInto(const schema::SoakReport& message, SoakResult* result) {
   Complaints complaints;
-  ReadHead(message, &result, &complaints);
-  ReadEvents(message, &result, &complaints);
-  ReadFigures(message, &result, &complaints);
-  return {std::move(result), complaints.Text()};
+  ReadHead(message, result, &complaints);
+  ReadEvents(message, result, &complaints);
+  ReadFigures(message, result, &complaints);
+  return complaints.Text();
 }
 
 }  // namespace giveway::fleetctl
