@@ -33,7 +33,6 @@ namespace giveway::fleetctl {
 namespace {
 
 namespace fs = std::filesystem;
-using faults::Fault;
 
 constexpr unsigned kWriting_s = 60;
 
@@ -52,7 +51,7 @@ struct Prepared {
 
 // The world's faults need a world that takes them, the hearers' an impairment: always. An attacker
 // is a program of the tests.
-const char* WhyNot(const Fault& fault) {
+const char* WhyNot(const faults::Fault& fault) {
   switch (faults::ActorOf(fault.kind)) {
     case faults::Actor::kSupervisor:
       return ProcessFaults::WhyNot(fault);
@@ -65,7 +64,7 @@ const char* WhyNot(const Fault& fault) {
   return nullptr;
 }
 
-std::string InWords(const Fault& fault) {
+std::string InWords(const faults::Fault& fault) {
   return fmt::format("{}#{} ({} of {} at {:.1f} s)", fault.rule, fault.nth,
                      faults::ToString(fault.kind), faults::ToString(fault.target), fault.at_s);
 }
@@ -73,7 +72,7 @@ std::string InWords(const Fault& fault) {
 // Refuses what cannot be carried out here, all at once; or leaves it out and says so.
 void Sift(const SoakOptions& options, Prepared* prepared) {
   std::vector<Problem> problems;
-  std::erase_if(prepared->schedule, [&](const Fault& fault) {
+  std::erase_if(prepared->schedule, [&](const faults::Fault& fault) {
     const char* const why = WhyNot(fault);
     if (why == nullptr) return false;
     if (options.skip_unsupported) {

@@ -8,7 +8,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-using faults::Fault;
 using faults::Kind;
 using faults::Target;
 using std::chrono::seconds;
@@ -81,7 +80,7 @@ bool IsWell(const VehicleStatus& status) {
   }
 }
 
-SoakWatch::SoakWatch(std::vector<VehicleId> fleet, std::span<const Fault> schedule)
+SoakWatch::SoakWatch(std::vector<VehicleId> fleet, std::span<const faults::Fault> schedule)
     : schedule_(schedule), courses_(schedule.size()), before_(schedule.size()) {
   for (const VehicleId vehicle : fleet) views_[vehicle];
 }
@@ -116,7 +115,7 @@ void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
 void SoakWatch::FoldEvent(const WorldEvent& event) {
   if (event.kind != EventKind::kFaultDue) return;
   for (std::size_t i = 0; i < courses_.size(); ++i) {
-    const Fault& fault = schedule_[i];
+    const faults::Fault& fault = schedule_[i];
     if (faults::ActorOf(fault.kind) != faults::Actor::kWorld || !courses_[i].began) continue;
     if (courses_[i].effect.empty() && fault.target.vehicle == event.vehicle &&
         event.text.find(faults::ToString(fault.kind)) != std::string::npos) {
@@ -126,14 +125,14 @@ void SoakWatch::FoldEvent(const WorldEvent& event) {
 }
 
 // A partition is seen from both of its sides: of the target alone, or of whoever lost it.
-bool SoakWatch::Concerns(const Fault& fault, VehicleId vehicle) const {
+bool SoakWatch::Concerns(const faults::Fault& fault, VehicleId vehicle) const {
   return fault.target.what != Target::What::kVehicle || fault.target.vehicle == vehicle ||
          fault.kind == Kind::kPartition || fault.kind == Kind::kFlapping ||
          fault.kind == Kind::kQosMismatch;
 }
 
 void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
-  const Fault& fault = schedule_[i];
+  const faults::Fault& fault = schedule_[i];
   const bool seen_by_counters =
       faults::ActorOf(fault.kind) == faults::Actor::kHearer || fault.kind == Kind::kQosMismatch;
   if (!seen_by_counters || !Concerns(fault, status.vehicle)) return;
@@ -154,7 +153,7 @@ void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
 
 void SoakWatch::Fold(VehicleId by, const Word& word) {
   for (std::size_t i = 0; i < courses_.size(); ++i) {
-    const Fault& fault = schedule_[i];
+    const faults::Fault& fault = schedule_[i];
     FaultCourse& course = courses_[i];
     if (!course.began || word.at < *course.began) continue;
     if (word.kind == WordKind::kHangs && fault.kind == Kind::kHang && fault.target.vehicle == by &&
