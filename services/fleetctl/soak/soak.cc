@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <thread>
 
-#include "services/config/faults_file.h"
+#include "services/config/faults/faults_file.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_edit.h"
