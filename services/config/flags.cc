@@ -47,7 +47,7 @@ class CommandLine {
       Add("--record-split", "SIZE", "begin another file of the recording at this size: 64MiB");
       Add("--impair", "RULES",
           "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
-          "none; the README lists the keys");
+          "none, or @FILE that says such; the README lists the keys");
       AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
       AddSwitch("--hang-on-signal",

@@ -136,6 +136,8 @@ bool Section::Has(std::string_view field) const {
                           : message.GetReflection()->HasField(message, f);
 }
 
+int Section::Line() const { return node_->line; }
+
 int Section::Count(std::string_view field) const {
   const Message& message = *node_->message;
   return message.GetReflection()->FieldSize(message, Find(message, field));

@@ -43,6 +43,8 @@ inline constexpr double kUnusable = std::numeric_limits<double>::quiet_NaN();
 class Section {
  public:
   bool Has(std::string_view field) const;
+  // Where it begins, from 1.
+  int Line() const;
   // Of a repeated field.
   int Count(std::string_view field) const;
 
