@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "services/config/config_dir.h"
-#include "services/config/faults_file.h"
+#include "services/config/faults/faults_file.h"
 #include "services/faults/expand.h"
 #include "services/runtime/process.h"
 #include "services/runtime/state_file.h"
@@ -70,7 +70,7 @@ sim::FaultSchedule LoadSchedule(const ServiceFlags& flags, const Scenario& scena
                         .field = "random",
                         .value = rule.name,
                         .message = "the world takes a list in which nothing is random",
-                        .remedy = "give it what fleetctl faults expand --textproto prints"});
+                        .remedy = "give it what fleetctl faults expand prints"});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
   faults::Course course{.seed = scenario.seed, .healing_s = 0};

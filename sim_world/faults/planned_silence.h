@@ -14,8 +14,9 @@ class PlannedSilence {
  public:
   explicit PlannedSilence(const faults::Schedule& schedule);
 
-  // Whether any process is stopped, slowed or restarted: then a closed run too goes on without a
-  // vehicle that has fallen silent, and takes it back when it speaks again.
+  // Whether anything but a kill is done to processes of vehicles: any of it may silence one for a
+  // while. Then a closed run too goes on without a vehicle that has fallen silent, and takes it
+  // back when it speaks again.
   bool VehiclesReturn() const { return vehicles_return_; }
   // Whether the vehicle has been killed, never to come back, time_s after the start signal.
   bool IsKilled(VehicleId vehicle, double time_s) const;

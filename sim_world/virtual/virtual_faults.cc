@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "services/faults/kind_table.h"
+#include "services/faults/unsupported.h"
 #include "services/types/state_hash.h"
 
 namespace giveway::sim {
@@ -25,11 +26,6 @@ std::optional<ProcessFaultKind> ProcessKindOf(Kind kind) {
     default:
       return std::nullopt;
   }
-}
-
-bool IsOfRadio(Kind kind) {
-  return faults::ActorOf(kind) == faults::Actor::kHearer && kind != Kind::kCorrupt &&
-         kind != Kind::kRate;
 }
 
 std::uint64_t DrawsOf(const faults::Fault& fault) {
@@ -97,22 +93,13 @@ void AddProcessFaults(const faults::Fault& fault, ProcessFaultKind kind, const S
 
 }  // namespace
 
-std::string WhyNotVirtual(const faults::Fault& fault) {
-  if (fault.target.what == What::kWorld) return "a virtual run has no process of the world";
-  if (fault.target.what == What::kDiscoveryServer) return "a virtual run has no discovery server";
-  const bool can = ProcessKindOf(fault.kind) || IsOfRadio(fault.kind) ||
-                   faults::ActorOf(fault.kind) == faults::Actor::kWorld;
-  if (can) return {};
-  return "a virtual run knows no " + std::string(faults::ToString(fault.kind));
-}
-
 VirtualPlan Translated(const VirtualPlan& plan, const Scenario& scenario) {
   VirtualPlan translated = plan;
-  for (const faults::Fault& fault : plan.schedule) {
-    if (!WhyNotVirtual(fault).empty()) continue;
+  translated.schedule = faults::Without(plan.schedule, faults::IncapableInVirtualTime());
+  for (const faults::Fault& fault : translated.schedule) {
     if (const auto kind = ProcessKindOf(fault.kind)) {
       AddProcessFaults(fault, *kind, scenario, &translated.faults);
-    } else if (IsOfRadio(fault.kind)) {
+    } else if (faults::ActorOf(fault.kind) == faults::Actor::kHearer) {
       translated.radio.rules.push_back(RadioRuleOf(fault));
     }
   }

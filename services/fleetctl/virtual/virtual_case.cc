@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "services/config/faults_file.h"
+#include "services/config/faults/faults_file.h"
 #include "services/config/plan_read.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"

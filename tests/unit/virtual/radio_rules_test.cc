@@ -68,7 +68,7 @@ struct Tally {
   int longest_row = 0;  // lost one after the other
 };
 
-std::array<Tally, 2> Heard(RadioRule rule, RadioSettings settings = {}) {
+std::array<Tally, 2> HeardUnder(RadioRule rule, RadioSettings settings = {}) {
   rule.from_s = 10;
   rule.to_s = 40;
   Scenario scenario;
@@ -113,14 +113,14 @@ void ExpectNothing(const Tally& tally) {
 }
 
 TEST(RadioRules, LossIsOfSingleBeaconsSaidUnderTheRule) {
-  const auto [without, within] = Heard({.loss = 0.3});
+  const auto [without, within] = HeardUnder({.loss = 0.3});
   ExpectNothing(without);
   EXPECT_NEAR(within.lost, 180, 40);
   EXPECT_LT(within.longest_row, 9);
 }
 
 TEST(RadioRules, BurstsLoseTheirShareInRows) {
-  const auto [without, within] = Heard({.burst_loss = 0.3, .burst_ticks = 10});
+  const auto [without, within] = HeardUnder({.burst_loss = 0.3, .burst_ticks = 10});
   ExpectNothing(without);
   EXPECT_NEAR(within.lost, 180, 90);
   EXPECT_EQ(within.lost % 10, 0);
@@ -128,7 +128,7 @@ TEST(RadioRules, BurstsLoseTheirShareInRows) {
 }
 
 TEST(RadioRules, ADelayIsOfAllThatWasSaidUnderTheRuleAndLosesNothing) {
-  const auto [without, within] = Heard({.delay = Nanoseconds(200'000'000)});
+  const auto [without, within] = HeardUnder({.delay = Nanoseconds(200'000'000)});
   ExpectNothing(without);
   EXPECT_EQ(within.lost, 0);
   EXPECT_EQ(within.twice, 0);
@@ -136,14 +136,15 @@ TEST(RadioRules, ADelayIsOfAllThatWasSaidUnderTheRuleAndLosesNothing) {
 }
 
 TEST(RadioRules, WhatIsHeldBackIsOvertaken) {
-  const auto [without, within] = Heard({.reorder = 0.2, .reorder_by = Nanoseconds(75'000'000)});
+  const auto [without, within] =
+      HeardUnder({.reorder = 0.2, .reorder_by = Nanoseconds(75'000'000)});
   ExpectNothing(without);
   EXPECT_EQ(within.lost, 0);
   EXPECT_NEAR(within.late, 120, 40);
 }
 
 TEST(RadioRules, DuplicatesComeTwice) {
-  const auto [without, within] = Heard({.duplicate = 0.2});
+  const auto [without, within] = HeardUnder({.duplicate = 0.2});
   ExpectNothing(without);
   EXPECT_EQ(within.lost, 0);
   EXPECT_NEAR(within.twice, 120, 40);
@@ -151,7 +152,7 @@ TEST(RadioRules, DuplicatesComeTwice) {
 
 // A beacon that would be under way for ever comes by then.
 TEST(RadioRules, NothingIsUnderWayForLongerThanItIsKept) {
-  const auto [without, within] = Heard({.delay = Nanoseconds(10'000'000'000)});
+  const auto [without, within] = HeardUnder({.delay = Nanoseconds(10'000'000'000)});
   ExpectNothing(without);
   EXPECT_EQ(within.lost, 0);
   EXPECT_EQ(within.late, 600);
