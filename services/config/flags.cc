@@ -55,6 +55,9 @@ class CommandLine {
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
+      Add("--faults", "FILE",
+          "carries out the world's faults of this list: ultrasonics, motors and\n"
+          "encoders; fleetctl faults expand writes one");
     }
     Add("--try-qos", "FILE",
         "make every endpoint of this set once, say whether that succeeds, and end");
@@ -220,6 +223,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
     flags.go_on_from = values->Text("--go-on-from").value_or("");
     if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");
+    if (values->Text("--faults")) flags.faults = values->TextOr("", "--faults");
   }
   flags.try_qos = values->Text("--try-qos").value_or("");
   flags.resume = ReadResumed(values);

@@ -69,6 +69,10 @@ enum class EventKind : std::uint8_t {
   kLeft,      // vehicle said good-bye; its body was taken away
   kEnded,     // text: why; the verdict follows
   kVerdict,   // passed when value is 1; text: reason
+  // A fault of a schedule begins or ends in the world, of vehicle (kNobody: of all); text: kind,
+  // number and rule: "sonar_stuck 3 of flaky_sonar".
+  kFaultBegan,
+  kFaultOver,
 };
 
 struct WorldEvent {

@@ -178,7 +178,7 @@ TEST(Convert, TruthComesBack) {
 }
 
 TEST(Convert, EventComesBackWhateverItsKind) {
-  for (int kind = 0; kind <= static_cast<int>(giveway::EventKind::kVerdict); ++kind) {
+  for (int kind = 0; kind <= static_cast<int>(giveway::EventKind::kFaultOver); ++kind) {
     const WorldEvent sent{.seq = 1,
                           .kind = static_cast<giveway::EventKind>(kind),
                           .epoch = WorldEpoch{2},
