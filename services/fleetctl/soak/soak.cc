@@ -88,7 +88,7 @@ void Sift(const SoakOptions& options, Prepared* prepared) {
 }
 
 Scenario LoadAndCheck(const SoakOptions& options) {
-  const Scenario scenario = LoadScenario(options.scenario, {options.seed, std::nullopt, 0.0});
+  const Scenario scenario = LoadScenario(options.scenario, {options.seed, std::nullopt, std::nullopt});
   if (options.vehicles && scenario.spawns.empty()) {
     throw InputError({{options.scenario, 0, "", "",
                        "--vehicles was given, but the scenario names all of its vehicles",
@@ -124,7 +124,7 @@ Prepared Prepare(const SoakOptions& options) {
   WriteFile(prepared.scenario_file, EditScenario(options.scenario, edit));
   prepared.faults_file = (folder / "faults.textproto").string();
   WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
-  prepared.scenario = LoadScenario(prepared.scenario_file, {options.seed, std::nullopt, 0.0});
+  prepared.scenario = LoadScenario(prepared.scenario_file, {options.seed, std::nullopt, std::nullopt});
   return prepared;
 }
 
