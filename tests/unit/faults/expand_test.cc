@@ -174,7 +174,7 @@ TEST(Expand, NothingRandomBeginsInTheWarmUpOrLastsIntoTheHealing) {
 TEST(Expand, TooManyAreRefused) {
   const RandomRule rule = Randomly("r", Kind::kLoss, 0.1, 0.001, 0.001, {Targets::What::kAll, {}});
   EXPECT_THAT(RefusedOf({.random = {rule}}, {.duration_s = 30 * 86400}),
-              ElementsAre(Field(&Refusal::message, HasSubstr("more than 100000"))));
+              ElementsAre(Field(&Refusal::message, HasSubstr("more than 1000000"))));
 }
 
 TEST(Expand, FlappingHasItsBound) {
