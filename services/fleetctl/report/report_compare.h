@@ -13,9 +13,9 @@
 //   verdict    that passed and no longer does; samples that are not accounted for; leaks that are
 //              new. No test is asked about these.
 //
-// All tests together say worse of two equal soaks with a chance of at most 0.5 % (Holm at 1 %,
-// both directions). The values of a histogram are not independent: no more than one a vehicle and
-// second is counted as evidence.
+// All tests together say worse of two equal soaks with a chance of at most 0.5 % (Holm at 1 %, both
+// directions); a soak by itself names a leak that is none with a chance of 1 %. The values of a
+// histogram are not independent: no more than one a vehicle and second is counted as evidence.
 #pragma once
 
 #include <optional>

@@ -13,7 +13,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr std::size_t kMostRowsShown = 200;
-constexpr std::size_t kRowsUnfolded = 12;
+constexpr std::size_t kRowsUnfolded = 20;
 
 // A table that grows row by row. Cells are escaped here.
 class HtmlTable {
@@ -26,21 +26,29 @@ class HtmlTable {
         "<td{}>{}</td>", style.empty() ? "" : fmt::format(" class=\"{}\"", style), HtmlText(text));
   }
   void Count(std::uint64_t count) { Cell(fmt::format("{}", count)); }
-  // `all` rows there are; a long table is folded.
+  // `all` rows there are; those behind the first ones are folded.
   std::string Html(std::size_t all) const {
-    std::string html = "<div class=\"scroll\"><table><tr>";
-    for (const std::string& head : heads_) html += "<th>" + HtmlText(head) + "</th>";
-    html += "</tr>\n";
-    for (const std::string& row : rows_) html += "<tr>" + row + "</tr>\n";
-    html += "</table></div>\n";
+    const std::size_t open = std::min(rows_.size(), kRowsUnfolded);
+    std::string html = Part(0, open);
+    if (open < rows_.size()) {
+      html += fmt::format("<details><summary>{} more</summary>\n{}</details>\n",
+                          rows_.size() - open, Part(open, rows_.size()));
+    }
     if (all > rows_.size()) {
       html += fmt::format("<p>{} more are in report.json.</p>\n", all - rows_.size());
     }
-    if (rows_.size() <= kRowsUnfolded) return html;
-    return fmt::format("<details><summary>{} rows</summary>\n{}</details>\n", rows_.size(), html);
+    return html;
   }
 
  private:
+  std::string Part(std::size_t begin, std::size_t end) const {
+    std::string html = "<div class=\"scroll\"><table><tr>";
+    for (const std::string& head : heads_) html += "<th>" + HtmlText(head) + "</th>";
+    html += "</tr>\n";
+    for (std::size_t i = begin; i < end; ++i) html += "<tr>" + rows_[i] + "</tr>\n";
+    return html + "</table></div>\n";
+  }
+
   std::vector<std::string> heads_;
   std::vector<std::string> rows_;
 };

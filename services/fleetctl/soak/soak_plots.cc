@@ -210,8 +210,8 @@ SoakPlot QuantilePlot(const SoakResult& result, HistogramUnit unit) {
   const std::string name = is_time ? "times" : "lengths";
   return {name, is_time ? "Times by their quantiles" : "Lengths by their quantiles",
           PlotSettings(name, 480) +
-              "set xtics ('all' 0, '90 %' 1, '99 %' 2, '99.9 %' 3, '99.99 %' 4, '99.999 %' 5, "
-              "'99.9999 %' 6)\nset xlabel 'share that is no greater'\nset yrange [0:*]\n" +
+              "set xtics ('all' 0, '90 %%' 1, '99 %%' 2, '99.9 %%' 3, '99.99 %%' 4, '99.999 %%' 5, "
+              "'99.9999 %%' 6)\nset xlabel 'share that is no greater'\nset yrange [0:*]\n" +
               fmt::format("set ylabel '{}'\n", is_time ? "ms" : "m") + parts.Text()};
 }
 

@@ -115,7 +115,7 @@ TEST(Histogram, BucketsThatAreNoneOfItsOwnAreRefused) {
   EXPECT_FALSE(Histogram::From(std::vector<HistogramBucket>{{4097, 1}}, 4097, 4097, 0));  // inside
   EXPECT_FALSE(Histogram::From(std::vector<HistogramBucket>{{9, 1}, {8, 1}}, 8, 9, 0));
   EXPECT_FALSE(Histogram::From(std::vector<HistogramBucket>{{9, 0}}, 9, 9, 0));
-  EXPECT_FALSE(Histogram::From(good, 1000, 4098, 0));  // max in no bucket that holds something
+  EXPECT_FALSE(Histogram::From(good, 1000, 4100, 0));  // max in no bucket that holds something
   EXPECT_FALSE(Histogram::From(good, 999, 4097, 0));
   EXPECT_FALSE(Histogram::From(good, 1000, 4097, 4));  // more clamped than there are
 }
