@@ -128,11 +128,9 @@ double TailGreater(const Histogram& before, double most_before, const Histogram&
   double tail_after = 0;
   const std::vector<SharedBucket> shared = SideBySide(before, after);
   for (std::size_t i = shared.size(); i-- > 1;) {
-    const double a = tail_before + shared[i].before * weight_before;
-    const double b = tail_after + shared[i].after * weight_after;
-    if (a + b > (1 - kTail) * (n + m)) break;
-    tail_before = a;
-    tail_after = b;
+    tail_before += shared[i].before * weight_before;
+    tail_after += shared[i].after * weight_after;
+    if (tail_before + tail_after >= (1 - kTail) * (n + m)) break;
   }
   const auto whole = [](double value) { return static_cast<std::uint64_t>(std::llround(value)); };
   return ShareGreater(whole(tail_before), whole(n), whole(tail_after), whole(m));

@@ -17,7 +17,8 @@ namespace {
 constexpr const char* kFooter = R"(
 A report is what fleetctl soak --report FOLDER wrote: the folder, or its report.json. One is printed as a
 summary. Of two, what got worse from the first to the second, with the chance that equal soaks
-differ so much; all tests together call equal soaks worse at most once in 200.
+differ so much; all tests together call equal soaks worse at most once in 200. A leak that
+only the second names is worse without a test: a soak names one that is none once in 100 times.
   figures  histograms: Mann-Whitney for the median, Fisher for the share above the 99 % of both; no
            more than one value a vehicle and second counts as evidence
   slopes   Theil-Sen, by their 95 % intervals; from 64 KiB, 1 descriptor, 1 thread, 0.05 processors

@@ -31,7 +31,7 @@ Histogram Of(const std::vector<std::int64_t>& values) {
   return histogram;
 }
 
-RC_GTEST_PROP(HistogramProperty, QuantilesAreOrderStatisticsToAThousandth, ()) {
+RC_GTEST_PROP(HistogramProperty, QuantilesAreOrderStatisticsToHalfAThousandth, ()) {
   std::vector<std::int64_t> values = *Durations();
   const double p = *rc::gen::inRange(0, 1001) / 1000.0;
   const Histogram histogram = Of(values);
@@ -39,7 +39,7 @@ RC_GTEST_PROP(HistogramProperty, QuantilesAreOrderStatisticsToAThousandth, ()) {
   const double asked = std::ceil(p * static_cast<double>(values.size()));
   const auto rank = static_cast<std::size_t>(std::max(asked, 1.0));
   const double exact = static_cast<double>(values[rank - 1]);
-  RC_ASSERT(std::abs(static_cast<double>(histogram.Quantile(p)) - exact) <= exact * 0.001);
+  RC_ASSERT(std::abs(static_cast<double>(histogram.Quantile(p)) - exact) <= exact * 0.0005);
 }
 
 RC_GTEST_PROP(HistogramProperty, MergingIsAssociativeCommutativeAndLosesNothing, ()) {
@@ -115,7 +115,7 @@ TEST(Histogram, BucketsThatAreNoneOfItsOwnAreRefused) {
   EXPECT_FALSE(Histogram::From(std::vector<HistogramBucket>{{4097, 1}}, 4097, 4097, 0));  // inside
   EXPECT_FALSE(Histogram::From(std::vector<HistogramBucket>{{9, 1}, {8, 1}}, 8, 9, 0));
   EXPECT_FALSE(Histogram::From(std::vector<HistogramBucket>{{9, 0}}, 9, 9, 0));
-  EXPECT_FALSE(Histogram::From(good, 1000, 4098, 0));  // max in no bucket that holds something
+  EXPECT_FALSE(Histogram::From(good, 1000, 4100, 0));  // max in no bucket that holds something
   EXPECT_FALSE(Histogram::From(good, 999, 4097, 0));
   EXPECT_FALSE(Histogram::From(good, 1000, 4097, 4));  // more clamped than there are
 }

@@ -76,6 +76,7 @@ TEST(ComparedSoaks, ALeakIsFoundByItsProcess) {
   SoakResult after = SampleSoak(2);
   Random random(9);
   after.slopes[2] = SampleSlope("vehicle-3", &random, 1500);
+  MarkLeaks(&after.slopes, 0);
   EXPECT_THAT(Worse(SampleSoak(1), after),
               AllOf(Contains("vehicle-3 private_bytes"),
                     Contains("vehicle-3 private_bytes an hour"), Not(Contains(HasSubstr("-4")))));
@@ -153,6 +154,7 @@ TEST(ComparisonShown, NoLineIsLongerThanATerminal) {
   after.verdict = SoakVerdict::kFailed;
   Random random(9);
   after.slopes[2] = SampleSlope("vehicle-3", &random, 1500);
+  MarkLeaks(&after.slopes, 0);
   SoakComparison comparison = Compare(SampleSoak(1), after);
   comparison.figures.push_back({std::string(200, 'n'), "1", "2", Change::kWorse, 0.002});
   const std::string text = ToText(comparison, true);

@@ -29,6 +29,7 @@ TEST(SoakReportJson, ComesBackAsItWas) {
   result.violations_counted = 7;
   Random random(1);
   result.slopes.push_back(SampleSlope("leaking", &random, 3e3));
+  MarkLeaks(&result.slopes, 0);
   const std::string json = ToJson(result);
   const ReadSoak read = SoakFromJson(json);
   ASSERT_EQ(read.complaint, "");

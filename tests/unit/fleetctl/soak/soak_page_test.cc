@@ -92,7 +92,7 @@ TEST(SoakSummary, NoLineIsLongerThanATerminal) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 78U) << line;
   EXPECT_THAT(text, AllOf(HasSubstr("FAILED"), HasSubstr("after stop#1"), HasSubstr("and 11 more"),
-                          HasSubstr("beacon_age"), HasSubstr("99 % at most 200.0 ms: kept")));
+                          HasSubstr("beacon_age"), HasSubstr("most 200.0 ms: kept")));
 }
 
 TEST(SoakSummary, FaultsAreSummedByKind) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "services/fleetctl/soak/resource_series.h"
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/statistics/slope.h"
 #include "services/types/math/random.h"
@@ -31,7 +32,6 @@ inline ResourceSlope SampleSlope(const std::string& process, Random* random, dou
   }
   ResourceSlope row{.process = process, .slope = *statistics::TheilSen(samples)};
   row.last = samples.back().value;
-  row.leak = statistics::IsLeak(row.slope, statistics::kLeastLeakBytes);
   row.curve = statistics::BlockMedians(samples, 60);
   return row;
 }
@@ -90,6 +90,7 @@ inline SoakResult SampleSoak(std::uint64_t seed) {
   for (std::uint32_t vehicle = 1; vehicle <= kSampleVehicles; ++vehicle) {
     result.slopes.push_back(SampleSlope("vehicle-" + std::to_string(vehicle), &random, 0));
   }
+  MarkLeaks(&result.slopes, 0);
   result.accounting = {{.writer = "vehicle 1",
                         .reader = "vehicle 2",
                         .topic = "fleet/beacon",
