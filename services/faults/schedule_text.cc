@@ -47,7 +47,10 @@ std::string Listed(const Parameters& parameters, const char* between) {
 
 std::string NumberText(double value) {
   std::array<char, 32> text;
-  const auto written = std::to_chars(text.data(), text.data() + text.size(), value);
+  const double size = std::abs(value);
+  const bool plain = size == 0 || (size >= 1e-5 && size < 1e15);
+  const auto written = std::to_chars(text.data(), text.data() + text.size(), value,
+                                     plain ? std::chars_format::fixed : std::chars_format::general);
   GIVEWAY_CHECK(written.ec == std::errc{});
   return {text.data(), written.ptr};
 }

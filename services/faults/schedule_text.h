@@ -8,7 +8,8 @@
 
 namespace giveway::faults {
 
-// The shortest decimal that is read as this very number.
+// The shortest decimal that is read as this very number, without an exponent where it has a usual
+// size.
 std::string NumberText(double value);
 // As NumberText, of a time that is no longer than milliseconds.
 std::string SecondsText(double time_s);

@@ -29,6 +29,7 @@ constexpr int kMaxRandomRules = 1024;
 constexpr Allowed kTime{0, faults::kLongestRun_s, "s"};
 constexpr Allowed kLasting{0.001, faults::kLongestRun_s, "s"};
 constexpr Allowed kMeanBetween{faults::kLeastMean_s, faults::kLongestRun_s, "s"};
+constexpr int kMaxAtRules = 100000;
 constexpr Allowed kTimes{1, static_cast<double>(faults::kMostFaults)};
 constexpr std::size_t kLongestName = 64;
 
@@ -299,7 +300,7 @@ faults::FaultFile ReadFaultFile(const Section& root) {
   faults::FaultFile file;
   file.description = root.Text("description");
   UsedNames names;
-  for (const Section& section : RulesOf(root, "at", static_cast<int>(faults::kMostFaults))) {
+  for (const Section& section : RulesOf(root, "at", kMaxAtRules)) {
     file.at.push_back(ReadAt(section));
     names.Take(section, file.at.back().name, file.at.back().nth);
   }

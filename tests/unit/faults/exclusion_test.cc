@@ -58,9 +58,13 @@ TEST(Exclusion, AKilledVehicleGetsNothingMoreAndEveryOtherDoes) {
 }
 
 TEST(Exclusion, EndsCountAsWithin) {
-  EXPECT_TRUE(Exclude(Of(Kind::kPause, Vehicle(1), 10, 5), Of(Kind::kPause, Vehicle(1), 15, 1)));
-  EXPECT_FALSE(
-      Exclude(Of(Kind::kPause, Vehicle(1), 10, 5), Of(Kind::kPause, Vehicle(1), 15.001, 1)));
+  const Fault first = Of(Kind::kPause, Vehicle(1), 10, 5);
+  const Fault at_its_end = Of(Kind::kPause, Vehicle(1), 15, 1);
+  const Fault after_it = Of(Kind::kPause, Vehicle(1), 15.001, 1);
+  EXPECT_TRUE(Exclude(first, at_its_end));
+  EXPECT_TRUE(Exclude(at_its_end, first));
+  EXPECT_FALSE(Exclude(first, after_it));
+  EXPECT_FALSE(Exclude(after_it, first));
 }
 
 // Against looking at every two.

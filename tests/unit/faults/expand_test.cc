@@ -96,6 +96,20 @@ TEST(Expand, ARandomFaultMakesWayToAnAtRuleAndToAnEarlierOne) {
   }
 }
 
+TEST(Expand, OfTwoThatExcludeEachOtherTheEarlierStaysButAKillBeforeAny) {
+  const Targets one{Targets::What::kNamed, {VehicleId{1}}};
+  const RandomRule pauses = Randomly("pauses", Kind::kPause, 100, 3000, 3000, one);
+  const Schedule paused = ScheduleOf({.random = {pauses}});
+  ASSERT_THAT(paused, SizeIs(1));
+  EXPECT_EQ(paused[0].nth, 0U);
+  RandomRule kill = Randomly("kill", Kind::kKill, 1000, 0, 0, one);
+  kill.at_most = 1;
+  const Schedule killed = ScheduleOf({.random = {pauses, kill}});
+  ASSERT_THAT(killed, SizeIs(1));
+  EXPECT_GT(killed[0].at_s, paused[0].at_s);
+  EXPECT_EQ(killed[0].kind, Kind::kKill);
+}
+
 TEST(Expand, AKilledVehicleGetsNothingMore) {
   const Targets one{Targets::What::kNamed, {VehicleId{1}}};
   const FaultFile file{.at = {At("die", Kind::kKill, Vehicle(1), 1800, 0)},
@@ -174,7 +188,7 @@ TEST(Expand, NothingRandomBeginsInTheWarmUpOrLastsIntoTheHealing) {
 TEST(Expand, TooManyAreRefused) {
   const RandomRule rule = Randomly("r", Kind::kLoss, 0.1, 0.001, 0.001, {Targets::What::kAll, {}});
   EXPECT_THAT(RefusedOf({.random = {rule}}, {.duration_s = 30 * 86400}),
-              ElementsAre(Field(&Refusal::message, HasSubstr("more than 100000"))));
+              ElementsAre(Field(&Refusal::message, HasSubstr("more than 1000000"))));
 }
 
 TEST(Expand, FlappingHasItsBound) {

@@ -33,6 +33,8 @@ TEST(ScheduleText, NumbersAreAsShortAsTheyCanBe) {
   EXPECT_EQ(NumberText(0.1), "0.1");
   EXPECT_EQ(NumberText(0.1 + 0.2), "0.30000000000000004");
   EXPECT_EQ(NumberText(100), "100");
+  EXPECT_EQ(NumberText(8e6), "8000000");
+  EXPECT_EQ(NumberText(1e-300), "1e-300");
   EXPECT_EQ(SecondsText(0.1 + 0.2), "0.3");
 }
 
