@@ -33,7 +33,7 @@ SonarFault::SonarFault(const faults::Fault& fault, std::uint64_t draws, Nanoseco
           FromSeconds(std::min(kMostDelay_s, fault.parameters.delay_s.value_or(0))), tick_period)),
       draws_(draws) {}
 
-void SonarFault::Alter(const VehicleProfile& profile, RangeScan* scan) {
+void SonarFault::Alter(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan) {
   switch (kind_) {
     case faults::Kind::kSonarOff:
       Silence(scan);
@@ -42,7 +42,7 @@ void SonarFault::Alter(const VehicleProfile& profile, RangeScan* scan) {
       Freeze(scan);
       break;
     case faults::Kind::kSonarGarbage:
-      Scramble(profile, scan);
+      Scramble(profile, driven_tick, scan);
       break;
     case faults::Kind::kSonarWrong:
       Scale(profile, scan);
@@ -54,7 +54,7 @@ void SonarFault::Alter(const VehicleProfile& profile, RangeScan* scan) {
       Delay(scan);
       break;
     case faults::Kind::kSonarIntermittent:
-      if (Random(draws_, Number(scan->tick)).Uniform(0, 1) < probability_) Silence(scan);
+      if (Random(draws_, driven_tick).Uniform(0, 1) < probability_) Silence(scan);
       break;
     default:
       break;
@@ -86,11 +86,13 @@ void SonarFault::Freeze(RangeScan* scan) {
 }
 
 // By the firing: a reading stays what it is until its transducer fires again.
-void SonarFault::Scramble(const VehicleProfile& profile, RangeScan* scan) const {
+void SonarFault::Scramble(const VehicleProfile& profile, std::uint32_t driven_tick,
+                          RangeScan* scan) const {
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     RangeReading& reading = scan->readings[i];
     if (reading.kind == Echo::kNoData) continue;
-    Random random(draws_, std::uint64_t{Number(reading.tick)} << 8 | i);
+    const std::uint64_t fired = std::uint64_t{driven_tick} - TicksBetween(reading.tick, scan->tick);
+    Random random(draws_, fired << 8 | i);
     const bool clear = random.Uniform(0, 1) < kClearOfGarbage;
     reading.kind = clear ? Echo::kClear : Echo::kEcho;
     reading.range_m = clear ? 0 : random.Uniform(0, profile.sonar_max_range_m);

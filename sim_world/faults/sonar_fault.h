@@ -29,8 +29,9 @@ class SonarFault {
   // number.
   SonarFault(const faults::Fault& fault, std::uint64_t draws, Nanoseconds tick_period);
 
-  // Takes in the scan as the ultrasonics made it. Once a tick.
-  void Alter(const VehicleProfile& profile, RangeScan* scan);
+  // Takes in the scan of that driving tick, from 1, as the ultrasonics made it. Once a tick. Draws
+  // count from the start signal, however long the world waited for it.
+  void Alter(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan);
 
  private:
   using Readings = decltype(RangeScan::readings);
@@ -38,7 +39,7 @@ class SonarFault {
   void Hold(RangeScan* scan);
   void Delay(RangeScan* scan);
   void Freeze(RangeScan* scan);
-  void Scramble(const VehicleProfile& profile, RangeScan* scan) const;
+  void Scramble(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan) const;
   void Scale(const VehicleProfile& profile, RangeScan* scan) const;
 
   faults::Kind kind_;

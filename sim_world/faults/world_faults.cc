@@ -72,6 +72,7 @@ void WorldFaults::Rest() {
 
 void WorldFaults::BeginTick(std::uint32_t driven_tick, std::span<const Body> bodies) {
   resting_ = false;
+  driven_tick_ = driven_tick;
   drives_.clear();
   begun_.clear();
   ended_.clear();
@@ -133,7 +134,7 @@ void WorldFaults::Alter(const VehicleProfile& profile, RangeScan* scan) {
     const auto memory =
         std::ranges::lower_bound(active.memories, scan->vehicle, {}, &Memory::vehicle);
     if (memory == active.memories.end() || memory->vehicle != scan->vehicle) continue;
-    if (memory->sonar) memory->sonar->Alter(profile, scan);
+    if (memory->sonar) memory->sonar->Alter(profile, driven_tick_, scan);
   }
 }
 

@@ -96,6 +96,7 @@ class WorldFaults {
   std::size_t next_ = 0;          // of planned_, to begin
   std::vector<Active> active_;
   bool resting_ = true;
+  std::uint32_t driven_tick_ = 0;
   std::size_t sonars_ = 0;  // of the active ones
   std::vector<DriveFault> drives_;
   std::vector<const faults::Fault*> begun_;

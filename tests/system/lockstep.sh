@@ -13,13 +13,27 @@ for ((core = 0; core < 2 * $(nproc); core++)); do
 done
 trap 'kill "${load[@]}" 2>/dev/null; rm -rf "$SCRATCH"' EXIT
 
+# fleetctl run starts the world of its own folder: there, one that is told of the faults.
+give_world_faults() {
+  local bin="$SCRATCH/bin" real
+  real=$(dirname "$FLEETCTL")
+  mkdir "$bin"
+  cp "$FLEETCTL" "$bin/fleetctl"
+  ln -s "$real/giveway-vehicle" "$bin/giveway-vehicle"
+  printf '#!/bin/sh\nexec "%s" "$@" --faults "%s"\n' "$real/giveway-world" "$faults" >"$bin/giveway-world"
+  chmod +x "$bin/giveway-world"
+  FLEETCTL="$bin/fleetctl"
+  export GIVEWAY_CONFIG_DIR="$REPOSITORY/config"
+}
+
 code=0
-export GIVEWAY_FAULTS=$faults
+[[ -z $faults ]] || give_world_faults
 "$FLEETCTL" run "$scenario" --seed "$seed" --lockstep --json --logs "$SCRATCH/logs" \
   >"$SCRATCH/run.json" 2>"$SCRATCH/run.err" || code=$?
 [[ $code -eq 0 ]] || fail "exit code $code: $(cat "$SCRATCH/run.json" "$SCRATCH/run.err")"
 real=$(jq -r .state_hash "$SCRATCH/run.json")
-virtual=$("$GIVEWAY_VIRTUAL_HASH" "$scenario" "$seed" ${faults:+"$faults"} 2>"$SCRATCH/virtual.err")
+virtual=$("$GIVEWAY_VIRTUAL_HASH" "$scenario" "$seed" ${faults:+"$faults"} 2>"$SCRATCH/virtual.err") ||
+  fail "virtual_hash: $(cat "$SCRATCH/virtual.err")"
 echo "$scenario seed $seed: real $real, virtual $virtual"
 [[ -n $real && $real == "$virtual" ]] || fail "the real run and the virtual one differ"
 if [[ -n $faults ]]; then

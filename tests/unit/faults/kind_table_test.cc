@@ -82,8 +82,8 @@ TEST(KindTable, SaysTargetsInWords) {
 
 TEST(KindTable, WhatTheWorldDoesIsDoneInVirtualTimeToo) {
   for (const KindRow& row : KindTable()) {
-    if (row.actor == Actor::kWorld) EXPECT_TRUE(row.in_virtual_time) << row.word;
-    if (row.actor == Actor::kAttacker) EXPECT_FALSE(row.in_virtual_time) << row.word;
+    EXPECT_TRUE(row.in_virtual_time || row.actor != Actor::kWorld) << row.word;
+    EXPECT_FALSE(row.in_virtual_time && row.actor == Actor::kAttacker) << row.word;
   }
 }
 

@@ -45,7 +45,7 @@ TEST(Unsupported, ATargetMayBeMissing) {
   EXPECT_THAT(UnsupportedIn(schedule, {}), IsEmpty());
 }
 
-TEST(Unsupported, TheVirtualFleetHasTheWorldsFaultsAndThoseOfItsProcesses) {
+TEST(Unsupported, TheVirtualFleetHasTheFaultsOfItsWorldItsProcessesAndItsRadio) {
   const Incapable incapable = IncapableInVirtualTime();
   const auto can = [&](Kind kind, Target target) {
     return UnsupportedIn({Of(kind, target, 1, 1)}, incapable).empty();
@@ -55,7 +55,8 @@ TEST(Unsupported, TheVirtualFleetHasTheWorldsFaultsAndThoseOfItsProcesses) {
   EXPECT_TRUE(can(Kind::kKill, Vehicle(1)));
   EXPECT_TRUE(can(Kind::kPause, Vehicle(1)));
   EXPECT_FALSE(can(Kind::kPause, kWorldTarget));
-  EXPECT_FALSE(can(Kind::kLoss, Vehicle(1)));
+  EXPECT_TRUE(can(Kind::kLoss, Vehicle(1)));
+  EXPECT_FALSE(can(Kind::kCorrupt, Vehicle(1)));
   EXPECT_FALSE(can(Kind::kFlooded, Vehicle(1)));
 }
 

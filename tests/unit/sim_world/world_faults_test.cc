@@ -261,6 +261,28 @@ TEST(SonarFault, RepeatsFromItsSeedRuleAndNumber) {
   EXPECT_FALSE(SameReadings(ranges(fault, 1), ranges(other, 1)));
 }
 
+// Nor on how long the world waited for its vehicles.
+TEST(SonarFault, DrawsCountFromTheStart) {
+  const FaultSchedule schedule{{FaultAt(Kind::kSonarGarbage), FaultAtAll(Kind::kSonarIntermittent)},
+                               1};
+  const auto readings = [&](int waited) {
+    sim::Run run(BeforeAWall(), kEpoch, OnThisThread, schedule);
+    run.Join(kOne);
+    run.Join(kTwo);
+    for (int i = 0; i < waited; ++i) run.Advance({});
+    run.Start();
+    std::vector<double> ranges;
+    for (std::uint32_t tick = 1; tick < kEnds; ++tick) {
+      run.Advance({});
+      for (const RangeScan& scan : run.Scans()) {
+        for (const RangeReading& reading : scan.readings) ranges.push_back(reading.range_m);
+      }
+    }
+    return ranges;
+  };
+  EXPECT_EQ(readings(0), readings(37));
+}
+
 TEST(DriveFault, WeakWheelsReachTheirPartAndAllOfItAfterwards) {
   faults::Fault fault = FaultAt(Kind::kMotorWeak);
   fault.parameters.factor = 0.5;
