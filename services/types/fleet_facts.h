@@ -10,6 +10,7 @@
 #include "services/types/counters.h"
 #include "services/types/decision.h"
 #include "services/types/ids.h"
+#include "services/types/impairment.h"
 #include "services/types/math/pose.h"
 #include "services/types/qos_event.h"
 #include "services/types/range_scan.h"
@@ -133,6 +134,9 @@ struct VehicleStatus {
   double beacon_deadline_requested_ms = 0;
   double beacon_lease_ms = 0;
   bool final = false;  // the last one of this process
+  // Of what it hears; without bytes, abandoned and reordered, which do not travel. All 0 where
+  // nothing is impaired.
+  ImpairmentCounters impaired;
 };
 
 }  // namespace giveway

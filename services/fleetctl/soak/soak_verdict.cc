@@ -102,8 +102,10 @@ class Judging {
                    .target = faults::ToString(fault.target),
                    .observed = !course.effect.empty(),
                    .observed_how = course.effect};
+    // Of other faults peers may hear less of the victim too: not each time, and nothing is
+    // promised.
     for (const std::optional<SteadyTime>& noticed : course.noticed) {
-      if (!noticed) continue;
+      if (!noticed || !AsOfStopwatch(fault.kind)) continue;
       const double after_s = Seconds(*noticed - *course.began);
       if (!told.noticed_after_s || after_s < *told.noticed_after_s) told.noticed_after_s = after_s;
     }

@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 #include "services/faults/schedule_text.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/exit_codes.h"

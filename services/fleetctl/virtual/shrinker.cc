@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 
 namespace giveway::fleetctl {
 namespace {

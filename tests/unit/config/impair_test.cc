@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 #include "tests/unit/config/problem_matcher.h"
 #include "tests/unit/config/scenario_files.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "services/config/scenario_file.h"
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 #include "services/fleetctl/virtual/shrinker.h"
 #include "sim_world/virtual/generators.h"
 

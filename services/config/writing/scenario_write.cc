@@ -1,4 +1,4 @@
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 
 #include <google/protobuf/text_format.h>
 
