@@ -79,4 +79,8 @@ std::string ResolveFaults(const std::string& argument) {
   return Resolve(argument, "faults", "fault file");
 }
 
+std::string ResolveCampaign(const std::string& argument) {
+  return Resolve(argument, "campaigns", "campaign");
+}
+
 }  // namespace giveway

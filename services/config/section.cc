@@ -205,6 +205,16 @@ std::string Section::Text(std::string_view field) const {
   return node_->message->GetReflection()->GetString(*node_->message, Find(*node_->message, field));
 }
 
+std::vector<std::string> Section::Texts(std::string_view field) const {
+  const Message& message = *node_->message;
+  const FieldDescriptor* f = Find(message, field);
+  std::vector<std::string> texts;
+  for (int i = 0; i < Count(field); ++i) {
+    texts.push_back(message.GetReflection()->GetRepeatedString(message, f, i));
+  }
+  return texts;
+}
+
 std::optional<int> Section::Choice(std::string_view field) const {
   if (!Has(field)) return std::nullopt;
   const FieldDescriptor* f = Find(*node_->message, field);

@@ -143,6 +143,14 @@ std::optional<Slope> TheilSen(std::span<const Sample> all) {
   return slope;
 }
 
+bool GrowsThroughout(std::span<const Sample> samples) {
+  if (samples.size() < kLeastSamples) return false;
+  const std::vector<Sample> medians = BlockMedians(samples, kGrowthRuns);
+  return std::ranges::adjacent_find(medians, [](const Sample& a, const Sample& b) {
+           return b.value <= a.value;
+         }) == medians.end();
+}
+
 bool IsLeak(const Slope& slope, double least_per_hour) {
   return slope.low_per_hour > 0 && slope.per_hour >= least_per_hour;
 }

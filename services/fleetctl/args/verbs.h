@@ -7,6 +7,7 @@
 
 namespace giveway::fleetctl {
 
+void AddCampaignVerb(CLI::App* fleetctl, int* exit_code);
 void AddDoctorVerb(CLI::App* fleetctl, int* exit_code);
 void AddFaultsVerb(CLI::App* fleetctl, int* exit_code);
 void AddListenVerb(CLI::App* fleetctl, int* exit_code);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <sstream>
 #include <tuple>
 
@@ -18,6 +19,11 @@ constexpr std::size_t kMostEndedRows = 3000;  // of lives that are over
 constexpr std::size_t kMostNames = 10'000;
 constexpr std::size_t kCurvePoints = 60;
 constexpr std::string_view kSharedMemoryFolder = "/dev/shm/";
+
+// Processor time is what faults make of it: it need not grow in every part of a life.
+bool GrowsLikeALeak(ResourceKind kind, std::span<const statistics::Sample> points) {
+  return kind == ResourceKind::kProcessors || statistics::GrowsThroughout(points);
+}
 
 double LeastLeak(ResourceKind kind) {
   switch (kind) {
@@ -126,7 +132,8 @@ std::vector<ResourceSlope> ResourceSeries::SlopesOf(const std::string& process,
     ResourceSlope row{.process = process, .life = life.number, .kind = kind, .slope = *slope};
     row.slope.samples *= life.series[i].Stride();
     row.last = points.back().value;
-    row.leak = statistics::IsLeak(*slope, LeastLeak(kind));
+    row.leak = statistics::IsLeak(*slope, LeastLeak(kind)) &&
+               slope->spans_s >= kLeastLeakSpan_s && GrowsLikeALeak(kind, points);
     if (kind == ResourceKind::kPrivateBytes) {
       row.curve = statistics::BlockMedians(points, kCurvePoints);
     }

@@ -40,6 +40,10 @@ class BoundedSeries {
   std::size_t summed_ = 0;
 };
 
+// Pools and histories fill up in the first minutes of a life: of a shorter one no growth is called a
+// leak.
+inline constexpr double kLeastLeakSpan_s = 120;
+
 class ResourceSeries {
  public:
   // Of each life's beginning nothing is judged for `warm_up_s`.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -133,6 +134,14 @@ TEST(Leak, ADescriptorAMinuteIsFoundAndAFlatCountIsNone) {
   const auto flat = TheilSen(EachSecond(300, [](double t) { return t == 77 ? 41 : 40; }));
   ASSERT_TRUE(flat);
   EXPECT_FALSE(IsLeak(*flat, kLeastLeakPieces));
+}
+
+TEST(Growth, IsInEachPartOrNotThroughout) {
+  EXPECT_TRUE(GrowsThroughout(EachSecond(300, [](double t) { return t; })));
+  EXPECT_TRUE(GrowsThroughout(EachSecond(300, [](double t) { return std::floor(t / 20); })));
+  EXPECT_FALSE(GrowsThroughout(EachSecond(300, [](double t) { return std::min(t, 200.0); })));
+  EXPECT_FALSE(GrowsThroughout(EachSecond(300, [](double t) { return t < 150 ? 0.0 : 1.0; })));
+  EXPECT_FALSE(GrowsThroughout(EachSecond(19, [](double t) { return t; })));
 }
 
 // What chance alone is called a leak: 2.5 % of independent noise, by the interval; of noise that

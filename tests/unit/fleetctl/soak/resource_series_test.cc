@@ -105,8 +105,8 @@ TEST(ResourcesOverTime, OfAThousandLivesTheLeaksAreKept) {
   ResourceSeries series(0);
   for (int life = 0; life < 1500; ++life) {
     const double growth = life == 3 ? 1e4 : 0;
-    for (int t = 0; t < 25; ++t)
-      series.Add("vehicle-1", 25.0 * life + t, Using(t, 2e7 + growth * t));
+    for (int t = 0; t < 130; ++t)
+      series.Add("vehicle-1", 130.0 * life + t, Using(t, 2e7 + growth * t));
     series.EndLife("vehicle-1");
   }
   const std::vector<ResourceSlope> slopes = series.Slopes();
@@ -114,6 +114,26 @@ TEST(ResourcesOverTime, OfAThousandLivesTheLeaksAreKept) {
   const ResourceSlope* leak = Find(slopes, "vehicle-1", 3, ResourceKind::kPrivateBytes);
   ASSERT_NE(leak, nullptr);
   EXPECT_TRUE(leak->leak);
+}
+
+// As pools and histories do: half of what is missing each forty seconds, in pages.
+TEST(ResourcesOverTime, WhatFillsUpIsNoLeak) {
+  ResourceSeries series(kWarmUp_s);
+  for (int t = 0; t < 300; ++t) {
+    const double pages = std::floor(100 * (1 - std::exp2(-t / 40.0)));
+    series.Add("vehicle-1", t, Using(t, 2e7 + 4096 * pages));
+  }
+  const std::vector<ResourceSlope> slopes = series.Slopes();
+  const ResourceSlope* filling = Find(slopes, "vehicle-1", 0, ResourceKind::kPrivateBytes);
+  ASSERT_NE(filling, nullptr);
+  EXPECT_GT(filling->slope.low_per_hour, statistics::kLeastLeakBytes);
+  EXPECT_FALSE(filling->leak);
+}
+
+TEST(ResourcesOverTime, OfALifeOfLessThanTwoMinutesNoGrowthIsALeak) {
+  ResourceSeries series(0);
+  for (int t = 0; t < 119; ++t) series.Add("vehicle-1", t, Using(t, 2e7 + 1e4 * t));
+  for (const ResourceSlope& row : series.Slopes()) EXPECT_FALSE(row.leak);
 }
 
 // A hundred flat slopes of noise: every fortieth seems to grow, and none is called a leak.
@@ -137,7 +157,7 @@ TEST(ResourcesOverTime, ChanceIsNoLeakHoweverManyAreWatched) {
 
 TEST(ResourcesOverTime, SharedMemoryBelongsToTheFleet) {
   ResourceSeries series(kWarmUp_s);
-  for (int t = 0; t < 100; ++t) series.AddSharedMemory(t, 1'000'000 + 500'000ULL * (t / 10));
+  for (int t = 0; t < 200; ++t) series.AddSharedMemory(t, 1'000'000 + 500'000ULL * (t / 10));
   const std::vector<ResourceSlope> slopes = series.Slopes();
   ASSERT_THAT(slopes, SizeIs(1));
   EXPECT_EQ(slopes[0].process, "fleet");

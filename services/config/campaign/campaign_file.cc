@@ -1,0 +1,34 @@
+#include "services/config/campaign/campaign_file.h"
+
+#include <utility>
+#include <vector>
+
+#include "campaign.pb.h"
+#include "services/config/campaign/campaign_read.h"
+#include "services/config/config_dir.h"
+#include "services/config/faults/faults_file.h"
+#include "services/config/problem.h"
+#include "services/config/section.h"
+#include "services/config/text_file.h"
+
+namespace giveway {
+
+CampaignPlan LoadCampaign(const std::string& path, std::span<const std::string_view> generators) {
+  const std::string name = ResolveCampaign(path);
+  const Section root =
+      ParseText(name, ReadTextFile(name), schema::CampaignPlan::default_instance());
+  CampaignPlan plan = ReadCampaign(root, generators);
+  std::vector<Problem> problems = root.Problems();
+  if (!plan.fault_file.empty()) {
+    try {
+      LoadFaults(plan.fault_file);
+      plan.fault_text = ReadTextFile(ResolveFaults(plan.fault_file));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.Problems().begin(), error.Problems().end());
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return plan;
+}
+
+}  // namespace giveway
