@@ -50,8 +50,8 @@ inline constexpr double kLeastLeakBytes = 64 * 1024;
 inline constexpr double kLeastLeakPieces = 1;
 inline constexpr double kLeastLeakProcessors = 0.05;
 
-// Of so many runs of neighbours of nearly equal length each has a higher median than the one before:
-// what grows never stands still. What fills up, such as caches and pools, does.
+// Of so many runs of neighbours of nearly equal length each has a higher median than the one
+// before: what grows never stands still. What fills up, such as caches and pools, does.
 inline constexpr std::size_t kGrowthRuns = 8;
 bool GrowsThroughout(std::span<const Sample> samples);
 

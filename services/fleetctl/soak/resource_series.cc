@@ -132,8 +132,7 @@ std::vector<ResourceSlope> ResourceSeries::SlopesOf(const std::string& process,
     ResourceSlope row{.process = process, .life = life.number, .kind = kind, .slope = *slope};
     row.slope.samples *= life.series[i].Stride();
     row.last = points.back().value;
-    row.leak = statistics::IsLeak(*slope, LeastLeak(kind)) &&
-               slope->spans_s >= kLeastLeakSpan_s && GrowsLikeALeak(kind, points);
+    row.lasting = slope->spans_s >= kLeastLeakSpan_s && GrowsLikeALeak(kind, points);
     if (kind == ResourceKind::kPrivateBytes) {
       row.curve = statistics::BlockMedians(points, kCurvePoints);
     }
@@ -183,7 +182,8 @@ void MarkLeaks(std::vector<ResourceSlope>* rows, std::size_t more) {
   const std::vector<double> adjusted = statistics::HolmAdjusted(chances);
   for (std::size_t i = 0; i < rows->size(); ++i) {
     ResourceSlope& row = (*rows)[i];
-    row.leak = statistics::IsLeak(row.slope, LeastLeak(row.kind)) && adjusted[i] < kMostLeakChance;
+    row.leak = row.lasting && statistics::IsLeak(row.slope, LeastLeak(row.kind)) &&
+               adjusted[i] < kMostLeakChance;
   }
 }
 

@@ -40,8 +40,8 @@ class BoundedSeries {
   std::size_t summed_ = 0;
 };
 
-// Pools and histories fill up in the first minutes of a life: of a shorter one no growth is called a
-// leak.
+// Pools and histories fill up in the first minutes of a life: of a shorter one no growth is called
+// a leak.
 inline constexpr double kLeastLeakSpan_s = 120;
 
 class ResourceSeries {
