@@ -102,6 +102,20 @@ read -ra words <shown
 "$FLEETCTL" "${words[@]:1}" >/dev/null || code=$?
 [[ $code -eq 1 ]] || fail "the command does not fail again: exit code $code"
 
+# A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short nobody arrives,
+# which its file expects.
+printf 'name: "placed"\nscenario: "four_way"\nseeds: [1, 4]\n' >placed.textproto
+for index in 0 1 2; do campaign 0 "a scenario" shard placed.textproto --of 3 --index "$index" --out placed; done
+campaign 0 "merge of a scenario" merge placed/*.json --json
+"$FLEETCTL" virtual four_way --seeds 1..4 --json >virtual.json
+[[ $(jq -r '.all.hash' out) == $(jq -r '.hash' virtual.json) ]] || fail "a scenario: not the runs of fleetctl virtual"
+echo 'duration_s: 2' >>placed.textproto
+campaign 1 "a scenario cut short" shard placed.textproto --index 0
+mv out placed.log
+campaign 1 "merge of it" merge placed.log --json
+jq -e '.all.violations.expectation == 4 and (.reason | contains("expectation"))' out >/dev/null || fail "cut short: $(<out)"
+[[ $(jq -r '.failing[2].command' out) == "fleetctl virtual four_way --seed 3 --duration 2" ]] || fail "cut short: $(<out)"
+
 # Bad input.
 refused "no number" 'neither JOB_COMPLETION_INDEX, SLURM_ARRAY_TASK_ID nor PARALLEL_SEQ' shard plan.textproto
 SLURM_ARRAY_TASK_ID=1 PARALLEL_SEQ=1 refused "two numbers" 'more than one engine' shard plan.textproto
@@ -114,6 +128,10 @@ refused "all at once" 'no shipped fault file' shard bad.textproto --index 0
 sed 's/vehicles.*/faults: "everything"/' plan.textproto >everything.textproto
 refused "what a virtual run cannot do" 'skip_unsupported: true' shard everything.textproto --index 0
 echo >occupied
+printf 'name: "a"\nscenario: "four_way"\nseeds: 1\nvehicles: 3\n' >named.textproto
+refused "vehicles of a scenario that names its own" 'vehicles = 3: it names its vehicles' shard named.textproto --index 0
+printf 'name: "a"\nscenario: "convoy"\ngenerator: "swarm"\nseeds: 1\n' >both.textproto
+refused "both" 'is a generator too' shard both.textproto --index 0
 refused "a file for a folder" 'occupied' shard plan.textproto --index 0 --out occupied
 refused "twice" 'index = 1: stands in results/small.1-of-4.json too' merge results/*.json results/small.1-of-4.json
 refused "another plan" 'plan = 0123456789abcdef' merge results/*.json other.json
@@ -141,11 +159,28 @@ cmp -s slurm/small.2-of-4.json results/small.2-of-4.json || fail "campaign.slurm
 code=0
 bash "$REPOSITORY/config/deploy/campaign.slurm" plan.textproto >/dev/null 2>err || code=$?
 [[ $code -eq 2 && $(<err) == usage:* ]] || fail "campaign.slurm without arguments: exit code $code"
-if command -v parallel >/dev/null && parallel --version 2>/dev/null | grep -q GNU; then
-  seq 4 | PATH=$(dirname "$FLEETCTL"):$PATH parallel -N0 fleetctl campaign shard plan.textproto --of 4 --out parallel \
-    >/dev/null 2>err || fail "parallel: $(<err)"
+# The second time over an ssh that goes nowhere, and takes nothing of the environment along: the number
+# must come through, and stdout is what comes back.
+if parallel --version 2>/dev/null | grep -q GNU; then
+  PATH=$(dirname "$FLEETCTL"):$PATH
+  seq 4 | parallel -N0 fleetctl campaign shard plan.textproto --of 4 --out parallel >/dev/null 2>err ||
+    fail "parallel: $(<err)"
   campaign 0 "merge of parallel" merge parallel/*.json --json
   cmp -s out whole.json || fail "by parallel it comes to something else"
+  cat >ssh <<'SSH'
+#!/usr/bin/env bash
+# ssh [OPTION ...] HOST -- WORD ...
+while [[ $1 != -- ]]; do shift; done
+shift
+exec env -i PATH="$PATH" HOME="$HOME" SHELL=/bin/bash bash -c "$*"
+SSH
+  chmod +x ssh
+  seq 4 | parallel -N0 --ssh "$PWD/ssh" --sshlogin 1/here,1/there \
+    fleetctl campaign shard "$PWD/plan.textproto" --of 4 >over_ssh.log 2>err || fail "parallel over ssh: $(<err)"
+  campaign 0 "merge over ssh" merge over_ssh.log --json
+  cmp -s out whole.json || fail "over ssh it comes to something else"
+else
+  fail "GNU parallel is missing: apt-get install parallel"
 fi
 
 [[ $failures -eq 0 ]]

@@ -1,5 +1,5 @@
-// Loads and validates a campaign file and the fault file it names. Protobuf text in, values out, or
-// every problem found in both.
+// Loads and validates a campaign file, and the scenario and fault file it names. Protobuf text in,
+// values out, or every problem found in all of them.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace giveway {
 
-// Reads `path`: a file, or the name of a shipped one without folder and ending. A fault file is
-// found as `fleetctl virtual --faults` finds it. Throws InputError.
+// Reads `path`: a file, or the name of a shipped one without folder and ending. Scenarios
+// and fault files are found as `fleetctl virtual` finds them. Throws InputError.
 CampaignPlan LoadCampaign(const std::string& path, std::span<const std::string_view> generators);
 
 }  // namespace giveway

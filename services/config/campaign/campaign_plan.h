@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,11 @@ struct CampaignNumbers {
 
 struct CampaignPlan {
   std::string name;
-  std::vector<std::string> generators;
+  std::vector<std::string> generators;  // or the scenario alone
+  std::string scenario_text;            // what stands in it; empty: there is none
+  std::optional<double> duration_s;     // of the scenario; absent: its own
   CampaignWholes seeds;
-  CampaignWholes vehicles{6, 6};
+  std::optional<CampaignWholes> vehicles;  // absent only of a scenario: its own
   CampaignNumbers loss_percent;
   bool burst = false;
   double delay_ms = 0;

@@ -13,11 +13,13 @@ namespace {
 
 constexpr std::size_t kLongestCampaignName = 64;
 constexpr std::uint64_t kMostRuns = 100'000'000;
+constexpr CampaignWholes kUsualFleet{6, 6};
 constexpr Allowed kFleetSize{2, 1000};
 constexpr Allowed kLoss{0, 99, "%"};
 constexpr Allowed kPercent{0, 100, "%"};
 constexpr Allowed kMilliseconds{0, 1000, "ms"};
 constexpr Allowed kProcessFaults{0, 1000};
+constexpr Allowed kCampaignDuration_s{1, 86400, "s"};
 constexpr Allowed kShards{1, 100000};
 
 std::string ReadCampaignName(const Section& root) {
@@ -39,7 +41,9 @@ std::string ReadCampaignName(const Section& root) {
 std::vector<std::string> ReadGenerators(const Section& root,
                                         std::span<const std::string_view> known) {
   std::vector<std::string> names = root.Texts("generator");
-  if (names.empty()) root.ComplainMissing("generator", "write generator: \"crossing\"");
+  if (names.empty()) {
+    root.ComplainMissing("generator", "write generator: \"crossing\", or scenario: \"four_way\"");
+  }
   for (std::size_t i = 0; i < names.size(); ++i) {
     const int index = static_cast<int>(i);
     if (std::ranges::find(known, names[i]) == known.end()) {
@@ -50,6 +54,42 @@ std::vector<std::string> ReadGenerators(const Section& root,
     }
   }
   return names;
+}
+
+// The name of a file, which becomes an argument of a command that is printed on one line. Empty if
+// it is absent or none.
+std::string ReadFileName(const Section& root, const char* field, const char* remedy) {
+  if (!root.Has(field)) return "";
+  const std::string name = root.Text(field);
+  const bool clean =
+      std::ranges::none_of(name, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  if (clean && !name.empty() && name.front() != '-') return name;
+  root.Complain(field, "is no name of a file", remedy);
+  return "";
+}
+
+// What is run: generators, or one scenario.
+void ReadSubjects(const Section& root, std::span<const std::string_view> known,
+                  CampaignPlan* plan) {
+  if (!root.Has("scenario")) {
+    plan->generators = ReadGenerators(root, known);
+    if (root.Has("duration_s")) {
+      root.Complain("duration_s", "stands without a scenario: generators know how long they last",
+                    "remove it, or write scenario:");
+    }
+    return;
+  }
+  const std::string scenario = ReadFileName(root, "scenario", "write such as four_way, or a path");
+  if (std::ranges::find(known, scenario) != known.end()) {
+    root.Complain("scenario", "is a generator too, which is what would be run",
+                  "write generator:, or the path of the scenario's file");
+  }
+  if (root.Has("generator")) {
+    root.Complain("generator", "stands beside a scenario", "write a campaign for each");
+  }
+  plan->generators = {scenario};
+  const double duration_s = root.NumberOr(1, "duration_s", kCampaignDuration_s);
+  if (root.Has("duration_s")) plan->duration_s = duration_s;
 }
 
 // [lowest, highest] or one number; nothing where there is none, or none that can be used.
@@ -106,14 +146,7 @@ void ReadFaultsOfRuns(const Section& root, CampaignPlan* plan) {
     }
     return;
   }
-  plan->fault_file = root.Text("faults");
-  // It becomes an argument of a command that is printed on one line.
-  const bool clean =
-      std::ranges::none_of(plan->fault_file, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-  if (!clean || plan->fault_file.empty() || plan->fault_file.front() == '-') {
-    root.Complain("faults", "is no name of a fault file", "write such as calm, or a path");
-    plan->fault_file.clear();
-  }
+  plan->fault_file = ReadFileName(root, "faults", "write such as calm, or a path");
 }
 
 }  // namespace
@@ -121,10 +154,12 @@ void ReadFaultsOfRuns(const Section& root, CampaignPlan* plan) {
 CampaignPlan ReadCampaign(const Section& root, std::span<const std::string_view> generators) {
   CampaignPlan plan;
   plan.name = ReadCampaignName(root);
-  plan.generators = ReadGenerators(root, generators);
+  ReadSubjects(root, generators, &plan);
   ReadSeeds(root, &plan);
   if (const auto vehicles = ReadRange(root, "vehicles", kFleetSize)) {
     plan.vehicles = WholesOfRange(*vehicles);
+  } else if (!root.Has("scenario")) {
+    plan.vehicles = kUsualFleet;
   }
   ReadRadio(root, &plan);
   ReadFaultsOfRuns(root, &plan);

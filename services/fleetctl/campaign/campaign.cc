@@ -19,6 +19,7 @@
 #include "services/fleetctl/campaign/campaign_json.h"
 #include "services/fleetctl/campaign/campaign_merge.h"
 #include "services/fleetctl/campaign/campaign_report.h"
+#include "services/fleetctl/campaign/campaign_results.h"
 #include "services/fleetctl/campaign/campaign_run.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/interrupts.h"
@@ -91,38 +92,6 @@ bool ShowDone(std::uint32_t done, std::uint32_t of) {
   return Interrupts::Count() == 0;
 }
 
-// One line of a file that holds results among lines of logs.
-void ReadResultLine(const std::string& where, std::string_view line,
-                    std::vector<NamedShard>* shards, ProblemList* problems) {
-  ReadShard read = ShardFromJson(line);
-  if (read.complaint.empty()) {
-    shards->push_back({where, std::move(read.result)});
-    return;
-  }
-  problems->Add({.file = where,
-                 .message = read.complaint,
-                 .remedy = "name files or logs of fleetctl campaign shard"});
-}
-
-void ReadResults(const std::string& file, std::vector<NamedShard>* shards, ProblemList* problems) {
-  const std::string text = ReadTextFile(file);
-  std::size_t results = 0;
-  int number = 1;
-  for (std::size_t begin = 0; begin < text.size(); ++number) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (text[begin] == '{') {
-      const std::string where = results == 0 ? file : fmt::format("{}:{}", file, number);
-      ReadResultLine(where, std::string_view(text).substr(begin, end - begin), shards, problems);
-      ++results;
-    }
-    begin = end + 1;
-  }
-  if (results > 0) return;
-  problems->Add({.file = file,
-                 .message = "no line of it is a result",
-                 .remedy = "name files or logs of fleetctl campaign shard"});
-}
-
 }  // namespace
 
 int RunCampaignShard(const CampaignShardOptions& options) {
@@ -165,13 +134,7 @@ int RunCampaignShard(const CampaignShardOptions& options) {
 int RunCampaignMerge(const CampaignMergeOptions& options) {
   std::vector<NamedShard> shards;
   ProblemList unreadable;
-  for (const std::string& file : options.files) {
-    try {
-      ReadResults(file, &shards, &unreadable);
-    } catch (const InputError& error) {
-      for (const Problem& problem : error.Problems()) unreadable.Add(problem);
-    }
-  }
+  for (const std::string& file : options.files) ReadResults(file, &shards, &unreadable);
   MergedCampaign merged = MergeShards(shards);
   for (const Problem& problem : merged.problems) unreadable.Add(problem);
   if (!unreadable.Empty()) throw InputError(unreadable.Sorted());

@@ -20,16 +20,6 @@ std::string HashOf(std::string_view text) {
   return fmt::format("{:016x}", hash.Value());
 }
 
-// As one word of a shell.
-std::string ShellWord(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+,:@%";
-  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 template <typename Range>
 std::string RangeText(const Range& range) {
   return range.low == range.high ? fmt::format("{}", range.low)
@@ -73,26 +63,41 @@ int ReadBuildId(dl_phdr_info* object, std::size_t /*size*/, void* found) {
 
 }  // namespace
 
+std::string ShellWord(const std::string& text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+,:@%";
+  if (text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 std::string CanonicalText(const CampaignPlan& plan) {
   std::string text = fmt::format("campaign {}\n", plan.name);
   for (const std::string& generator : plan.generators) {
     text += fmt::format("generator {}\n", generator);
   }
-  text += fmt::format("seeds {}..{}\nvehicles {}..{}\nloss {}..{}\nburst {:d}\n", plan.seeds.low,
-                      plan.seeds.high, plan.vehicles.low, plan.vehicles.high, plan.loss_percent.low,
-                      plan.loss_percent.high, plan.burst);
+  if (plan.vehicles)
+    text += fmt::format("vehicles {}..{}\n", plan.vehicles->low, plan.vehicles->high);
+  if (plan.duration_s) text += fmt::format("duration {}\n", *plan.duration_s);
+  text += fmt::format("seeds {}..{}\nloss {}..{}\nburst {:d}\n", plan.seeds.low, plan.seeds.high,
+                      plan.loss_percent.low, plan.loss_percent.high, plan.burst);
   text +=
       fmt::format("delay {}\njitter {}\nreorder {}\nduplicate {}\nloopback {:d}\n", plan.delay_ms,
                   plan.jitter_ms, plan.reorder_percent, plan.duplicate_percent, plan.loops_back);
   text += fmt::format("crashes {}\npauses {}\nrestarts {}\nskip_unsupported {:d}\n", plan.crashes,
                       plan.pauses, plan.restarts, plan.skip_unsupported);
+  // With its length a text cannot be taken for a part of the next.
+  text += fmt::format("scenario {}\n{}\n", plan.scenario_text.size(), plan.scenario_text);
   return text + fmt::format("faults {}\n{}", plan.fault_file, plan.fault_text);
 }
 
 std::string PlanHash(const CampaignPlan& plan) { return HashOf(CanonicalText(plan)); }
 
 std::string FlagsOf(const CampaignPlan& plan) {
-  std::string flags = " --vehicles " + RangeText(plan.vehicles);
+  std::string flags;
+  if (plan.vehicles) flags += " --vehicles " + RangeText(*plan.vehicles);
+  if (plan.duration_s) flags += fmt::format(" --duration {}", *plan.duration_s);
   const auto add = [&](const char* flag, double value) {
     if (value > 0) flags += fmt::format(" {} {}", flag, value);
   };

@@ -16,7 +16,6 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr double kMostWhole = 9007199254740992.0;  // 2^53
-constexpr std::uint32_t kMostShardsRead = 100000;
 
 void WriteSums(const CampaignSums& sums, schema::CampaignSums* message) {
   message->set_generator(sums.generator);
@@ -66,6 +65,7 @@ void ReadBroken(const schema::Violations& message, CampaignSums* sums) {
     GIVEWAY_CHECK(field != nullptr, name);
     sums->violations[i] = message.GetReflection()->GetUInt32(message, field);
   }
+  sums->unmet = message.expectation();
 }
 
 TrustCounters TrustOf(const schema::Trust& message) {
@@ -92,7 +92,6 @@ CampaignSums SumsFrom(const schema::CampaignSums& message, ShardComplaints* comp
   CampaignSums sums;
   sums.generator = message.generator();
   const std::string& name = sums.generator;
-  complaints->Unless(sim::FindGenerator(name) != nullptr, "\"" + name + "\" is no generator");
   sums.runs = message.runs();
   sums.failed_runs = message.failed_runs();
   sums.contacts = message.contacts();
@@ -134,6 +133,7 @@ void SetBroken(const CampaignSums& sums, schema::Violations* message) {
   for (std::size_t i = 0; i < sums.violations.size(); ++i) {
     broken.push_back({std::string(sim::Name(static_cast<sim::Invariant>(i))), sums.violations[i]});
   }
+  broken.push_back({"expectation", sums.unmet});
   SetViolations(broken, message);
 }
 
@@ -171,11 +171,16 @@ ReadShard ShardFromJson(std::string_view json) {
   result.flags = message.flags();
   complaints.Unless(IsHex(result.plan, 16, 16), "plan is not 16 hex digits");
   complaints.Unless(IsHex(result.program, 2, 128), "program is no build id");
-  complaints.Unless(result.shard.of >= 1 && result.shard.of <= kMostShardsRead &&
+  complaints.Unless(result.shard.of >= 1 && result.shard.of <= kMostShards &&
                         result.shard.index < result.shard.of,
                     fmt::format("index {} of {} shards", result.shard.index, result.shard.of));
   complaints.Unless(message.generators_size() > 0, "it has no generators");
+  // A scenario, whose file need not be here, stands alone.
+  const bool may_be_scenario = message.generators_size() == 1;
   for (const schema::CampaignSums& sums : message.generators()) {
+    const std::string& name = sums.generator();
+    complaints.Unless(sim::FindGenerator(name) != nullptr || (may_be_scenario && !name.empty()),
+                      "\"" + name + "\" is no generator");
     result.generators.push_back(SumsFrom(sums, &complaints));
   }
   read.complaint = complaints.Text();

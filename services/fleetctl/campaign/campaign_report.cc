@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/fleetctl/campaign/campaign_identity.h"
 #include "services/fleetctl/campaign/campaign_schema.h"
 #include "services/report/violations.h"
 
@@ -39,11 +40,13 @@ std::string Reason(const CampaignSums& all) {
     if (all.violations[i] == 0) continue;
     names += (names.empty() ? "" : ", ") + std::string(sim::Name(static_cast<sim::Invariant>(i)));
   }
+  if (all.unmet > 0) names += names.empty() ? "expectation" : ", expectation";
   return names.empty() ? "all_held" : names;
 }
 
 std::string CommandOf(const CampaignResult& result, const CampaignSums& sums, std::uint32_t seed) {
-  return fmt::format("fleetctl virtual {} --seed {}{}", sums.generator, seed, result.flags);
+  return fmt::format("fleetctl virtual {} --seed {}{}", ShellWord(sums.generator), seed,
+                     result.flags);
 }
 
 std::string TableRow(const CampaignSums& sums) {

@@ -14,7 +14,8 @@ namespace {
 CaseOptions OptionsOf(const CampaignPlan& plan, const std::string& generator) {
   CaseOptions options;
   options.scenario = generator;
-  options.vehicles = WholeRange{plan.vehicles.low, plan.vehicles.high};
+  if (plan.vehicles) options.vehicles = WholeRange{plan.vehicles->low, plan.vehicles->high};
+  options.duration_s = plan.duration_s;
   options.loss_percent = {plan.loss_percent.low, plan.loss_percent.high};
   options.burst = plan.burst;
   options.delay_ms = plan.delay_ms;
@@ -44,6 +45,8 @@ CaseMaker MakerOf(const CampaignPlan& plan, const std::string& generator) {
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.Problems();
     for (Problem& problem : problems) {
+      if (problem.field == "--vehicles") problem.field = "vehicles";
+      if (problem.remedy == "leave the flag out") problem.remedy = "leave them out";
       if (problem.remedy.find("--skip-unsupported") == std::string::npos) continue;
       problem.remedy = "leave it out, or write skip_unsupported: true in the campaign";
     }

@@ -10,6 +10,9 @@
 
 namespace giveway::fleetctl {
 
+// As many as a Job of Kubernetes can count.
+inline constexpr std::uint32_t kMostShards = 100'000;
+
 struct ShardOf {
   std::uint32_t index = 0;  // below `of`
   std::uint32_t of = 1;

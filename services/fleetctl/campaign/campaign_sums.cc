@@ -31,6 +31,7 @@ void CampaignSums::Add(const BatchTotals& batch) {
   failed_runs += static_cast<std::uint32_t>(batch.failing_seeds.size());
   contacts += batch.contacts;
   for (std::size_t i = 0; i < violations.size(); ++i) violations[i] += batch.violations[i];
+  unmet += batch.unmet;
   vehicle_ms += std::llround(batch.vehicle_seconds * 1e3);
   for (const double delay_s : batch.delays_s) {
     delays_us += std::llround(delay_s * 1e6);
@@ -49,6 +50,7 @@ void CampaignSums::Merge(const CampaignSums& other) {
   failed_runs += other.failed_runs;
   contacts += other.contacts;
   for (std::size_t i = 0; i < violations.size(); ++i) violations[i] += other.violations[i];
+  unmet += other.unmet;
   vehicle_ms += other.vehicle_ms;
   delays_us += other.delays_us;
   for (const auto& [tenths, count] : other.delays) delays[tenths] += count;

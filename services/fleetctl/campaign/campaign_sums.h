@@ -22,6 +22,7 @@ struct CampaignSums {
   std::uint32_t failed_runs = 0;
   std::uint32_t contacts = 0;
   std::array<std::uint32_t, sim::kInvariantCount> violations{};
+  std::uint32_t unmet = 0;  // runs that missed what the scenario expects
   std::int64_t vehicle_ms = 0;
   std::int64_t delays_us = 0;                     // of all who arrived
   std::map<std::uint32_t, std::uint32_t> delays;  // by tenths of a second

@@ -2,6 +2,7 @@
 
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/campaign/campaign.h"
+#include "services/fleetctl/campaign/campaign_runs.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -15,7 +16,7 @@ of the same plan and program, it is printed and nothing is run.
 
 Examples
   fleetctl campaign shard nightly --of 200 --index 0 --out results
-  seq 200 | parallel -N0 fleetctl campaign shard nightly --of 200 --out results > /dev/null
+  seq 200 | parallel -N0 fleetctl campaign shard nightly --of 200 > nightly.log
 
 Exit code: 0 all held, 1 something did not, or the file was not written, 2 could not run,
 143 interrupted: no result, run it again.
@@ -40,9 +41,9 @@ void AddShard(CLI::App* group, int* exit_code) {
   verb->add_option("PLAN", options->plan, "A campaign file, or the name of a shipped one")
       ->required();
   verb->add_option("--of", options->of, "Into how many parts it is cut; default the plan's shards")
-      ->check(CLI::Range(1U, 100000U));
+      ->check(CLI::Range(1U, kMostShards));
   verb->add_option("--index", options->index, "Which part, from 0; default as the engine says")
-      ->check(CLI::Range(0U, 99999U));
+      ->check(CLI::Range(0U, kMostShards - 1));
   verb->add_option("--jobs", options->jobs, "Runs at a time; default 1")
       ->check(CLI::Range(1U, 1024U));
   verb->add_option("--out", options->out_folder, "Folder for the result; made if it is missing");

@@ -47,8 +47,8 @@ shards: 12)");
   EXPECT_EQ(plan.name, "all-1");
   EXPECT_THAT(plan.generators, ElementsAre("crossing", "swarm"));
   EXPECT_EQ(plan.Runs(), 6U);
-  EXPECT_EQ(plan.vehicles.low, 3U);
-  EXPECT_EQ(plan.vehicles.high, 20U);
+  EXPECT_EQ(plan.vehicles->low, 3U);
+  EXPECT_EQ(plan.vehicles->high, 20U);
   EXPECT_EQ(plan.loss_percent.low, 1.5);
   EXPECT_EQ(plan.loss_percent.high, 20);
   EXPECT_TRUE(plan.burst && plan.loops_back && plan.skip_unsupported);
@@ -65,8 +65,9 @@ TEST(CampaignFile, NeedsLittle) {
   const CampaignPlan plan = LoadCampaignText(kLeast);
   EXPECT_EQ(plan.seeds.low, 3U);
   EXPECT_EQ(plan.seeds.high, 9U);
-  EXPECT_EQ(plan.vehicles.low, 6U);
-  EXPECT_EQ(plan.vehicles.high, 6U);
+  EXPECT_EQ(plan.vehicles->low, 6U);
+  EXPECT_EQ(plan.vehicles->high, 6U);
+  EXPECT_THAT(plan.scenario_text, IsEmpty());
   EXPECT_EQ(plan.loss_percent.high, 0);
   EXPECT_EQ(plan.shards, 1U);
   EXPECT_THAT(plan.fault_file, IsEmpty());
@@ -97,6 +98,34 @@ vehicle: 3)"),
 TEST(CampaignFile, NeedsNameGeneratorAndSeeds) {
   EXPECT_THAT(ProblemsOfCampaign("shards: 2\n"),
               ElementsAre(Is(1, "name", ""), Is(1, "generator", ""), Is(1, "seeds", "")));
+}
+
+TEST(CampaignFile, MayRunAScenario) {
+  const std::string text = "name: \"a\"\nscenario: \"four_way\"\nseeds: 3\n";
+  const CampaignPlan plan = LoadCampaignText(text);
+  EXPECT_THAT(plan.generators, ElementsAre("four_way"));
+  EXPECT_NE(plan.scenario_text.find("vehicle"), std::string::npos);
+  EXPECT_EQ(plan.Runs(), 1U);
+  EXPECT_FALSE(plan.vehicles || plan.duration_s);
+  EXPECT_EQ(LoadCampaignText(text + "duration_s: 20").duration_s, 20);
+}
+
+TEST(CampaignFile, SaysWhatIsWrongWithItsScenario) {
+  const std::string least = "name: \"a\"\nseeds: 3\n";
+  EXPECT_THAT(
+      ProblemsOfCampaign(least + "scenario: \"convoy\"\nduration_s: 0\ngenerator: \"swarm\""),
+      ElementsAre(Is(3, "scenario", "is a generator too"), Is(4, "duration_s", "between 1"),
+                  Is(5, "generator", "beside a scenario")));
+  EXPECT_THAT(ProblemsOfCampaign(least + "scenario: \"-x\""),
+              ElementsAre(Is(3, "scenario", "no name")));
+  EXPECT_THAT(ProblemsOfCampaign(std::string(kLeast) + "duration_s: 9"),
+              ElementsAre(Is(4, "duration_s", "without a scenario")));
+  const TempFolder folder;
+  const std::string file = folder.Write("s.textproto", "seed: 3\nspeed: 4\n");
+  const auto problems = ProblemsOfCampaign(least + "scenario: \"" + file + "\"\nshards: 0");
+  ASSERT_GE(problems.size(), 2U);
+  EXPECT_EQ(problems.front().field, "shards");
+  EXPECT_EQ(problems.back().file, file);
 }
 
 TEST(CampaignFile, IsBounded) {

@@ -151,8 +151,8 @@ TEST(CampaignIdentity, IsOfWhatDecidesARun) {
       [](CampaignPlan* p) { p->generators.pop_back(); },
       [](CampaignPlan* p) { p->seeds.low = 6; },
       [](CampaignPlan* p) { p->seeds.high = 28; },
-      [](CampaignPlan* p) { p->vehicles.low = 3; },
-      [](CampaignPlan* p) { p->vehicles.high = 9; },
+      [](CampaignPlan* p) { p->vehicles->low = 3; },
+      [](CampaignPlan* p) { p->vehicles->high = 9; },
       [](CampaignPlan* p) { p->loss_percent.low = 0.1; },
       [](CampaignPlan* p) { p->loss_percent.high = 21; },
       [](CampaignPlan* p) { p->burst = true; },
@@ -164,6 +164,9 @@ TEST(CampaignIdentity, IsOfWhatDecidesARun) {
       [](CampaignPlan* p) { p->crashes = 1; },
       [](CampaignPlan* p) { p->pauses = 1; },
       [](CampaignPlan* p) { p->restarts = 1; },
+      [](CampaignPlan* p) { p->vehicles.reset(); },
+      [](CampaignPlan* p) { p->duration_s = 60; },
+      [](CampaignPlan* p) { p->scenario_text = "name: 1"; },
       [](CampaignPlan* p) { p->fault_file = "calm"; },
       [](CampaignPlan* p) { p->fault_text = "at {}"; },
       [](CampaignPlan* p) { p->skip_unsupported = true; },
@@ -180,7 +183,7 @@ TEST(CampaignIdentity, IsOfWhatDecidesARun) {
 
 TEST(CampaignIdentity, GivesTheFlagsOfOneRun) {
   CampaignPlan plan = SmallCampaign();
-  plan.vehicles = {12, 12};
+  plan.vehicles = CampaignWholes{12, 12};
   plan.loss_percent = {2.5, 2.5};
   plan.burst = true;
   plan.pauses = 2;
@@ -189,6 +192,43 @@ TEST(CampaignIdentity, GivesTheFlagsOfOneRun) {
   EXPECT_EQ(FlagsOf(plan),
             " --vehicles 12 --loss 2.5 --burst --pauses 2 --faults 'my faults/it'\\''s.textproto' "
             "--skip-unsupported");
+}
+
+CampaignPlan OfAScenario() {
+  CampaignPlan plan = SmallCampaign();
+  plan.generators = {"my places/yard.textproto"};
+  plan.scenario_text = "name: 1";
+  plan.vehicles.reset();
+  plan.duration_s = 60.5;
+  return plan;
+}
+
+TEST(CampaignMerge, OfAScenarioShowsRunsThatMissWhatItExpects) {
+  std::vector<NamedShard> shards = ShardsOf(OfAScenario(), 2);
+  BatchTotals missed;
+  missed.runs = 1;
+  missed.unmet = 1;
+  missed.failing_seeds = {1};
+  for (NamedShard& shard : shards) {
+    shard.result.generators[0].Add(missed);
+    shard.result.planned_runs += 2;
+    shard.result = ShardFromJson(ToJson(shard.result)).result;
+  }
+  const MergedCampaign merged = MergeShards(shards);
+  EXPECT_EQ(Format(merged.problems), "");
+  EXPECT_THAT(
+      ReportJson(merged.result),
+      AllOf(HasSubstr(R"("expectation":2)"), HasSubstr(R"("reason":"contact, expectation")"),
+            HasSubstr("fleetctl virtual 'my places/yard.textproto' --seed 1 --duration 60.5"
+                      " --loss 0..20\"")));
+}
+
+TEST(CampaignShardJson, HasAScenarioAlone) {
+  EXPECT_EQ(ShardFromJson(ToJson(PretendedShard(OfAScenario(), {0, 2}))).complaint, "");
+  CampaignPlan beside = OfAScenario();
+  beside.generators.emplace_back("swarm");
+  EXPECT_THAT(ShardFromJson(ToJson(PretendedShard(beside, {0, 2}))).complaint,
+              HasSubstr("is no generator"));
 }
 
 TEST(CampaignNumbers, AreBounded) {

@@ -14,7 +14,7 @@ inline CampaignPlan SmallCampaign() {
   plan.name = "small";
   plan.generators = {"crossing", "swarm", "convoy"};
   plan.seeds = {5, 27};
-  plan.vehicles = {2, 8};
+  plan.vehicles = CampaignWholes{2, 8};
   plan.loss_percent = {0, 20};
   return plan;
 }
