@@ -24,6 +24,7 @@
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/runtime/process.h"
+#include "sim_world/virtual/generators.h"
 
 namespace giveway::fleetctl {
 namespace {

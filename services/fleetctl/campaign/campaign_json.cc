@@ -11,6 +11,7 @@
 #include "services/report/violations.h"
 #include "services/runtime/utf8.h"
 #include "services/types/check.h"
+#include "sim_world/virtual/generators.h"
 
 namespace giveway::fleetctl {
 namespace {
