@@ -133,6 +133,7 @@ std::vector<ResourceSlope> ResourceSeries::SlopesOf(const std::string& process,
     row.slope.samples *= life.series[i].Stride();
     row.last = points.back().value;
     row.lasting = slope->spans_s >= kLeastLeakSpan_s && GrowsLikeALeak(kind, points);
+    row.leak = row.lasting && statistics::IsLeak(*slope, LeastLeak(kind));
     if (kind == ResourceKind::kPrivateBytes) {
       row.curve = statistics::BlockMedians(points, kCurvePoints);
     }
