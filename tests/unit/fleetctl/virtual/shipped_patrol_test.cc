@@ -58,7 +58,10 @@ TEST_P(ShippedPatrol, EveryoneGetsOnInEveryMinute) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedPatrol,
                          testing::Values(Patrol{"patrol", 8, 0}, Patrol{"patrol", 8, 3},
                                          Patrol{"patrol", 5, 1}, Patrol{"fleet_2", 8, 0},
-                                         Patrol{"fleet_20", 24, 0}),
+                                         Patrol{"fleet_20", 24, 0}, Patrol{"warehouse_loop", 20, 0},
+                                         Patrol{"warehouse_loop", 10, 1},
+                                         Patrol{"city_grid", 32, 0}, Patrol{"city_grid", 16, 1},
+                                         Patrol{"rush_hour", 16, 0}, Patrol{"rush_hour", 8, 1}),
                          [](const auto& test) {
                            return std::string(test.param.scenario) + "_of_" +
                                   std::to_string(test.param.vehicles) + "_seed_" +
