@@ -4,13 +4,11 @@
 # supervisor that is killed leaves nobody behind.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
-soak() { "$FLEETCTL" soak "$@"; }
-
 # refused WORDS ARGUMENTS...: exit code 2, the words, and no report.
 refused() {
   local words=$1 code=0
   shift
-  soak "$@" --report "$SCRATCH/refused" >"$SCRATCH/out" 2>&1 || code=$?
+  "$FLEETCTL" soak "$@" --report "$SCRATCH/refused" >"$SCRATCH/out" 2>&1 || code=$?
   [[ $code -eq 2 ]] || fail "soak $*: exit code $code, expected 2"
   grep -q "$words" "$SCRATCH/out" || fail "soak $* does not say '$words': $(head -n 3 "$SCRATCH/out")"
   [[ ! -e $SCRATCH/refused/report.json ]] || fail "soak $*: there is a report"
@@ -29,7 +27,7 @@ refusals() {
   refused '30 s' patrol --faults calm --duration 5
   refused 'vehicles' intersection_yield --faults calm --duration 60 --vehicles 3
   local code=0
-  soak patrol --faults calm --duration 60 --report /proc/no >"$SCRATCH/out" 2>&1 || code=$?
+  "$FLEETCTL" soak patrol --faults calm --duration 60 --report /proc/no >"$SCRATCH/out" 2>&1 || code=$?
   [[ $code -eq 2 ]] || fail "a folder that cannot be made: exit code $code"
 }
 
@@ -58,7 +56,7 @@ started() {
 interrupted() {
   local supervisor code=0
   echo 'at { name: "stop" time_s: 14 kind: "pause" vehicle: 1 for_s: 30 }' >"$SCRATCH/long.textproto"
-  soak patrol --vehicles 2 --faults "$SCRATCH/long.textproto" --duration 90 --report "$SCRATCH/early" \
+  "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/long.textproto" --duration 90 --report "$SCRATCH/early" \
     --json >"$SCRATCH/early.json" 2>"$SCRATCH/early.log" &
   supervisor=$!
   started "$SCRATCH/early.log" || fail "the fleet to be interrupted never drove"
@@ -73,7 +71,7 @@ interrupted() {
 
 killed() {
   local supervisor children
-  soak patrol --vehicles 2 --faults "$SCRATCH/long.textproto" --duration 90 --report "$SCRATCH/killed" \
+  "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/long.textproto" --duration 90 --report "$SCRATCH/killed" \
     >/dev/null 2>"$SCRATCH/killed.log" &
   supervisor=$!
   started "$SCRATCH/killed.log" || fail "the fleet to be orphaned never drove"
@@ -86,7 +84,7 @@ killed() {
 
 whole() {
   local code=0 report=$SCRATCH/whole
-  soak patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-3m}" \
+  "$FLEETCTL" soak patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-3m}" \
     --seed 1 --record --report "$report" --json >"$SCRATCH/whole.json" 2>"$SCRATCH/whole.log" || code=$?
   if [[ $code -ne 0 ]]; then
     fail "the soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/whole.json")"
@@ -96,7 +94,8 @@ whole() {
   jq -e '(.faults | length) > 5 and ([.faults[] | select(.observed | not)] | length) == 0' \
     "$report/report.json" >/dev/null || fail "a fault of the whole soak was not observed"
   grep -q '</html>' "$report/report.html" || fail "the page is not whole"
-  "$FLEETCTL" report "$report" | grep -q passed || fail "fleetctl report does not read it"
+  "$FLEETCTL" report "$report" >"$SCRATCH/summary" || fail "fleetctl report does not read it"
+  grep -q PASSED "$SCRATCH/summary" || fail "fleetctl report does not say that it passed"
   "$FLEETCTL" replay "$report"/recordings/vehicle-1.recording >/dev/null ||
     fail "a recording of the soak does not replay"
 }
