@@ -16,6 +16,7 @@
 #include "sim_world/checkpoint.h"
 #include "sim_world/dynamics/contacts.h"
 #include "sim_world/dynamics/doors.h"
+#include "sim_world/dynamics/drive.h"
 #include "sim_world/dynamics/obstacles.h"
 #include "sim_world/dynamics/things.h"
 #include "sim_world/geometry/neighbours.h"
@@ -52,6 +53,10 @@ class World {
   // Holds the command until a newer one comes. False: refused, and counted.
   bool Take(const MotorCommand& command);
 
+  // What is wrong with drives in the next tick, by vehicle; until this is called again.
+  void SetDriveFaults(std::span<const DriveFault> faults) {
+    drive_faults_.assign(faults.begin(), faults.end());
+  }
   // Makes the next tick. Bodies follow their commands if `driving`, else they brake. A body also
   // brakes when its command answers a tick more than the scenario's watchdog_ticks before this one.
   // Obstacles and doors move in driving ticks.
@@ -89,6 +94,7 @@ class World {
   void Appear(Body* body);
   void Plan(bool driving);
   void PlanBody(bool driving, std::size_t i);
+  const DriveFault* FaultOf(VehicleId vehicle) const;
   void PlanOthers(bool driving);
   void FindPairs(bool driving);
   void FindFirstPairs();
@@ -106,7 +112,8 @@ class World {
   std::vector<Body> bodies_;  // sorted by id
   std::vector<MovingObstacle> obstacles_;
   std::vector<SlidingDoor> doors_;
-  Things things_;  // as the last tick moved them
+  std::vector<DriveFault> drive_faults_;  // of the next tick, by vehicle
+  Things things_;                         // as the last tick moved them
   std::vector<Ball> balls_;
   Neighbours neighbours_;
   sim::Contacts contacts_;

@@ -59,16 +59,24 @@ void World::Plan(bool driving) {
   PlanOthers(driving);
 }
 
+const DriveFault* World::FaultOf(VehicleId vehicle) const {
+  const auto fault = std::ranges::lower_bound(drive_faults_, vehicle, {}, &DriveFault::vehicle);
+  return fault == drive_faults_.end() || fault->vehicle != vehicle ? nullptr : &*fault;
+}
+
 void World::PlanBody(bool driving, std::size_t i) {
   Body& body = bodies_[i];
   body.obeyed = driving && body.command.tick != kNoTick &&
                 TicksBetween(body.command.tick, now_) <= watchdog_ticks_;
-  const WheelSpeeds target = body.obeyed ? body.command.target : WheelSpeeds{};
-  body.wheels = MoveWheels(body.profile, body.wheels, target, dt_s_);
+  WheelSpeeds target = body.obeyed ? body.command.target : WheelSpeeds{};
+  const DriveFault* fault = drive_faults_.empty() ? nullptr : FaultOf(body.vehicle);
+  if (fault != nullptr) target = Scaled(fault->reaches, target);
+  const bool stuck = fault != nullptr && fault->stuck.has_value();
+  body.wheels = stuck ? *fault->stuck : MoveWheels(body.profile, body.wheels, target, dt_s_);
   const Rolled rolled =
       Roll(body.profile, body.wheels, RollRandom(seed_, body.vehicle, driven_ticks_));
   body.ground = rolled.ground;
-  body.encoders = rolled.encoders;
+  body.encoders = fault == nullptr ? rolled.encoders : Scaled(fault->counts, rolled.encoders);
   Motion& motion = things_.motions[i];
   motion.start_world = body.world_from_body;
   motion.twist = TwistFromWheels(body.profile.drive, body.ground);

@@ -41,6 +41,18 @@ std::string ShippedNames(const fs::path& folder) {
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
+// The file itself if it is one, else the one of that name in `folder`, which holds those of `what`.
+std::string Resolve(const std::string& argument, const char* folder, const char* what) {
+  std::error_code error;
+  if (!argument.empty() && fs::exists(argument, error)) return argument;
+  const fs::path shipped = fs::path(ConfigDir()) / folder;
+  const fs::path named = shipped / (argument + kEnding);
+  if (!argument.empty() && fs::exists(named, error)) return named;
+  throw InputError({{argument.empty() ? "\"\"" : argument, 0, "", "",
+                     fmt::format("no such file, and no shipped {} {}", what, named.string()),
+                     fmt::format("name a file or one of: {}", ShippedNames(shipped))}});
+}
+
 }  // namespace
 
 std::string ConfigDir() {
@@ -60,14 +72,15 @@ std::string ConfigDir() {
 }
 
 std::string ResolveScenario(const std::string& argument) {
-  std::error_code error;
-  if (!argument.empty() && fs::exists(argument, error)) return argument;
-  const fs::path shipped = fs::path(ConfigDir()) / "scenarios";
-  const fs::path named = shipped / (argument + kEnding);
-  if (!argument.empty() && fs::exists(named, error)) return named;
-  throw InputError({{argument.empty() ? "\"\"" : argument, 0, "", "",
-                     fmt::format("no such file, and no shipped scenario {}", named.string()),
-                     fmt::format("name a file or one of: {}", ShippedNames(shipped))}});
+  return Resolve(argument, "scenarios", "scenario");
+}
+
+std::string ResolveFaults(const std::string& argument) {
+  return Resolve(argument, "faults", "fault file");
+}
+
+std::string ResolveCampaign(const std::string& argument) {
+  return Resolve(argument, "campaigns", "campaign");
 }
 
 }  // namespace giveway

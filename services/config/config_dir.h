@@ -1,4 +1,4 @@
-// Where the shipped profile sets and scenarios are.
+// Where the shipped profile sets, scenarios, fault files and campaigns are.
 #pragma once
 
 #include <string>
@@ -8,6 +8,12 @@ namespace giveway {
 // The file a scenario argument means: itself if it exists, else the shipped one of that name.
 // Throws InputError naming both places and listing the shipped scenarios.
 std::string ResolveScenario(const std::string& argument);
+
+// As ResolveScenario, of a fault file.
+std::string ResolveFaults(const std::string& argument);
+
+// As ResolveScenario, of a campaign.
+std::string ResolveCampaign(const std::string& argument);
 
 // The folder holding qos/ and scenarios/: $GIVEWAY_CONFIG_DIR, else beside the installed binary
 // (../share/giveway), else the source tree the binary was built in. Throws InputError.

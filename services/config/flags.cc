@@ -47,7 +47,7 @@ class CommandLine {
       Add("--record-split", "SIZE", "begin another file of the recording at this size: 64MiB");
       Add("--impair", "RULES",
           "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
-          "none; the README lists the keys");
+          "none, or @FILE that says such; the README lists the keys");
       AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
       AddSwitch("--hang-on-signal",
@@ -55,6 +55,9 @@ class CommandLine {
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
+      Add("--faults", "FILE",
+          "carries out the world's faults of this list: ultrasonics, motors and\n"
+          "encoders; fleetctl faults expand writes one");
     }
     Add("--try-qos", "FILE",
         "make every endpoint of this set once, say whether that succeeds, and end");
@@ -220,6 +223,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);
     flags.go_on_from = values->Text("--go-on-from").value_or("");
     if (values->Text("--checkpoint")) flags.checkpoint = values->TextOr("", "--checkpoint");
+    if (values->Text("--faults")) flags.faults = values->TextOr("", "--faults");
   }
   flags.try_qos = values->Text("--try-qos").value_or("");
   flags.resume = ReadResumed(values);

@@ -32,6 +32,7 @@ struct ServiceFlags {
   std::optional<Resumed> resume;   // it was itself before, see restart.h
   bool stay = false;               // vehicle only; outlives its world
   std::string go_on_from;          // world only; the checkpoint it gave to itself
+  std::string faults;              // world only; a concrete fault file; empty: none
   std::string try_qos;             // not a service: makes the endpoints of this set once, and ends
   std::string former_qos;   // the set it had before an order's; with it, it comes back if it must
   std::string rolled_back;  // why it came back with that

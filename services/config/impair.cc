@@ -10,6 +10,8 @@
 #include <optional>
 #include <set>
 
+#include "services/config/problem.h"
+#include "services/config/text_file.h"
 #include "services/config/vehicle_read.h"
 
 namespace giveway {
@@ -100,6 +102,18 @@ Blackout ReadBlackout(const Section& section) {
 
 }  // namespace
 
+namespace {
+
+void ReadDuring(const Section& section, ImpairmentRule* rule) {
+  if (section.Has("from_s")) rule->from_s = section.Number("from_s", kBlackoutTime);
+  if (section.Has("to_s")) rule->to_s = section.Number("to_s", kBlackoutTime);
+  if (rule->to_s && rule->from_s.value_or(0) >= *rule->to_s) {
+    section.Complain("to_s", "the rule ends before it begins", "write to_s above from_s");
+  }
+}
+
+}  // namespace
+
 ImpairmentRule ReadImpairmentRule(const Section& section, const KnownIds& known) {
   ImpairmentRule rule;
   rule.from = ReadFrom(section);
@@ -112,8 +126,9 @@ ImpairmentRule ReadImpairmentRule(const Section& section, const KnownIds& known)
   for (const RuleConflict& conflict : ConflictsIn(rule)) {
     section.Complain(conflict.field, conflict.message, conflict.remedy);
   }
+  ReadDuring(section, &rule);
   if (section.Count("blackout") > kMaxBlackouts) {
-    section.Complain("blackout", "is one too many: at most 64 are allowed", "leave some out",
+    section.Complain("blackout", "is one too many: at most 1024 are allowed", "leave some out",
                      kMaxBlackouts);
     return rule;
   }
@@ -165,7 +180,7 @@ std::vector<std::string_view> Split(std::string_view text, char by) {
 }
 
 std::string KnownKeys() {
-  std::string keys = "from, to, blackout, seed";
+  std::string keys = "from, to, blackout, during, seed";
   for (const ImpairField& field : ImpairFields()) keys += fmt::format(", {}", field.key);
   return keys;
 }
@@ -173,12 +188,13 @@ std::string KnownKeys() {
 // Parses one text; every problem is noted and parsing goes on.
 class Parser {
  public:
+  explicit Parser(int most_rules) : most_rules_(most_rules) {}
+
   ParsedImpairment Parse(std::string_view text) {
     if (text == "none") return {};
     const auto rules = Split(text, ';');
-    if (std::ssize(rules) > kMaxImpairRules) {
-      Complain("", "",
-               fmt::format("{} rules; at most {} are allowed", rules.size(), kMaxImpairRules),
+    if (std::ssize(rules) > most_rules_) {
+      Complain("", "", fmt::format("{} rules; at most {} are allowed", rules.size(), most_rules_),
                "leave some out");
       return parsed_;
     }
@@ -218,6 +234,7 @@ class Parser {
     if (key == "from") return ParseFrom(value);
     if (key == "to") return ParseTo(value);
     if (key == "blackout") return ParseBlackout(value);
+    if (key == "during") return ParseDuring(value);
     const auto fields = ImpairFields();
     const auto field = std::ranges::find(fields, key, &ImpairField::key);
     if (field == fields.end()) {
@@ -282,6 +299,27 @@ class Parser {
     rule_.blackouts.push_back({*from_s, *to_s});
   }
 
+  // One end may be left open.
+  void ParseDuring(std::string_view value) {
+    const std::size_t dots = value.find("..");
+    const std::string_view from = value.substr(0, dots);
+    const std::string_view to = dots == std::string_view::npos ? "" : value.substr(dots + 2);
+    rule_.from_s = ParseTime_s(from);
+    rule_.to_s = ParseTime_s(to);
+    const bool is_span = dots != std::string_view::npos && !(from.empty() && to.empty()) &&
+                         (rule_.from_s || from.empty()) && (rule_.to_s || to.empty());
+    if (!is_span) {
+      return Complain("during", value, "is no span of time",
+                      "write such as during=60s..80s or during=60s..");
+    }
+    const double from_s = rule_.from_s.value_or(0);
+    if (!kBlackoutTime.Contains(from_s) || (rule_.to_s && !kBlackoutTime.Contains(*rule_.to_s)) ||
+        (rule_.to_s && from_s >= *rule_.to_s)) {
+      Complain("during", value, "must begin before it ends, both " + Describe(kBlackoutTime),
+               "write seconds since the start signal, such as 60s..80s");
+    }
+  }
+
   void ParseField(const ImpairField& field, std::string_view value) {
     const auto si = field.is_time ? ParseTime_s(value) : ParseNumber(value);
     if (si && field.allowed.Contains(*si * field.per_si)) {
@@ -294,6 +332,7 @@ class Parser {
     Complain(field.key, value, kind + Describe(field.allowed), std::move(remedy));
   }
 
+  const int most_rules_;
   ParsedImpairment parsed_;
   ImpairmentRule rule_;
   std::set<std::string_view> given_;  // keys of the rule
@@ -301,6 +340,72 @@ class Parser {
 
 }  // namespace
 
-ParsedImpairment ParseImpairment(std::string_view text) { return Parser().Parse(text); }
+namespace {
+
+ParsedImpairment ParseFile(const std::string& path) {
+  try {
+    std::string text = ReadTextFile(path);
+    text.erase(text.find_last_not_of(" \t\r\n") + 1);
+    return Parser(kMaxImpairRulesOfFile).Parse(text);
+  } catch (const InputError& error) {
+    ParsedImpairment parsed;
+    for (const Problem& problem : error.Problems()) {
+      parsed.problems.push_back({problem.file + ": " + problem.message, problem.remedy});
+    }
+    return parsed;
+  }
+}
+
+}  // namespace
+
+ParsedImpairment ParseImpairment(std::string_view text) {
+  if (text.starts_with('@')) return ParseFile(std::string(text.substr(1)));
+  return Parser(kMaxImpairRules).Parse(text);
+}
+
+namespace {
+
+void AppendItem(std::string_view key, const std::string& value, std::string* rule) {
+  *rule += fmt::format("{}{}={}", rule->empty() ? "" : ",", key, value);
+}
+
+std::string TimeText(const std::optional<double>& time_s) {
+  return time_s ? fmt::format("{}s", *time_s) : "";
+}
+
+std::string RuleText(const ImpairmentRule& rule) {
+  std::string text;
+  if (rule.from == ImpairedSender::kOneVehicle) {
+    AppendItem("from", std::to_string(Number(rule.from_vehicle)), &text);
+  } else if (rule.from != ImpairedSender::kAnyone) {
+    AppendItem("from", rule.from == ImpairedSender::kWorld ? "world" : "vehicles", &text);
+  }
+  if (rule.to_vehicle != kNobody) AppendItem("to", std::to_string(Number(rule.to_vehicle)), &text);
+  const ImpairmentRule plain;
+  for (const ImpairField& field : ImpairFields()) {
+    const double value = rule.*field.member;
+    if (value == plain.*field.member) continue;
+    AppendItem(field.key, fmt::format("{}{}", value, field.is_time ? "s" : ""), &text);
+  }
+  for (const Blackout& blackout : rule.blackouts) {
+    AppendItem("blackout", TimeText(blackout.from_s) + ".." + TimeText(blackout.to_s), &text);
+  }
+  if (rule.from_s || rule.to_s) {
+    AppendItem("during", TimeText(rule.from_s) + ".." + TimeText(rule.to_s), &text);
+  }
+  return text.empty() ? "from=anyone" : text;
+}
+
+}  // namespace
+
+std::string ImpairmentText(const Impairment& impairment) {
+  if (impairment.rules.empty()) return "none";
+  std::string text;
+  for (const ImpairmentRule& rule : impairment.rules) {
+    text += (text.empty() ? "" : ";") + RuleText(rule);
+  }
+  if (impairment.seed) AppendItem("seed", std::to_string(*impairment.seed), &text);
+  return text;
+}
 
 }  // namespace giveway

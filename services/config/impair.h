@@ -4,10 +4,13 @@
 //
 //   loss=0.1,delay=20ms,jitter=5ms,seed=7
 //   loss=0.05;from=3,to=2,blackout=5s..7s;from=world
+//   from=vehicles,loss=0.3,during=60s..80s
 //
 // Rules are separated by ';', the last that fits a packet counts. Keys are those of the scenario
 // without their units; times carry one of us, ms, s. `from` is anyone, vehicles, world or an id,
-// `to` an id; `blackout` may be repeated. "none" is no impairment.
+// `to` an id; `blackout` may be repeated. A rule holds `during` a span of time, which may be open
+// at one end (`60s..`), or always. "none" is no impairment, and "@FILE" is what that file says: a
+// soak of days has more rules than a command line takes.
 #pragma once
 
 #include <span>
@@ -30,9 +33,10 @@ struct ImpairField {
   bool is_time = false;  // in --impair: with its unit
 };
 
-inline constexpr Allowed kBlackoutTime{0, 86400, "s"};
-inline constexpr int kMaxImpairRules = 64;
-inline constexpr int kMaxBlackouts = 64;
+inline constexpr Allowed kBlackoutTime{0, 2592000, "s"};  // and of from_s, to_s of a rule
+inline constexpr int kMaxImpairRules = 1024;              // in a scenario or a word
+inline constexpr int kMaxImpairRulesOfFile = 100000;      // in a file that a word names
+inline constexpr int kMaxBlackouts = 1024;
 
 std::span<const ImpairField> ImpairFields();
 
@@ -58,6 +62,10 @@ struct ParsedImpairment {
   std::vector<ImpairTextProblem> problems;  // empty: the impairment is good
 };
 
+// Reads the file that `text` may name.
 ParsedImpairment ParseImpairment(std::string_view text);
+
+// The text that is parsed as the same impairment; without a rule, "none", there is no seed either.
+std::string ImpairmentText(const Impairment& impairment);
 
 }  // namespace giveway

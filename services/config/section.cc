@@ -136,6 +136,8 @@ bool Section::Has(std::string_view field) const {
                           : message.GetReflection()->HasField(message, f);
 }
 
+int Section::Line() const { return node_->line; }
+
 int Section::Count(std::string_view field) const {
   const Message& message = *node_->message;
   return message.GetReflection()->FieldSize(message, Find(message, field));
@@ -201,6 +203,16 @@ std::vector<double> Section::Numbers(std::string_view field, const Allowed& allo
 
 std::string Section::Text(std::string_view field) const {
   return node_->message->GetReflection()->GetString(*node_->message, Find(*node_->message, field));
+}
+
+std::vector<std::string> Section::Texts(std::string_view field) const {
+  const Message& message = *node_->message;
+  const FieldDescriptor* f = Find(message, field);
+  std::vector<std::string> texts;
+  for (int i = 0; i < Count(field); ++i) {
+    texts.push_back(message.GetReflection()->GetRepeatedString(message, f, i));
+  }
+  return texts;
 }
 
 std::optional<int> Section::Choice(std::string_view field) const {

@@ -43,6 +43,8 @@ inline constexpr double kUnusable = std::numeric_limits<double>::quiet_NaN();
 class Section {
  public:
   bool Has(std::string_view field) const;
+  // Where it begins, from 1.
+  int Line() const;
   // Of a repeated field.
   int Count(std::string_view field) const;
 
@@ -58,6 +60,8 @@ class Section {
   std::vector<double> Numbers(std::string_view field, const Allowed& allowed, int most) const;
   // Empty if absent.
   std::string Text(std::string_view field) const;
+  // Of a repeated field.
+  std::vector<std::string> Texts(std::string_view field) const;
   // The number of an enum's value; nothing if absent or none the schema knows.
   std::optional<int> Choice(std::string_view field) const;
 

@@ -52,7 +52,9 @@ int main(int argc, char** argv) {
       "--version", "fleetctl " GIVEWAY_VERSION ", " + std::string(giveway::link::LibraryName()));
   fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
   int exit_code = giveway::fleetctl::kCouldNotRun;
+  giveway::fleetctl::AddCampaignVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddFaultsVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddPlanVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "services/types/fleet_facts.h"
+#include "services/types/impairment.h"
 #include "services/types/refusal.h"
 #include "services/types/vehicle_io.h"
 
@@ -40,6 +41,7 @@ struct VehicleLinkCounters {
   std::uint32_t ranges_deadline_missed = 0;
   std::uint32_t sensors_deadline_missed = 0;  // radar, lidar, camera
   std::uint32_t signals_deadline_missed = 0;
+  ImpairmentCounters impaired;  // all 0 where nothing is
 };
 
 // QoS of the beacon endpoints as the library resolved it, milliseconds.

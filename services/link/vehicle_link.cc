@@ -327,6 +327,7 @@ VehicleLinkCounters VehicleLink::Counters() const {
     counters.signals_deadline_missed = impl_->signals->DeadlineMissed();
   }
   if (impl_->own) impl_->own->AddTo(counters);
+  counters.impaired = Impaired().value_or(ImpairmentCounters{});
   return counters;
 }
 

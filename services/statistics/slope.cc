@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "services/statistics/distributions.h"
 #include "services/statistics/ranks.h"
 
 namespace giveway::statistics {
@@ -10,6 +11,7 @@ namespace {
 
 constexpr double kTwoSided95 = 1.959963984540054;  // of the normal distribution
 constexpr double kSecondsPerHour = 3600;
+constexpr double kMostResembling = 0.98;  // correlation of neighbours; above it nothing is known
 
 double MedianOf(std::vector<double>* values) {
   const std::size_t half = values->size() / 2;
@@ -50,6 +52,22 @@ double KendallVariance(const std::vector<Sample>& samples) {
   return std::max(variance, 0.0);
 }
 
+// Correlation of ranks (their mean taken off, `square` the sum of their squares) with those `lag`
+// earlier.
+double RankCorrelation(const std::vector<double>& ranks, double square, std::size_t lag) {
+  double product = 0;
+  for (std::size_t i = lag; i < ranks.size(); ++i) product += ranks[i] * ranks[i - lag];
+  return product / square;
+}
+
+// The factor of a process of first order, (1 + r) / (1 - r). Without its trend a short series shows
+// r too small, by (2 + 4 r) / n.
+double FirstOrder(double correlation, double n) {
+  const double unbiased = (correlation + 2 / n) / (1 - 4 / n);
+  const double r = std::clamp(unbiased, 0.0, kMostResembling);
+  return (1 + r) / (1 - r);
+}
+
 // By how much the variance grows because a sample resembles those before it: Hamed and Rao 1998,
 // by the ranks of what is left without the trend. Never below 1: nothing is made surer than it is.
 double Resemblance(const std::vector<Sample>& samples, double per_hour) {
@@ -66,15 +84,15 @@ double Resemblance(const std::vector<Sample>& samples, double per_hour) {
   }
   if (square <= 0) return 1;
   const double chance = kTwoSided95 / std::sqrt(n);  // what of a correlation may be chance
+  const double first = RankCorrelation(ranks, square, 1);
   double sum = 0;
   for (std::size_t lag = 1; lag <= ranks.size() / 4; ++lag) {
-    double product = 0;
-    for (std::size_t i = lag; i < ranks.size(); ++i) product += ranks[i] * ranks[i - lag];
-    const double correlation = product / square;
+    const double correlation = RankCorrelation(ranks, square, lag);
     const double left = n - static_cast<double>(lag);
     if (std::abs(correlation) > chance) sum += left * (left - 1) * (left - 2) * correlation;
   }
-  return std::max(1.0, 1 + 2 * sum / (n * (n - 1) * (n - 2)));
+  return std::max(
+      {1.0, first > chance ? FirstOrder(first, n) : 1.0, 1 + 2 * sum / (n * (n - 1) * (n - 2))});
 }
 
 }  // namespace
@@ -105,8 +123,14 @@ std::optional<Slope> TheilSen(std::span<const Sample> all) {
   slope.samples = all.size();
   slope.spans_s = all.back().time_s - all.front().time_s;
   slope.per_hour = MedianOf(&slopes);
-  const double half =
-      kTwoSided95 * std::sqrt(KendallVariance(samples) * Resemblance(samples, slope.per_hour)) / 2;
+  const double deviation =
+      std::sqrt(KendallVariance(samples) * Resemblance(samples, slope.per_hour));
+  const auto rising = std::ranges::count_if(slopes, [](double value) { return value > 0; });
+  const auto falling = std::ranges::count_if(slopes, [](double value) { return value < 0; });
+  if (deviation > 0) {
+    slope.chance = NormalAbove((static_cast<double>(rising - falling) - 1) / deviation);
+  }
+  const double half = kTwoSided95 * deviation / 2;
   const double middle = static_cast<double>(slopes.size()) / 2;
   const double last = static_cast<double>(slopes.size() - 1);
   const auto at = [&slopes, last](double place) {
@@ -117,6 +141,14 @@ std::optional<Slope> TheilSen(std::span<const Sample> all) {
   slope.low_per_hour = std::min(slope.per_hour, at(std::floor(middle - half) - 1));
   slope.high_per_hour = std::max(slope.per_hour, at(std::ceil(middle + half)));
   return slope;
+}
+
+bool GrowsThroughout(std::span<const Sample> samples) {
+  if (samples.size() < kLeastSamples) return false;
+  const std::vector<Sample> medians = BlockMedians(samples, kGrowthRuns);
+  return std::ranges::adjacent_find(medians, [](const Sample& a, const Sample& b) {
+           return b.value <= a.value;
+         }) == medians.end();
 }
 
 bool IsLeak(const Slope& slope, double least_per_hour) {

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "services/statistics/distributions.h"
 #include "services/statistics/ranks.h"
+#include "services/types/math/math.h"
 
 namespace giveway::statistics {
 namespace {
@@ -14,10 +15,8 @@ namespace {
 constexpr std::size_t kMostExact = 40;
 constexpr double kTail = 0.99;
 
-double NormalAbove(double z) { return std::erfc(z / std::numbers::sqrt2) / 2; }
-
 double LogChoose(double n, double k) {
-  return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1);
+  return LogFactorial(n) - LogFactorial(k) - LogFactorial(n - k);
 }
 
 // The share of all choices of `chosen` out of the ranks whose sum is at least theirs. Ranks are
@@ -45,7 +44,7 @@ double NormalGreater(double u, double n, double m, double tied) {
   const double all = n + m;
   const double variance = n * m / 12 * (all + 1 - tied / (all * (all - 1)));
   if (variance <= 0) return 1;
-  return NormalAbove((u - n * m / 2 - 0.5) / std::sqrt(variance));
+  return NormalAbove((u - n * m / 2 - 0.5) / Sqrt(variance));
 }
 
 // Both histograms' buckets side by side: how many of each lie in it.
@@ -129,11 +128,9 @@ double TailGreater(const Histogram& before, double most_before, const Histogram&
   double tail_after = 0;
   const std::vector<SharedBucket> shared = SideBySide(before, after);
   for (std::size_t i = shared.size(); i-- > 1;) {
-    const double a = tail_before + shared[i].before * weight_before;
-    const double b = tail_after + shared[i].after * weight_after;
-    if (a + b > (1 - kTail) * (n + m)) break;
-    tail_before = a;
-    tail_after = b;
+    tail_before += shared[i].before * weight_before;
+    tail_after += shared[i].after * weight_after;
+    if (tail_before + tail_after >= (1 - kTail) * (n + m)) break;
   }
   const auto whole = [](double value) { return static_cast<std::uint64_t>(std::llround(value)); };
   return ShareGreater(whole(tail_before), whole(n), whole(tail_after), whole(m));
@@ -152,7 +149,7 @@ double ShareGreater(std::uint64_t hits_before, std::uint64_t of_before, std::uin
   for (std::uint64_t k = hits_after; k <= most; ++k) {
     const double chosen = static_cast<double>(k);
     if (hits - chosen > n) continue;
-    const double term = std::exp(LogChoose(m, chosen) + LogChoose(n, hits - chosen) - all);
+    const double term = Exp(LogChoose(m, chosen) + LogChoose(n, hits - chosen) - all);
     p += term;
     if (term < p * 1e-12 && chosen > hits * m / (n + m)) break;
   }
@@ -167,8 +164,7 @@ double RateGreater(std::uint64_t events_before, double exposure_before, std::uin
   double p = 0;
   for (std::uint64_t k = events_after; k <= events_before + events_after; ++k) {
     const double hits = static_cast<double>(k);
-    const double term =
-        std::exp(LogChoose(n, hits) + hits * std::log(share) + (n - hits) * std::log1p(-share));
+    const double term = Exp(LogChoose(n, hits) + hits * Log(share) + (n - hits) * Log(1 - share));
     p += term;
     if (term < p * 1e-12 && hits > n * share) break;
   }

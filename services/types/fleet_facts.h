@@ -10,6 +10,7 @@
 #include "services/types/counters.h"
 #include "services/types/decision.h"
 #include "services/types/ids.h"
+#include "services/types/impairment.h"
 #include "services/types/math/pose.h"
 #include "services/types/qos_event.h"
 #include "services/types/range_scan.h"
@@ -69,6 +70,10 @@ enum class EventKind : std::uint8_t {
   kLeft,      // vehicle said good-bye; its body was taken away
   kEnded,     // text: why; the verdict follows
   kVerdict,   // passed when value is 1; text: reason
+  // A fault of a schedule begins or ends in the world, of vehicle (kNobody: of all); text: kind,
+  // number and rule: "sonar_stuck 3 of flaky_sonar".
+  kFaultBegan,
+  kFaultOver,
 };
 
 struct WorldEvent {
@@ -129,6 +134,9 @@ struct VehicleStatus {
   double beacon_deadline_requested_ms = 0;
   double beacon_lease_ms = 0;
   bool final = false;  // the last one of this process
+  // Of what it hears; without bytes, abandoned and reordered, which do not travel. All 0 where
+  // nothing is impaired.
+  ImpairmentCounters impaired;
 };
 
 }  // namespace giveway

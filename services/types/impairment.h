@@ -47,6 +47,10 @@ struct ImpairmentRule {
   double rate_bytes_s = 0;  // 0: no limit
   double rate_burst_bytes = 8192;
   std::vector<Blackout> blackouts;
+  // Holds in [from_s, to_s) only, counted from the start signal. Absent: from ever, for ever; with
+  // from_s it does not hold before that signal.
+  std::optional<double> from_s;
+  std::optional<double> to_s;
 
   friend bool operator==(const ImpairmentRule&, const ImpairmentRule&) = default;
 };

@@ -119,6 +119,7 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::DriveLin
   status.beacon_deadline_offered_ms = qos.deadline_offered_ms;
   status.beacon_deadline_requested_ms = qos.deadline_requested_ms;
   status.beacon_lease_ms = qos.lease_ms;
+  status.impaired = counters.impaired;
   return status;
 }
 

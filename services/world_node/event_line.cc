@@ -14,6 +14,10 @@ std::string LogLine(const WorldEvent& event) {
              (event.other == kNobody ? "something" : "vehicle " + IdText(event.other));
     case EventKind::kFaultDue:
       return "fault due: " + event.text;
+    case EventKind::kFaultBegan:
+      return "fault begins: " + event.text;
+    case EventKind::kFaultOver:
+      return "fault is over: " + event.text;
     case EventKind::kSilent:
       return "vehicle " + IdText(event.vehicle) + " fell silent";
     case EventKind::kRemoved:

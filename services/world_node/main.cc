@@ -21,12 +21,13 @@ namespace {
 
 // From the link's first moment to its last.
 LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
-             const link::LinkOptions& link_options, const StopSignal& stop,
-             const std::function<void()>& settled) {
+             const sim::FaultSchedule& schedule, const link::LinkOptions& link_options,
+             const StopSignal& stop, const std::function<void()>& settled) {
   HealthService<WorldHealth> health(flags);
   ParallelPool pool(flags.threads);
   WorldLoopOptions options = LoopOptionsOf(flags, scenario);
   options.parallel = pool.Function();
+  options.schedule = schedule;
   const auto tell = [&](const std::string& why) {
     health.Now().waits_for = ShortText(why);
     health.Tell();
@@ -56,8 +57,9 @@ int Run(const ServiceFlags& flags, const StopSignal& stop) {
   const Scenario scenario = LoadScenario(
       flags.scenario,
       {.seed = flags.seed, .behaviour = flags.behaviour, .duration_s = flags.duration_s});
+  const sim::FaultSchedule schedule = LoadSchedule(flags, scenario);
   const auto live = [&](const link::LinkOptions& options, const std::function<void()>& settled) {
-    return Live(flags, scenario, options, stop, settled);
+    return Live(flags, scenario, schedule, options, stop, settled);
   };
   return RunService(flags, scenario, stop, live);
 }

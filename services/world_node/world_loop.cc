@@ -44,7 +44,7 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
       health_(*health),
       options_(options),
       epoch_(EpochOf(options)),
-      fleet_(std::make_unique<Fleet>(scenario, epoch_, options.parallel)),
+      fleet_(std::make_unique<Fleet>(scenario, epoch_, options)),
       start_by_(SteadyNow() + FromSeconds(scenario.start_timeout_s)),
       say_alone_(SteadyNow() + kReminder) {
   if (options_.checkpoint) Resume(*options_.checkpoint);
@@ -56,7 +56,7 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
 void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
   if (!fleet_->admission.Restore(checkpoint)) {
     LogWarning("the checkpoint does not fit the scenario: starts anew");
-    fleet_ = std::make_unique<Fleet>(scenario_, epoch_, options_.parallel);
+    fleet_ = std::make_unique<Fleet>(scenario_, epoch_, options_);
     return;
   }
   if (!checkpoint.run.started) return;

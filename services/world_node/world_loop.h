@@ -17,6 +17,7 @@
 #include "services/runtime/process.h"
 #include "services/runtime/refusal_log.h"
 #include "services/types/parallel.h"
+#include "sim_world/faults/world_faults.h"
 #include "sim_world/run/admission.h"
 #include "sim_world/run/reaction.h"
 #include "sim_world/run/run.h"
@@ -26,6 +27,7 @@ namespace giveway {
 struct WorldLoopOptions {
   bool lockstep = false;
   ParallelFor parallel = OnThisThread;
+  sim::FaultSchedule schedule;                     // beside the scenario's faults
   std::string checkpoint_file;                     // empty: none is kept
   std::uint64_t scenario_mark = 0;                 // see sim::FleetCheckpoint
   std::optional<sim::FleetCheckpoint> checkpoint;  // to go on from
@@ -47,8 +49,9 @@ class WorldLoop {
 
  private:
   struct Fleet {
-    Fleet(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
-        : run(scenario, epoch, std::move(parallel)), admission(scenario, epoch, &run) {}
+    Fleet(const Scenario& scenario, WorldEpoch epoch, const WorldLoopOptions& options)
+        : run(scenario, epoch, options.parallel, options.schedule),
+          admission(scenario, epoch, &run) {}
     sim::Run run;
     sim::Admission admission;
   };

@@ -1,5 +1,5 @@
-// What a world starts from: its flags, and the checkpoint that is there where it is of the same
-// scenario.
+// What a world starts from: its flags, the faults planned for it, and the checkpoint that is there
+// where it is of the same scenario.
 #pragma once
 
 #include "services/config/flags.h"
@@ -7,6 +7,9 @@
 #include "services/world_node/world_loop.h"
 
 namespace giveway {
+
+// The faults of the list that the flags name; none without one. Throws InputError.
+sim::FaultSchedule LoadSchedule(const ServiceFlags& flags, const Scenario& scenario);
 
 // Reads the checkpoint; the log says whether it goes on from it, and why not. What else the loop
 // works with is the caller's.

@@ -2,6 +2,9 @@
 // ground and encoders make of it.
 #pragma once
 
+#include <optional>
+
+#include "services/types/ids.h"
 #include "services/types/math/pose.h"
 #include "services/types/math/random.h"
 #include "services/types/profile.h"
@@ -26,5 +29,13 @@ struct Rolled {
 // Draws the tick's slip and encoder noise from `random`, the same draws whichever of them is on.
 // Slip never takes the body beyond the profile's caps. Without either both are `wheels`.
 Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random);
+
+// What is wrong with one body's drive in one tick.
+struct DriveFault {
+  VehicleId vehicle = kNobody;
+  double reaches = 1;                // of what was commanded
+  std::optional<WheelSpeeds> stuck;  // wheels turn so, whatever is commanded
+  double counts = 1;                 // of what the encoders would count
+};
 
 }  // namespace giveway::sim

@@ -19,13 +19,16 @@ std::optional<std::uint32_t> DurationTicks(const Scenario& scenario) {
 
 }  // namespace
 
-Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel)
+Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel,
+         const FaultSchedule& schedule)
     : scenario_(scenario),
       open_(!scenario.spawns.empty()),
       epoch_(epoch),
       world_(scenario, epoch, std::move(parallel)),
       signals_(scenario),
       faults_(scenario),
+      world_faults_(schedule, scenario.tick_period),
+      silence_(schedule.faults),
       judge_(scenario),
       attendance_(scenario),
       log_(epoch),
@@ -123,6 +126,12 @@ void Run::Advance(std::span<const MotorCommand> commands) {
   ForgetGone();
   Take(commands);
   const bool running = state_ == RunState::kRunning;
+  if (running) {
+    world_faults_.BeginTick(ticks_run_ + 1, world_.Bodies());
+  } else {
+    world_faults_.Rest();
+  }
+  world_.SetDriveFaults(world_faults_.OfDrives());
   world_.Advance(running);
   if (running) ++ticks_run_;
   log_.BeginTick(world_.Now(), TimeSeconds());
@@ -138,9 +147,18 @@ void Run::Observe() {
     const auto fleet = std::ranges::count_if(world_.Bodies(), &Body::joined);
     log_.Add({.kind = EventKind::kStarted, .value = static_cast<double>(fleet)});
   }
+  LogSchedule();
   judge_.Observe(TimeSeconds(), world_.Bodies(), world_.NewContacts(), &log_);
   FollowFaults();
   FollowAttendance();
+}
+
+void Run::LogSchedule() {
+  const auto log = [&](EventKind kind, const faults::Fault& fault) {
+    log_.Add({.kind = kind, .vehicle = fault.target.vehicle, .text = EventText(fault)});
+  };
+  for (const faults::Fault* fault : world_faults_.Ended()) log(EventKind::kFaultOver, *fault);
+  for (const faults::Fault* fault : world_faults_.Begun()) log(EventKind::kFaultBegan, *fault);
 }
 
 void Run::Take(std::span<const MotorCommand> commands) {
@@ -160,8 +178,20 @@ void Run::AsksAgain(VehicleId vehicle) {
   if (!attendance_.IsSilent(vehicle)) attendance_.Join(vehicle, world_.Now());
 }
 
-// In a closed run silence is for good. In an open one the network may have been away for a while.
-bool Run::MayReturn(VehicleId vehicle) const { return open_ && BodyOf(vehicle) != nullptr; }
+// In a closed run silence is for good unless it is planned. In an open one the network may have
+// been away for a while.
+bool Run::MayReturn(VehicleId vehicle) const {
+  return (open_ || silence_.VehiclesReturn()) && BodyOf(vehicle) != nullptr;
+}
+
+bool Run::IsKilled(VehicleId vehicle) const {
+  return faults_.IsKilled(vehicle) || silence_.IsKilled(vehicle, TimeSeconds());
+}
+
+// Whether the vehicle speaks, or will again as far as anybody knows.
+bool Run::IsWaitedFor(VehicleId vehicle) const {
+  return !attendance_.IsSilent(vehicle) || (silence_.VehiclesReturn() && !IsKilled(vehicle));
+}
 
 void Run::FollowFaults() {
   for (const PlannedFault& fault : faults_.Observe(TimeSeconds(), world_.Bodies(), &log_)) {
@@ -173,7 +203,7 @@ void Run::FollowAttendance() {
   const Tick now = world_.Now();
   for (VehicleId silent; (silent = attendance_.TakeNewlySilent(now)) != kNobody;) {
     log_.Add({.kind = EventKind::kSilent, .vehicle = silent});
-    if (!open_ && !faults_.IsKilled(silent)) end_reason_ = "process_died";
+    if (!open_ && !IsWaitedFor(silent) && !IsKilled(silent)) end_reason_ = "process_died";
   }
   for (VehicleId gone; (gone = attendance_.TakeOverdueBody(now)) != kNobody;) {
     TakeAway(gone);
@@ -199,7 +229,7 @@ void Run::CheckEnd() {
 bool Run::EveryoneLivingArrived() const {
   bool anyone = false;
   for (const Body& body : world_.Bodies()) {
-    if (!body.joined || attendance_.IsSilent(body.vehicle)) continue;
+    if (!body.joined || !IsWaitedFor(body.vehicle)) continue;
     if (!judge_.HasArrived(body.vehicle)) return false;
     anyone = true;
   }
@@ -209,7 +239,7 @@ bool Run::EveryoneLivingArrived() const {
 // Whatever was planned: a run in which no vehicle drives any more shows nothing.
 bool Run::IsEveryoneSilent() const {
   return std::ranges::all_of(world_.Bodies(), [&](const Body& body) {
-    return !body.joined || attendance_.IsSilent(body.vehicle);
+    return !body.joined || !IsWaitedFor(body.vehicle);
   });
 }
 
@@ -284,6 +314,7 @@ void Run::Publish() {
     scan.wheels = body.encoders;
     scan.counted = body.counted;
     scan.readings = body.sonar.readings;
+    if (world_faults_.AlterScans()) world_faults_.Alter(body.profile, &scan);
   }
   scans_.resize(scans);
 }
@@ -301,6 +332,7 @@ RunCheckpoint Run::Save() const {
           .started = started_,
           .ticks_run = ticks_run_,
           .faults = {faults_.States().begin(), faults_.States().end()},
+          .world_faults = world_faults_.Save(),
           .tracks = {judge_.Tracks().begin(), judge_.Tracks().end()},
           .attendance = {attendance_.Entries().begin(), attendance_.Entries().end()},
           .world = world_.Save()};
@@ -309,6 +341,7 @@ RunCheckpoint Run::Save() const {
 bool Run::Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined) {
   for (const VehicleOptions& options : joined) world_.Join(options);
   if (!faults_.Restore(checkpoint.faults) || !world_.Restore(checkpoint.world)) return false;
+  if (!world_faults_.Restore(checkpoint.world_faults, checkpoint.ticks_run)) return false;
   judge_.Restore(checkpoint.tracks);
   attendance_.Restore(checkpoint.attendance);
   for (const PlannedFault& fault : faults_.Lasting()) signals_.Fail(fault.signal, fault.kind);

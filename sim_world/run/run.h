@@ -5,6 +5,11 @@
 // A closed run knows everybody from the start and ends when its vehicles have arrived or one dies.
 // In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration. Where
 // that is without an end, until End is called.
+//
+// A schedule of faults beside the scenario: the world's own are carried out here, and each begin
+// and end is an event. Of others' faults it only knows whose silence is meant to be. Where
+// processes are stopped or restarted by it, a closed run too goes on without a vehicle that falls
+// silent, waits for it, and takes it back.
 #pragma once
 
 #include <cstdint>
@@ -18,6 +23,8 @@
 #include "services/types/parallel.h"
 #include "services/types/range_scan.h"
 #include "services/types/scenario.h"
+#include "sim_world/faults/planned_silence.h"
+#include "sim_world/faults/world_faults.h"
 #include "sim_world/further_sensing.h"
 #include "sim_world/run/attendance.h"
 #include "sim_world/run/event_log.h"
@@ -31,7 +38,8 @@ namespace giveway::sim {
 
 class Run {
  public:
-  Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel = OnThisThread);
+  Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel = OnThisThread,
+      const FaultSchedule& schedule = {});
 
   // Puts the body of one of the scenario's vehicles on its start pose.
   void Join(VehicleId vehicle);
@@ -109,6 +117,9 @@ class Run {
   void TakeAway(VehicleId vehicle);
   void ForgetGone();
   bool MayReturn(VehicleId vehicle) const;
+  bool IsKilled(VehicleId vehicle) const;
+  bool IsWaitedFor(VehicleId vehicle) const;
+  void LogSchedule();
   void Announce(EventKind kind, VehicleId vehicle);
   void Observe();
   void FollowFaults();
@@ -127,6 +138,8 @@ class Run {
   FurtherSensing further_;
   SignalHeads signals_;
   FaultPlan faults_;
+  WorldFaults world_faults_;
+  PlannedSilence silence_;
   Judge judge_;
   Attendance attendance_;
   EventLog log_;

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are kept as they lie in memory");
 
-constexpr std::string_view kMagic = "giveway-world-4\n";  // the number counts formats
+constexpr std::string_view kMagic = "giveway-world-5\n";  // the number counts formats
 
 template <typename T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -190,8 +190,19 @@ void Visit(Archive& archive, Attendance::Entry& entry) {
 }
 
 template <typename Archive>
+void Visit(Archive& archive, WorldFaults::HeldWheels& held) {
+  archive(held.vehicle, held.wheels);
+}
+
+template <typename Archive>
+void Visit(Archive& archive, WorldFaults::State& fault) {
+  archive(fault.fault, fault.begun, fault.held);
+}
+
+template <typename Archive>
 void Visit(Archive& archive, RunCheckpoint& run) {
-  archive(run.epoch, run.started, run.ticks_run, run.faults, run.tracks, run.attendance, run.world);
+  archive(run.epoch, run.started, run.ticks_run, run.faults, run.world_faults, run.tracks,
+          run.attendance, run.world);
 }
 
 template <typename Archive>

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sim_world/checkpoint.h"
+#include "sim_world/faults/world_faults.h"
 #include "sim_world/run/attendance.h"
 #include "sim_world/run/fault_plan.h"
 #include "sim_world/run/judge.h"
@@ -21,7 +22,8 @@ struct RunCheckpoint {
   WorldEpoch epoch = kNoEpoch;  // the one it was taken in
   bool started = false;
   std::uint32_t ticks_run = 0;
-  std::vector<FaultPlan::State> faults;
+  std::vector<FaultPlan::State> faults;          // the scenario's
+  std::vector<WorldFaults::State> world_faults;  // of a schedule, under way
   std::vector<Judge::Track> tracks;
   std::vector<Attendance::Entry> attendance;
   Checkpoint world;

@@ -15,7 +15,6 @@ namespace {
 constexpr double kFringe_m = 1.5;
 constexpr double kWellOutside_m = 0.5;
 constexpr std::uint32_t kHeldBackTicks = 2;
-constexpr std::uint32_t kLongestTicks = 40;  // a beacon under way for longer is of no use to anyone
 
 constexpr std::uint64_t kOfBurst = 0x9e3779b97f4a7c15ULL;
 
@@ -42,6 +41,12 @@ double Power(double base, std::uint32_t exponent) {
   return result;
 }
 
+std::vector<VehicleId> IdsOf(const Scenario& scenario) {
+  std::vector<VehicleId> ids;
+  for (const VehicleOptions& options : scenario.vehicles) ids.push_back(options.id);
+  return ids;
+}
+
 std::uint32_t TicksUnderWay(Nanoseconds time, Nanoseconds period) {
   return std::clamp(TicksCovering(time, period), 1U, kLongestTicks);
 }
@@ -57,11 +62,14 @@ Radio::Radio(const Scenario& scenario, const RadioSettings& settings, std::uint6
       longest_ticks_(TicksUnderWay(settings.delay + settings.jitter, period_) +
                      (settings.reorder > 0 ? kHeldBackTicks : 0) +
                      (settings.duplicate > 0 ? 1 : 0)),
-      kept_ticks_(longest_ticks_ + 1),
+      rules_(settings.rules, IdsOf(scenario), seed_, period_),
+      most_ticks_(longest_ticks_ + rules_.MostLate()),
+      kept_ticks_(most_ticks_ + 1),
       varies_(settings.jitter.count() > 0 || settings.reorder > 0 || settings.duplicate > 0),
       draws_(varies_ || settings.loss > 0 || settings.burst.enter > 0),
       deadline_ticks_(TicksCovering(kDeadlineRequested, period_)),
       lease_ticks_(TicksCovering(kLivelinessLease, period_)),
+      ids_(IdsOf(scenario)),
       history_(count_ * kept_ticks_),
       pairs_(count_ * count_),
       expected_(count_ * count_),
@@ -70,7 +78,6 @@ Radio::Radio(const Scenario& scenario, const RadioSettings& settings, std::uint6
       positions_world_(count_),
       blacked_out_(count_) {
   for (const VehicleOptions& options : scenario.vehicles) {
-    ids_.push_back(options.id);
     reach_m_.push_back(settings.reach_m.value_or(options.emission_radius_m + kFringe_m));
     listen_m_.push_back(settings.reach_m ? reach_m_.back() : options.emission_radius_m);
     widest_reach_m_ = std::max(widest_reach_m_, reach_m_.back());
@@ -98,6 +105,7 @@ void Radio::BeginTick(Tick now, double time_s, std::span<const RadioPlace> place
   }
   grid_.Rebuild(positions_world_, widest_reach_m_);
   if (!settings_.blackouts.empty()) MarkBlackouts(time_s);
+  rules_.BeginTick(time_s);
 }
 
 void Radio::MarkBlackouts(double time_s) {
@@ -178,20 +186,33 @@ Radio::Fate Radio::FateOf(std::uint64_t draw) const {
           !held_back && fate < settings_.reorder + settings_.duplicate};
 }
 
+// Makes its fate that under the rules that were on as it was said; false: it is lost by one.
+bool Radio::SurvivesRules(std::size_t receiver, std::size_t sender, std::uint32_t ticks,
+                          Fate* fate) const {
+  const RadioRules::Effect effect = rules_.Of(receiver, sender, ticks, Number(now_) - ticks);
+  fate->twice = fate->twice || effect.twice;
+  fate->due = std::min(fate->due + effect.late_ticks, most_ticks_ - (fate->twice ? 1 : 0));
+  return !effect.lost;
+}
+
 void Radio::HearSender(std::size_t receiver, std::size_t sender,
                        std::vector<ReceivedBeacon>* heard) {
   if (blacked_out_[sender] != 0) return;
+  const bool ruled = rules_.Any();
+  if (ruled && rules_.IsCut(receiver, sender)) return;
   Pair& pair = pairs_[receiver * count_ + sender];
   if (KnowsItIsFar(receiver, sender, &pair)) return;
   const std::size_t first = heard->size();
   // The longest under way first: it was said first.
-  for (std::uint32_t ticks = longest_ticks_; ticks >= shortest_ticks_; --ticks) {
+  for (std::uint32_t ticks = ruled ? most_ticks_ : longest_ticks_; ticks >= shortest_ticks_;
+       --ticks) {
     if (ticks >= Number(now_)) continue;
     const std::uint32_t said_tick = Number(now_) - ticks;
     const Said& said = history_[sender * kept_ticks_ + said_tick % kept_ticks_];
     if (said.tick != Tick{said_tick}) continue;
     const std::uint64_t draw = draws_ ? Draw(receiver, sender, said_tick, 0) : 0;
-    const Fate fate = FateOf(draw);
+    Fate fate = FateOf(draw);
+    if (ruled && !SurvivesRules(receiver, sender, ticks, &fate)) continue;
     if (ticks != fate.due && !(fate.twice && ticks == fate.due + 1)) continue;
     if (draws_ && IsLost(receiver, sender, draw, &pair)) continue;
     heard->push_back(said.beacon);

@@ -12,6 +12,7 @@
 #include "services/types/qos_event.h"
 #include "services/types/scenario.h"
 #include "sim_world/geometry/grid.h"
+#include "sim_world/virtual/radio_rules.h"
 #include "sim_world/virtual/virtual_plan.h"
 
 namespace giveway::sim {
@@ -66,6 +67,8 @@ class Radio {
   bool IsLinkBad(std::size_t receiver, std::size_t sender, Pair* pair) const;
   bool IsLost(std::size_t receiver, std::size_t sender, std::uint64_t draw, Pair* pair) const;
   Fate FateOf(std::uint64_t draw) const;
+  bool SurvivesRules(std::size_t receiver, std::size_t sender, std::uint32_t ticks,
+                     Fate* fate) const;
   void HearSender(std::size_t receiver, std::size_t sender, std::vector<ReceivedBeacon>* heard);
   void MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair);
   bool HasLeft(std::size_t receiver, std::size_t sender, const Pair& pair) const;
@@ -80,6 +83,8 @@ class Radio {
   std::size_t count_;
   std::uint32_t shortest_ticks_;  // from said to heard
   std::uint32_t longest_ticks_;
+  RadioRules rules_;
+  std::uint32_t most_ticks_;  // longest_ticks_, and what rules add
   std::uint32_t kept_ticks_;  // of history
   bool varies_;               // beacons differ in when they are heard
   bool draws_;                // anything is left to chance

@@ -6,6 +6,7 @@
 
 #include "services/types/check.h"
 #include "sim_world/geometry/ticks.h"
+#include "sim_world/virtual/virtual_faults.h"
 
 namespace giveway::sim {
 namespace {
@@ -32,21 +33,25 @@ std::uint64_t Stir(std::uint64_t hash, double value) {
 }  // namespace
 
 VirtualFleet::VirtualFleet(const Scenario& scenario, const VirtualPlan& plan)
-    : scenario_(WithCrashes(scenario, plan)),
-      run_(scenario_, kVirtualEpoch),
-      radio_(scenario_, plan.radio, plan.seed) {
+    : plan_(Translated(plan, scenario)),
+      scenario_(WithCrashes(scenario, plan_)),
+      run_(scenario_, kVirtualEpoch, OnThisThread, {plan_.schedule, plan_.seed}),
+      radio_(scenario_, plan_.radio, plan_.seed) {
   for (const VehicleOptions& options : scenario_.vehicles) {
     run_.Join(options.id);
     Member& member = members_.emplace_back();
     member.id = options.id;
     member.brain = std::make_unique<Vehicle>(options, ++last_boot_epoch_);
   }
-  for (const ProcessFault& fault : plan.faults) {
+  for (std::size_t i = 0; i < plan_.faults.size(); ++i) {
+    const ProcessFault& fault = plan_.faults[i];
     Member* member = Find(fault.vehicle);
     GIVEWAY_CHECK(member != nullptr, Number(fault.vehicle));
     if (fault.kind == ProcessFaultKind::kCrash) continue;
-    faults_.push_back({fault, static_cast<std::size_t>(member - members_.data())});
+    auto& due = i < plan.faults.size() ? faults_ : scheduled_;
+    due.push_back({fault, static_cast<std::size_t>(member - members_.data())});
   }
+  std::ranges::stable_sort(scheduled_, {}, [](const DueFault& due) { return due.fault.at_s; });
   places_.resize(members_.size());
   commands_.reserve(members_.size());
   run_.Start();
@@ -67,9 +72,12 @@ void VirtualFleet::CarryOutFaults() {
     }
   }
   for (DueFault& due : faults_) {
-    if (due.done || run_.TimeSeconds() < due.fault.at_s) continue;
-    due.done = true;
-    Break(due.fault, &members_[due.member]);
+    if (!due.done) CarryOut(&due);
+  }
+  while (next_scheduled_ < scheduled_.size()) {
+    CarryOut(&scheduled_[next_scheduled_]);
+    if (!scheduled_[next_scheduled_].done) break;
+    ++next_scheduled_;
   }
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const std::uint32_t back_at = members_[i].back_at_tick;
@@ -77,17 +85,53 @@ void VirtualFleet::CarryOutFaults() {
   }
 }
 
+void VirtualFleet::CarryOut(DueFault* due) {
+  if (run_.TimeSeconds() < due->fault.at_s) return;
+  due->done = true;
+  Break(due->fault, &members_[due->member]);
+}
+
 void VirtualFleet::Break(const ProcessFault& fault, Member* member) {
   if (member->process != Process::kRuns) return;
+  if (fault.kind == ProcessFaultKind::kSlow) {
+    member->slow_since_tick = Number(run_.Now());
+    member->slow_until_tick =
+        member->slow_since_tick + TicksCovering(FromSeconds(fault.for_s), scenario_.tick_period);
+    member->share = fault.share;
+    return;
+  }
   member->begins_anew = fault.kind == ProcessFaultKind::kRestart;
   member->process = member->begins_anew ? Process::kGone : Process::kPaused;
   member->back_at_tick = Number(run_.Now()) + std::max(1U, TicksCovering(FromSeconds(fault.for_s),
                                                                          scenario_.tick_period));
 }
 
-// A new process is told where its body stands and how far its task is, as by the world's roster.
+// Of n ticks it answers the share, one after the other as evenly as whole ticks allow.
+bool VirtualFleet::Skips(const Member& member) const {
+  const std::uint32_t now = Number(run_.Now());
+  if (now >= member.slow_until_tick) return false;
+  const std::uint32_t n = now - member.slow_since_tick;
+  const auto answered = [&](std::uint32_t ticks) {
+    return static_cast<std::uint32_t>(member.share * ticks);
+  };
+  return answered(n + 1) == answered(n);
+}
+
+// Whether the vehicle has a body: whose was taken away while it was silent gets another on its
+// start pose as soon as nothing stands there.
+bool VirtualFleet::IsThere(const VehicleOptions& options) {
+  if (run_.BodyOf(options.id) != nullptr) return true;
+  if (!run_.IsFree(options)) return false;
+  run_.Join(options);
+  return true;
+}
+
+// A new process is told where its body stands and how far its task is, as by the world's roster; so
+// is one that had slept until its body was taken away.
 void VirtualFleet::BringBack(std::size_t index) {
   Member& member = members_[index];
+  member.begins_anew = member.begins_anew || run_.BodyOf(member.id) == nullptr;
+  if (!IsThere(scenario_.vehicles[index])) return;
   member.process = Process::kRuns;
   member.back_at_tick = 0;
   if (!member.begins_anew) return;
@@ -97,6 +141,7 @@ void VirtualFleet::BringBack(std::size_t index) {
   entry = {.vehicle = options.id, .accepted = true, .epoch = kVirtualEpoch};
   run_.Locate(options, &entry);
   member.queued.clear();
+  member.slow_until_tick = 0;
 }
 
 void VirtualFleet::TellRadioThePlaces() {
@@ -117,8 +162,13 @@ void VirtualFleet::Think() {
   for (const RangeScan& scan : run_.Scans()) {
     while (index < members_.size() && members_[index].id != scan.vehicle) ++index;
     if (index == members_.size()) break;
-    if (members_[index].process == Process::kRuns) Step(scan, index);
-    if (members_[index].process == Process::kPaused) Queue(index);
+    const Member& member = members_[index];
+    const bool skips = member.process == Process::kRuns && Skips(member);
+    if (skips || member.process == Process::kPaused) {
+      Queue(index);
+    } else if (member.process == Process::kRuns) {
+      Step(scan, index);
+    }
   }
 }
 

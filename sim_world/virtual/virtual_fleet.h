@@ -48,6 +48,9 @@ class VirtualFleet {
     std::uint32_t back_at_tick = 0;  // of a pause or restart; 0: never
     bool begins_anew = false;
     bool answered = false;
+    std::uint32_t slow_since_tick = 0;
+    std::uint32_t slow_until_tick = 0;  // not any more
+    double share = 1;                   // of ticks that it answers while it is slow
     Outputs said;
     std::optional<RosterEntry> placed;   // what a new process is told before its first scan
     std::vector<ReceivedBeacon> queued;  // in the reader of a paused process
@@ -59,6 +62,9 @@ class VirtualFleet {
   };
 
   void CarryOutFaults();
+  void CarryOut(DueFault* due);
+  bool IsThere(const VehicleOptions& options);
+  bool Skips(const Member& member) const;
   void Break(const ProcessFault& fault, Member* member);
   void BringBack(std::size_t index);
   void TellRadioThePlaces();
@@ -67,11 +73,14 @@ class VirtualFleet {
   void Queue(std::size_t index);
   Member* Find(VehicleId vehicle);
 
+  VirtualPlan plan_;  // the schedule's faults of processes and radio among its own
   Scenario scenario_;
   Run run_;
   Radio radio_;
-  std::vector<Member> members_;  // in the scenario's order, by which the radio numbers them
-  std::vector<DueFault> faults_;
+  std::vector<Member> members_;      // in the scenario's order, by which the radio numbers them
+  std::vector<DueFault> faults_;     // of the plan itself
+  std::vector<DueFault> scheduled_;  // of its schedule, in order of time
+  std::size_t next_scheduled_ = 0;
   std::uint32_t last_boot_epoch_ = 0;
   std::vector<RadioPlace> places_;
   std::vector<ReceivedBeacon> heard_;

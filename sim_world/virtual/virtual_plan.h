@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/faults/fault.h"
 #include "services/types/ids.h"
 #include "services/types/time.h"
 
@@ -25,6 +26,27 @@ struct Blackout {
   double to_s = 0;
 };
 
+// What goes wrong on the air for a time, in the ear of whoever hears. What is lost, late or twice
+// by a rule hangs on when the beacon was said, a cut on when it would be heard. Rules that are on
+// at once each draw for themselves, and what they delay adds up.
+struct RadioRule {
+  double from_s = 0;              // since the start signal
+  double to_s = 0;                // not any more
+  VehicleId hearer = kNobody;     // kNobody: everyone
+  VehicleId speaker = kNobody;    // kNobody: anyone
+  bool cut = false;               // nothing of the speaker is heard
+  bool both_ways = false;         // of a cut: and the speaker does not hear the hearer
+  double period_s = 0;            // of a cut: on for the first half of each period; 0: all the time
+  double loss = 0;                // share lost, each by itself
+  double burst_loss = 0;          // share lost in rows
+  std::uint32_t burst_ticks = 1;  // beacons of one row
+  Nanoseconds delay{0};           // comes so much later
+  double reorder = 0;             // share that comes reorder_by later still, and is overtaken
+  Nanoseconds reorder_by{0};
+  double duplicate = 0;     // share heard a second time, a tick after the first
+  std::uint64_t draws = 0;  // the rule's own
+};
+
 struct RadioSettings {
   double loss = 0;  // share of beacons lost, each by itself; 0 to 1
   BurstLoss burst;
@@ -36,6 +58,7 @@ struct RadioSettings {
   double duplicate = 0;     // share heard a second time, a tick after the first
   bool loops_back = false;  // everyone hears its own beacons too
   std::vector<Blackout> blackouts;
+  std::vector<RadioRule> rules;
   // The radio's own reach by true positions. Without one it carries farther than anyone listens, as
   // the middleware does: brains leave out what was stated from beyond their emission radius.
   std::optional<double> reach_m;
@@ -45,19 +68,23 @@ enum class ProcessFaultKind : std::uint8_t {
   kCrash,    // silent for ever; the body stays as long as the scenario says
   kPause,    // stands still for a time, then goes on with everything queued
   kRestart,  // is gone for a time; then a new one goes on as the world tells it: where and whereto
+  kSlow,     // answers only a share of the ticks for a time, and finds the rest queued
 };
 
 struct ProcessFault {
   ProcessFaultKind kind = ProcessFaultKind::kCrash;
   VehicleId vehicle = kNobody;
   double at_s = 0;     // since the start signal
-  double for_s = 0.5;  // of a pause or restart; the world takes a second's silence for a death
+  double for_s = 0.5;  // of all but a crash; the world takes a second's silence for a death
+  double share = 1;    // of kSlow
 };
 
 struct VirtualPlan {
   std::uint64_t seed = 0;  // of all that is drawn here
   RadioSettings radio;
   std::vector<ProcessFault> faults;
+  // On top of these, as real runs have it; virtual_faults.h says which of it is carried out.
+  faults::Schedule schedule;
 };
 
 }  // namespace giveway::sim

@@ -5,6 +5,7 @@
 #include "services/types/math/math.h"
 #include "services/types/state_hash.h"
 #include "sim_world/geometry/ticks.h"
+#include "sim_world/virtual/virtual_faults.h"
 
 namespace giveway::sim {
 namespace {
@@ -100,10 +101,15 @@ InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bo
 
 InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
   const RadioSettings& radio = plan.radio;
+  const VirtualPlan translated = Translated(plan, scenario);
   const bool loses = radio.loss > 0 || radio.burst.enter > 0 || !radio.blackouts.empty() ||
-                     radio.reorder > 0 || !plan.faults.empty();
-  return LimitsFor(scenario, TicksCovering(radio.delay + radio.jitter, scenario.tick_period),
-                   loses);
+                     radio.reorder > 0 || !translated.faults.empty() ||
+                     !translated.radio.rules.empty();
+  Nanoseconds late = radio.delay + radio.jitter;
+  for (const RadioRule& rule : translated.radio.rules) {
+    late = std::max(late, radio.delay + radio.jitter + rule.delay);
+  }
+  return LimitsFor(scenario, TicksCovering(late, scenario.tick_period), loses);
 }
 
 VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,

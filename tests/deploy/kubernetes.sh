@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks config/deploy/kubernetes without a cluster: renders each overlay, holds every document
+# Checks config/deploy/kubernetes without a cluster: renders each overlay and the campaign, holds every document
 # against Kubernetes' own schemas, and checks what no schema sees.
 # Usage: kubernetes.sh [--root DIR] [OVERLAY ...]; lines "ok NAME" and "FAILED NAME".
 # Exit code: 0 all ok, 1 something failed, 2 could not check.
@@ -12,7 +12,7 @@ if [[ ${1:-} == --root ]]; then
   shift 2
 fi
 overlays=("$@")
-[[ ${#overlays[@]} -gt 0 ]] || overlays=(2 20 200)
+[[ ${#overlays[@]} -gt 0 ]] || overlays=(2 20 200 campaign)
 
 die() {
   printf 'error: %s\n' "$*" >&2
@@ -57,9 +57,10 @@ find_kubectl() {
 }
 
 check_overlay() {
-  local overlay=$1 rendered=$work/$1.yaml
+  local overlay=$1 rendered=$work/$1.yaml folder=overlays/$1
+  [[ $overlay != campaign ]] || folder=campaign
   if ! "$kubectl" kustomize --load-restrictor LoadRestrictionsNone \
-    "$root/config/deploy/kubernetes/overlays/$overlay" >"$rendered" 2>"$work/said"; then
+    "$root/config/deploy/kubernetes/$folder" >"$rendered" 2>"$work/said"; then
     printf 'FAILED  %s.rendered\n' "$overlay"
     sed 's/^/    /' "$work/said"
     return 1

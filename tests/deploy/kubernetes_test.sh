@@ -54,13 +54,14 @@ expect() {
   plant "$work/$planted" "$@" >"$work/$planted.said" 2>&1 &
 }
 
-overlay=20
 lay_out "$work/clean"
-clean=$(failed_checks "$work/clean")
-if [[ -n $clean ]]; then
-  printf 'FAILED  the clean tree is clean\n    by: %s\n' "$clean"
-  exit 1
-fi
+for overlay in campaign 20; do
+  clean=$(failed_checks "$work/clean")
+  if [[ -n $clean ]]; then
+    printf 'FAILED  the clean tree is clean\n    by: %s\n' "$clean"
+    exit 1
+  fi
+done
 echo "ok      the clean tree is clean"
 
 # What the schemas see, and kustomize.
@@ -137,6 +138,26 @@ expect "places scenario_as_written" "a place on top of another" config/scenarios
 overlay=200
 expect planned_for "two hundred with what two take" $O/200/kustomization.yaml 's/requests: \{cpu: 150m/requests: {cpu: 20m/'
 expect fleet "two hundred on as few nodes as will hold them" $O/200/kustomization.yaml '/topologySpreadConstraints/,/component: vehicle/d'
+
+# Campaigns.
+overlay=campaign
+C=config/deploy/kubernetes/campaign
+expect every_shard_once "pods without a number" $C/job.yaml 's/Indexed/NonIndexed/'
+expect every_shard_once "fewer pods than shards" $C/job.yaml 's/completions: 200/completions: 100/'
+expect every_shard_once "all pods one shard" $C/job.yaml 's/--jobs, "1"/--index, "0"/'
+expect tried_again "an eviction that fails its shard" $C/job.yaml '/- action: Ignore/,/status:/d'
+expect tried_again "the exit code looked at before the eviction" $C/job.yaml \
+  '/- action: Ignore/,/status:/d; s/values: \[1, 2\]/&\n      - action: Ignore\n        onPodConditions: [{type: DisruptionTarget, status: "True"}]/'
+expect tried_again "a broken invariant tried again" $C/job.yaml 's/values: \[1, 2\]/values: [2]/'
+expect tried_again "a killed shard given up" $C/job.yaml 's/values: \[1, 2\]/values: [1, 2, 137]/'
+expect tried_again "one limit for all shards" $C/job.yaml 's/backoffLimitPerIndex: 3/backoffLimit: 3/'
+expect tried_again "a pod that is restarted in its place" $C/job.yaml 's/restartPolicy: Never/restartPolicy: OnFailure/'
+expect results_stay "results deleted after a minute" $C/job.yaml 's/ttlSecondsAfterFinished: .*/ttlSecondsAfterFinished: 60/'
+expect plan_mounted "a plan that is not in the ConfigMap" $C/job.yaml 's/nightly.textproto/weekly.textproto/'
+expect one_core_a_thread "four threads on one core" $C/job.yaml 's/--jobs, "1"/--jobs, "4"/'
+expect schema "a field of the Job a level too low" $C/job.yaml 's/^      restartPolicy: Never/&\n      backoffLimitPerIndex: 3/'
+expect silent "shards that may speak" $C/job.yaml 's/policyTypes: .*/policyTypes: [Ingress]/'
+expect apart "in the namespace of the fleets" $C/kustomization.yaml 's/^namespace: .*/namespace: giveway/'
 
 wait
 for ((i = 1; i <= planted; ++i)); do cat "$work/$i.said"; done | tee "$work/said"

@@ -188,9 +188,12 @@ void CheckRule(const ImpairmentRule& rule, const Scenario& scenario) {
   GIVEWAY_CHECK(Positive(rule.reorder_by_s, 10) && Within(rule.rate_bytes_s, 0, 1e9));
   GIVEWAY_CHECK(Within(rule.rate_burst_bytes, 1, 1e9), rule.rate_burst_bytes);
   for (const Blackout& blackout : rule.blackouts) {
-    GIVEWAY_CHECK(Within(blackout.from_s, 0, 86400) && Within(blackout.to_s, 0, 86400));
+    GIVEWAY_CHECK(Within(blackout.from_s, 0, 2'592'000) && Within(blackout.to_s, 0, 2'592'000));
     GIVEWAY_CHECK(blackout.from_s < blackout.to_s, blackout.from_s);
   }
+  const double from_s = rule.from_s.value_or(0);
+  GIVEWAY_CHECK(Within(from_s, 0, 2'592'000) && Within(rule.to_s.value_or(1), 0, 2'592'000));
+  GIVEWAY_CHECK(!rule.to_s || from_s < *rule.to_s, from_s);
   const bool one = rule.from == ImpairedSender::kOneVehicle;
   GIVEWAY_CHECK(one == (rule.from_vehicle != kNobody));
   if (one) CheckIds({rule.from_vehicle}, scenario);

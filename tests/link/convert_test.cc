@@ -178,7 +178,7 @@ TEST(Convert, TruthComesBack) {
 }
 
 TEST(Convert, EventComesBackWhateverItsKind) {
-  for (int kind = 0; kind <= static_cast<int>(giveway::EventKind::kVerdict); ++kind) {
+  for (int kind = 0; kind <= static_cast<int>(giveway::EventKind::kFaultOver); ++kind) {
     const WorldEvent sent{.seq = 1,
                           .kind = static_cast<giveway::EventKind>(kind),
                           .epoch = WorldEpoch{2},
@@ -258,6 +258,16 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   sent.beacon_lease_ms = 35;
   sent.trust = {36, 37, 38, 39, 40};
   sent.final = true;
+  sent.impaired = {.packets = 41,
+                   .passed = 42,
+                   .dropped_blackout = 43,
+                   .dropped_rate = 44,
+                   .dropped_loss = 45,
+                   .dropped_burst = 46,
+                   .delayed = 47,
+                   .held_back = 48,
+                   .duplicated = 49,
+                   .corrupted = 50};
   const VehicleStatus back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_EQ(back.epoch, sent.epoch);
@@ -286,6 +296,12 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   EXPECT_EQ(back.beacon_deadline_requested_ms, sent.beacon_deadline_requested_ms);
   EXPECT_EQ(back.beacon_lease_ms, sent.beacon_lease_ms);
   EXPECT_TRUE(back.final);
+  const auto travels = [](const ImpairmentCounters& c) {
+    return std::array{c.packets,      c.passed,        c.dropped_blackout, c.dropped_rate,
+                      c.dropped_loss, c.dropped_burst, c.delayed,          c.held_back,
+                      c.duplicated,   c.corrupted};
+  };
+  EXPECT_EQ(travels(back.impaired), travels(sent.impaired));
 }
 
 TEST(Convert, CutsTextToItsBoundBetweenCharacters) {

@@ -210,6 +210,14 @@ TEST(Impaired, FromOneVehicleOnlyHearsTheOthers) {
 }
 
 // The world says that the run is under way; from then on time counts.
+void StartRun(link::WorldLink* world, Listener* listener) {
+  const SessionId session{1, 2, 3, 4};
+  listener->link.SendJoin({session, kListener});
+  RosterEntry entry{.session = session, .vehicle = kListener, .accepted = true};
+  entry.run_state = RunState::kRunning;
+  world->SendRoster(entry);
+}
+
 TEST(Impaired, InABlackoutAfterTheStartHearsNothingAndThenAgain) {
   const DomainLock domain;
   ImpairmentRule rule{.from = ImpairedSender::kVehicles};
@@ -227,11 +235,7 @@ TEST(Impaired, InABlackoutAfterTheStartHearsNothingAndThenAgain) {
   }));
   EXPECT_EQ(listener.Impaired().dropped_blackout, 0U);
 
-  const SessionId session{1, 2, 3, 4};
-  listener.link.SendJoin({session, kListener});
-  RosterEntry entry{.session = session, .vehicle = kListener, .accepted = true};
-  entry.run_state = RunState::kRunning;
-  world.SendRoster(entry);
+  StartRun(&world, &listener);
   ASSERT_TRUE(Eventually([&] {
     turn();
     return listener.Impaired().dropped_blackout > 0;
@@ -243,6 +247,39 @@ TEST(Impaired, InABlackoutAfterTheStartHearsNothingAndThenAgain) {
     turn();
     return listener.ears.Heard().contains(kThree);
   }));
+}
+
+// As a blackout, by a rule that holds for a time.
+TEST(Impaired, ByARuleThatHoldsForATimeHearsNothingThenAndAgainAfterIt) {
+  const DomainLock domain;
+  ImpairmentRule rule{.from = ImpairedSender::kVehicles, .loss = 1};
+  rule.from_s = 0;
+  rule.to_s = 0.7;
+  Listener listener(domain, {rule});
+  Beaconing sender(OptionsIn(domain), kThree);
+  link::WorldLink world(OptionsIn(domain));
+  const auto turn = [&] {
+    sender.Send();
+    listener.ears.Listen();
+  };
+  ASSERT_TRUE(Eventually([&] {
+    turn();
+    return listener.ears.Beacons().size() >= 10;
+  }));
+  EXPECT_EQ(listener.Impaired().dropped_loss, 0U);
+  StartRun(&world, &listener);
+  ASSERT_TRUE(Eventually([&] {
+    turn();
+    return listener.Impaired().dropped_loss > 0;
+  }));
+  listener.ears.Forget();
+  Repeat(milliseconds(300), turn);
+  EXPECT_TRUE(listener.ears.Heard().empty());
+  EXPECT_TRUE(Eventually([&] {
+    turn();
+    return listener.ears.Heard().contains(kThree);
+  }));
+  EXPECT_EQ(listener.Impaired().Dropped(), listener.Impaired().dropped_loss);
 }
 
 TEST(Impaired, ClosingDoesNotWaitForWhatIsUnderWay) {

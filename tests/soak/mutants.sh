@@ -50,10 +50,10 @@ END
 # schedule MUTANT: a fault file that gives the mutant something to be wrong about.
 schedule() {
   cat <<'END'
-name: "mutants"
+
 description: "One silence that peers must notice, and beacons that are lost."
-at { name: "pause" time_s: 20 kind: pause target { vehicle: 2 } for_s: 3 }
-at { name: "loss" time_s: 30 kind: loss target { vehicle: 3 } for_s: 20 probability: 0.6 }
+at { name: "pause" time_s: 20 kind: "pause" vehicle: 2 for_s: 3 }
+at { name: "loss" time_s: 30 kind: "loss" vehicle: 3 for_s: 20 probability: 0.6 }
 END
 }
 

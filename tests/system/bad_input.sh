@@ -145,6 +145,28 @@ refused "unknown interface" 'nowhere0' intersection_yield --interface nowhere0
 refused "picture nowhere" 'no_such_folder' intersection_yield --picture no_such_folder/run.svg
 refused "picture that is a folder" "$SCRATCH" intersection_yield --picture "$SCRATCH"
 
+# A world that is to carry out faults: not one that is not there, nor what is random, nor what no
+# vehicle could meet.
+echo 'random { name: "a" kind: "sonar_off" mean_between_s: 5 for_s: 2 }' >"$SCRATCH/random.textproto"
+echo 'at { name: "a" kind: "sonar_off" time_s: 5 for_s: 2 vehicle: 9 }' >"$SCRATCH/absent.textproto"
+for case in "no_such no_such" "$SCRATCH/random.textproto fleetctl.faults.expand" \
+  "$SCRATCH/absent.textproto vehicle.9|absent"; do
+  read -r file pattern <<<"$case"
+  code=0
+  timeout 5 "$(dirname "$FLEETCTL")/giveway-world" --scenario "$good" --domain 98 --faults "$file" \
+    >"$SCRATCH/out" 2>&1 || code=$?
+  { [[ $code -eq 2 ]] && grep -Eq -- "$pattern" "$SCRATCH/out"; } ||
+    fail "--faults $file: exit code $code: $(head -c 600 "$SCRATCH/out")"
+done
+
+# A virtual run of README, and one that asks for what is not virtual.
+"$FLEETCTL" virtual crossing --seeds 1..20 --faults flaky_hardware >"$SCRATCH/out" 2>&1 || code=$?
+grep -q 'runs' "$SCRATCH/out" || fail "virtual --faults flaky_hardware: $(head -c 600 "$SCRATCH/out")"
+code=0
+"$FLEETCTL" virtual crossing --seed 1 --faults everything >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
+{ [[ $code -eq 2 ]] && grep -q 'disk_full.*--skip-unsupported' "$SCRATCH/err"; } ||
+  fail "virtual --faults everything: exit code $code: $(head -c 600 "$SCRATCH/err")"
+
 code=0
 "$FLEETCTL" rum 2>"$SCRATCH/err" || code=$?
 [[ $code -eq 2 ]] || fail "unknown verb: exit code $code"

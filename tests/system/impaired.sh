@@ -39,6 +39,12 @@ crosses "a blackout one way" "$SCRATCH/one_way.textproto"
 [[ $(count 1 dropped_blackout) -ge 30 ]] || fail "vehicle 1: no blackout"
 [[ $(count 2 dropped_blackout) == 0 ]] || fail "vehicle 2: a blackout that was another's"
 
+# The same by a rule that holds for a time, out of a file.
+echo 'from=vehicles,to=1,loss=1,during=3s..5s' >"$SCRATCH/rules"
+crosses "a rule for a time" intersection_yield --impair "@$SCRATCH/rules"
+[[ $(count 1 dropped_loss) -ge 30 ]] || fail "vehicle 1: lost $(count 1 dropped_loss)"
+[[ $(count 2 dropped_loss) == 0 ]] || fail "vehicle 2: a loss that was another's"
+
 # The twin in the environment, and what is refused.
 GIVEWAY_IMPAIR=none crosses "none instead of the scenario's" "$SCRATCH/one_way.textproto"
 [[ -z $(count 1 packets) ]] || fail "impaired, though none was asked for"

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Runs every generator of the virtual fleet over many seeds and says what broke. Seeds go in blocks;
-# a finished block is a file in the folder of results, so that a campaign cut off is taken up by the
-# same command. Exit code 0: every invariant held in every run; 1: one did not; 2: bad usage.
+# Runs generators of the virtual fleet over many seeds and says what broke: a campaign of
+# `fleetctl campaign` on this machine alone. A finished shard is a file in the folder of results, so
+# that a campaign cut off is taken up by the same command. Exit code 0: every invariant held in every
+# run; 1: one did not; 2: bad usage, or a shard could not be run.
 # Usage: campaign.sh [--seeds N] [--results DIR] [--generators "NAME ..."] [--jobs J]
 set -euo pipefail
 
@@ -9,10 +10,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 fleetctl=${GIVEWAY_BIN:-$root/build/release/bin}/fleetctl
 seeds=200 results="" jobs=$(nproc)
 generators="crossing roundabout corridor swarm merge convoy warehouse"
-readonly kBlock=50
+readonly kSeedsAShard=50
 
 usage() {
-  sed -n '5s/^# //p' "${BASH_SOURCE[0]}" >&2
+  sed -n '6s/^# //p' "${BASH_SOURCE[0]}" >&2
   exit 2
 }
 
@@ -28,52 +29,25 @@ while [[ $# -gt 0 ]]; do
   shift 2
 done
 [[ $seeds =~ ^[1-9][0-9]{0,6}$ && $jobs =~ ^[1-9][0-9]{0,3}$ ]] || usage
-if [[ -z $results ]]; then
-  results=$(mktemp -d)
-  trap 'rm -rf "$results"' EXIT
-fi
-# Results of another brain are no results of this one.
-results+=/$(sha256sum "$fleetctl" | cut -c1-16)
-mkdir -p "$results"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+results=${results:-$work/results}
 
-# block GENERATOR FIRST LAST: runs it unless its result is there; what is cut off leaves none.
-block() {
-  local file=$results/$1.$2-$3.json code=0
-  [[ -s $file ]] && return
-  "$fleetctl" virtual "$1" --seeds "$2..$3" --vehicles 2..50 --loss 0..20 --jobs "$jobs" --json \
-    >"$file.part" 2>/dev/null || code=$?
-  if [[ $code -gt 1 ]] || ! jq -e ".runs == $3 - $2 + 1" "$file.part" >/dev/null; then
-    echo "campaign.sh: $1, seeds $2..$3: exit code $code, not a whole result" >&2
-    exit 1
-  fi
-  mv "$file.part" "$file"
-}
+{
+  echo 'name: "campaign"'
+  # shellcheck disable=SC2086  # a word each
+  printf 'generator: "%s"\n' $generators
+  echo "seeds: [1, $seeds] vehicles: [2, 50] loss_percent: [0, 20]"
+} >"$work/campaign.textproto"
 
-# sum_up GENERATOR RESULT...: one line of the table; true if everything held.
-sum_up() {
-  local generator=$1
-  shift
-  jq -s -r --arg generator "$generator" '
-    (map(.violations | to_entries[] | select(.value > 0)) | group_by(.key) |
-      map("\(.[0].key) \(map(.value) | add)")) as $broken |
-    (map(.failing_seeds[]) | map(tostring) | .[:8]) as $seeds |
-    (map(select(.delay_s) | {weight: .runs, mean: .delay_s.mean})) as $delays |
-    [$generator, (map(.runs) | add), (map(.failed_runs) | add), (map(.contacts) | add),
-     (map(.vehicle_hours) | add | floor),
-     (($delays | map(.mean * .weight) | add) / ($delays | map(.weight) | add) * 10 | round / 10),
-     ($broken + $seeds | join(" "))] | @tsv' "$@"
-  jq -s -e 'all(.verdict == "passed")' "$@" >/dev/null
-}
-
-held=true
-printf 'generator\truns\tfailed\tcontacts\tvehicle-hours\tmean delay, s\tbroken\n'
-for generator in $generators; do
-  blocks=()
-  for ((first = 1; first <= seeds; first += kBlock)); do
-    last=$((first + kBlock - 1 < seeds ? first + kBlock - 1 : seeds))
-    block "$generator" "$first" "$last"
-    blocks+=("$results/$generator.$first-$last.json")
-  done
-  sum_up "$generator" "${blocks[@]}" || held=false
+shards=$(((seeds + kSeedsAShard - 1) / kSeedsAShard))
+for ((index = 0; index < shards; ++index)); do
+  code=0
+  "$fleetctl" campaign shard "$work/campaign.textproto" --of "$shards" --index "$index" --jobs "$jobs" \
+    --out "$results" >/dev/null 2>"$work/said" || code=$?
+  # 1 has a result: something broke, which the sum will say.
+  [[ $code -le 1 ]] && continue
+  cat "$work/said" >&2
+  exit "$code"
 done
-$held
+"$fleetctl" campaign merge "$results"/campaign.*-of-"$shards".json

@@ -7,7 +7,9 @@
 
 namespace giveway::fleetctl {
 
+void AddCampaignVerb(CLI::App* fleetctl, int* exit_code);
 void AddDoctorVerb(CLI::App* fleetctl, int* exit_code);
+void AddFaultsVerb(CLI::App* fleetctl, int* exit_code);
 void AddListenVerb(CLI::App* fleetctl, int* exit_code);
 void AddPlanVerb(CLI::App* fleetctl, int* exit_code);
 void AddQosApply(CLI::App* qos, int* exit_code);  // of the verb qos

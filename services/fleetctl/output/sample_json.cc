@@ -84,6 +84,21 @@ JsonObject QosCountsOf(const QosCounters& counters) {
   return object;
 }
 
+JsonObject ImpairCountsOf(const ImpairmentCounters& counters) {
+  JsonObject object;
+  object.Add("packets", counters.packets);
+  object.Add("passed", counters.passed);
+  object.Add("dropped_blackout", counters.dropped_blackout);
+  object.Add("dropped_rate", counters.dropped_rate);
+  object.Add("dropped_loss", counters.dropped_loss);
+  object.Add("dropped_burst", counters.dropped_burst);
+  object.Add("delayed", counters.delayed);
+  object.Add("held_back", counters.held_back);
+  object.Add("duplicated", counters.duplicated);
+  object.Add("corrupted", counters.corrupted);
+  return object;
+}
+
 void AddDecision(const Decision& decision, JsonObject* object) {
   object->Add("mode", giveway::Name(decision.mode));
   object->Add("rule", giveway::Name(decision.rule));
@@ -149,6 +164,7 @@ void AddFields(const VehicleStatus& status, JsonObject* object) {
   object->Add("beacon_deadline_requested_ms", status.beacon_deadline_requested_ms);
   object->Add("beacon_lease_ms", status.beacon_lease_ms);
   object->Add("last_report", status.final);
+  object->Add("impaired", ImpairCountsOf(status.impaired));
 }
 
 void AddFields(const Truth& truth, JsonObject* object) {

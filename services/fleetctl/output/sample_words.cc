@@ -45,9 +45,9 @@ void AddCount(const char* what, std::uint32_t count, std::uint32_t last, std::st
 }  // namespace
 
 std::string_view Name(EventKind kind) {
-  static constexpr std::array<std::string_view, 13> kNames = {
-      "started", "halted",  "went_on", "arrived", "contact", "closest", "fault_due",
-      "silent",  "removed", "joined",  "left",    "ended",   "verdict"};
+  static constexpr std::array<std::string_view, 15> kNames = {
+      "started", "halted", "went_on", "arrived", "contact", "closest",     "fault_due", "silent",
+      "removed", "joined", "left",    "ended",   "verdict", "fault_began", "fault_over"};
   return NameOf(kNames, kind);
 }
 

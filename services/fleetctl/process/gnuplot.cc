@@ -1,7 +1,5 @@
 #include "services/fleetctl/process/gnuplot.h"
 
-#include <optional>
-
 #include "services/fleetctl/process/child_process.h"
 #include "services/runtime/process.h"
 
@@ -11,25 +9,20 @@ namespace {
 constexpr Nanoseconds kDrawLimit = std::chrono::seconds(20);
 constexpr int kNotFound = 127;  // what env(1) says of a program that is not there
 
-// The exit code; nothing if it took too long or died.
-std::optional<int> ExitCodeOfGnuplot(const std::string& program_file) {
+}  // namespace
+
+std::string RunGnuplot(const std::string& program_file) {
   ChildProcess child({"gnuplot", {"/usr/bin/env", "gnuplot", program_file}, "", -1});
   const SteadyTime limit = SteadyNow() + kDrawLimit;
   while (child.IsRunning() && SteadyNow() < limit) {
     SleepUntil(SteadyNow() + std::chrono::milliseconds(10));
     child.Poll();
   }
-  if (child.IsRunning() || child.End()->by_signal) return std::nullopt;
-  return child.End()->number;
-}
-
-}  // namespace
-
-std::string RunGnuplot(const std::string& program_file) {
-  const std::optional<int> code = ExitCodeOfGnuplot(program_file);
-  if (code == 0) return "";
-  return code == kNotFound ? "gnuplot is not installed (Debian: gnuplot-nox)"
-                           : "gnuplot did not draw them";
+  if (child.IsRunning()) return "gnuplot took longer than 20 s";
+  if (*child.End() == ProcessEnd{false, 0}) return "";
+  if (*child.End() == ProcessEnd{false, kNotFound}) return kGnuplotIsMissing;
+  return "gnuplot did not draw it: " +
+         (child.LastLines().empty() ? Describe(*child.End()) : child.LastLines().back());
 }
 
 std::string GnuplotQuoted(const std::string& text) {

@@ -5,7 +5,9 @@
 
 namespace giveway::fleetctl {
 
-// Empty if it has carried out the program in that file within 20 s, else why not, with the remedy.
+inline constexpr const char* kGnuplotIsMissing = "gnuplot is not installed (Debian: gnuplot-nox)";
+// Empty if it has carried out the program in that file within 20 s, else why not:
+// kGnuplotIsMissing, or what gnuplot said last.
 std::string RunGnuplot(const std::string& program_file);
 
 // A text in gnuplot's single quotes, quotes included.

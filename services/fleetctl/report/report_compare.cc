@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string_view>
 #include <tuple>
 
 #include "services/fleetctl/soak/soak_words.h"
+#include "services/statistics/distributions.h"
 #include "services/statistics/two_sample.h"
 
 namespace giveway::fleetctl {
@@ -130,7 +130,7 @@ void CompareSlope(const ResourceSlope& was, const ResourceSlope& is, Figures* fi
   double p_worse = rise > 0 ? 0 : 1;  // where both are known exactly
   double p_better = rise < 0 ? 0 : 1;
   if (error > 0) {
-    p_worse = std::erfc(rise / error / std::numbers::sqrt2) / 2;
+    p_worse = statistics::NormalAbove(rise / error);
     p_better = 1 - p_worse;
   }
   const double least = LeastOf(was.kind);
@@ -157,9 +157,7 @@ void CompareSlopes(const SoakResult& before, const SoakResult& after, Figures* f
   for (const ResourceSlope& row : after.slopes) {
     const std::string name = row.process + " " + ToString(row.kind);
     if (!row.leak || !leaked.insert(name).second) continue;
-    figures->AddSure(name, "no leak",
-                     "leak, " + ResourceWords(row.kind, row.slope.per_hour) + " an hour",
-                     Change::kWorse);
+    figures->AddSure(name, "no leak", "leak", Change::kWorse);
   }
 }
 

@@ -1,21 +1,19 @@
 // What got worse from one soak to another, and whether chance explains it. Pure.
 //
-//   figures    histograms: on the whole (Mann-Whitney) and in the tail (how many lie above the 99 %
-//              quantile of both, Fisher). Worse only from 5 % of the median or of the 99 % quantile
-//              on.
-//   slopes     each resource of each process by its longest life: the slopes' difference against
-//   the
+//   figures    histograms: on the whole (Mann-Whitney) and in the tail (the share above the 99 %
+//              quantile of both, Fisher). Worse only if that quantile or the median grew by 5 %.
+//   slopes     each resource of each process by its longest life: the difference against the
 //              widths of both intervals. Worse only from what counts as a leak on.
-//   faults     by kind, how long until noticed, until recovered (Mann-Whitney). Worse only from 5 %
-//   on. counts     violations by invariant, near misses, unplanned restarts: events over
-//   vehicle-hours
+//   faults     by kind: how long until noticed, until recovered (Mann-Whitney), from 5 % on; how
+//              many were noticed late, how many had no effect (Fisher).
+//   counts     violations by invariant, near misses, unplanned restarts over vehicle-hours
 //              (conditional binomial).
-//   verdict    that passed and no longer does; samples that are not accounted for; leaks that are
-//              new. No test is asked about these.
+//   verdict    one that passed and no longer does, samples that are not accounted for, leaks that
+//              are new: no test is asked about these.
 //
-// All tests together say worse of two equal soaks with a chance of at most 0.5 % (Holm at 1 %,
-// both directions). The values of a histogram are not independent: no more than one a vehicle and
-// second is counted as evidence.
+// All tests together say worse of two equal soaks with a chance of at most 0.5 % (Holm at 1 %, both
+// directions); a soak by itself names a leak that is none with a chance of 1 %. The values of a
+// histogram are not independent: no more than one a vehicle and second is counted as evidence.
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr std::size_t kNameColumns = 34;
+constexpr std::size_t kNameColumns = 31;
 constexpr std::size_t kFigureColumns = 15;
 
 std::string ChanceWords(const std::optional<double>& p) {

@@ -13,7 +13,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-using faults::Fault;
 using faults::Kind;
 using faults::Target;
 using std::chrono::milliseconds;
@@ -67,7 +66,7 @@ void SetFlag(std::vector<std::string>* words, const std::string& flag, const std
 ProcessFaults::ProcessFaults(FaultTools tools, FleetProcesses* processes)
     : tools_(std::move(tools)), processes_(processes) {}
 
-const char* ProcessFaults::WhyNot(const Fault& fault) {
+const char* ProcessFaults::WhyNot(const faults::Fault& fault) {
   const bool world = fault.target.what == Target::What::kWorld;
   const bool vehicles =
       fault.target.what == Target::What::kVehicle || fault.target.what == Target::What::kAll;
@@ -120,7 +119,7 @@ const MemberCommand* ProcessFaults::CommandOf(MemberId member) const {
   return found == tools_.commands.end() ? nullptr : &*found;
 }
 
-std::string ProcessFaults::EffectOf(const Fault& fault) const {
+std::string ProcessFaults::EffectOf(const faults::Fault& fault) const {
   for (const MemberId member : MembersOf(fault.target)) {
     if (CommandOf(member) == nullptr) continue;
     const std::string effect = EffectOn(fault, member);
@@ -132,7 +131,7 @@ std::string ProcessFaults::EffectOf(const Fault& fault) const {
   return {};
 }
 
-std::string ProcessFaults::EffectOn(const Fault& fault, MemberId member) const {
+std::string ProcessFaults::EffectOn(const faults::Fault& fault, MemberId member) const {
   const auto pid = processes_->PidOf(member);
   if (!pid) return {};
   switch (fault.kind) {
@@ -170,7 +169,7 @@ bool ProcessFaults::IsAwayForGood(MemberId member) const {
   return away != away_.end() && away->second->kind == Kind::kKill;
 }
 
-void ProcessFaults::Begin(const Fault& fault) {
+void ProcessFaults::Begin(const faults::Fault& fault) {
   if (fault.kind == Kind::kChurn) {
     churns_[&fault].left = fault.parameters.count.value_or(1);
     return;
@@ -178,13 +177,13 @@ void ProcessFaults::Begin(const Fault& fault) {
   for (const MemberId member : MembersOf(fault.target)) BeginOn(fault, member);
 }
 
-void ProcessFaults::End(const Fault& fault) {
+void ProcessFaults::End(const faults::Fault& fault) {
   churns_.erase(&fault);
   doubles_.erase(&fault);
   for (const MemberId member : MembersOf(fault.target)) EndOn(fault, member);
 }
 
-void ProcessFaults::BeginOn(const Fault& fault, MemberId member) {
+void ProcessFaults::BeginOn(const faults::Fault& fault, MemberId member) {
   if (CommandOf(member) == nullptr || !processes_->IsRunning(member)) return;
   const faults::Parameters& with = fault.parameters;
   switch (fault.kind) {
@@ -232,7 +231,7 @@ void ProcessFaults::BeginOn(const Fault& fault, MemberId member) {
   }
 }
 
-void ProcessFaults::EndOn(const Fault& fault, MemberId member) {
+void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
   if (CommandOf(member) == nullptr) return;
   switch (fault.kind) {
     case Kind::kRestart:
@@ -329,7 +328,7 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   return std::make_unique<ChildProcess>(child);
 }
 
-void ProcessFaults::GiveOrder(const Fault& fault, MemberId member) {
+void ProcessFaults::GiveOrder(const faults::Fault& fault, MemberId member) {
   ChildCommand order;
   order.name = fmt::format("order to {}", NameOf(member));
   order.words = {tools_.fleetctl, "qos",

@@ -5,16 +5,25 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
 #include <sstream>
 #include <tuple>
+
+#include "services/statistics/two_sample.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kFleet = "fleet";
 constexpr std::size_t kMostEndedRows = 3000;  // of lives that are over
+constexpr std::size_t kMostNames = 10'000;
 constexpr std::size_t kCurvePoints = 60;
 constexpr std::string_view kSharedMemoryFolder = "/dev/shm/";
+
+// Processor time is what faults make of it: it need not grow in every part of a life.
+bool GrowsLikeALeak(ResourceKind kind, std::span<const statistics::Sample> points) {
+  return kind == ResourceKind::kProcessors || statistics::GrowsThroughout(points);
+}
 
 double LeastLeak(ResourceKind kind) {
   switch (kind) {
@@ -77,6 +86,8 @@ void BoundedSeries::Add(double time_s, double value) {
 ResourceSeries::Life& ResourceSeries::LifeOf(const std::string& process, double time_s) {
   const auto [entry, is_new] = living_.try_emplace(process);
   if (is_new) {
+    // Of more names than that nobody asks which life it was.
+    if (next_life_.size() >= kMostNames) next_life_.clear();
     entry->second.number = next_life_[process]++;
     entry->second.began_s = time_s;
   }
@@ -121,7 +132,8 @@ std::vector<ResourceSlope> ResourceSeries::SlopesOf(const std::string& process,
     ResourceSlope row{.process = process, .life = life.number, .kind = kind, .slope = *slope};
     row.slope.samples *= life.series[i].Stride();
     row.last = points.back().value;
-    row.leak = statistics::IsLeak(*slope, LeastLeak(kind));
+    row.lasting = slope->spans_s >= kLeastLeakSpan_s && GrowsLikeALeak(kind, points);
+    row.leak = row.lasting && statistics::IsLeak(*slope, LeastLeak(kind));
     if (kind == ResourceKind::kPrivateBytes) {
       row.curve = statistics::BlockMedians(points, kCurvePoints);
     }
@@ -142,8 +154,9 @@ void ResourceSeries::EndLife(const std::string& process) {
 void ResourceSeries::Keep(std::vector<ResourceSlope> slopes) {
   for (ResourceSlope& slope : slopes) {
     if (ended_.size() >= kMostEndedRows) {
+      ++rows_dropped_;
       const auto without = std::ranges::find(ended_, false, &ResourceSlope::leak);
-      if (without == ended_.end()) return;
+      if (without == ended_.end()) continue;
       ended_.erase(without);
     }
     ended_.push_back(std::move(slope));
@@ -156,10 +169,23 @@ std::vector<ResourceSlope> ResourceSeries::Slopes() const {
     std::vector<ResourceSlope> more = SlopesOf(process, life);
     std::ranges::move(more, std::back_inserter(slopes));
   }
+  MarkLeaks(&slopes, rows_dropped_);
   std::ranges::sort(slopes, [](const ResourceSlope& a, const ResourceSlope& b) {
     return std::tie(a.process, a.life, a.kind) < std::tie(b.process, b.life, b.kind);
   });
   return slopes;
+}
+
+void MarkLeaks(std::vector<ResourceSlope>* rows, std::size_t more) {
+  std::vector<double> chances;
+  for (const ResourceSlope& row : *rows) chances.push_back(row.slope.chance);
+  chances.resize(rows->size() + more, 1.0);
+  const std::vector<double> adjusted = statistics::HolmAdjusted(chances);
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    ResourceSlope& row = (*rows)[i];
+    row.leak = row.lasting && statistics::IsLeak(row.slope, LeastLeak(row.kind)) &&
+               adjusted[i] < kMostLeakChance;
+  }
 }
 
 std::uint64_t SharedMemoryIn(const std::vector<std::string>& maps) {

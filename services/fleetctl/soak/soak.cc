@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <thread>
 
-#include "services/config/faults_file.h"
+#include "services/config/faults/faults_file.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
-#include "services/config/scenario_edit.h"
 #include "services/config/scenario_file.h"
+#include "services/config/writing/scenario_edit.h"
 #include "services/faults/hearing.h"
 #include "services/faults/kind_table.h"
 #include "services/faults/schedule_text.h"
@@ -33,7 +33,6 @@ namespace giveway::fleetctl {
 namespace {
 
 namespace fs = std::filesystem;
-using faults::Fault;
 
 constexpr unsigned kWriting_s = 60;
 
@@ -52,7 +51,7 @@ struct Prepared {
 
 // The world's faults need a world that takes them, the hearers' an impairment: always. An attacker
 // is a program of the tests.
-const char* WhyNot(const Fault& fault) {
+const char* WhyNot(const faults::Fault& fault) {
   switch (faults::ActorOf(fault.kind)) {
     case faults::Actor::kSupervisor:
       return ProcessFaults::WhyNot(fault);
@@ -65,7 +64,7 @@ const char* WhyNot(const Fault& fault) {
   return nullptr;
 }
 
-std::string InWords(const Fault& fault) {
+std::string InWords(const faults::Fault& fault) {
   return fmt::format("{}#{} ({} of {} at {:.1f} s)", fault.rule, fault.nth,
                      faults::ToString(fault.kind), faults::ToString(fault.target), fault.at_s);
 }
@@ -73,7 +72,7 @@ std::string InWords(const Fault& fault) {
 // Refuses what cannot be carried out here, all at once; or leaves it out and says so.
 void Sift(const SoakOptions& options, Prepared* prepared) {
   std::vector<Problem> problems;
-  std::erase_if(prepared->schedule, [&](const Fault& fault) {
+  std::erase_if(prepared->schedule, [&](const faults::Fault& fault) {
     const char* const why = WhyNot(fault);
     if (why == nullptr) return false;
     if (options.skip_unsupported) {
@@ -89,7 +88,8 @@ void Sift(const SoakOptions& options, Prepared* prepared) {
 }
 
 Scenario LoadAndCheck(const SoakOptions& options) {
-  const Scenario scenario = LoadScenario(options.scenario, {options.seed, std::nullopt, 0.0});
+  const Scenario scenario =
+      LoadScenario(options.scenario, {options.seed, std::nullopt, std::nullopt});
   if (options.vehicles && scenario.spawns.empty()) {
     throw InputError({{options.scenario, 0, "", "",
                        "--vehicles was given, but the scenario names all of its vehicles",
@@ -117,6 +117,7 @@ Prepared Prepare(const SoakOptions& options) {
   CheckFolder(options.report_folder);
   const fs::path folder(options.report_folder);
   CheckFolder((folder / "logs").string());
+  CheckFolder((folder / "impair").string());
   if (options.record) CheckFolder((folder / "recordings").string());
   // All begin together, so that everyone's clock of faults is the same.
   ScenarioEdit edit{.duration_s = 0.0};
@@ -125,7 +126,8 @@ Prepared Prepare(const SoakOptions& options) {
   WriteFile(prepared.scenario_file, EditScenario(options.scenario, edit));
   prepared.faults_file = (folder / "faults.textproto").string();
   WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
-  prepared.scenario = LoadScenario(prepared.scenario_file, {options.seed, std::nullopt, 0.0});
+  prepared.scenario =
+      LoadScenario(prepared.scenario_file, {options.seed, std::nullopt, std::nullopt});
   return prepared;
 }
 
@@ -152,16 +154,24 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
   return spec;
 }
 
-FaultTools ToolsOf(const FleetSpec& spec, const Prepared& prepared) {
+// In a file: hours of faults are longer than a command line may be.
+std::string ImpairFlag(const fs::path& folder, VehicleId vehicle, const Impairment& impairment) {
+  const fs::path file = folder / fmt::format("vehicle-{}.impair", Number(vehicle));
+  WriteFile(file.string(), ImpairmentText(impairment) + "\n");
+  return "@" + file.string();
+}
+
+FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prepared& prepared) {
   FaultTools tools;
   tools.commands = MakeCommands(spec, prepared.scenario);
   tools.fleetctl = (spec.program_folder / "fleetctl").string();
   tools.domain = spec.domain;
   tools.interface = spec.options.interface;
-  tools.impairment_since = [&prepared](VehicleId vehicle, double since_s) {
+  const fs::path folder = fs::path(options.report_folder) / "impair";
+  tools.impairment_since = [&prepared, folder](VehicleId vehicle, double since_s) {
     const auto impaired = faults::ImpairmentOf(prepared.schedule, prepared.fleet, since_s);
     const auto found = impaired.find(vehicle);
-    return found == impaired.end() ? std::string() : ImpairmentText(found->second);
+    return found == impaired.end() ? std::string() : ImpairFlag(folder, vehicle, found->second);
   };
   for (MemberCommand& command : tools.commands) {
     if (command.member == kTheWorld) continue;
@@ -182,6 +192,11 @@ std::string CommandLine(const SoakOptions& options) {
   return line;
 }
 
+// "2.9.1" of "Fast DDS 2.9.1".
+std::string WithoutName(std::string_view library) {
+  return std::string(library.substr(library.rfind(' ') + 1));
+}
+
 SoakResult BlankResult(const SoakOptions& options, const Prepared& prepared, std::uint32_t domain) {
   SoakResult result;
   result.scenario = prepared.scenario.name;
@@ -196,7 +211,7 @@ SoakResult BlankResult(const SoakOptions& options, const Prepared& prepared, std
   result.command = CommandLine(options);
   utsname system{};
   if (::uname(&system) == 0) result.versions.kernel = system.release;
-  result.versions.fast_dds = std::string(link::LibraryName());
+  result.versions.fast_dds = WithoutName(link::LibraryName());
   result.versions.host_cores = std::thread::hardware_concurrency();
   return result;
 }
@@ -219,7 +234,7 @@ int Soak(const SoakOptions& options) {
                result.scenario.c_str(), lock.Domain(), result.vehicles, prepared.schedule.size(),
                prepared.skipped.size());
   SoakSession session(spec, prepared.scenario, prepared.schedule, prepared.phases,
-                      ToolsOf(spec, prepared));
+                      ToolsOf(options, spec, prepared));
   const SoakSeen seen = session.Run();
   Judge({seen, prepared.schedule, limits,
          [&session](SteadyTime from, SteadyTime to) {

@@ -49,26 +49,30 @@ std::string DrawOne(const SoakPlot& plot, const fs::path& folder,
 
 std::vector<DrawnSoakPlot> Draw(const std::vector<SoakPlot>& plots, const std::string& folder) {
   std::vector<DrawnSoakPlot> drawn;
-  std::string complaint;
   try {
     for (const SoakPlot& plot : plots) {
-      complaint = DrawOne(plot, folder, &drawn);
-      if (!complaint.empty()) break;
+      const std::string why_not = DrawOne(plot, folder, &drawn);
+      if (why_not.empty()) continue;
+      std::fprintf(stderr, "no picture '%s': %s\n", plot.title.c_str(), why_not.c_str());
+      if (why_not == kGnuplotIsMissing) break;
     }
   } catch (const OutputError& error) {
-    complaint = error.what();
+    std::fprintf(stderr, "no pictures: %s\n", error.what());
   } catch (const StartError& error) {
-    complaint = error.what();
+    std::fprintf(stderr, "no pictures: %s\n", error.what());
   }
-  if (complaint.empty()) return drawn;
-  std::fprintf(stderr, "no pictures: %s\n", complaint.c_str());
-  return {};
+  return drawn;
+}
+
+void WriteSoakPage(const SoakResult& result, const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  WriteFile(file, ToHtml(result, Draw(PlotsOf(result), folder.empty() ? "." : folder.string())));
 }
 
 void WriteSoakReport(const SoakResult& result, const std::string& folder) {
   const fs::path place(folder);
   WriteFile((place / "report.json").string(), ToJson(result) + "\n");
-  WriteFile((place / "report.html").string(), ToHtml(result, Draw(PlotsOf(result), folder)));
+  WriteSoakPage(result, (place / "report.html").string());
 }
 
 }  // namespace giveway::fleetctl

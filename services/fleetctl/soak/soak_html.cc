@@ -13,11 +13,12 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr std::size_t kMostRowsShown = 200;
-constexpr std::size_t kRowsUnfolded = 12;
+constexpr std::size_t kRowsUnfolded = 20;
 
 // A table that grows row by row. Cells are escaped here.
 class HtmlTable {
  public:
+  // A head that begins with '<' stands at the left, over text.
   explicit HtmlTable(std::vector<std::string> heads) : heads_(std::move(heads)) {}
 
   void Row() { rows_.emplace_back(); }
@@ -26,21 +27,33 @@ class HtmlTable {
         "<td{}>{}</td>", style.empty() ? "" : fmt::format(" class=\"{}\"", style), HtmlText(text));
   }
   void Count(std::uint64_t count) { Cell(fmt::format("{}", count)); }
-  // `all` rows there are; a long table is folded.
+  // `all` rows there are; those behind the first ones are folded.
   std::string Html(std::size_t all) const {
-    std::string html = "<div class=\"scroll\"><table><tr>";
-    for (const std::string& head : heads_) html += "<th>" + HtmlText(head) + "</th>";
-    html += "</tr>\n";
-    for (const std::string& row : rows_) html += "<tr>" + row + "</tr>\n";
-    html += "</table></div>\n";
+    const std::size_t open = std::min(rows_.size(), kRowsUnfolded);
+    std::string html = Part(0, open);
+    if (open < rows_.size()) {
+      html += fmt::format("<details><summary>{} more</summary>\n{}</details>\n",
+                          rows_.size() - open, Part(open, rows_.size()));
+    }
     if (all > rows_.size()) {
       html += fmt::format("<p>{} more are in report.json.</p>\n", all - rows_.size());
     }
-    if (rows_.size() <= kRowsUnfolded) return html;
-    return fmt::format("<details><summary>{} rows</summary>\n{}</details>\n", rows_.size(), html);
+    return html;
   }
 
  private:
+  std::string Part(std::size_t begin, std::size_t end) const {
+    std::string html = "<div class=\"scroll\"><table><tr>";
+    for (const std::string& head : heads_) {
+      const bool of_text = head.starts_with('<');
+      html += (of_text ? "<th class=\"text\">" : "<th>") + HtmlText(head.substr(of_text ? 1 : 0)) +
+              "</th>";
+    }
+    html += "</tr>\n";
+    for (std::size_t i = begin; i < end; ++i) html += "<tr>" + rows_[i] + "</tr>\n";
+    return html + "</table></div>\n";
+  }
+
   std::vector<std::string> heads_;
   std::vector<std::string> rows_;
 };
@@ -62,7 +75,7 @@ std::vector<const Item*> Ordered(const std::vector<Item>& items, Key&& key) {
 }
 
 std::string EachFault(const SoakResult& result) {
-  HtmlTable table({"at", "for", "kind", "target", "effect seen", "noticed after", "promised",
+  HtmlTable table({"at", "for", "kind", "target", "<effect seen", "noticed after", "promised",
                    "recovered after", "name"});
   for (const SoakFault& fault :
        std::span(result.faults).first(std::min(result.faults.size(), kMostRowsShown))) {
@@ -113,7 +126,7 @@ std::string HtmlText(std::string_view text) {
 
 std::string HistogramSection(const SoakResult& result) {
   if (result.histograms.empty()) return "";
-  HtmlTable table({"figure", "values", "median", "99 %", "99.9 %", "max", "budgets"});
+  HtmlTable table({"figure", "values", "median", "99 %", "99.9 %", "max", "<budgets"});
   for (const SoakHistogram& measured : result.histograms) {
     const auto cell = [&](std::int64_t value) { table.Cell(ValueWords(measured.unit, value)); };
     const Histogram& histogram = measured.histogram;
@@ -132,7 +145,7 @@ std::string HistogramSection(const SoakResult& result) {
 
 std::string ViolationSection(const SoakResult& result) {
   if (result.violations.empty()) return "<h2>Violations</h2>\n<p class=\"good\">None.</p>\n";
-  HtmlTable table({"time", "vehicle", "what", "words", "follows"});
+  HtmlTable table({"time", "vehicle", "what", "<words", "follows"});
   for (const SoakViolation& violation :
        std::span(result.violations).first(std::min(result.violations.size(), kMostRowsShown))) {
     table.Row();
@@ -180,7 +193,7 @@ std::string SlopeSection(const SoakResult& result) {
   HtmlTable table(
       {"process", "life", "resource", "at its end", "an hour", "95 % interval", "over", "leak"});
   for (const ResourceSlope* row : Ordered(result.slopes, [](const ResourceSlope& slope) {
-         return std::pair(!slope.leak, -slope.slope.low_per_hour);
+         return std::pair(!slope.leak, slope.slope.chance);
        })) {
     table.Row();
     table.Cell(row->process);

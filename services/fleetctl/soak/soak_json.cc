@@ -29,7 +29,9 @@ ReadSoak SoakFromJson(std::string_view json) {
   if (!status.ok()) {
     return {{}, fmt::format("is no report of fleetctl soak: {}", std::string(status.message()))};
   }
-  return SoakFrom(message);
+  ReadSoak read;
+  read.complaint = ReadInto(message, &read.result);
+  return read;
 }
 
 ReadSoak ReadSoakReport(const std::string& path) {

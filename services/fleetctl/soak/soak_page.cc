@@ -15,8 +15,8 @@ constexpr const char* kPageStyle = R"(
 @media (prefers-color-scheme: dark) { :root { --line: #444; --soft: #222; --good: #5fd3a8; --bad: #ff8a80; --other: #e6c34a } }
 body { font: 15px/1.45 sans-serif; margin: 1.5em auto; max-width: 64em; padding: 0 1em }
 h1 { font-size: 1.5em; margin-bottom: .2em } h2 { font-size: 1.2em; margin: 1.6em 0 .4em }
-table { border-collapse: collapse; font-size: .93em } td, th { padding: .25em .6em; text-align: right; border-bottom: 1px solid var(--line); vertical-align: top }
-td:first-child, th:first-child, td.text { text-align: left } td.text { overflow-wrap: anywhere; min-width: 8em }
+table { border-collapse: collapse; font-size: .93em } td, th { padding: .25em .6em; text-align: right; border-bottom: 1px solid var(--line); vertical-align: top; white-space: nowrap }
+td:first-child, th:first-child, .text { text-align: left } td.text { white-space: normal; overflow-wrap: anywhere; min-width: 11em }
 .good { color: var(--good) } .bad { color: var(--bad); font-weight: bold } .other { color: var(--other) }
 .scroll { overflow-x: auto } .scroll svg { min-width: 40em; max-width: 100%; height: auto }
 pre { background: var(--soft); padding: .8em; white-space: pre-wrap; overflow-wrap: anywhere }

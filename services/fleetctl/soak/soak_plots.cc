@@ -7,10 +7,10 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "services/fleetctl/process/gnuplot.h"
 #include "services/fleetctl/soak/soak_page.h"
+#include "services/fleetctl/soak/soak_words.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -37,7 +37,7 @@ std::string PlotLabel(const std::string& text) {
 std::string PlotSettings(const std::string& name, int height) {
   return fmt::format(
       "set terminal svg size 900,{} dynamic font 'sans-serif,13' name 'soak_{}'\n"
-      "set grid lc rgb '#888888' lw 0.4\nset key below\nset tics nomirror\nset border 3\n"
+      "set grid lc rgb '#888888' lw 0.4\nset key above maxcols 4\nset tics nomirror\nset border 3\n"
       "set encoding utf8\n",
       height, name);
 }
@@ -80,6 +80,13 @@ class PlotRows {
   std::vector<std::string> names_;
 };
 
+// A row a kind of fault, in the order of the page's table.
+PlotRows KindRows(const SoakResult& result) {
+  PlotRows rows;
+  for (const FaultSummary& summary : SummariesOf(result.faults)) rows.Of(summary.kind);
+  return rows;
+}
+
 // "$data << EOD ..." and how it is drawn, one after the other.
 class PlotParts {
  public:
@@ -106,7 +113,7 @@ std::string Bars(const char* colour, const std::string& title) {
 SoakPlot FaultPlot(const SoakResult& result) {
   const TimeAxis axis = AxisOf(result);
   const double least_s = std::max(result.ran_s, 1.0) / 300;  // or nobody sees it
-  PlotRows rows;
+  PlotRows rows = KindRows(result);
   std::string seen;
   std::string unseen;
   std::string broken;
@@ -179,16 +186,29 @@ SoakPlot NearMissPlot(const SoakResult& result) {
               parts.Text()};
 }
 
+std::string NinesTics(double most) {
+  constexpr std::array<const char*, 7> kShares = {"all",      "90 %%",     "99 %%",     "99.9 %%",
+                                                  "99.99 %%", "99.999 %%", "99.9999 %%"};
+  std::string tics;
+  for (std::size_t i = 0; i < kShares.size() && static_cast<double>(i) <= most + 0.01; ++i) {
+    tics += fmt::format("{}'{}' {}", i == 0 ? "" : ", ", kShares[i], i);
+  }
+  return fmt::format("set xtics ({})\nset xrange [0:{:.2f}]\nset rmargin 6\n", tics,
+                     std::max(most, 1.0));
+}
+
 // Nines to the right: 90, 99, 99.9 % are 1, 2, 3, as HdrHistogram's own plots have it.
 SoakPlot QuantilePlot(const SoakResult& result, HistogramUnit unit) {
   const bool is_time = unit == HistogramUnit::kNanoseconds;
   PlotParts parts;
   std::size_t colour = 0;
+  double most_nines = 0;
   for (const SoakHistogram& measured : result.histograms) {
     const std::uint64_t count = measured.histogram.Count();
     if (measured.unit != unit || count == 0) continue;
     const char* line = kColours[colour++ % kColours.size()];
     const double nines = std::min(6.0, std::log10(static_cast<double>(count)));
+    most_nines = std::max(most_nines, nines);
     std::string points;
     for (double x = 0; x <= nines + 1e-9; x += 0.05) {
       points += fmt::format(
@@ -209,9 +229,8 @@ SoakPlot QuantilePlot(const SoakResult& result, HistogramUnit unit) {
   if (parts.IsEmpty()) return {};
   const std::string name = is_time ? "times" : "lengths";
   return {name, is_time ? "Times by their quantiles" : "Lengths by their quantiles",
-          PlotSettings(name, 480) +
-              "set xtics ('all' 0, '90 %' 1, '99 %' 2, '99.9 %' 3, '99.99 %' 4, '99.999 %' 5, "
-              "'99.9999 %' 6)\nset xlabel 'share that is no greater'\nset yrange [0:*]\n" +
+          PlotSettings(name, 480) + NinesTics(most_nines) +
+              "set xlabel 'share that is no greater'\nset yrange [0:*]\n" +
               fmt::format("set ylabel '{}'\n", is_time ? "ms" : "m") + parts.Text()};
 }
 
@@ -242,7 +261,7 @@ SoakPlot MemoryPlot(const SoakResult& result) {
 }
 
 SoakPlot DetectionPlot(const SoakResult& result) {
-  PlotRows rows;
+  PlotRows rows = KindRows(result);
   std::string noticed;
   std::string promised;
   std::string recovered;

@@ -120,7 +120,8 @@ ResourceSlope SlopeFrom(const schema::SoakSlope& message, const std::string& fie
                .low_per_hour = message.low_per_hour(),
                .high_per_hour = message.high_per_hour(),
                .samples = message.samples(),
-               .spans_s = message.spans_s()};
+               .spans_s = message.spans_s(),
+               .chance = message.chance()};
   row.last = message.last();
   row.leak = message.leak();
   if (message.curve_s_size() != message.curve_size()) {
@@ -227,13 +228,12 @@ void ReadFigures(const schema::SoakReport& message, SoakResult* result, Complain
 
 }  // namespace
 
-ReadSoak SoakFrom(const schema::SoakReport& message) {
-  SoakResult result;
+std::string ReadInto(const schema::SoakReport& message, SoakResult* result) {
   Complaints complaints;
-  ReadHead(message, &result, &complaints);
-  ReadEvents(message, &result, &complaints);
-  ReadFigures(message, &result, &complaints);
-  return {std::move(result), complaints.Text()};
+  ReadHead(message, result, &complaints);
+  ReadEvents(message, result, &complaints);
+  ReadFigures(message, result, &complaints);
+  return complaints.Text();
 }
 
 }  // namespace giveway::fleetctl

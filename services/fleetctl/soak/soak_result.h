@@ -115,6 +115,7 @@ struct ResourceSlope {
   ResourceKind kind = ResourceKind::kPrivateBytes;
   statistics::Slope slope;  // without warm-up
   double last = 0;          // the figure at the life's end
+  bool lasting = true;      // long enough to judge, and grew in each part: what fills up does not
   bool leak = false;
   std::vector<statistics::Sample>
       curve;  // of private bytes: at most 60 points to draw; time of soak

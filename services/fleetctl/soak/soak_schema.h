@@ -1,7 +1,8 @@
 // Between a soak's result and the message of idl/soak.proto.
 #pragma once
 
-#include "services/fleetctl/soak/soak_json.h"
+#include <string>
+
 #include "services/fleetctl/soak/soak_result.h"
 #include "soak.pb.h"
 
@@ -11,7 +12,7 @@ inline constexpr std::uint32_t kSoakFormat = 1;
 
 // Numbers that JSON has no word for are left at 0, text is made well-formed.
 schema::SoakReport SchemaOf(const SoakResult& result);
-// All complaints at once, field by field.
-ReadSoak SoakFrom(const schema::SoakReport& message);
+// All complaints at once, field by field; empty: `result` stands.
+std::string ReadInto(const schema::SoakReport& message, SoakResult* result);
 
 }  // namespace giveway::fleetctl

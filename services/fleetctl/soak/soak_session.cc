@@ -12,7 +12,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-using faults::Fault;
 using faults::Kind;
 using faults::Target;
 using std::chrono::milliseconds;
@@ -170,7 +169,7 @@ void SoakSession::Drain() {
 
 void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
   for (const FaultEdge& edge : edges) {
-    const Fault& fault = schedule_[edge.fault];
+    const faults::Fault& fault = schedule_[edge.fault];
     if (edge.begins) {
       watch_.NoteBegin(edge.fault, SteadyNow());
       faults_.Begin(fault);
@@ -185,7 +184,7 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
 // order came to.
 void SoakSession::NoteProcessEffects() {
   for (std::size_t i = 0; i < schedule_.size(); ++i) {
-    const Fault& fault = schedule_[i];
+    const faults::Fault& fault = schedule_[i];
     const FaultCourse& course = watch_.Courses()[i];
     const bool sought = course.began && course.effect.empty() &&
                         faults::ActorOf(fault.kind) == faults::Actor::kSupervisor;

@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
@@ -30,27 +31,6 @@ Exit code: 0 passed; 1 failed or interrupted; 2 could not run, or the machine wa
 
 constexpr std::uint32_t kMostVehicles = 1024;
 constexpr double kLeastDuration_s = 30;
-constexpr double kMostDuration_s = 30 * 86400.0;
-
-// Nothing where the text is no duration.
-std::optional<double> ParseDuration(const std::string& text) {
-  std::size_t end = 0;
-  double number = 0;
-  try {
-    number = std::stod(text, &end);
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
-  const std::string unit = text.substr(end);
-  const double seconds = unit.empty() || unit == "s" ? 1
-                         : unit == "m"               ? 60
-                         : unit == "h"               ? 3600
-                         : unit == "d"               ? 86400
-                                                     : 0;
-  const double duration_s = number * seconds;
-  if (!(duration_s >= kLeastDuration_s && duration_s <= kMostDuration_s)) return std::nullopt;
-  return duration_s;
-}
 
 void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
@@ -58,20 +38,8 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("--faults", options->faults, "A fault file, or the name of a shipped one")
       ->check(CheckNotEmpty)
       ->capture_default_str();
-  verb->add_option_function<std::string>(
-          "--duration",
-          [options](const std::string& text) {
-            const auto duration_s = ParseDuration(text);
-            if (!duration_s) {
-              throw CLI::ValidationError(
-                  "--duration",
-                  "must be 30 s to 30 d, as 90, 90s, 30m, 12h or 7d, not '" + text + "'");
-            }
-            options->duration_s = *duration_s;
-          },
-          "From the start signal to the verdict")
-      ->type_name("DURATION")
-      ->default_str("5m");
+  AddDurationFlag(verb, "--duration", &options->duration_s,
+                  "From the start signal to the verdict: 30s to 30d");
   verb->add_option("--seed", options->seed, "Of start poses, cruise speeds and faults")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();
@@ -101,7 +69,13 @@ void AddSoakVerb(CLI::App* fleetctl, int* exit_code) {
       "soak", "Drive a fleet under faults for minutes or days, and judge it");
   verb->footer(kFooter);
   AddSoakFlags(verb, options.get());
-  verb->callback([options, exit_code] { *exit_code = Soak(*options); });
+  verb->callback([options, exit_code] {
+    if (options->duration_s < kLeastDuration_s) {
+      throw CLI::ValidationError("--duration",
+                                 "must be at least 30 s: the fleet takes ten to start");
+    }
+    *exit_code = Soak(*options);
+  });
 }
 
 }  // namespace giveway::fleetctl

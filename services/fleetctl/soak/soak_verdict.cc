@@ -13,7 +13,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-using faults::Fault;
 using faults::Kind;
 using faults::Target;
 using std::chrono::milliseconds;
@@ -87,14 +86,14 @@ class Judging {
       JudgeFault(from_.schedule[i], from_.seen.courses[i], result_.faults[i]);
     }
     std::uint32_t planned = 0;
-    for (const Fault& fault : from_.schedule) {
+    for (const faults::Fault& fault : from_.schedule) {
       planned += fault.kind == Kind::kRestart || fault.kind == Kind::kQosMismatch ? 1 : 0;
     }
     result_.restarts_planned = planned;
     result_.restarts_unplanned = from_.seen.restarts;
   }
 
-  SoakFault FaultOf(const Fault& fault, const FaultCourse& course) const {
+  SoakFault FaultOf(const faults::Fault& fault, const FaultCourse& course) const {
     SoakFault told{.rule = fault.rule,
                    .nth = fault.nth,
                    .at_s = fault.at_s,
@@ -103,8 +102,10 @@ class Judging {
                    .target = faults::ToString(fault.target),
                    .observed = !course.effect.empty(),
                    .observed_how = course.effect};
+    // Of other faults peers may hear less of the victim too: not each time, and nothing is
+    // promised.
     for (const std::optional<SteadyTime>& noticed : course.noticed) {
-      if (!noticed) continue;
+      if (!noticed || !AsOfStopwatch(fault.kind)) continue;
       const double after_s = Seconds(*noticed - *course.began);
       if (!told.noticed_after_s || after_s < *told.noticed_after_s) told.noticed_after_s = after_s;
     }
@@ -119,7 +120,7 @@ class Judging {
   }
 
   // One that the run ended before is no news.
-  void JudgeFault(const Fault& fault, const FaultCourse& course, const SoakFault& told) {
+  void JudgeFault(const faults::Fault& fault, const FaultCourse& course, const SoakFault& told) {
     if (!course.began) return;
     if (!told.observed) {
       Tell(fault.at_s, fault.target.vehicle, "effect",
@@ -133,8 +134,8 @@ class Judging {
     }
   }
 
-  void JudgeDetection(const Fault& fault, const FaultCourse& course, const Expected& expected,
-                      const std::string& name) {
+  void JudgeDetection(const faults::Fault& fault, const FaultCourse& course,
+                      const Expected& expected, const std::string& name) {
     const auto& noticed = course.noticed[static_cast<std::size_t>(expected.mechanism)];
     const std::string_view mechanism = fleetctl::Name(expected.mechanism);
     const SteadyTime latest = *course.began + expected.within + kNoticing;
@@ -248,7 +249,7 @@ class Judging {
 
 }  // namespace
 
-std::vector<Expected> ExpectedOf(const Fault& fault, const Limits& limits) {
+std::vector<Expected> ExpectedOf(const faults::Fault& fault, const Limits& limits) {
   std::vector<Expected> expected;
   const auto as = AsOfStopwatch(fault.kind);
   if (!as || fault.target.what != Target::What::kVehicle) return expected;

@@ -8,7 +8,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-using faults::Fault;
 using faults::Kind;
 using faults::Target;
 using std::chrono::seconds;
@@ -18,33 +17,33 @@ constexpr Nanoseconds kAfterwards = seconds(10);
 // A status says what was counted until it was made; it may come a little after the fault's end.
 constexpr Nanoseconds kStatusUnderway = seconds(2);
 
-// What each kind of a hearer's fault is counted as by who hears.
-std::uint32_t CountOf(Kind kind, const VehicleStatus& status) {
+// What each kind of a hearer's fault is counted as by who hears; and a set that does not match by
+// those who refuse it.
+std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
   switch (kind) {
-    case Kind::kCorrupt:
-      return status.beacons.rejected_crc + status.beacons.lost;
-    case Kind::kDuplicate:
+    case Kind::kLoss:
+      return status.impaired.dropped_loss;
+    case Kind::kBurst:
+      return status.impaired.dropped_burst;
+    case Kind::kDelay:
+      return status.impaired.delayed;
     case Kind::kReorder:
-      return status.beacons.rejected_replayed + status.beacons.lost;
+      return status.impaired.held_back;
+    case Kind::kDuplicate:
+      return status.impaired.duplicated;
+    case Kind::kCorrupt:
+      return status.impaired.corrupted;
+    case Kind::kRate:
+      return status.impaired.dropped_rate;
     case Kind::kQosMismatch:
       return status.qos.incompatible_qos;
     default:
-      return status.beacons.lost + status.qos.deadline_missed;
+      return status.impaired.Dropped();
   }
 }
 
 std::string_view CounterOf(Kind kind) {
-  switch (kind) {
-    case Kind::kCorrupt:
-      return "refused by CRC, or lost";
-    case Kind::kDuplicate:
-    case Kind::kReorder:
-      return "refused as repeated or old, or lost";
-    case Kind::kQosMismatch:
-      return "incompatible QoS";
-    default:
-      return "lost, or deadlines missed";
-  }
+  return kind == Kind::kQosMismatch ? "endpoints of incompatible QoS" : "packets";
 }
 
 std::optional<Mechanism> MechanismOf(WordKind kind) {
@@ -81,7 +80,7 @@ bool IsWell(const VehicleStatus& status) {
   }
 }
 
-SoakWatch::SoakWatch(std::vector<VehicleId> fleet, std::span<const Fault> schedule)
+SoakWatch::SoakWatch(std::vector<VehicleId> fleet, std::span<const faults::Fault> schedule)
     : schedule_(schedule), courses_(schedule.size()), before_(schedule.size()) {
   for (const VehicleId vehicle : fleet) views_[vehicle];
 }
@@ -114,26 +113,26 @@ void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
 
 // Those of the world say so themselves.
 void SoakWatch::FoldEvent(const WorldEvent& event) {
-  if (event.kind != EventKind::kFaultDue) return;
+  if (event.kind != EventKind::kFaultBegan) return;
   for (std::size_t i = 0; i < courses_.size(); ++i) {
-    const Fault& fault = schedule_[i];
-    if (faults::ActorOf(fault.kind) != faults::Actor::kWorld || !courses_[i].began) continue;
-    if (courses_[i].effect.empty() && fault.target.vehicle == event.vehicle &&
-        event.text.find(faults::ToString(fault.kind)) != std::string::npos) {
-      courses_[i].effect = "the world said so";
-    }
+    const faults::Fault& fault = schedule_[i];
+    if (faults::ActorOf(fault.kind) != faults::Actor::kWorld || !courses_[i].effect.empty())
+      continue;
+    const std::string name =
+        fmt::format("{} {} of {}", faults::ToString(fault.kind), fault.nth, fault.rule);
+    if (event.text == name) courses_[i].effect = "the world says that it began";
   }
 }
 
 // A partition is seen from both of its sides: of the target alone, or of whoever lost it.
-bool SoakWatch::Concerns(const Fault& fault, VehicleId vehicle) const {
+bool SoakWatch::Concerns(const faults::Fault& fault, VehicleId vehicle) const {
   return fault.target.what != Target::What::kVehicle || fault.target.vehicle == vehicle ||
          fault.kind == Kind::kPartition || fault.kind == Kind::kFlapping ||
          fault.kind == Kind::kQosMismatch;
 }
 
 void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
-  const Fault& fault = schedule_[i];
+  const faults::Fault& fault = schedule_[i];
   const bool seen_by_counters =
       faults::ActorOf(fault.kind) == faults::Actor::kHearer || fault.kind == Kind::kQosMismatch;
   if (!seen_by_counters || !Concerns(fault, status.vehicle)) return;
@@ -142,19 +141,19 @@ void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
     before_[i][status.vehicle] = status;
     return;
   }
-  const std::uint32_t was = CountOf(fault.kind, before->second);
-  const std::uint32_t is = CountOf(fault.kind, status);
+  const std::uint64_t was = CountOf(fault.kind, before->second);
+  const std::uint64_t is = CountOf(fault.kind, status);
   if (is < was) {  // another life of it
     before->second = status;
   } else if (is > was) {
-    courses_[i].effect =
-        fmt::format("vehicle {}: +{} {}", Number(status.vehicle), is - was, CounterOf(fault.kind));
+    courses_[i].effect = fmt::format("vehicle {} counted {} {}", Number(status.vehicle), is - was,
+                                     CounterOf(fault.kind));
   }
 }
 
 void SoakWatch::Fold(VehicleId by, const Word& word) {
   for (std::size_t i = 0; i < courses_.size(); ++i) {
-    const Fault& fault = schedule_[i];
+    const faults::Fault& fault = schedule_[i];
     FaultCourse& course = courses_[i];
     if (!course.began || word.at < *course.began) continue;
     if (word.kind == WordKind::kHangs && fault.kind == Kind::kHang && fault.target.vehicle == by &&

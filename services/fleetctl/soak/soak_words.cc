@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kNoValue = "-";
 
 std::string MarginWords(const SoakResult& result) {
-  if (!result.narrowest_margin) return "nobody had to react";
+  if (!result.narrowest_margin) return "not measured";
   const NarrowestMargin& margin = *result.narrowest_margin;
   return fmt::format("{:.0f} % left: vehicle {} drove {:.2f} m of {:.2f} m free, at {:.1f} s",
                      margin.share_left * 100, Number(margin.vehicle), margin.reaction_m,
@@ -20,7 +20,7 @@ std::string MarginWords(const SoakResult& result) {
 }
 
 std::string AccountingWords(const SoakResult& result) {
-  if (result.accounting.empty()) return "none";
+  if (result.accounting.empty()) return "not kept";
   const AccountingSums all = SumsOf(result.accounting);
   return fmt::format(
       "{} sent = {} accepted + {} not heard + {} refused + {} superseded + {} lost; {} of {} pairs "

@@ -95,6 +95,7 @@ void Write(const ResourceSlope& row, schema::SoakSlope* message) {
   message->set_samples(static_cast<std::uint32_t>(row.slope.samples));
   message->set_spans_s(Printable(row.slope.spans_s));
   message->set_last(Printable(row.last));
+  message->set_chance(Printable(row.slope.chance));
   message->set_leak(row.leak);
   for (const statistics::Sample& sample : row.curve) {
     message->add_curve_s(Printable(sample.time_s));

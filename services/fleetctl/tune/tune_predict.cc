@@ -24,7 +24,8 @@ const ImpairmentRule* LastFor(const Impairment& impairment, ImpairedSender sende
 
 bool HasClosedForm(const ImpairmentRule& rule) {
   return rule.to_vehicle == kNobody && rule.from != ImpairedSender::kOneVehicle &&
-         rule.reorder == 0 && rule.corrupt == 0 && rule.rate_bytes_s == 0 && rule.blackouts.empty();
+         rule.reorder == 0 && rule.corrupt == 0 && rule.rate_bytes_s == 0 &&
+         rule.blackouts.empty() && !rule.from_s && !rule.to_s;
 }
 
 // The difference of two numbers drawn evenly from [-width, width] has a triangular distribution.

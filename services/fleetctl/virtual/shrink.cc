@@ -5,7 +5,8 @@
 
 #include <cstdio>
 
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
+#include "services/faults/schedule_text.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
@@ -28,13 +29,21 @@ bool ShowProgress(const VirtualCase& smallest, std::uint32_t tries) {
   return Interrupts::Count() == 0;
 }
 
+// NAME.faults.textproto of NAME.textproto.
+std::string FaultFileOf(const std::string& file) {
+  constexpr std::string_view kEnding = ".textproto";
+  const std::string name =
+      file.ends_with(kEnding) ? file.substr(0, file.size() - kEnding.size()) : file;
+  return name + ".faults" + std::string(kEnding);
+}
+
 std::string Comment(const CaseMaker& maker, const ShrinkOptions& options, const Shrunk& shrunk,
                     const std::string& file) {
   return fmt::format(
       "Left of {} with seed {} after {} tries: breaks {} at tick {}.\nReplay:\n"
       "  fleetctl virtual {} --seed 0{}\n",
       maker.Name(), options.seed, shrunk.tries, sim::Name(shrunk.violation.invariant),
-      Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made.plan));
+      Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made.plan, FaultFileOf(file)));
 }
 
 // An expectation speaks of vehicles by name: a smaller run that misses it too would show nothing.
@@ -49,7 +58,7 @@ int TellThatNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const Virt
 
 }  // namespace
 
-std::string ReplayFlags(const sim::VirtualPlan& plan) {
+std::string ReplayFlags(const sim::VirtualPlan& plan, const std::string& fault_file) {
   const sim::RadioSettings& radio = plan.radio;
   std::string flags;
   const auto add = [&](const char* flag, double value) {
@@ -67,6 +76,7 @@ std::string ReplayFlags(const sim::VirtualPlan& plan) {
   add("--reorder", 100 * radio.reorder);
   add("--duplicate", 100 * radio.duplicate);
   if (radio.loops_back) flags += " --loopback";
+  if (!plan.schedule.empty()) flags += " --faults " + fault_file;
   if (!flags.empty()) flags += fmt::format(" --radio-seed {}", plan.seed);
   for (const sim::ProcessFault& fault : plan.faults) {
     flags += fmt::format(" --fault {}:{}@{}", Word(fault.kind), Number(fault.vehicle), fault.at_s);
@@ -82,6 +92,7 @@ int RunShrink(const ShrinkOptions& options) {
                                : options.out_file;
   std::fputs(maker.Remark().c_str(), stderr);
   CheckWritable(file);
+  if (!options.made_by.fault_file.empty()) CheckWritable(FaultFileOf(file));
   VirtualCase failing = maker.Make(options.seed);
   WriteScenario(failing.scenario, "");  // throws now rather than after a minute's work
   const Interrupts interrupts(Silence::kComputes);
@@ -91,9 +102,14 @@ int RunShrink(const ShrinkOptions& options) {
   Scenario& scenario = shrunk->made.scenario;
   scenario.name = fmt::format("{}_{}", maker.Name(), options.seed);
   WriteFile(file, WriteScenario(scenario, Comment(maker, options, *shrunk, file)));
-  fmt::print("{}: {} of {} vehicles, {:.0f} s, breaks {}\nfleetctl virtual {} --seed 0{}\n", file,
-             scenario.vehicles.size(), failing.scenario.vehicles.size(), scenario.duration_s,
-             sim::Name(shrunk->violation.invariant), file, ReplayFlags(shrunk->made.plan));
+  const faults::Schedule& schedule = shrunk->made.plan.schedule;
+  if (!schedule.empty()) WriteFile(FaultFileOf(file), faults::AsTextproto(schedule));
+  fmt::print("{}: {} of {} vehicles, {} of {} scheduled faults, {:.0f} s, breaks {}\n", file,
+             scenario.vehicles.size(), failing.scenario.vehicles.size(), schedule.size(),
+             failing.plan.schedule.size(), scenario.duration_s,
+             sim::Name(shrunk->violation.invariant));
+  fmt::print("fleetctl virtual {} --seed 0{}\n", file,
+             ReplayFlags(shrunk->made.plan, FaultFileOf(file)));
   return 1;
 }
 

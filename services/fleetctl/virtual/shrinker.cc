@@ -1,10 +1,11 @@
 #include "services/fleetctl/virtual/shrinker.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -24,6 +25,11 @@ void RemoveVehicles(std::size_t first, std::size_t count, VirtualCase* made) {
   std::erase_if(made->plan.radio.blackouts, [&](const auto& blackout) {
     return blackout.vehicle != kNobody && is_gone(blackout.vehicle);
   });
+  std::erase_if(made->plan.schedule, [&](const faults::Fault& fault) {
+    const auto from = fault.parameters.from.value_or(kNobody);
+    return (fault.target.vehicle != kNobody && is_gone(fault.target.vehicle)) ||
+           (from != kNobody && is_gone(from));
+  });
   std::erase_if(made->scenario.faults, [&](const auto& fault) {
     return fault.kind == FaultKind::kKill && is_gone(fault.vehicle);
   });
@@ -42,6 +48,7 @@ class Shrinker {
     bool smaller = true;
     while (smaller && !stopped_) {
       smaller = LeaveOutVehicles();
+      smaller = LeaveOutScheduled() || smaller;
       smaller = LeaveOut(&VirtualCase::plan, &sim::VirtualPlan::faults) || smaller;
       smaller = LeaveOut(&VirtualCase::scenario, &Scenario::faults) || smaller;
       smaller = LeaveOut(&VirtualCase::scenario, &Scenario::walls) || smaller;
@@ -82,6 +89,24 @@ class Shrinker {
         VirtualCase candidate = best_;
         RemoveVehicles(first, size, &candidate);
         const bool fails = !candidate.scenario.vehicles.empty() && Try(candidate);
+        smaller = smaller || fails;
+        if (!fails) first += size;
+      }
+    }
+    return smaller;
+  }
+
+  // As vehicles: a schedule has many faults, and most have nothing to do with it. What a rule draws
+  // for one hangs on no other.
+  bool LeaveOutScheduled() {
+    bool smaller = false;
+    const std::size_t all = best_.plan.schedule.size();
+    for (std::size_t size = std::bit_floor(std::max<std::size_t>(all, 1)); size > 0; size /= 2) {
+      for (std::size_t first = 0; first + size <= best_.plan.schedule.size();) {
+        VirtualCase candidate = best_;
+        const auto begin = candidate.plan.schedule.begin() + static_cast<std::ptrdiff_t>(first);
+        candidate.plan.schedule.erase(begin, begin + static_cast<std::ptrdiff_t>(size));
+        const bool fails = Try(candidate);
         smaller = smaller || fails;
         if (!fails) first += size;
       }

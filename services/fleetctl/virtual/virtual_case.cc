@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <set>
 
+#include "services/config/faults/faults_file.h"
 #include "services/config/plan_read.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
+#include "services/faults/expand.h"
+#include "services/faults/unsupported.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -75,9 +78,40 @@ void AddNamed(const sim::ProcessFault& fault, VirtualCase* made) {
   made->plan.faults.push_back(fault);
 }
 
+// One fault a rule, for its kind and target.
+faults::Schedule AskedFor(const faults::FaultFile& file) {
+  using What = faults::Target::What;
+  using Targets = faults::Targets::What;
+  faults::Schedule asked;
+  for (const faults::AtRule& rule : file.at) {
+    asked.push_back({.rule = rule.name, .kind = rule.kind, .target = rule.target});
+  }
+  for (const faults::RandomRule& rule : file.random) {
+    const What what = rule.targets.what == Targets::kWorld             ? What::kWorld
+                      : rule.targets.what == Targets::kDiscoveryServer ? What::kDiscoveryServer
+                                                                       : What::kAll;
+    asked.push_back({.rule = rule.name, .kind = rule.kind, .target = {.what = what}});
+  }
+  return asked;
+}
+
+// A list without anything random is taken as it is, however long the run: what is left of a longer
+// one by `fleetctl shrink` too.
+faults::Course CourseOf(const faults::FaultFile& file, const Scenario& scenario,
+                        std::uint32_t seed) {
+  faults::Course course{.seed = seed, .duration_s = scenario.duration_s};
+  if (!file.random.empty()) return course;
+  course.healing_s = 0;
+  for (const faults::AtRule& rule : file.at) {
+    course.duration_s = std::max(course.duration_s, rule.time_s + rule.for_s);
+  }
+  return course;
+}
+
 }  // namespace
 
 CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
+  TakeFaults();
   generator_ = sim::FindGenerator(options.scenario);
   if (generator_ != nullptr) {
     name_ = generator_->name;
@@ -106,9 +140,37 @@ void CaseMaker::CheckVehicles() const {
         .remedy = open ? "ask for no more" : "leave the flag out"}});
 }
 
+void CaseMaker::TakeFaults() {
+  if (options_.fault_file.empty()) return;
+  fault_file_ = LoadFaults(options_.fault_file);
+  const auto cannot =
+      faults::UnsupportedIn(AskedFor(*fault_file_), faults::IncapableInVirtualTime());
+  std::vector<Problem> problems;
+  for (const faults::Unsupported& kind : cannot) {
+    const std::string word(faults::ToString(kind.kind));
+    problems.push_back({.file = fault_file_->name,
+                        .field = kind.rules.front(),
+                        .value = word,
+                        .message = kind.reason,
+                        .remedy = "leave it out, or add --skip-unsupported"});
+    left_out_ += fault_file_->name + ": " + word + " is left out: " + kind.reason + "\n";
+  }
+  if (!problems.empty() && !options_.skip_unsupported) throw InputError(std::move(problems));
+}
+
+faults::Schedule CaseMaker::ScheduleOf(const Scenario& scenario, std::uint32_t seed) const {
+  if (!fault_file_) return {};
+  std::vector<VehicleId> ids;
+  for (const VehicleOptions& vehicle : scenario.vehicles) ids.push_back(vehicle.id);
+  const auto expansion = faults::Expand(*fault_file_, CourseOf(*fault_file_, scenario, seed), ids);
+  std::vector<Problem> problems = ProblemsOf(*fault_file_, expansion);
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return faults::Without(expansion.schedule, faults::IncapableInVirtualTime());
+}
+
 std::string CaseMaker::Remark() const {
-  if (!loaded_ || loaded_->impairment.rules.empty()) return {};
-  return name_ +
+  if (!loaded_ || loaded_->impairment.rules.empty()) return left_out_;
+  return left_out_ + name_ +
          ": its `impair` is not carried out, that is for real links; the virtual radio is told by "
          "--loss, --burst, --delay, --jitter, --reorder and --duplicate\n";
 }
@@ -140,6 +202,7 @@ VirtualCase CaseMaker::Make(std::uint32_t seed) const {
   AddFaults(Kind::kPause, options_.pauses, made.scenario, &dice, &made.plan.faults);
   AddFaults(Kind::kRestart, options_.restarts, made.scenario, &dice, &made.plan.faults);
   for (const sim::ProcessFault& fault : options_.faults) AddNamed(fault, &made);
+  made.plan.schedule = ScheduleOf(made.scenario, seed);
   return made;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/faults/fault_file.h"
 #include "services/types/math/random.h"
 #include "services/types/scenario.h"
 #include "sim_world/virtual/generators.h"
@@ -43,6 +44,8 @@ struct CaseOptions {
   std::uint32_t pauses = 0;
   std::uint32_t restarts = 0;
   std::vector<sim::ProcessFault> faults;    // on top of those drawn
+  std::string fault_file;                   // a file or a shipped one; empty: none
+  bool skip_unsupported = false;            // of the file what a virtual run cannot do
   std::optional<std::uint32_t> radio_seed;  // absent: the seed
 };
 
@@ -54,11 +57,15 @@ struct VirtualCase {
 class CaseMaker {
  public:
   // Throws InputError where the scenario is neither a file nor a generator, or has no place
-  // for so many vehicles.
+  // for so many vehicles, and where the fault file is none, or asks for what a virtual run cannot
+  // do.
   explicit CaseMaker(const CaseOptions& options);
 
+  // Throws InputError where the fault file does not fit the vehicles that the seed drew.
   VirtualCase Make(std::uint32_t seed) const;
   const std::string& Name() const { return name_; }
+  // What of each seed there is in the schedule of a fault file; nothing without one.
+  faults::Schedule ScheduleOf(const Scenario& scenario, std::uint32_t seed) const;
   // True if the scenario states what it expects of a run: a file's does.
   bool HasExpectations() const { return loaded_.has_value(); }
   // A line about what of the scenario is not carried out; empty if all of it is.
@@ -66,12 +73,15 @@ class CaseMaker {
 
  private:
   void CheckVehicles() const;
+  void TakeFaults();
   Scenario MakeScenario(std::uint32_t seed, Random* dice) const;
 
   CaseOptions options_;
   std::string name_;
   const sim::Generator* generator_ = nullptr;
   std::optional<Scenario> loaded_;  // with seed 0: as it stands in the file
+  std::optional<faults::FaultFile> fault_file_;
+  std::string left_out_;  // what of it is not carried out, in words
 };
 
 }  // namespace giveway::fleetctl

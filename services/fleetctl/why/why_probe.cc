@@ -121,8 +121,9 @@ class Probing {
     return options;
   }
   bool HasBlackouts() const {
-    return std::ranges::any_of(order_.hearer.told.impairment.rules,
-                               [](const ImpairmentRule& rule) { return !rule.blackouts.empty(); });
+    return std::ranges::any_of(order_.hearer.told.impairment.rules, [](const ImpairmentRule& rule) {
+      return !rule.blackouts.empty() || rule.from_s || rule.to_s;
+    });
   }
   double SinceMs() const { return Seconds(SteadyNow() - since_) * 1e3; }
 

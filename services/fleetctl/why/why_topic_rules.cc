@@ -59,17 +59,34 @@ void CheckWriterInstances(const ProcessSituation& speaker, const qos::Profile& w
        Weight::kPrevents});
 }
 
-// The rule that the hearer's packets from the speaker meet: of those that fit the last.
+bool FitsBetween(const ImpairmentRule& rule, const ProcessSituation& hearer,
+                 const Instructions& speaker) {
+  if (rule.to_vehicle != kNobody && rule.to_vehicle != hearer.told.id) return false;
+  switch (rule.from) {
+    case ImpairedSender::kAnyone:
+      return true;
+    case ImpairedSender::kVehicles:
+      return !speaker.is_world;
+    case ImpairedSender::kWorld:
+      return speaker.is_world;
+    case ImpairedSender::kOneVehicle:
+      return !speaker.is_world && rule.from_vehicle == speaker.id;
+  }
+  return false;
+}
+
+bool HoldsForATime(const ImpairmentRule& rule) { return rule.from_s || rule.to_s; }
+
+bool LosesMuch(const ImpairmentRule& rule) {
+  return rule.loss >= kMuchLoss || rule.burst * rule.burst_loss >= kMuchLoss;
+}
+
+// The rule that the hearer's packets from the speaker meet: of those that fit and always hold the
+// last.
 const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const Instructions& speaker) {
   const ImpairmentRule* last = nullptr;
   for (const ImpairmentRule& rule : hearer.told.impairment.rules) {
-    const bool hears = rule.to_vehicle == kNobody || rule.to_vehicle == hearer.told.id;
-    bool from = rule.from == ImpairedSender::kAnyone;
-    from |= rule.from == ImpairedSender::kVehicles && !speaker.is_world;
-    from |= rule.from == ImpairedSender::kWorld && speaker.is_world;
-    from |= rule.from == ImpairedSender::kOneVehicle && !speaker.is_world &&
-            rule.from_vehicle == speaker.id;
-    if (hears && from) last = &rule;
+    if (FitsBetween(rule, hearer, speaker) && !HoldsForATime(rule)) last = &rule;
   }
   return last;
 }
@@ -116,14 +133,41 @@ void CheckPolicies(const ProcessSituation& hearer, const ProcessSituation& speak
   if (!speaker.told.is_world) CheckInstances(hearer, *reader, vehicles, causes);
 }
 
+namespace {
+
+void CheckRulesOfATime(const ProcessSituation& hearer, const ProcessSituation& speaker,
+                       const std::string& who, Causes* causes) {
+  const auto& rules = hearer.told.impairment.rules;
+  const auto holds = [&](const ImpairmentRule& rule) {
+    return HoldsForATime(rule) && (LosesMuch(rule) || !rule.blackouts.empty()) &&
+           FitsBetween(rule, hearer, speaker.told);
+  };
+  const auto first = std::ranges::find_if(rules, holds);
+  if (first == rules.end()) return;
+  causes->push_back(
+      {{qos::Severity::kWarning,
+        "impaired_for_a_time",
+        {},
+        "impairment",
+        fmt::format("{}: by {} rules that hold for a time, the first {}", who,
+                    std::ranges::count_if(rules, holds),
+                    first->from_s ? fmt::format("from {:g} s after the start", *first->from_s)
+                                  : fmt::format("to {:g} s after the start", *first->to_s)),
+        "In such a time little or nothing is heard.",
+        "wait until it is over, or take it out of --impair or the scenario"},
+       Weight::kMayPrevent});
+}
+
+}  // namespace
+
 void CheckImpairment(const ProcessSituation& hearer, const ProcessSituation& speaker,
                      Causes* causes) {
+  const std::string who = fmt::format("{} drops what comes of {}", NameOf(hearer), NameOf(speaker));
+  CheckRulesOfATime(hearer, speaker, who, causes);
   const ImpairmentRule* const rule = RuleBetween(hearer, speaker.told);
   if (rule == nullptr) return;
   const bool deaf = rule->loss >= 1;
-  const bool lossy = rule->loss >= kMuchLoss || rule->burst * rule->burst_loss >= kMuchLoss;
-  const std::string who = fmt::format("{} drops what comes of {}", NameOf(hearer), NameOf(speaker));
-  if (deaf || lossy) {
+  if (LosesMuch(*rule)) {
     causes->push_back(
         {{deaf ? qos::Severity::kError : qos::Severity::kWarning,
           deaf ? "impaired_deaf" : "impaired_much",

@@ -24,6 +24,34 @@ wire::BeaconCounts ToWirePart(const BeaconCounters& counters) {
   return sent;
 }
 
+wire::ImpairCounts ToWirePart(const ImpairmentCounters& counters) {
+  wire::ImpairCounts sent;
+  sent.packets(counters.packets);
+  sent.passed(counters.passed);
+  sent.dropped_blackout(counters.dropped_blackout);
+  sent.dropped_rate(counters.dropped_rate);
+  sent.dropped_loss(counters.dropped_loss);
+  sent.dropped_burst(counters.dropped_burst);
+  sent.delayed(counters.delayed);
+  sent.held_back(counters.held_back);
+  sent.duplicated(counters.duplicated);
+  sent.corrupted(counters.corrupted);
+  return sent;
+}
+
+ImpairmentCounters FromWirePart(const wire::ImpairCounts& sent) {
+  return {.packets = sent.packets(),
+          .passed = sent.passed(),
+          .dropped_blackout = sent.dropped_blackout(),
+          .dropped_rate = sent.dropped_rate(),
+          .dropped_loss = sent.dropped_loss(),
+          .dropped_burst = sent.dropped_burst(),
+          .delayed = sent.delayed(),
+          .held_back = sent.held_back(),
+          .duplicated = sent.duplicated(),
+          .corrupted = sent.corrupted()};
+}
+
 BeaconCounters FromWirePart(const wire::BeaconCounts& sent) {
   return {.sent = sent.sent(),
           .taken = sent.taken(),
@@ -120,6 +148,7 @@ wire::Status ToWire(const VehicleStatus& status) {
   sent.beacon_deadline_requested_ms(status.beacon_deadline_requested_ms);
   sent.beacon_lease_ms(status.beacon_lease_ms);
   sent.last_report(status.final);
+  sent.impaired(ToWirePart(status.impaired));
   return sent;
 }
 
@@ -144,6 +173,7 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.beacon_deadline_requested_ms = sample.beacon_deadline_requested_ms();
   status.beacon_lease_ms = sample.beacon_lease_ms();
   status.final = sample.last_report();
+  status.impaired = FromWirePart(sample.impaired());
   return TakeLastEvent(sample.last_qos_event(), status) &&
          FromWirePart(sample.decision(), status.decision);
 }

@@ -30,7 +30,7 @@ static_assert(SameOrder(wire::SignalPhase::PHASE_GREEN, SignalPhase::kGreen));
 static_assert(SameOrder(wire::QosEventKind::QOS_EVENT_SAMPLE_LOST,
                         giveway::QosEventKind::kSampleLost));
 static_assert(SameOrder(wire::RunPhase::RUN_ENDED, RunState::kEnded));
-static_assert(SameOrder(wire::EventKind::EVENT_VERDICT, giveway::EventKind::kVerdict));
+static_assert(SameOrder(wire::EventKind::EVENT_FAULT_OVER, giveway::EventKind::kFaultOver));
 static_assert(SameOrder(wire::OrderKind::ORDER_APPLY, giveway::OrderKind::kApply));
 static_assert(SameOrder(wire::AnswerState::ANSWER_REFUSED, giveway::AnswerState::kRefused));
 
@@ -82,7 +82,7 @@ inline bool FromWirePart(wire::RunPhase sent, RunState& state) {
   return FromWireEnum(sent, RunState::kEnded, state);
 }
 inline bool FromWirePart(wire::EventKind sent, giveway::EventKind& kind) {
-  return FromWireEnum(sent, giveway::EventKind::kVerdict, kind);
+  return FromWireEnum(sent, giveway::EventKind::kFaultOver, kind);
 }
 
 inline wire::PlanarPose ToWirePart(const Pose& pose) {

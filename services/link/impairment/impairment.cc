@@ -1,12 +1,19 @@
 #include "services/link/impairment/impairment.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "services/types/check.h"
 
 namespace giveway::link {
 namespace {
+
+// `since_start_s`: minus infinity before the start signal.
+bool Holds(const ImpairmentRule& rule, double since_start_s) {
+  return (!rule.from_s || since_start_s >= *rule.from_s) &&
+         (!rule.to_s || since_start_s < *rule.to_s);
+}
 
 bool Fits(const ImpairmentRule& rule, const Sender& sender, VehicleId hearer) {
   if (rule.to_vehicle != kNobody && rule.to_vehicle != hearer) return false;
@@ -69,23 +76,53 @@ ChannelModel::ChannelModel(Impairment impairment) : impairment_(std::move(impair
 void ChannelModel::NameHearer(VehicleId hearer) {
   if (hearer == hearer_) return;
   hearer_ = hearer;
-  for (auto& [sender, channel] : channels_) Begin(sender, channel.tokens_at, &channel);
+  for (auto& [sender, channel] : channels_) Begin(sender, channel.asked_at, &channel);
 }
 
 void ChannelModel::Start(SteadyTime now) {
-  if (!started_) started_ = now;
+  if (started_) return;
+  started_ = now;
+  for (auto& [sender, channel] : channels_) channel.rule_until = now;
 }
 
-const ImpairmentRule* ChannelModel::RuleFor(const Sender& sender) const {
+const ImpairmentRule* ChannelModel::RuleFor(const Sender& sender, SteadyTime now) const {
   const auto& rules = impairment_.rules;
+  const double since_s =
+      started_ ? Seconds(now - *started_) : -std::numeric_limits<double>::infinity();
   const auto last = std::find_if(rules.rbegin(), rules.rend(), [&](const ImpairmentRule& rule) {
-    return Fits(rule, sender, hearer_);
+    return Fits(rule, sender, hearer_) && Holds(rule, since_s);
   });
   return last == rules.rend() ? nullptr : &*last;
 }
 
+// The first moment after `now` at which a rule begins or ends, as far as is known now.
+SteadyTime ChannelModel::NextChange(SteadyTime now) const {
+  SteadyTime next = SteadyTime::max();
+  if (!started_) return next;
+  for (const ImpairmentRule& rule : impairment_.rules) {
+    for (const auto& moment_s : {rule.from_s, rule.to_s}) {
+      if (!moment_s) continue;
+      const SteadyTime moment = *started_ + FromSeconds(*moment_s);
+      if (moment > now) next = std::min(next, moment);
+    }
+  }
+  return next;
+}
+
+// Another rule has its turn: in a good time, and its bucket full. The dice go on.
+void ChannelModel::Renew(const Sender& sender, SteadyTime now, Channel* channel) const {
+  channel->rule_until = NextChange(now);
+  const ImpairmentRule* rule = RuleFor(sender, now);
+  if (rule == channel->rule) return;
+  channel->rule = rule;
+  channel->bad = false;
+  channel->tokens_bytes = rule == nullptr ? 0 : rule->rate_burst_bytes;
+  channel->tokens_at = now;
+}
+
 void ChannelModel::Begin(const Sender& sender, SteadyTime now, Channel* channel) const {
-  channel->rule = RuleFor(sender);
+  channel->rule = RuleFor(sender, now);
+  channel->rule_until = NextChange(now);
   channel->dice = DiceOf(*impairment_.seed, hearer_, sender);
   if (channel->rule == nullptr) return;
   channel->bad = channel->dice.Uniform(0, 1) < channel->rule->burst;
@@ -95,8 +132,14 @@ void ChannelModel::Begin(const Sender& sender, SteadyTime now, Channel* channel)
 
 ChannelModel::Channel& ChannelModel::ChannelOf(const Sender& sender, SteadyTime now) {
   const auto [found, is_new] = channels_.try_emplace(sender);
-  if (is_new) Begin(sender, now, &found->second);
-  return found->second;
+  Channel& channel = found->second;
+  channel.asked_at = now;
+  if (is_new) {
+    Begin(sender, now, &channel);
+  } else if (now >= channel.rule_until) {
+    Renew(sender, now, &channel);
+  }
+  return channel;
 }
 
 bool ChannelModel::IsBlackout(const ImpairmentRule& rule, SteadyTime now) const {
@@ -130,9 +173,10 @@ PacketFate ChannelModel::Decide(const Sender& sender, std::uint32_t bytes, Stead
   ++counters.packets;
   counters.bytes += bytes;
   PacketFate fate;
+  // Taken where no rule holds, too: when one begins must not move what befalls later packets.
+  const Draws draws(channel.dice);
   if (channel.rule != nullptr) {
     const ImpairmentRule& rule = *channel.rule;
-    const Draws draws(channel.dice);
     if (IsDropped(draws, bytes, now, &channel)) return {.dropped = true};
     fate.delay = draws.Delay(rule, draws.jitter);
     if (draws.hold < rule.reorder) {

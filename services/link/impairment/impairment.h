@@ -40,7 +40,8 @@ class ChannelModel {
 
   // Whose ears these are, once it is known: rules for one hearer apply from now on.
   void NameHearer(VehicleId hearer);
-  // The start signal was heard: blackouts are counted from `now`. Only the first call counts.
+  // The start signal was heard: blackouts and the times of rules are counted from `now`. Only the
+  // first call counts.
   void Start(SteadyTime now);
   const std::optional<SteadyTime>& Started() const { return started_; }
   // `now` never goes back.
@@ -52,6 +53,8 @@ class ChannelModel {
  private:
   struct Channel {
     const ImpairmentRule* rule = nullptr;  // null: none fits
+    SteadyTime rule_until{0};              // until then no other rule can fit
+    SteadyTime asked_at{0};
     Random dice{0};
     bool bad = false;
     double tokens_bytes = 0;
@@ -63,7 +66,9 @@ class ChannelModel {
 
   Channel& ChannelOf(const Sender& sender, SteadyTime now);
   void Begin(const Sender& sender, SteadyTime now, Channel* channel) const;
-  const ImpairmentRule* RuleFor(const Sender& sender) const;
+  const ImpairmentRule* RuleFor(const Sender& sender, SteadyTime now) const;
+  SteadyTime NextChange(SteadyTime now) const;
+  void Renew(const Sender& sender, SteadyTime now, Channel* channel) const;
   bool IsBlackout(const ImpairmentRule& rule, SteadyTime now) const;
   bool IsDropped(const Draws& draws, std::uint32_t bytes, SteadyTime now, Channel* channel) const;
 

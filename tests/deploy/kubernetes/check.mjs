@@ -1,9 +1,10 @@
-// Checks what one overlay renders to; kubernetes.sh runs it.
+// Checks what one overlay, or the campaign, renders to; kubernetes.sh runs it.
 // Usage: node check.mjs ROOT OVERLAY RENDERED MODULES
 // A line for each check, "ok NAME" or "FAILED NAME", and what is wrong below it.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join, resolve } from 'node:path';
+import * as campaign from './campaign.mjs';
 import * as environment from './environment.mjs';
 import { Fleet } from './fleet.mjs';
 import * as network from './network.mjs';
@@ -18,7 +19,26 @@ const require = createRequire(join(resolve(modules), 'package.json'));
 const documents = require('yaml').parseAllDocuments(readFileSync(rendered, 'utf8')).map((one) => one.toJS());
 const fleet = new Fleet(documents, root, overlay);
 
-const checks = {
+const ofACampaign = {
+  schema: () => schema.schemas(fleet, require),
+  selectors_match: selectors.selectorsMatch,
+  references: references.referencesExist,
+  files_mounted: references.filesAreMounted,
+  files_the_projects: references.filesAreTheProjects,
+  arguments_filled: environment.argumentsAreFilled,
+  silent: network.deniedByDefault,
+  bounded: pods.bounded,
+  shut_in: pods.shutIn,
+  images_pinned: pods.imagesArePinned,
+  every_shard_once: campaign.everyShardOnce,
+  tried_again: campaign.triedAgain,
+  results_stay: campaign.resultsStay,
+  plan_mounted: campaign.planIsMounted,
+  one_core_a_thread: campaign.oneCoreAThread,
+  apart: campaign.isApart,
+};
+
+const ofAFleet = {
   schema: () => schema.schemas(fleet, require),
   selectors_match: selectors.selectorsMatch,
   selectors_narrow: selectors.selectorsAreNarrow,
@@ -44,6 +64,8 @@ const checks = {
   places: scenario.everyVehicleHasAPlace,
   scenario_as_written: scenario.scenarioIsAsWritten,
 };
+
+const checks = overlay === 'campaign' ? ofACampaign : ofAFleet;
 
 // What is so broken that a check cannot look at it is wrong, too.
 function complaintsOf(check) {

@@ -31,7 +31,7 @@ export function selectorsMatch(fleet) {
     }
   }
   for (const workload of fleet.workloads) {
-    const own = [workload.document.spec.selector,
+    const own = [workload.document.spec.selector ?? {},  // a Job gets its own
       ...(workload.pod.topologySpreadConstraints ?? []).map((one) => one.labelSelector)];
     for (const selector of own.filter((one) => !matches(one, workload.labels))) {
       complaints.push(`${workload.name} does not select its own pods: ${JSON.stringify(selector)}`);

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 #include "tests/unit/config/problem_matcher.h"
 #include "tests/unit/config/scenario_files.h"
 
@@ -35,19 +35,22 @@ ImpairmentRule Everything() {
   rule.rate_bytes_s = 64000;
   rule.rate_burst_bytes = 4096;
   rule.blackouts = {{5, 7.5}, {9, 10}};
+  rule.from_s = 4;
+  rule.to_s = 60.5;
   return rule;
 }
 
 const std::string kEverythingAsText =
     "from=1,to=2,loss=0.125,burst=0.25,burst_length=8,burst_loss=0.75,delay=20ms,jitter=5000us,"
     "reorder=0.0625,reorder_by=0.06s,duplicate=0.03125,corrupt=0.5,rate=64000,rate_burst=4096,"
-    "blackout=5s..7500ms,blackout=9s..10s,seed=7";
+    "blackout=5s..7500ms,blackout=9s..10s,during=4s..60500ms,seed=7";
 
 const std::string kEverythingInAScenario =
     "impair { from_vehicle: 1 to_vehicle: 2 loss: 0.125 burst: 0.25 burst_length: 8 "
     "burst_loss: 0.75 delay_ms: 20 jitter_ms: 5 reorder: 0.0625 reorder_by_ms: 60 "
     "duplicate: 0.03125 corrupt: 0.5 rate_bytes_s: 64000 rate_burst_bytes: 4096 "
-    "blackout { from_s: 5 to_s: 7.5 } blackout { from_s: 9 to_s: 10 } } impair_seed: 7";
+    "blackout { from_s: 5 to_s: 7.5 } blackout { from_s: 9 to_s: 10 } from_s: 4 to_s: 60.5 } "
+    "impair_seed: 7";
 
 TEST(ImpairmentText, SaysEverythingThereIs) {
   const ParsedImpairment parsed = ParseImpairment(kEverythingAsText);
@@ -115,7 +118,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Refused{"blackout=5..7", "is no span of time"},
                       Refused{"blackout=7s..5s", "must begin before it ends"},
                       Refused{"blackout=5s..5s", "must begin before it ends"},
-                      Refused{"blackout=-1s..5s", "between 0 and 86400 s"},
+                      Refused{"blackout=-1s..5s", "between 0 and 2592000 s"},
+                      Refused{"during=5s", "is no span of time"},
+                      Refused{"during=..", "is no span of time"},
+                      Refused{"during=5s..7", "is no span of time"},
+                      Refused{"during=7s..5s", "must begin before it ends"},
+                      Refused{"during=..0s", "must begin before it ends"},
+                      Refused{"during=1s..2s,during=4s..5s", "is given twice"},
+                      Refused{"during=2592001s..", "between 0 and 2592000 s"},
                       Refused{"seed=-1", "seed = -1: must be a whole number"},
                       Refused{"seed=1;seed=2", "is the second seed"}));
 
@@ -123,10 +133,10 @@ TEST(ImpairmentText, EveryProblemIsToldAtOnce) {
   EXPECT_THAT(ParseImpairment("loss=2,delay=5,x=1;from=0").problems, SizeIs(4));
 }
 
-TEST(ImpairmentText, HasAtMostSixtyFourRulesAndBlackouts) {
+TEST(ImpairmentText, HasAtMostSoManyRulesAndBlackouts) {
   std::string rules = "loss=0.1";
   std::string blackouts = "blackout=1s..2s";
-  for (int i = 1; i < 64; ++i) {
+  for (int i = 1; i < 1024; ++i) {
     rules += ";loss=0.1";
     blackouts += ",blackout=1s..2s";
   }
@@ -134,6 +144,45 @@ TEST(ImpairmentText, HasAtMostSixtyFourRulesAndBlackouts) {
   EXPECT_THAT(ParseImpairment(rules + ";loss=0.1").problems, SizeIs(1));
   EXPECT_THAT(ParseImpairment(blackouts).problems, IsEmpty());
   EXPECT_THAT(ParseImpairment(blackouts + ",blackout=1s..2s").problems, SizeIs(1));
+}
+
+TEST(ImpairmentText, MayBeOpenAtOneEnd) {
+  const auto rules = ParseImpairment("loss=1,during=..5s;loss=1,during=7s..").impairment.rules;
+  ASSERT_THAT(rules, SizeIs(2));
+  EXPECT_EQ(rules[0].from_s, std::nullopt);
+  EXPECT_EQ(rules[0].to_s, 5);
+  EXPECT_EQ(rules[1].from_s, 7);
+  EXPECT_EQ(rules[1].to_s, std::nullopt);
+}
+
+TEST(ImpairmentText, MayStandInAFileOfManyMoreRules) {
+  const TempFolder folder;
+  std::string rules = "loss=0.1";
+  for (int i = 0; i < 5000; ++i) rules += ";loss=0.1,during=1s..2s";
+  EXPECT_THAT(ParseImpairment(rules).problems, SizeIs(1));
+  const ParsedImpairment parsed = ParseImpairment("@" + folder.Write("rules", rules + "\n"));
+  EXPECT_THAT(parsed.problems, IsEmpty());
+  EXPECT_THAT(parsed.impairment.rules, SizeIs(5001));
+  const auto absent = ParseImpairment("@" + folder.Path() + "/none").problems;
+  ASSERT_THAT(absent, SizeIs(1));
+  EXPECT_THAT(absent[0].message, HasSubstr("/none: does not exist"));
+  EXPECT_THAT(ParseImpairment("@" + folder.Write("bad", "loss=2")).problems, SizeIs(1));
+}
+
+TEST(ImpairmentText, IsReadBackAsItWasWritten) {
+  ImpairmentRule open;
+  open.from = ImpairedSender::kWorld;
+  open.delay_s = 0.1 + 0.2;
+  open.to_s = 1.0 / 3;
+  ImpairmentRule to_one;
+  to_one.to_vehicle = VehicleId{3};
+  const Impairment impairment{9, {Everything(), open, to_one, {}}};
+  const ParsedImpairment parsed = ParseImpairment(ImpairmentText(impairment));
+  EXPECT_THAT(parsed.problems, IsEmpty()) << ImpairmentText(impairment);
+  EXPECT_EQ(parsed.impairment, impairment);
+  EXPECT_EQ(ImpairmentText({}), "none");
+  EXPECT_EQ(ImpairmentText(ParseImpairment("from=vehicles,loss=0.3,during=60s..80s").impairment),
+            "from=vehicles,loss=0.3,during=60s..80s");
 }
 
 TEST(ImpairmentInAFile, SaysTheSameAsTheFlag) {
@@ -169,6 +218,9 @@ TEST(ImpairmentInAFile, IsRefusedFieldByField) {
   refused("from: world from_vehicle: 1", "from", "beside from_vehicle");
   refused("blackout { from_s: 5 to_s: 5 }", "blackout[0].to_s", "ends before it begins");
   refused("blackout { from_s: 5 }", "blackout[0].to_s", "missing");
+  refused("from_s: 5 to_s: 5", "to_s", "ends before it begins");
+  refused("to_s: 0", "to_s", "ends before it begins");
+  refused("from_s: -1", "from_s", "between 0 and 2592000 s");
 }
 
 TEST(ImpairmentInAFile, ASeedWithoutAnImpairmentIsRefused) {

@@ -1,5 +1,5 @@
 // A scenario that is written reads back as the same.
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

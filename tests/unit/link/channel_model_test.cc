@@ -208,6 +208,74 @@ TEST(ChannelModel, ABlackoutBeginsAndEndsToTheNanosecondAndOnlyAfterTheStart) {
   EXPECT_EQ(model.Counters().dropped_blackout, 3U);
 }
 
+TEST(ChannelModel, ARuleWithTimesHoldsFromOneToTheOtherAndNotBeforeTheStart) {
+  ImpairmentRule rule{.loss = 1};
+  rule.from_s = 1;
+  rule.to_s = 2;
+  ChannelModel model(Of({rule}));
+  const auto heard = [&](Nanoseconds at) { return !model.Decide(kThree, kBytes, at).dropped; };
+  constexpr Nanoseconds kTick{1};
+  EXPECT_TRUE(heard(milliseconds(1500)));  // nobody has started
+  model.Start(seconds(10));
+  EXPECT_TRUE(heard(seconds(11) - kTick));
+  EXPECT_FALSE(heard(seconds(11)));
+  EXPECT_FALSE(heard(seconds(12) - kTick));
+  EXPECT_TRUE(heard(seconds(12)));
+  EXPECT_EQ(model.Counters().dropped_loss, 2U);
+}
+
+TEST(ChannelModel, ARuleOpenAtOneEndHoldsFromEverOrForEver) {
+  ImpairmentRule until{.loss = 1};
+  until.to_s = 1;
+  ImpairmentRule from{.loss = 1};
+  from.from_s = 2;
+  ChannelModel model(Of({until, from}));
+  const auto heard = [&](Nanoseconds at) { return !model.Decide(kThree, kBytes, at).dropped; };
+  EXPECT_FALSE(heard(seconds(1)));
+  model.Start(seconds(10));
+  EXPECT_FALSE(heard(milliseconds(10'500)));
+  EXPECT_TRUE(heard(milliseconds(11'500)));
+  EXPECT_FALSE(heard(seconds(12)));
+  EXPECT_FALSE(heard(seconds(100'000)));
+}
+
+// The last that fits counts, of those that hold at that moment.
+TEST(ChannelModel, ARuleThatHoldsForATimeStandsInFrontOfOneThatHoldsAlways) {
+  ImpairmentRule storm{.loss = 1};
+  storm.from_s = 1;
+  storm.to_s = 2;
+  ChannelModel model(Of({{.delay_s = 0.02}, storm}));
+  model.Start(seconds(0));
+  EXPECT_EQ(model.Decide(kThree, kBytes, milliseconds(500)).delay, milliseconds(20));
+  EXPECT_TRUE(model.Decide(kThree, kBytes, milliseconds(1500)).dropped);
+  EXPECT_EQ(model.Decide(kThree, kBytes, milliseconds(2500)).delay, milliseconds(20));
+}
+
+TEST(ChannelModel, WhenARuleBeginsMovesNothingOfLaterPackets) {
+  const auto late_half = [](double from_s) {
+    ImpairmentRule rule{.loss = 0.3};
+    rule.from_s = from_s;
+    ChannelModel model(Of({rule}));
+    model.Decide(kThree, kBytes, seconds(0));
+    model.Start(seconds(0));
+    std::vector<bool> dropped = Dropped(Fates(model, kThree, 2000));  // 10 s
+    dropped.erase(dropped.begin(), dropped.begin() + 1000);
+    return dropped;
+  };
+  EXPECT_EQ(late_half(1), late_half(4));
+  EXPECT_THAT(late_half(1), ::testing::Contains(true));
+}
+
+TEST(ChannelModel, ABucketIsFullWhenItsRuleBegins) {
+  ImpairmentRule rule{.rate_bytes_s = 1, .rate_burst_bytes = 3 * kBytes};
+  rule.from_s = 5;
+  ChannelModel model(Of({rule}));
+  model.Start(seconds(0));
+  EXPECT_FALSE(model.Decide(kThree, kBytes, seconds(1)).dropped);
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(model.Decide(kThree, kBytes, seconds(6)).dropped) << i;
+  EXPECT_TRUE(model.Decide(kThree, kBytes, seconds(6)).dropped);
+}
+
 bool SameFate(const PacketFate& a, const PacketFate& b) {
   return a.dropped == b.dropped && a.delay == b.delay && a.copy_delay == b.copy_delay &&
          a.flipped_bit == b.flipped_bit;

@@ -102,29 +102,44 @@ TEST_F(SoakWatchTest, AFaultIsOverForItsVictimWhenThatIsWellAgain) {
 
 TEST_F(SoakWatchTest, AHearersFaultIsSeenByWhatItCounts) {
   VehicleStatus status = Driving(kTwo);
-  status.beacons.lost = 7;
+  status.impaired.dropped_loss = 7;
   Say(status, seconds(9));
   watch_.NoteBegin(1, seconds(10));
   Say(status, milliseconds(10500));
   EXPECT_EQ(watch_.Courses()[1].effect, "");
   VehicleStatus other = Driving(kOne);
-  other.beacons.lost = 100;
+  other.impaired.dropped_loss = 100;
   Say(other, milliseconds(10600));
   EXPECT_EQ(watch_.Courses()[1].effect, "") << "of whom it is not";
-  status.beacons.lost = 9;
+  status.impaired.dropped_loss = 9;
   Say(status, seconds(11));
-  EXPECT_THAT(watch_.Courses()[1].effect, HasSubstr("+2"));
+  EXPECT_THAT(watch_.Courses()[1].effect, HasSubstr("counted 2 packets"));
+}
+
+TEST_F(SoakWatchTest, AFaultOfTheWorldIsSeenWhenTheWorldSaysSo) {
+  const faults::Schedule schedule{On(kOne, faults::Kind::kSonarStuck, 2)};
+  SoakWatch watch({kOne}, schedule);
+  link::Observed observed;
+  WorldEvent& event = observed.events.emplace_back();
+  event.kind = EventKind::kFaultBegan;
+  event.vehicle = kOne;
+  event.text = "sonar_stuck 1 of ";
+  watch.Fold(observed, seconds(1));
+  EXPECT_EQ(watch.Courses()[0].effect, "") << "another one of the rule";
+  event.text = "sonar_stuck 0 of ";
+  watch.Fold(observed, seconds(1));
+  EXPECT_NE(watch.Courses()[0].effect, "");
 }
 
 TEST_F(SoakWatchTest, ANewLifeOfAHearerIsCountedAnew) {
   VehicleStatus status = Driving(kTwo);
-  status.beacons.lost = 70;
+  status.impaired.dropped_loss = 70;
   Say(status, seconds(9));
   watch_.NoteBegin(1, seconds(10));
-  status.beacons.lost = 1;
+  status.impaired.dropped_loss = 1;
   Say(status, seconds(11));
   EXPECT_EQ(watch_.Courses()[1].effect, "");
-  status.beacons.lost = 2;
+  status.impaired.dropped_loss = 2;
   Say(status, milliseconds(11500));
   EXPECT_NE(watch_.Courses()[1].effect, "");
 }
@@ -134,7 +149,7 @@ TEST_F(SoakWatchTest, ACounterThatRisesLongAfterIsNotItsEffect) {
   Say(status, seconds(9));
   watch_.NoteBegin(1, seconds(10));
   watch_.NoteEnd(1, seconds(12));
-  status.beacons.lost = 1;
+  status.impaired.dropped_loss = 1;
   Say(status, seconds(20));
   EXPECT_EQ(watch_.Courses()[1].effect, "");
 }

@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "services/config/scenario_file.h"
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 #include "services/fleetctl/virtual/shrinker.h"
 #include "sim_world/virtual/generators.h"
 
@@ -73,6 +73,44 @@ TEST(Shrinking, TheFileFailsAsTheRunDid) {
   EXPECT_EQ(sim::RunVirtually(read, shrunk->made.plan).hash, before.hash);
 }
 
+faults::Fault Scheduled(faults::Kind kind, std::uint32_t vehicle, std::uint32_t nth) {
+  return {.rule = "rule",
+          .nth = nth,
+          .at_s = 0.25 * nth,
+          .for_s = 1,
+          .kind = kind,
+          .target = {.what = faults::Target::What::kVehicle, .vehicle = VehicleId{vehicle}}};
+}
+
+// Each of two would stop for the other; one whose wheels are stuck cannot.
+TEST(Shrinking, LeavesOfAScheduleTheFaultThatMatters) {
+  VirtualCase made;
+  made.scenario = sim::MakeCrossing({6, 3});
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    made.plan.schedule.push_back(Scheduled(faults::Kind::kLoss, i % 6 + 1, i));
+  }
+  faults::Fault stuck = Scheduled(faults::Kind::kMotorStuck, 2, 20);
+  stuck.for_s = 50;
+  made.plan.schedule.push_back(stuck);
+  made.plan.schedule.push_back(Scheduled(faults::Kind::kSonarOff, 3, 21));
+  const auto shrunk = Shrink(made, kGoOn);
+  ASSERT_TRUE(shrunk);
+  ASSERT_EQ(shrunk->made.plan.schedule.size(), 1U);
+  EXPECT_EQ(shrunk->made.plan.schedule[0], stuck);
+}
+
+// A fault of a vehicle that is left out has nobody to meet, and one that is not heard is nobody.
+TEST(Shrinking, LeavesOutTheFaultsOfWhomItLeavesOut) {
+  VirtualCase made = HeadOnAmongOthers();
+  faults::Fault cut = Scheduled(faults::Kind::kOneWayCut, 1, 0);
+  cut.parameters.from = VehicleId{3};
+  made.plan.schedule = {cut, Scheduled(faults::Kind::kLoss, 3, 1)};
+  const auto shrunk = Shrink(made, kGoOn);
+  ASSERT_TRUE(shrunk);
+  EXPECT_EQ(shrunk->made.scenario.vehicles.size(), 2U);
+  EXPECT_TRUE(shrunk->made.plan.schedule.empty());
+}
+
 TEST(Shrinking, TakesNothingFromARunThatHolds) {
   VirtualCase fine;
   fine.scenario = sim::MakeConvoy({2, 1});
@@ -88,15 +126,23 @@ TEST(Shrinking, StopsWhenItIsToldTo) {
 
 TEST(ReplayFlags, NameEverythingThatGoesWrong) {
   sim::VirtualPlan plan;
-  EXPECT_EQ(ReplayFlags(plan), "");
+  EXPECT_EQ(ReplayFlags(plan, "f"), "");
   plan.seed = 17;
   plan.radio.loss = 0.125;
   plan.radio.jitter = Nanoseconds(60'000'000);
   plan.faults = {
       {.kind = sim::ProcessFaultKind::kRestart, .vehicle = VehicleId{3}, .at_s = 4.5, .for_s = 0.5},
       {.kind = sim::ProcessFaultKind::kCrash, .vehicle = VehicleId{2}, .at_s = 8}};
-  EXPECT_EQ(ReplayFlags(plan),
+  EXPECT_EQ(ReplayFlags(plan, "f"),
             " --loss 12.5 --jitter 60 --radio-seed 17 --fault restart:3@4.5+0.5 --fault crash:2@8");
+}
+
+// What a fault of the world draws hangs on the seed too.
+TEST(ReplayFlags, NameTheFaultFileAndTheSeed) {
+  sim::VirtualPlan plan;
+  plan.seed = 17;
+  plan.schedule = {Scheduled(faults::Kind::kSonarGarbage, 1, 0)};
+  EXPECT_EQ(ReplayFlags(plan, "f"), " --faults f --radio-seed 17");
 }
 
 }  // namespace

@@ -2,8 +2,12 @@
 #include "services/fleetctl/virtual/virtual_batch.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <set>
+#include <string>
 
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
@@ -219,6 +223,81 @@ TEST(VirtualCaseOfASeed, SaysThatLinksAreNotImpaired) {
 
 TEST(VirtualCaseOfASeed, RefusesWhatIsNeitherFileNorGenerator) {
   EXPECT_THROW(CaseMaker({.scenario = "no_such_place"}), InputError);
+}
+
+// A file of the test's folder that is gone with it.
+class FaultFile {
+ public:
+  explicit FaultFile(const std::string& text)
+      : path_(testing::TempDir() + "/faults_" + std::to_string(getpid()) + ".textproto") {
+    std::ofstream(path_) << text;
+  }
+  ~FaultFile() { std::filesystem::remove(path_); }
+  FaultFile(const FaultFile&) = delete;
+  FaultFile& operator=(const FaultFile&) = delete;
+  const std::string& Path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+constexpr const char* kTwoRules =
+    "random { name: \"a\" kind: \"sonar_off\" mean_between_s: 5 for_s: 2 }\n"
+    "random { name: \"b\" kind: \"pause\" mean_between_s: 5 for_s: 0.5 }\n";
+
+CaseOptions WithFaults(const FaultFile& file) {
+  CaseOptions options;
+  options.scenario = "crossing";
+  options.fault_file = file.Path();
+  return options;
+}
+
+TEST(VirtualFaultFile, EachSeedDrawsItsOwnFaultsOfTheFile) {
+  const FaultFile file(kTwoRules);
+  const CaseMaker maker(WithFaults(file));
+  const faults::Schedule once = maker.Make(1).plan.schedule;
+  EXPECT_GT(once.size(), 3U);
+  EXPECT_EQ(maker.Make(1).plan.schedule, once);
+  EXPECT_NE(maker.Make(2).plan.schedule, once);
+  EXPECT_EQ(maker.Make(1).scenario.vehicles.size(), 6U);
+  EXPECT_TRUE(maker.Remark().empty());
+}
+
+TEST(VirtualFaultFile, WhatCannotBeVirtualIsRefusedOrLeftOutWithAWord) {
+  const FaultFile file(
+      std::string(kTwoRules) +
+      "at { name: \"c\" kind: \"disk_full\" time_s: 3 for_s: 1 vehicle: 1 }\n"
+      "at { name: \"d\" kind: \"restart\" time_s: 3 for_s: 1 target: \"world\" }\n");
+  CaseOptions options = WithFaults(file);
+  try {
+    const CaseMaker maker(options);
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.Problems().size(), 2U);
+  }
+  options.skip_unsupported = true;
+  const CaseMaker maker(options);
+  EXPECT_NE(maker.Remark().find("disk_full"), std::string::npos);
+  EXPECT_NE(maker.Remark().find("restart"), std::string::npos);
+  for (const faults::Fault& fault : maker.Make(1).plan.schedule) {
+    EXPECT_TRUE(fault.rule == "a" || fault.rule == "b") << fault.rule;
+  }
+}
+
+TEST(VirtualFaultFile, AVehicleThatIsNotThereIsRefused) {
+  const FaultFile file("at { name: \"a\" kind: \"pause\" time_s: 3 for_s: 1 vehicle: 99 }\n");
+  const CaseMaker maker(WithFaults(file));
+  EXPECT_THROW(maker.Make(1), InputError);
+}
+
+// As `fleetctl shrink` leaves one: later than the run that was cut is no matter.
+TEST(VirtualFaultFile, AListIsTakenAsItStands) {
+  const FaultFile file(
+      "at { name: \"a\" nth: 7 kind: \"pause\" time_s: 900 for_s: 100 vehicle: 1 }\n");
+  const CaseMaker maker(WithFaults(file));
+  const faults::Schedule schedule = maker.Make(1).plan.schedule;
+  ASSERT_EQ(schedule.size(), 1U);
+  EXPECT_EQ(schedule[0].nth, 7U);
 }
 
 }  // namespace

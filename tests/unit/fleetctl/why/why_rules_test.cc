@@ -155,6 +155,12 @@ const std::vector<Case>& Cases() {
          pair.hearer.told.impairment.rules[0].blackouts = {{3, 5}};
        },
        Outlook::kNotKnown, Outlook::kNotKnown},
+      {"impaired_for_a_time",
+       [](Pair& pair) {
+         pair.hearer.told.impairment.rules = {Loss(1)};
+         pair.hearer.told.impairment.rules[0].from_s = 60;
+       },
+       Outlook::kNotKnown, Outlook::kNotKnown},
   };
   return cases;
 }

@@ -1,4 +1,4 @@
-#include "services/config/scenario_edit.h"
+#include "services/config/writing/scenario_edit.h"
 
 #include <google/protobuf/text_format.h>
 

@@ -1,4 +1,4 @@
-#include "services/config/scenario_write.h"
+#include "services/config/writing/scenario_write.h"
 
 #include <google/protobuf/text_format.h>
 
@@ -110,6 +110,8 @@ void Set(const ImpairmentRule& rule, schema::Impair* message) {
   }
   if (rule.to_vehicle != kNobody) message->set_to_vehicle(Number(rule.to_vehicle));
   SetNumbers(rule, message);
+  if (rule.from_s) message->set_from_s(*rule.from_s);
+  if (rule.to_s) message->set_to_s(*rule.to_s);
   for (const Blackout& blackout : rule.blackouts) {
     schema::Blackout* written = message->add_blackout();
     written->set_from_s(blackout.from_s);

@@ -1,0 +1,60 @@
+// From a fault file to the concrete list that real and virtual runs carry out. Decides times and
+// targets, refuses what cannot be, and knows nobody who carries anything out. Pure: the same file,
+// seed, duration and vehicles give the same list bit for bit on every machine.
+//
+// Each draw is a hash of seed, name of the rule and count, so taking one rule out moves no other's
+// faults. Of two that exclude each other the later one makes way, and that of a random rule to that
+// of an `at` rule; it makes way even to one that itself makes way, so that taking a rule out never
+// takes a fault out of another either.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/faults/fault.h"
+#include "services/faults/fault_file.h"
+
+namespace giveway::faults {
+
+// Of a run, what a list of faults depends on.
+struct Course {
+  std::uint32_t seed = 0;
+  double duration_s = 60;  // since the start signal
+  double warm_up_s = 10;   // before it no random fault begins
+  double healing_s = 15;   // at the end: every fault is over before it
+};
+
+// Why a file cannot be carried out with this fleet and course.
+struct Refusal {
+  std::string rule;
+  int line = 0;         // of the rule
+  std::string field;    // such as "target"; empty: the rule as a whole
+  std::string message;  // what is wrong
+  std::string remedy;
+};
+
+// Faults of a random rule that were drawn and are not in the list.
+struct LeftOut {
+  std::string rule;
+  std::uint32_t excluded = 0;  // by another fault on the same target at the same time
+  std::uint32_t too_late = 0;  // would not have ended before the healing
+};
+
+struct Expansion {
+  Schedule schedule;
+  std::vector<Refusal> refused;   // not empty: the schedule is for nobody to use
+  std::vector<LeftOut> left_out;  // of rules with any, in the order of the file
+};
+
+// More faults than that are refused: `everything` draws half a million in 30 days.
+inline constexpr std::size_t kMostFaults = 1000000;
+
+Expansion Expand(const FaultFile& file, const Course& course, std::span<const VehicleId> vehicles);
+
+// The list as a fault file of its own: expanded again it is the same.
+FaultFile AsFile(const Schedule& schedule);
+
+}  // namespace giveway::faults

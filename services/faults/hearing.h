@@ -1,0 +1,24 @@
+// The hearers' faults as the impairment that each vehicle is given when it is started: rules that
+// hold from one second to another. Pure.
+#pragma once
+
+#include <map>
+#include <span>
+
+#include "services/faults/fault.h"
+#include "services/types/impairment.h"
+
+namespace giveway::faults {
+
+// A fault that flaps more often is refused: services/config/impair.h takes no more at once.
+inline constexpr double kMostFlaps = 1000;
+
+// Of each vehicle whose hearing the list ever impairs, among `vehicles`: what is asked of its ears.
+// Only other vehicles are heard badly: what a vehicle senses of the world comes by no radio.
+// `since_s`: the moment, after the run's start signal, from which the vehicle counts, for one that
+// was started later; what is over by then is left out.
+std::map<VehicleId, Impairment> ImpairmentOf(const Schedule& schedule,
+                                             std::span<const VehicleId> vehicles,
+                                             double since_s = 0);
+
+}  // namespace giveway::faults

@@ -1,0 +1,35 @@
+// Which faults of a list cannot be carried out where it is to run, and why. Pure: what the host can
+// do is a value that somebody else found out.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "services/faults/fault.h"
+
+namespace giveway::faults {
+
+// What cannot be carried out, each with the reason in words: "needs root".
+struct Incapable {
+  std::map<Kind, std::string> kinds;
+  std::map<Target::What, std::string> targets;  // whatever the kind
+};
+
+// What is refused, once a kind and reason.
+struct Unsupported {
+  Kind kind = Kind::kKill;
+  std::string reason;
+  std::vector<std::string> rules;  // that ask for it; sorted, each once
+  std::size_t faults = 0;
+};
+
+// By kind and reason. Empty: all of it can be carried out.
+std::vector<Unsupported> UnsupportedIn(const Schedule& schedule, const Incapable& incapable);
+// The rest, in the same order.
+Schedule Without(const Schedule& schedule, const Incapable& incapable);
+
+// Of the virtual fleet: whatever the table says it cannot, and the world and servers as targets.
+Incapable IncapableInVirtualTime();
+
+}  // namespace giveway::faults

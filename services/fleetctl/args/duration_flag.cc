@@ -1,0 +1,44 @@
+#include "services/fleetctl/args/duration_flag.h"
+
+#include <array>
+#include <charconv>
+#include <utility>
+
+namespace giveway::fleetctl {
+
+std::optional<double> ParseDuration_s(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 4> kUnits = {
+      {{"s", 1}, {"m", 60}, {"h", 3600}, {"d", 86400}}};
+  double unit_s = 1;
+  for (const auto& [name, seconds] : kUnits) {
+    if (!text.ends_with(name)) continue;
+    text.remove_suffix(name.size());
+    unit_s = seconds;
+    break;
+  }
+  double number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error != std::errc{} || stop != end) return std::nullopt;
+  const double duration_s = number * unit_s;
+  if (!(duration_s >= 0 && duration_s <= kLongestDuration_s)) return std::nullopt;  // nan, too
+  return duration_s;
+}
+
+CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* duration_s,
+                             const std::string& description) {
+  return verb
+      ->add_option_function<std::string>(
+          name,
+          [duration_s](const std::string& text) {
+            *duration_s = ParseDuration_s(text).value_or(0);
+          },
+          description)
+      ->type_name("TIME")
+      ->check([](const std::string& text) {
+        return ParseDuration_s(text) ? std::string()
+                                     : "must be a time of 0 to 30 days, such as 90s, 30m, 8h or 2d";
+      });
+}
+
+}  // namespace giveway::fleetctl

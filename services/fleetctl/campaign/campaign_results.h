@@ -1,0 +1,17 @@
+// Results of shards out of files, and out of logs in which other lines stand beside them. A log of
+// a whole campaign may be large: it is read line by line, and what is no result is not kept.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/config/problem.h"
+#include "services/fleetctl/campaign/campaign_merge.h"
+
+namespace giveway::fleetctl {
+
+// Adds what stands in the file, each line that begins with { being a result, or why it cannot be
+// had.
+void ReadResults(const std::string& file, std::vector<NamedShard>* shards, ProblemList* problems);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,44 @@
+// Which runs of a campaign belong to which shard: every run to exactly one, whatever the number of
+// shards. Seeds go round the shards one by one, so that each has as many of every generator and of
+// early and late seeds, and all take about as long. Pure.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "services/config/campaign/campaign_plan.h"
+
+namespace giveway::fleetctl {
+
+// As many as a Job of Kubernetes can count.
+inline constexpr std::uint32_t kMostShards = 100'000;
+
+struct ShardOf {
+  std::uint32_t index = 0;  // below `of`
+  std::uint32_t of = 1;
+};
+
+struct CampaignRun {
+  std::uint32_t generator = 0;  // place in the plan
+  std::uint32_t seed = 0;
+};
+
+class ShardRuns {
+ public:
+  ShardRuns(const CampaignPlan& plan, const ShardOf& shard);
+
+  std::uint32_t Count() const { return ends_.empty() ? 0 : ends_.back(); }
+  CampaignRun At(std::uint32_t place) const;  // place: below Count()
+
+ private:
+  // Of a generator's seeds the first one here, counted from the plan's first. Where seeds are left
+  // over, those of the next generator go to the next shards.
+  std::uint32_t FirstOf(std::uint32_t generator) const;
+
+  std::uint32_t first_seed_;
+  std::uint32_t left_over_;  // of a generator's seeds, once all shards have equally many
+  ShardOf shard_;
+  std::vector<std::uint32_t> ends_;  // by generator: how many runs there are up to its last
+};
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,72 @@
+#include <memory>
+
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/campaign/campaign.h"
+#include "services/fleetctl/campaign/campaign_runs.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kShardFooter = R"(
+Runs one of K parts of the campaign and prints one JSON object. PLAN is a file, or the name of a shipped
+one; idl/campaign.proto documents each field. Without --index the engine that started it says which part:
+JOB_COMPLETION_INDEX (Kubernetes), SLURM_ARRAY_TASK_ID, or PARALLEL_SEQ - 1 (GNU parallel). With --out DIR
+the object is also a file there, NAME.I-of-K.json, written whole or not at all; where that is there already,
+of the same plan and program, it is printed and nothing is run.
+
+Examples
+  fleetctl campaign shard nightly --of 200 --index 0 --out results
+  seq 200 | parallel -N0 fleetctl campaign shard nightly --of 200 > nightly.log
+
+Exit code: 0 all held, 1 something did not, or the file was not written, 2 could not run,
+143 interrupted: no result, run it again.
+)";
+
+constexpr const char* kMergeFooter = R"(
+Adds up the results of all shards of a campaign, each once, all of one plan and one program. A RESULT is a
+file of --out, or the log of shards: lines that do not begin with { are passed over. Each failing run is
+shown with the command that runs it again. The JSON object is the same whatever the shards were.
+
+Examples
+  fleetctl campaign merge results/*.json
+  fleetctl campaign merge results/*.json --json | jq -r '.failing[].command'
+
+Exit code: 0 all held, 1 something did not, 2 no result: a shard lacks, stands twice, or is another's.
+)";
+
+void AddShard(CLI::App* group, int* exit_code) {
+  const auto options = std::make_shared<CampaignShardOptions>();
+  CLI::App* verb = group->add_subcommand("shard", "Run one part of a campaign");
+  verb->footer(kShardFooter);
+  verb->add_option("PLAN", options->plan, "A campaign file, or the name of a shipped one")
+      ->required();
+  verb->add_option("--of", options->of, "Into how many parts it is cut; default the plan's shards")
+      ->check(CLI::Range(1U, kMostShards));
+  verb->add_option("--index", options->index, "Which part, from 0; default as the engine says")
+      ->check(CLI::Range(0U, kMostShards - 1));
+  verb->add_option("--jobs", options->jobs, "Runs at a time; default 1")
+      ->check(CLI::Range(1U, 1024U));
+  verb->add_option("--out", options->out_folder, "Folder for the result; made if it is missing");
+  verb->callback([options, exit_code] { *exit_code = RunCampaignShard(*options); });
+}
+
+void AddMerge(CLI::App* group, int* exit_code) {
+  const auto options = std::make_shared<CampaignMergeOptions>();
+  CLI::App* verb = group->add_subcommand("merge", "Add up the results of all parts");
+  verb->footer(kMergeFooter);
+  verb->add_option("RESULT", options->files, "Files or logs of shards")->required();
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->callback([options, exit_code] { *exit_code = RunCampaignMerge(*options); });
+}
+
+}  // namespace
+
+void AddCampaignVerb(CLI::App* fleetctl, int* exit_code) {
+  CLI::App* verb = fleetctl->add_subcommand(
+      "campaign", "Many virtual runs cut into parts, which any number of machines run");
+  verb->require_subcommand(1);
+  AddShard(verb, exit_code);
+  AddMerge(verb, exit_code);
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,31 @@
+#include "services/fleetctl/faults/faults.h"
+
+#include <cstdio>
+#include <vector>
+
+#include "services/config/faults/faults_file.h"
+#include "services/fleetctl/faults/faults_show.h"
+#include "services/fleetctl/output/output_file.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+int Print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  if (std::fflush(stdout) != 0) throw OutputError("stdout did not take all of it");
+  return 0;
+}
+
+}  // namespace
+
+int RunFaultsExpand(const FaultsOptions& options) {
+  std::vector<VehicleId> vehicles;
+  for (std::uint32_t id = 1; id <= options.vehicles; ++id) vehicles.push_back(VehicleId{id});
+  const faults::Expansion expansion = LoadAndExpandFaults(options.file, options.course, vehicles);
+  if (options.json) return Print(ExpansionJson(expansion));
+  return Print(options.text ? ExpansionText(expansion) : ExpansionFile(expansion));
+}
+
+int RunFaultsList(bool json) { return Print(json ? KindsJson() : KindsText()); }
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,81 @@
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "services/fleetctl/args/duration_flag.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/faults/faults.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr std::uint32_t kMostVehicles = 4096;
+
+constexpr const char* kExpandFooter = R"(
+Prints the concrete faults that FILE makes with this seed, duration and fleet: who, what, when, for how
+long. Real and virtual runs carry out this list. It is a fault file itself, of `at` rules only, which
+expands to itself. The vehicles have the ids 1 to N. FILE is a path, or the name of a shipped file:
+calm, radio_storm, flaky_hardware, everything; idl/faults.proto documents each field. Nothing is
+started.
+
+Examples
+  fleetctl faults expand everything --seed 1 --duration 30m --vehicles 20 > list.textproto
+  fleetctl faults expand list.textproto --duration 30m --vehicles 20      # the same list
+  fleetctl faults expand radio_storm --duration 3m --vehicles 8 --text
+  fleetctl faults expand calm --duration 3m --vehicles 8 --json | jq '.faults[].kind'
+
+Exit code: 0 expanded; 2 the file is wrong, or does not fit the fleet or the duration.
+)";
+
+constexpr const char* kListFooter = R"(
+Of each kind of fault who carries it out, whether it takes `for_s`, whom it may meet, and what it takes
+beside, with its default and range.
+
+Examples
+  fleetctl faults list
+  fleetctl faults list --json | jq -r '.[] | select(.virtual).kind'
+
+Exit code: 0 shown, 2 could not run.
+)";
+
+void AddExpand(CLI::App* group, int* exit_code) {
+  const auto options = std::make_shared<FaultsOptions>();
+  CLI::App* verb = group->add_subcommand("expand", "The concrete faults that a fault file makes");
+  verb->footer(kExpandFooter);
+  faults::Course& course = options->course;
+  verb->add_option("FILE", options->file, "A fault file, or the name of a shipped one")->required();
+  verb->add_option("--seed", course.seed, "Of all that is drawn")
+      ->capture_default_str()
+      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()));
+  AddDurationFlag(verb, "--duration", &course.duration_s, "Of the run, such as 90s, 30m, 8h, 2d")
+      ->required();
+  verb->add_option("--vehicles", options->vehicles, "Fleet size")
+      ->required()
+      ->check(CLI::Range(1U, kMostVehicles));
+  AddDurationFlag(verb, "--warm-up", &course.warm_up_s, "Before it no random fault begins; 10s");
+  AddDurationFlag(verb, "--healing", &course.healing_s, "At the end all faults are over; 15s");
+  auto* text = verb->add_flag("--text", options->text, "Print a line a fault, for people");
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else")
+      ->excludes(text);
+  verb->callback([options, exit_code] { *exit_code = RunFaultsExpand(*options); });
+}
+
+void AddList(CLI::App* group, int* exit_code) {
+  const auto json = std::make_shared<bool>(false);
+  CLI::App* verb = group->add_subcommand("list", "The kinds of faults there are");
+  verb->footer(kListFooter);
+  verb->add_flag("--json", *json, "Print one JSON array on stdout and nothing else");
+  verb->callback([json, exit_code] { *exit_code = RunFaultsList(*json); });
+}
+
+}  // namespace
+
+void AddFaultsVerb(CLI::App* fleetctl, int* exit_code) {
+  CLI::App* verb =
+      fleetctl->add_subcommand("faults", "What can go wrong, and what a file makes of it");
+  verb->require_subcommand(1);
+  AddExpand(verb, exit_code);
+  AddList(verb, exit_code);
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,55 @@
+// What one fault of a vehicle's ultrasonics makes of its scans, tick by tick, from the fault's
+// begin to its end. What it keeps is bounded: of kSonarDelayed 10 s of scans, of others one scan at
+// most. Knows one body; which bodies a fault is about, and when, is said by world_faults.h.
+//
+//   kSonarOff           a transducer that fired heard nothing: clear
+//   kSonarStuck         what each said when it began, under the times of the firings since
+//   kSonarGarbage       clear with probability 1/4, else any range it could have, drawn anew for
+//                       each firing
+//   kSonarWrong         ranges times `factor`; clear where that is beyond its reach
+//   kSonarSlow          the readings change each period_s only, and say when they were fired
+//   kSonarDelayed       the readings of delay_s ago, and say when they were fired; until the first
+//                       of them comes, those of when it began
+//   kSonarIntermittent  a scan is as of kSonarOff with `probability`, drawn anew for each
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "services/faults/fault.h"
+#include "services/types/profile.h"
+#include "services/types/range_scan.h"
+#include "services/types/time.h"
+
+namespace giveway::sim {
+
+class SonarFault {
+ public:
+  // The fault's parameters are filled in. `draws` is its own: of the run's seed, its rule and
+  // number.
+  SonarFault(const faults::Fault& fault, std::uint64_t draws, Nanoseconds tick_period);
+
+  // Takes in the scan of that driving tick, from 1, as the ultrasonics made it. Once a tick. Draws
+  // count from the start signal, however long the world waited for it.
+  void Alter(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan);
+
+ private:
+  using Readings = decltype(RangeScan::readings);
+
+  void Hold(RangeScan* scan);
+  void Delay(RangeScan* scan);
+  void Freeze(RangeScan* scan);
+  void Scramble(const VehicleProfile& profile, std::uint32_t driven_tick, RangeScan* scan) const;
+  void Scale(const VehicleProfile& profile, RangeScan* scan) const;
+
+  faults::Kind kind_;
+  double factor_;
+  double probability_;
+  std::uint32_t every_ticks_;   // of kSonarSlow
+  std::uint32_t behind_ticks_;  // of kSonarDelayed
+  std::uint64_t draws_;
+  std::uint32_t scans_ = 0;     // taken in
+  std::vector<Readings> kept_;  // a ring of behind_ticks_; of other kinds the one that is held
+};
+
+}  // namespace giveway::sim

@@ -1,0 +1,172 @@
+#include "sim_world/faults/world_faults.h"
+
+#include <algorithm>
+
+#include "services/faults/kind_table.h"
+#include "services/types/state_hash.h"
+#include "sim_world/geometry/ticks.h"
+
+namespace giveway::sim {
+namespace {
+
+bool IsOfDrive(faults::Kind kind) {
+  return kind == faults::Kind::kMotorWeak || kind == faults::Kind::kMotorStuck ||
+         kind == faults::Kind::kEncoderWrong;
+}
+
+bool Concerns(const faults::Target& target, VehicleId vehicle) {
+  return target.what == faults::Target::What::kAll ||
+         (target.what == faults::Target::What::kVehicle && target.vehicle == vehicle);
+}
+
+std::uint64_t DrawsOf(const faults::Fault& fault, std::uint64_t seed) {
+  StateHash hash;
+  hash.Add(seed);
+  for (const char letter : fault.rule) {
+    hash.Add(std::uint64_t{static_cast<unsigned char>(letter)});
+  }
+  hash.Add(fault.nth);
+  return hash.Value();
+}
+
+// Those of one body at one time: each does its part.
+void Combine(const faults::Fault& fault, WheelSpeeds held, DriveFault* drive) {
+  if (fault.kind == faults::Kind::kMotorWeak) {
+    drive->reaches *= fault.parameters.factor.value_or(1);
+  } else if (fault.kind == faults::Kind::kEncoderWrong) {
+    drive->counts *= fault.parameters.factor.value_or(1);
+  } else {
+    drive->stuck = held;
+  }
+}
+
+}  // namespace
+
+std::string EventText(const faults::Fault& fault) {
+  return std::string(faults::ToString(fault.kind)) + " " + std::to_string(fault.nth) + " of " +
+         fault.rule;
+}
+
+WorldFaults::WorldFaults(const FaultSchedule& schedule, Nanoseconds tick_period)
+    : tick_period_(tick_period) {
+  for (const faults::Fault& fault : schedule.faults) {
+    if (faults::ActorOf(fault.kind) != faults::Actor::kWorld) continue;
+    Planned planned{.fault = fault};
+    planned.fault.parameters = faults::Filled(fault.kind, fault.parameters);
+    planned.begins = std::max(1U, TicksCovering(FromSeconds(fault.at_s), tick_period));
+    planned.ends =
+        std::max(planned.begins + 1, TicksCovering(FromSeconds(fault.EndsAt_s()), tick_period));
+    planned.draws = DrawsOf(fault, schedule.seed);
+    planned.of_sonar = !IsOfDrive(fault.kind);
+    planned_.push_back(std::move(planned));
+  }
+  std::ranges::stable_sort(planned_, {}, &Planned::begins);
+}
+
+void WorldFaults::Rest() {
+  resting_ = true;
+  drives_.clear();
+  begun_.clear();
+  ended_.clear();
+}
+
+void WorldFaults::BeginTick(std::uint32_t driven_tick, std::span<const Body> bodies) {
+  resting_ = false;
+  driven_tick_ = driven_tick;
+  drives_.clear();
+  begun_.clear();
+  ended_.clear();
+  if (active_.empty() && (next_ == planned_.size() || planned_[next_].begins > driven_tick)) return;
+  FollowTime(driven_tick);
+  for (const Body& body : bodies) {
+    if (body.present) Follow(body);
+  }
+}
+
+void WorldFaults::FollowTime(std::uint32_t driven_tick) {
+  std::erase_if(active_, [&](const Active& active) {
+    const Planned& planned = planned_[active.planned];
+    if (driven_tick < planned.ends) return false;
+    if (active.begun) ended_.push_back(&planned.fault);
+    return true;
+  });
+  for (; next_ < planned_.size() && planned_[next_].begins <= driven_tick; ++next_) {
+    active_.push_back({.planned = static_cast<std::uint32_t>(next_)});
+  }
+  sonars_ = static_cast<std::size_t>(std::ranges::count_if(
+      active_, [&](const Active& active) { return planned_[active.planned].of_sonar; }));
+}
+
+void WorldFaults::Follow(const Body& body) {
+  DriveFault drive{.vehicle = body.vehicle};
+  bool drives_wrongly = false;
+  for (Active& active : active_) {
+    const Planned& planned = planned_[active.planned];
+    if (!Concerns(planned.fault.target, body.vehicle)) continue;
+    if (!active.begun) begun_.push_back(&planned.fault);
+    active.begun = true;
+    const Memory* memory = Remember(&active, body);
+    if (planned.of_sonar) continue;
+    Combine(planned.fault, memory->wheels, &drive);
+    drives_wrongly = true;
+  }
+  if (drives_wrongly) drives_.push_back(drive);
+}
+
+// A body that is seen for the first time since the fault began: its wheels turn as they do now.
+WorldFaults::Memory* WorldFaults::Remember(Active* active, const Body& body) {
+  const auto at = std::ranges::lower_bound(active->memories, body.vehicle, {}, &Memory::vehicle);
+  if (at != active->memories.end() && at->vehicle == body.vehicle) return &*at;
+  Memory memory{.vehicle = body.vehicle, .wheels = body.wheels};
+  const Planned& planned = planned_[active->planned];
+  if (planned.of_sonar) {
+    // Of a fault of all vehicles each draws for itself.
+    StateHash draws;
+    draws.Add(planned.draws);
+    draws.Add(body.vehicle);
+    memory.sonar.emplace(planned.fault, draws.Value(), tick_period_);
+  }
+  return &*active->memories.insert(at, std::move(memory));
+}
+
+void WorldFaults::Alter(const VehicleProfile& profile, RangeScan* scan) {
+  for (Active& active : active_) {
+    const auto memory =
+        std::ranges::lower_bound(active.memories, scan->vehicle, {}, &Memory::vehicle);
+    if (memory == active.memories.end() || memory->vehicle != scan->vehicle) continue;
+    if (memory->sonar) memory->sonar->Alter(profile, driven_tick_, scan);
+  }
+}
+
+std::vector<WorldFaults::State> WorldFaults::Save() const {
+  std::vector<State> states;
+  for (const Active& active : active_) {
+    State& state = states.emplace_back(State{.fault = active.planned, .begun = active.begun});
+    if (planned_[active.planned].of_sonar) continue;
+    for (const Memory& memory : active.memories) {
+      state.held.push_back({memory.vehicle, memory.wheels});
+    }
+  }
+  return states;
+}
+
+bool WorldFaults::Restore(std::span<const State> states, std::uint32_t driven_tick) {
+  const auto fits = [&](const State& state) {
+    return state.fault < planned_.size() && planned_[state.fault].begins <= driven_tick &&
+           driven_tick < planned_[state.fault].ends;
+  };
+  if (!std::ranges::all_of(states, fits)) return false;
+  active_.clear();
+  for (const State& state : states) {
+    Active& active = active_.emplace_back();
+    active.planned = state.fault;
+    active.begun = state.begun;
+    for (const HeldWheels& held : state.held) {
+      active.memories.push_back({.vehicle = held.vehicle, .wheels = held.wheels});
+    }
+  }
+  while (next_ < planned_.size() && planned_[next_].begins <= driven_tick) ++next_;
+  return true;
+}
+
+}  // namespace giveway::sim

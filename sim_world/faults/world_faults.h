@@ -1,0 +1,106 @@
+// The faults of a schedule that the world carries out: of ultrasonics, motors and encoders. Says in
+// each driving tick what they make of which body's wheels, alters the scans that leave the world,
+// and names those that begin and end. Which tick a fault begins and ends in hangs on its times
+// alone, and every number drawn on seed, rule, the fault's number and the tick. Faults of other
+// actors are not its business. Pure.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/faults/fault.h"
+#include "services/types/range_scan.h"
+#include "services/types/time.h"
+#include "sim_world/body.h"
+#include "sim_world/dynamics/drive.h"
+#include "sim_world/faults/sonar_fault.h"
+
+namespace giveway::sim {
+
+// What is planned to go wrong in a run, and the seed of all that is drawn for it.
+struct FaultSchedule {
+  faults::Schedule faults;
+  std::uint64_t seed = 0;
+};
+
+// "sonar_stuck 3 of RULE": what an event of the run says of a fault. The number counts from 0.
+std::string EventText(const faults::Fault& fault);
+
+class WorldFaults {
+ public:
+  WorldFaults(const FaultSchedule& schedule, Nanoseconds tick_period);
+
+  // The driving tick that is about to be made, by its number since the start signal, from 1.
+  void BeginTick(std::uint32_t driven_tick, std::span<const Body> bodies);
+  // The tick that is about to be made is none in which the world drives: no fault is at work, and
+  // time stands still for those under way.
+  void Rest();
+
+  // What goes wrong with wheels in this tick, by vehicle.
+  std::span<const DriveFault> OfDrives() const { return drives_; }
+  bool AlterScans() const { return !resting_ && sonars_ > 0; }
+  // What this tick's faults make of the scan of a body that is present.
+  void Alter(const VehicleProfile& profile, RangeScan* scan);
+
+  // A fault has begun in the first tick of its time in which a body it is about was there; only
+  // such a fault ends. Of this tick.
+  std::span<const faults::Fault* const> Begun() const { return begun_; }
+  std::span<const faults::Fault* const> Ended() const { return ended_; }
+
+  // What a checkpoint keeps of a fault under way. What ultrasonics said before is not part of it:
+  // in a world that was restarted stuck ones are stuck at what they say first, and those of delayed
+  // ones begin to be late anew.
+  struct HeldWheels {
+    VehicleId vehicle = kNobody;
+    WheelSpeeds wheels;
+  };
+  struct State {
+    std::uint32_t fault = 0;  // its place among the world's faults of the schedule
+    bool begun = false;
+    std::vector<HeldWheels> held;  // of kMotorStuck
+  };
+  std::vector<State> Save() const;
+  // Goes on after that driving tick. False, and nothing is done, where no such faults can have been
+  // under way then.
+  bool Restore(std::span<const State> states, std::uint32_t driven_tick);
+
+ private:
+  // What a fault remembers of one body.
+  struct Memory {
+    VehicleId vehicle = kNobody;
+    WheelSpeeds wheels;               // of kMotorStuck, as it began
+    std::optional<SonarFault> sonar;  // of kinds of ultrasonics
+  };
+  struct Planned {
+    faults::Fault fault;
+    std::uint32_t begins = 0;  // driving ticks; from `begins` on, before `ends`
+    std::uint32_t ends = 0;
+    std::uint64_t draws = 0;
+    bool of_sonar = false;
+  };
+  struct Active {
+    std::uint32_t planned = 0;  // index
+    bool begun = false;
+    std::vector<Memory> memories;  // by vehicle
+  };
+
+  Memory* Remember(Active* active, const Body& body);
+  void FollowTime(std::uint32_t driven_tick);
+  void Follow(const Body& body);
+
+  Nanoseconds tick_period_;
+  std::vector<Planned> planned_;  // by begin
+  std::size_t next_ = 0;          // of planned_, to begin
+  std::vector<Active> active_;
+  bool resting_ = true;
+  std::uint32_t driven_tick_ = 0;
+  std::size_t sonars_ = 0;  // of the active ones
+  std::vector<DriveFault> drives_;
+  std::vector<const faults::Fault*> begun_;
+  std::vector<const faults::Fault*> ended_;
+};
+
+}  // namespace giveway::sim
