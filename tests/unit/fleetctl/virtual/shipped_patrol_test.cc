@@ -1,5 +1,5 @@
 // The shipped fleets that drive until they are told to stop, in virtual time with every place
-// taken: in each minute each vehicle gets on, and nobody touches anybody.
+// taken: in each minute each vehicle gets on, nobody touches anybody, and no invariant is broken.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -7,12 +7,14 @@
 
 #include "services/fleetctl/virtual/virtual_case.h"
 #include "sim_world/virtual/virtual_fleet.h"
+#include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr double kLeast_m = 4;  // in a minute, of 17 and more on a free road
 constexpr int kMinutes = 10;
+constexpr double kLoss_percent = 10;
 
 struct Patrol {
   const char* scenario;
@@ -53,6 +55,19 @@ TEST_P(ShippedPatrol, EveryoneGetsOnInEveryMinute) {
     }
   }
   EXPECT_EQ(fleet.World().Contacts(), 0U);
+}
+
+TEST_P(ShippedPatrol, HoldsEveryInvariantWithLostBeacons) {
+  const Patrol& patrol = GetParam();
+  const VirtualCase made = CaseMaker({.scenario = patrol.scenario,
+                                      .vehicles = WholeRange{patrol.vehicles, patrol.vehicles},
+                                      .duration_s = 60.0 * kMinutes,
+                                      .loss_percent = {kLoss_percent, kLoss_percent}})
+                               .Make(patrol.seed);
+  const sim::VirtualOutcome outcome = sim::RunVirtually(made.scenario, made.plan);
+  EXPECT_EQ(outcome.vehicles, patrol.vehicles);
+  EXPECT_TRUE(outcome.held);
+  EXPECT_EQ(outcome.contacts, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenarios, ShippedPatrol,
