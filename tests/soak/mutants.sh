@@ -31,17 +31,24 @@ programs() {
   local folder=$SCRATCH/$1 name
   mkdir -p "$folder"
   for name in giveway-world fleetctl; do cp "$BIN/$name" "$folder/"; done
-  local deadline=''
+  local deadline='' planted=''
   if [[ $1 == deadline_ignored ]]; then
-    # The reader's deadline is no more: the last one of the file that is finite.
-    sed '/fleet_beacon_reader/,/<\/data_reader>/ s|<deadline>|<deadline><!-- planted -->|' \
-      "$REPOSITORY/config/qos/default.xml" >"$folder/no_deadline.xml"
+    # Its reader asks for a beacon an hour.
     deadline=$folder/no_deadline.xml
+    sed '/profile_name="fleet_beacon_reader"/,/<\/data_reader>/ {
+      /<deadline>/,/<\/deadline>/ s|<sec>0</sec>|<sec>3600</sec>|
+    }' "$REPOSITORY/config/qos/default.xml" >"$deadline"
+  elif [[ $1 != none && $1 != fault_without_effect ]]; then
+    planted=$1
   fi
   cat >"$folder/giveway-vehicle" <<END
-#!/bin/sh
-$([[ $1 == none || $1 == deadline_ignored || $1 == fault_without_effect ]] || echo "export PLANTED=$1")
-exec $BIN/planted_vehicle "\$@" ${deadline:+--qos "$deadline"}
+#!/bin/bash
+words=()
+while [[ \$# -gt 0 ]]; do
+  if [[ \$1 == --qos && -n "$deadline" ]]; then words+=(--qos "$deadline") && shift 2; continue; fi
+  words+=("\$1") && shift
+done
+PLANTED=$planted exec $BIN/planted_vehicle "\${words[@]}"
 END
   chmod +x "$folder/giveway-vehicle"
   echo "$folder"
