@@ -75,7 +75,7 @@ for mutant in "${@:-${ORDER[@]}}"; do
   [[ $mutant != fault_without_effect ]] ||
     sed -i 's/probability: 0.6/probability: 0/' "$folder/faults.textproto"
   code=0
-  "$folder/fleetctl" soak patrol --vehicles 4 --faults "$folder/faults.textproto" --duration 150 \
+  "$folder/fleetctl" soak patrol --vehicles 8 --faults "$folder/faults.textproto" --duration 150 \
     --seed 1 --report "$folder/report" --json >"$folder/report.json" 2>"$folder/log" || code=$?
   named=$(jq -r '[.violations[]?.invariant] | unique | join(" ")' "$folder/report.json")
   found=false
