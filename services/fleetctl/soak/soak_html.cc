@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "services/fleetctl/output/html_text.h"
 #include "services/fleetctl/soak/soak_words.h"
 #include "services/runtime/utf8.h"
 
@@ -98,31 +99,7 @@ std::string EachFault(const SoakResult& result) {
 
 }  // namespace
 
-std::string HtmlText(std::string_view text) {
-  std::string safe;
-  for (const char c : WellFormed(text)) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      case '\'':
-        safe += "&#39;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
-}
+std::string HtmlText(std::string_view text) { return HtmlEscaped(WellFormed(text)); }
 
 std::string HistogramSection(const SoakResult& result) {
   if (result.histograms.empty()) return "";

@@ -183,10 +183,9 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
 // What is seen of a process from outside: that it is stopped or gone, what it may use, what an
 // order came to.
 void SoakSession::NoteProcessEffects() {
-  for (std::size_t i = 0; i < schedule_.size(); ++i) {
+  for (const std::size_t i : watch_.Open()) {
     const faults::Fault& fault = schedule_[i];
-    const FaultCourse& course = watch_.Courses()[i];
-    const bool sought = course.began && course.effect.empty() &&
+    const bool sought = watch_.Courses()[i].effect.empty() &&
                         faults::ActorOf(fault.kind) == faults::Actor::kSupervisor;
     if (!sought) continue;
     const std::string effect = faults_.EffectOf(fault);

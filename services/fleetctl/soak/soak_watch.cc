@@ -14,6 +14,7 @@ using std::chrono::seconds;
 
 constexpr double kMoves_m_s = 0.01;
 constexpr Nanoseconds kAfterwards = seconds(10);
+constexpr Nanoseconds kGivenUp = seconds(120);
 // A status says what was counted until it was made; it may come a little after the fault's end.
 constexpr Nanoseconds kStatusUnderway = seconds(2);
 
@@ -44,21 +45,6 @@ std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
 
 std::string_view CounterOf(Kind kind) {
   return kind == Kind::kQosMismatch ? "endpoints of incompatible QoS" : "packets";
-}
-
-std::optional<Mechanism> MechanismOf(WordKind kind) {
-  switch (kind) {
-    case WordKind::kBeaconStale:
-      return Mechanism::kBeaconAge;
-    case WordKind::kDeadlineMissed:
-      return Mechanism::kDeadline;
-    case WordKind::kLivelinessLost:
-      return Mechanism::kLiveliness;
-    case WordKind::kUnmatched:
-      return Mechanism::kLease;
-    default:
-      return std::nullopt;
-  }
 }
 
 }  // namespace
@@ -95,6 +81,7 @@ void SoakWatch::Fold(const link::Observed& observed, SteadyTime now) {
   for (const WorldEvent& event : observed.events) FoldEvent(event);
   for (const VehicleStatus& status : observed.statuses) FoldStatus(status, now);
   SeekRecovery(now);
+  CloseSettled(now);
 }
 
 void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
@@ -103,9 +90,9 @@ void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
   found->second.status = status;
   found->second.status_at = now;
   found->second.step_p99_us = std::max(found->second.step_p99_us, status.step_p99_us);
-  for (std::size_t i = 0; i < courses_.size(); ++i) {
+  for (const std::size_t i : open_) {
     const FaultCourse& course = courses_[i];
-    if (!course.began || !course.effect.empty()) continue;
+    if (!course.effect.empty()) continue;
     if (course.ended && now > *course.ended + kStatusUnderway) continue;
     SeekEffect(i, status);
   }
@@ -152,10 +139,10 @@ void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
 }
 
 void SoakWatch::Fold(VehicleId by, const Word& word) {
-  for (std::size_t i = 0; i < courses_.size(); ++i) {
+  for (const std::size_t i : open_) {
     const faults::Fault& fault = schedule_[i];
     FaultCourse& course = courses_[i];
-    if (!course.began || word.at < *course.began) continue;
+    if (word.at < *course.began) continue;
     if (word.kind == WordKind::kHangs && fault.kind == Kind::kHang && fault.target.vehicle == by &&
         course.effect.empty()) {
       course.effect = "its log says that it hangs";
@@ -171,6 +158,7 @@ void SoakWatch::Fold(VehicleId by, const Word& word) {
 
 void SoakWatch::NoteBegin(std::size_t fault, SteadyTime now) {
   courses_[fault].began = now;
+  open_.push_back(fault);
   if (schedule_[fault].for_s <= 0) courses_[fault].ended = now;
   for (const auto& [vehicle, view] : views_) {
     if (view.status) before_[fault][vehicle] = *view.status;
@@ -214,9 +202,21 @@ std::uint32_t SoakWatch::Living() const {
 
 bool SoakWatch::AreAllWell(SteadyTime now) const { return Living() > 0 && Unwell(now).empty(); }
 
+// What a word or a status says later has other causes. One that never recovers is given up on.
+void SoakWatch::CloseSettled(SteadyTime now) {
+  std::erase_if(open_, [&](std::size_t i) {
+    const FaultCourse& course = courses_[i];
+    if (!course.ended || now < *course.ended + kAfterwards) return false;
+    const bool recovers = schedule_[i].kind != Kind::kKill;
+    if (recovers && !course.recovered && now < *course.ended + kGivenUp) return false;
+    before_[i].clear();
+    return true;
+  });
+}
+
 // Where it struck one vehicle, that one; else everyone.
 void SoakWatch::SeekRecovery(SteadyTime now) {
-  for (std::size_t i = 0; i < courses_.size(); ++i) {
+  for (const std::size_t i : open_) {
     FaultCourse& course = courses_[i];
     if (!course.ended || course.recovered || schedule_[i].kind == Kind::kKill) continue;
     if (now - *course.ended < kFresh / 2) continue;  // what was said before its end does not count

@@ -51,6 +51,9 @@ class SoakWatch {
   std::vector<VehicleId> Unwell(SteadyTime now) const;
   std::uint32_t Living() const;
   std::span<const FaultCourse> Courses() const { return courses_; }
+  // Those that have begun and of which something may still be learnt, in the order they began. All
+  // that is done every turn is done for these: a schedule of weeks has half a million faults.
+  std::span<const std::size_t> Open() const { return open_; }
   double HighestStepP99_us(VehicleId vehicle) const;
   const VehicleStatus* StatusOf(VehicleId vehicle) const;
   const Truth* TruthOf(VehicleId vehicle) const;
@@ -69,13 +72,15 @@ class SoakWatch {
   void FoldEvent(const WorldEvent& event);
   void SeekEffect(std::size_t fault, const VehicleStatus& status);
   void SeekRecovery(SteadyTime now);
+  void CloseSettled(SteadyTime now);
   bool Concerns(const faults::Fault& fault, VehicleId vehicle) const;
 
   std::span<const faults::Fault> schedule_;
   std::map<VehicleId, View> views_;
   std::vector<FaultCourse> courses_;
-  // As the fault began, by vehicle: what its effect is measured from.
+  // As the fault began, by vehicle: what its effect is measured from. Of open ones alone.
   std::vector<std::map<VehicleId, VehicleStatus>> before_;
+  std::vector<std::size_t> open_;
   std::optional<SteadyTime> started_;
   std::uint64_t refused_ = 0;
 };

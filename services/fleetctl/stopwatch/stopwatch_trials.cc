@@ -29,23 +29,6 @@ class Trouble : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-std::optional<Mechanism> MechanismOf(WordKind kind) {
-  switch (kind) {
-    case WordKind::kBeaconStale:
-      return Mechanism::kBeaconAge;
-    case WordKind::kDeadlineMissed:
-      return Mechanism::kDeadline;
-    case WordKind::kLivelinessLost:
-      return Mechanism::kLiveliness;
-    case WordKind::kUnmatched:
-      return Mechanism::kLease;
-    case WordKind::kBeaconLeft:
-      return Mechanism::kGoodBye;
-    default:
-      return std::nullopt;
-  }
-}
-
 // A victim, and when it was struck: of cuts by each watcher's own clock of blackouts.
 struct Struck {
   VehicleId victim = kNobody;

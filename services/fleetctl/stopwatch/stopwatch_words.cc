@@ -57,6 +57,23 @@ std::optional<Word> WordOf(std::string_view line) {
   return std::nullopt;
 }
 
+std::optional<Mechanism> MechanismOf(WordKind kind) {
+  switch (kind) {
+    case WordKind::kBeaconStale:
+      return Mechanism::kBeaconAge;
+    case WordKind::kDeadlineMissed:
+      return Mechanism::kDeadline;
+    case WordKind::kLivelinessLost:
+      return Mechanism::kLiveliness;
+    case WordKind::kUnmatched:
+      return Mechanism::kLease;
+    case WordKind::kBeaconLeft:
+      return Mechanism::kGoodBye;
+    default:
+      return std::nullopt;
+  }
+}
+
 void PeersHeard::Fold(VehicleId hearer, const Word& word) {
   if (word.about == kNobody) return;
   View& view = views_[hearer][word.about];

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "services/fleetctl/stopwatch/stopwatch_table.h"
 #include "services/types/ids.h"
 #include "services/types/time.h"
 
@@ -38,6 +39,9 @@ struct Word {
 
 // Of a line of a vehicle's JSON log; nothing where it says something else.
 std::optional<Word> WordOf(std::string_view line);
+
+// What told of a peer's absence, where a word is of that.
+std::optional<Mechanism> MechanismOf(WordKind kind);
 
 // Who hears whom, by what they have said so far.
 class PeersHeard {

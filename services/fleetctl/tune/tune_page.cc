@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "services/fleetctl/output/html_text.h"
 #include "services/fleetctl/tune/tune_report.h"
 
 namespace giveway::fleetctl {
@@ -26,29 +27,6 @@ td:first-child, th:first-child { text-align: left } tr.chosen { background: #e6f
 std::string Settings(const std::string& name) {
   return "set terminal svg size 900,560 dynamic font 'sans-serif,13' background '#ffffff' name '" +
          name + "'\n" + kAxes;
-}
-
-std::string Escaped(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        safe += "&amp;";
-        break;
-      case '<':
-        safe += "&lt;";
-        break;
-      case '>':
-        safe += "&gt;";
-        break;
-      case '"':
-        safe += "&quot;";
-        break;
-      default:
-        safe += c;
-    }
-  }
-  return safe;
 }
 
 // Names hold only letters, digits and '_', which gnuplot would set below the line.
@@ -116,9 +94,9 @@ std::string Row(const TuneResult& result, std::size_t place) {
                                 place == result.recommended ? "chosen"
                                 : place == 0                ? "base"
                                                             : "",
-                                tuned.candidate.name, Escaped(QosText(tuned.candidate.qos)));
+                                tuned.candidate.name, HtmlEscaped(QosText(tuned.candidate.qos)));
   if (!tuned.figures) {
-    return row + "<td colspan=\"9\">" + Escaped(tuned.trouble) + "</td></tr>\n";
+    return row + "<td colspan=\"9\">" + HtmlEscaped(tuned.trouble) + "</td></tr>\n";
   }
   const TuneFigures& f = *tuned.figures;
   const auto cell = [&row](const std::string& text) { row += "<td>" + text + "</td>"; };
@@ -150,8 +128,8 @@ std::string ToHtml(const TuneResult& result, const std::vector<DrawnPlot>& plots
       "<h1>Beacon QoS, measured</h1>\n<p>{} vehicles as processes, {} ms a tick, impaired by "
       "<code>{}</code>, base <code>{}</code>, seed {}; each trial watched for {} s.</p>\n"
       "<pre>{}</pre>\n",
-      kStyle, result.fleet.vehicles, result.fleet.tick_ms, Escaped(result.impair),
-      Escaped(result.base_file), result.seed, result.alive_s, Escaped(VerdictText(result)));
+      kStyle, result.fleet.vehicles, result.fleet.tick_ms, HtmlEscaped(result.impair),
+      HtmlEscaped(result.base_file), result.seed, result.alive_s, HtmlEscaped(VerdictText(result)));
   for (const DrawnPlot& plot : plots) {
     // From the element on: what stands before it belongs to a file, not into a page.
     const std::size_t begin = std::min(plot.svg.find("<svg"), plot.svg.size());

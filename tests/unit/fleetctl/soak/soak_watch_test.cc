@@ -100,6 +100,19 @@ TEST_F(SoakWatchTest, AFaultIsOverForItsVictimWhenThatIsWellAgain) {
   EXPECT_EQ(watch_.Courses()[0].recovered, milliseconds(12700));
 }
 
+TEST_F(SoakWatchTest, AFaultIsOpenUntilNothingMoreCanBeLearntOfIt) {
+  watch_.NoteBegin(2, seconds(10));
+  watch_.NoteBegin(0, seconds(11));
+  EXPECT_THAT(watch_.Open(), ElementsAre(2, 0));
+  watch_.NoteEnd(0, seconds(13));
+  Say(Driving(kTwo), milliseconds(20100));
+  EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "who is killed does not recover";
+  Say(Driving(kOne), seconds(22));
+  EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "a peer may still say that it noticed";
+  Say(Driving(kOne), seconds(24));
+  EXPECT_THAT(watch_.Open(), testing::IsEmpty());
+}
+
 TEST_F(SoakWatchTest, AHearersFaultIsSeenByWhatItCounts) {
   VehicleStatus status = Driving(kTwo);
   status.impaired.dropped_loss = 7;

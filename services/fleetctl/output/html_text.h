@@ -1,0 +1,12 @@
+// Text for HTML pages.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace giveway::fleetctl {
+
+// With the marks of HTML escaped, for elements and for attributes in either quotes.
+std::string HtmlEscaped(std::string_view text);
+
+}  // namespace giveway::fleetctl
