@@ -116,11 +116,15 @@ void CheckPairs(const std::vector<Driver>& drivers, double delay_s) {
   }
 }
 
+double NeededForStanding(const VehicleOptions& own) {
+  return BrakingDistance(own) + Fastest(own) * ReactionSeconds(own);
+}
+
 void CheckStanding(const Driver& driver) {
   const VehicleOptions& own = *driver.options;
+  if (CanStopForStanding(own)) return;
   const double reaction_s = ReactionSeconds(own);
-  const double needed_m = BrakingDistance(own) + Fastest(own) * reaction_s;
-  if (needed_m <= own.profile.sonar_max_range_m) return;
+  const double needed_m = NeededForStanding(own);
   driver.section->Complain(
       "cruise_m_s",
       fmt::format("{} at {:.3g} m/s (a seed's 2 % included) could not stop before a wall or an "
@@ -147,6 +151,10 @@ BrakingSum SumOf(const VehicleOptions& own, const VehicleOptions& peer, double d
   sum.sonar_m = std::min({own.gate_enter_m, peer.gate_enter_m, own.profile.sonar_max_range_m,
                           peer.profile.sonar_max_range_m});
   return sum;
+}
+
+bool CanStopForStanding(const VehicleOptions& own) {
+  return NeededForStanding(own) <= own.profile.sonar_max_range_m;
 }
 
 void CheckBraking(const ReadScenario& read) {

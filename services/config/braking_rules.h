@@ -27,6 +27,9 @@ struct BrakingSum {
 // `delay_s` is the longest that the scenario holds a beacon back.
 BrakingSum SumOf(const VehicleOptions& own, const VehicleOptions& peer, double delay_s);
 
+// True if it stops for what stands within the reach of its ultrasonics.
+bool CanStopForStanding(const VehicleOptions& own);
+
 // Refuses vehicles and spawn places that could not stop for another of the scenario, and those that
 // could not stop for a wall, an obstacle or a door within the reach of their ultrasonics. One
 // problem a vehicle at most, and of two the one that needs more is blamed.

@@ -1,7 +1,9 @@
 // Makes scenarios of a kind, sized by vehicles and varied by seed. Only layouts that can be solved:
 // starts and goals at least two metres apart (one vehicle per 4 m^2), goals off the ways of others
-// or in the order they are reached, aisles of two bodies and half a metre. The same values give the
-// same scenario anywhere.
+// or in the order they are reached, or as in convoy and antipodal where everyone can make room. Two
+// lanes are two bodies and half a metre wide; door and one_lane are passed one by one. Everyone can
+// arrive but of those who share a goal (arriving.h), and it is said so before the run. The same
+// values give the same scenario anywhere.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +18,9 @@ namespace giveway::sim {
 struct Generator {
   std::string_view name;
   std::string_view description;
-  Scenario (*make)(Size size);
+  double most_radius_m =
+      0.25;  // bodies that get through everywhere, and past each other where two lanes are
+  Scenario (*make)(const Size& size);
 };
 
 std::span<const Generator> Generators();
@@ -24,18 +28,31 @@ std::span<const Generator> Generators();
 const Generator* FindGenerator(std::string_view name);
 
 // Four roads meet; everyone drives straight across.
-Scenario MakeCrossing(Size size);
+Scenario MakeCrossing(const Size& size);
 // Four roads meet in a ring, driven counter-clockwise.
-Scenario MakeRoundabout(Size size);
+Scenario MakeRoundabout(const Size& size);
 // A narrow passage with traffic from both ends.
-Scenario MakeCorridor(Size size);
+Scenario MakeCorridor(const Size& size);
 // A ramp joins a road.
-Scenario MakeMerge(Size size);
+Scenario MakeMerge(const Size& size);
 // Racks, aisles between them, a road along either side.
-Scenario MakeWarehouse(Size size);
+Scenario MakeWarehouse(const Size& size);
 // Random starts and goals in an open field.
-Scenario MakeSwarm(Size size);
+Scenario MakeSwarm(const Size& size);
 // One lane, everyone the same way, at different speeds.
-Scenario MakeConvoy(Size size);
+Scenario MakeConvoy(const Size& size);
+
+// Two rooms, and a door of one to two bodies between them, with traffic both ways.
+Scenario MakeDoor(const Size& size);
+// A passage in which no two pass each other, with traffic from both ends.
+Scenario MakeOneLane(const Size& size);
+// A circle on which everyone wants to the opposite side.
+Scenario MakeAntipodal(const Size& size);
+// A car park: one half drives in, the other out, and some into the bay of one that leaves.
+Scenario MakeParking(const Size& size);
+// Two or three want to stand on the same place: one of them can.
+Scenario MakeSharedGoal(const Size& size);
+// A swarm among pallets, posts and ends of walls close beside the ways, and one that walks about.
+Scenario MakeMixedYard(const Size& size);
 
 }  // namespace giveway::sim

@@ -22,7 +22,7 @@ constexpr double kParked_m = 2.1;     // between goals of one lane
 //        >                 >     nobody arrives in anyone's way.
 //        ------+      +------
 //              | v  ^ |
-Scenario MakeCrossing(Size size) {
+Scenario MakeCrossing(const Size& size) {
   Layout layout("crossing", size);
   constexpr double kBefore_m = 4;
   const std::uint32_t in_lane = (size.vehicles + 3) / 4;
@@ -40,7 +40,7 @@ Scenario MakeCrossing(Size size) {
 
 // A square of 16 m^2 a vehicle, cut into cells; everyone has a cell to start in and another to end
 // in, each with its own, moved a little within it. Ways cross anywhere.
-Scenario MakeSwarm(Size size) {
+Scenario MakeSwarm(const Size& size) {
   Layout layout("swarm", size);
   constexpr double kCell_m = 2.4;
   constexpr double kMoved_m = 0.19;  // so that neighbours keep their room
@@ -61,7 +61,7 @@ Scenario MakeSwarm(Size size) {
 
 // One lane; the speeds are drawn, so that the faster close up on the slower. Goals are as far on as
 // the queue is long, in the same order: the first parks the farthest.
-Scenario MakeConvoy(Size size) {
+Scenario MakeConvoy(const Size& size) {
   Layout layout("convoy", size);
   constexpr double kWay_m = 12;
   for (std::uint32_t i = 0; i < size.vehicles; ++i) {

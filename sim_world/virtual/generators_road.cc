@@ -1,5 +1,6 @@
-// Layouts with lanes: roundabout, corridor, merge. Who has come through parks in a bay beside the
-// lane, at a place drawn: overtaking is not asked of anyone, and nobody's order of arrival matters.
+// Layouts with lanes: roundabout, corridor, door, one_lane, merge. Who has come through parks in a
+// bay beside the lane, at a place drawn: overtaking is not asked of anyone, and nobody's order of
+// arrival matters.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -10,11 +11,50 @@
 namespace giveway::sim {
 namespace {
 
-constexpr double kQueue_m = 2.5;  // between vehicles of one lane
-constexpr double kMoved_m = 0.2;  // a start is moved along its lane by up to this
+constexpr double kQueue_m = 2.5;      // between vehicles of one lane
+constexpr double kMoved_m = 0.2;      // a start is moved along its lane by up to this
+constexpr double kTwoBodies_m = 1.5;  // two Pioneers and half a metre
+constexpr double kMouths_m = 3;       // before and behind a passage, where only one is either
 
 Vec2 Direction(double angle_rad) { return {Cos(angle_rad), Sin(angle_rad)}; }
 Vec2 Right(Vec2 along) { return -1 * Left(along); }
+
+// A passage along the x axis, its middle at the origin; its lanes lie lane_m beside the axis.
+struct Passage {
+  double half_m = 0;  // of its length
+  double lane_m = 0;
+};
+
+// Vehicles from both ends through the passage: who waits stands in two rows on its right before it,
+// who is through parks on both sides of a lane beyond it, on its right again.
+void SendThrough(const Passage& passage, std::uint32_t vehicles, Layout* layout) {
+  constexpr double kRow_m = 1.1;       // of the first waiting row, from the middle
+  constexpr double kExitLane_m = 3.4;  // between the two rows of bays
+  const auto [half_m, lane_m] = passage;
+  const std::uint32_t each = (vehicles + 1) / 2;
+  const std::array bays = {Shuffled(each, &layout->Dice()), Shuffled(each, &layout->Dice())};
+  for (std::uint32_t i = 0; i < vehicles; ++i) {
+    const double sign = i % 2 == 0 ? 1 : -1;  // eastbound on the south side, else turned by half
+    const auto turned = [&](double x, double y) { return Vec2{sign * x, sign * y}; };
+    const std::uint32_t place = i / 2;
+    const double start_m =
+        half_m + 3 + kQueue_m * (place / 2) + layout->Dice().Uniform(-kMoved_m, kMoved_m);
+    const double row_m = kRow_m + (place % 2) * kBay_m;
+    const std::uint32_t bay = bays[i % 2][place];
+    const double bay_m = half_m + 4 + kBay_m * (bay / 2);
+    const double side_m = bay % 2 == 0 ? kBeside_m : -kBeside_m;
+    const std::array way = {turned(-half_m - 0.8, -lane_m), turned(half_m + 0.8, -lane_m),
+                            turned(half_m + 2.5, -kExitLane_m), turned(bay_m, -kExitLane_m)};
+    layout->Add(turned(-start_m, -row_m), way, turned(bay_m, -kExitLane_m - side_m));
+  }
+}
+
+// What the passage leads through, wider than anyone looks for a way round.
+void AddBuildings(const Passage& passage, double width_m, Layout* layout) {
+  constexpr double kDepth_m = 12;
+  layout->AddBlock({-passage.half_m, width_m / 2}, {passage.half_m, width_m / 2 + kDepth_m});
+  layout->AddBlock({-passage.half_m, -width_m / 2 - kDepth_m}, {passage.half_m, -width_m / 2});
+}
 
 }  // namespace
 
@@ -22,7 +62,7 @@ Vec2 Right(Vec2 along) { return -1 * Left(along); }
 // counter-clockwise. A vehicle joins the ring from its lane, follows it past up to two exits, and
 // leaves by the first, second or third road after its own; beyond the exit it parks in a bay on its
 // right.
-Scenario MakeRoundabout(Size size) {
+Scenario MakeRoundabout(const Size& size) {
   Layout layout("roundabout", size);
   constexpr double kLane_m = 1.0;
   constexpr double kStep_rad = 35 * kPi / 180;  // at most, between two waypoints of the ring
@@ -56,39 +96,44 @@ Scenario MakeRoundabout(Size size) {
 // pass each other. Before either end those who want to go through wait in two rows on their right;
 // behind the other end they park on both sides of a lane, on their right again, so that the two
 // streams meet nowhere but in the passage.
-Scenario MakeCorridor(Size size) {
+Scenario MakeCorridor(const Size& size) {
   Layout layout("corridor", size);
   constexpr double kBody_m = 0.5;
-  constexpr double kRow_m = 1.1;       // of the first waiting row, from the middle
-  constexpr double kExitLane_m = 3.4;  // between the two rows of bays
   const double half_m = layout.Dice().Uniform(4, 7);
   const double width_m = 2 * kBody_m + layout.Dice().Uniform(0.5, 1.5);
   // The same gap to the wall and between two that meet.
   const double lane_m = kBody_m / 2 + (width_m - 2 * kBody_m) / 6;
   layout.AddWall({-half_m, width_m / 2}, {half_m, width_m / 2});
   layout.AddWall({-half_m, -width_m / 2}, {half_m, -width_m / 2});
-  const std::uint32_t each = (size.vehicles + 1) / 2;
-  const std::array bays = {Shuffled(each, &layout.Dice()), Shuffled(each, &layout.Dice())};
-  for (std::uint32_t i = 0; i < size.vehicles; ++i) {
-    const double sign = i % 2 == 0 ? 1 : -1;  // eastbound on the south side, else turned by half
-    const auto turned = [&](double x, double y) { return Vec2{sign * x, sign * y}; };
-    const std::uint32_t place = i / 2;
-    const double start_m =
-        half_m + 3 + kQueue_m * (place / 2) + layout.Dice().Uniform(-kMoved_m, kMoved_m);
-    const double row_m = kRow_m + (place % 2) * kBay_m;
-    const std::uint32_t bay = bays[i % 2][place];
-    const double bay_m = half_m + 4 + kBay_m * (bay / 2);
-    const double side_m = bay % 2 == 0 ? kBeside_m : -kBeside_m;
-    const std::array way = {turned(-half_m - 0.8, -lane_m), turned(half_m + 0.8, -lane_m),
-                            turned(half_m + 2.5, -kExitLane_m), turned(bay_m, -kExitLane_m)};
-    layout.Add(turned(-start_m, -row_m), way, turned(bay_m, -kExitLane_m - side_m));
-  }
+  SendThrough({.half_m = half_m, .lane_m = lane_m}, size.vehicles, &layout);
   return layout.Take(2 * half_m);
+}
+
+// The wall between the rooms is 0.2 m thick. A door narrower than two bodies and half a metre is
+// passed one by one, down its middle.
+Scenario MakeDoor(const Size& size) {
+  Layout layout("door", size);
+  constexpr double kHalf_m = 0.1;
+  const double width_m = layout.Dice().Uniform(0.9, 1.8);
+  const double lane_m = width_m < kTwoBodies_m ? 0 : 0.25 + (width_m - 1) / 6;
+  AddBuildings({.half_m = kHalf_m, .lane_m = lane_m}, width_m, &layout);
+  SendThrough({.half_m = kHalf_m, .lane_m = lane_m}, size.vehicles, &layout);
+  return layout.Take(kMouths_m);
+}
+
+// 6 to 12 m between two buildings: once in, there is no way but through, or back.
+Scenario MakeOneLane(const Size& size) {
+  Layout layout("one_lane", size);
+  const double half_m = layout.Dice().Uniform(3, 6);
+  const double width_m = layout.Dice().Uniform(0.9, 1.1);
+  AddBuildings({.half_m = half_m}, width_m, &layout);
+  SendThrough({.half_m = half_m}, size.vehicles, &layout);
+  return layout.Take(2 * half_m + kMouths_m);
 }
 
 // A ramp comes in from the left at 30 degrees; from the origin on there is one lane, with bays on
 // its right.
-Scenario MakeMerge(Size size) {
+Scenario MakeMerge(const Size& size) {
   Layout layout("merge", size);
   constexpr double kBefore_m = 4.6;
   const std::array<Vec2, 2> along = {Vec2{1, 0}, Direction(Radians(-30))};

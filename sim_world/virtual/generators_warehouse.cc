@@ -106,7 +106,7 @@ void AddLeavingEast(std::uint32_t goal, std::uint32_t slot, Layout* layout) {
 
 }  // namespace
 
-Scenario MakeWarehouse(Size size) {
+Scenario MakeWarehouse(const Size& size) {
   Layout layout("warehouse", size);
   const Counts counts = CountsFor(size.vehicles);
   AddRacks(counts.aisles, &layout);

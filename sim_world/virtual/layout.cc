@@ -18,7 +18,8 @@ constexpr double kTurn_s = 12;  // where two ways cross; a longer place takes lo
 
 }  // namespace
 
-Layout::Layout(std::string_view name, Size size) : dice_(size.seed, size.vehicles) {
+Layout::Layout(std::string_view name, const Size& size)
+    : dice_(size.seed, size.vehicles), draw_(size.draw) {
   scenario_.name = name;
   scenario_.seed = size.seed;
   scenario_.expect.any_halted = true;
@@ -31,6 +32,7 @@ void Layout::Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal) {
   options.profile = PioneerP3dx();
   options.braitenberg = LectureWeights();
   options.cruise_m_s = dice_.Uniform(kSlowest_m_s, kFastest_m_s);
+  if (draw_) draw_(&options);
   options.goal = {.set = true, .at_world = goal, .radius_m = 0.1};
   GIVEWAY_CHECK(waypoints.size() <= kMaxWaypoints, waypoints.size());
   for (const Vec2 waypoint : waypoints) {

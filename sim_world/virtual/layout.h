@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -14,19 +15,26 @@ namespace giveway::sim {
 // No starts and no goals are nearer to each other than this, centre to centre.
 inline constexpr double kRoom_m = 2.0;
 
+// Makes another robot of the one that a generator is about to put in: body, drive, cruise speed.
+// The way is not known to it yet.
+using RobotDraw = std::function<void(VehicleOptions* options)>;
+
 struct Size {
   std::uint32_t vehicles = 6;  // 2 to 1000
   std::uint32_t seed = 1;
+  RobotDraw draw{};  // empty: Pioneers at 0.2 to 0.6 m/s
 };
 
 class Layout {
  public:
-  Layout(std::string_view name, Size size);
+  Layout(std::string_view name, const Size& size);
 
   Random& Dice() { return dice_; }
+  const Scenario& SoFar() const { return scenario_; }
   // The next vehicle: it stands at `start`, looks at the first point of its way, passes
-  // `waypoints` and ends at `goal`. Its cruise speed is drawn.
+  // `waypoints` and ends at `goal`. Its cruise speed is drawn, and more of it by Size::draw.
   void Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal);
+  void AddObstacle(const Obstacle& obstacle) { scenario_.obstacles.push_back(obstacle); }
   void AddWall(Vec2 from, Vec2 to) { scenario_.walls.push_back({from, to}); }
   // Four walls round a rectangle along the axes.
   void AddBlock(Vec2 low, Vec2 high);
@@ -37,6 +45,7 @@ class Layout {
 
  private:
   Random dice_;
+  RobotDraw draw_;
   Scenario scenario_;
 };
 

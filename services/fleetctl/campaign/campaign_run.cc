@@ -23,9 +23,9 @@ CaseOptions OptionsOf(const CampaignPlan& plan, const std::string& generator) {
   options.reorder_percent = plan.reorder_percent;
   options.duplicate_percent = plan.duplicate_percent;
   options.loops_back = plan.loops_back;
-  options.crashes = plan.crashes;
-  options.pauses = plan.pauses;
-  options.restarts = plan.restarts;
+  options.crashes = {plan.crashes, plan.crashes};
+  options.pauses = {plan.pauses, plan.pauses};
+  options.restarts = {plan.restarts, plan.restarts};
   options.fault_file = plan.fault_file;
   options.skip_unsupported = plan.skip_unsupported;
   return options;

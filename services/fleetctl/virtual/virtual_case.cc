@@ -14,7 +14,8 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr WholeRange kDefaultVehicles{6, 6};
-constexpr std::uint64_t kDraws = 0x5eed;  // the stream beside the generators' own
+constexpr std::uint64_t kDraws = 0x5eed;   // the stream beside the generators' own
+constexpr std::uint64_t kRobots = 0xb0d1;  // and that of the robots
 constexpr double kMeanBurst_ticks = 5;
 // Faults fall into the time in which ways cross.
 constexpr NumberRange kFaultTime_s{2, 25};
@@ -55,8 +56,10 @@ void FillPlaces(std::uint32_t count, Scenario* scenario) {
   scenario->spawns.clear();
 }
 
-void AddFaults(sim::ProcessFaultKind kind, std::uint32_t count, const Scenario& scenario,
+void AddFaults(sim::ProcessFaultKind kind, const WholeRange& range, const Scenario& scenario,
                Random* dice, std::vector<sim::ProcessFault>* faults) {
+  // A number that is given draws nothing: seeds mean what they meant before there were ranges.
+  const std::uint32_t count = range.low == range.high ? range.low : Draw(range, dice);
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::size_t victim = dice->Next() % scenario.vehicles.size();
     faults->push_back({.kind = kind,
@@ -125,6 +128,7 @@ CaseMaker::CaseMaker(const CaseOptions& options) : options_(options) {
   if (IsEndless(*loaded_)) loaded_->duration_s = kEndless_s;
   name_ = loaded_->name;
   CheckVehicles();
+  CheckFleet();
 }
 
 void CaseMaker::CheckVehicles() const {
@@ -138,6 +142,15 @@ void CaseMaker::CheckVehicles() const {
         .value = std::to_string(options_.vehicles->high),
         .message = open ? "it has places for " + std::to_string(most) : "it names its vehicles",
         .remedy = open ? "ask for no more" : "leave the flag out"}});
+}
+
+void CaseMaker::CheckFleet() const {
+  if (!options_.fleet.mixed_robots) return;
+  throw InputError({{.file = name_,
+                     .field = "--robots",
+                     .value = "mixed",
+                     .message = "it names its vehicles, and what they are",
+                     .remedy = "leave the flag out, or run a generator"}});
 }
 
 void CaseMaker::TakeFaults() {
@@ -177,8 +190,14 @@ std::string CaseMaker::Remark() const {
 
 Scenario CaseMaker::MakeScenario(std::uint32_t seed, Random* dice) const {
   const std::uint32_t vehicles = Draw(options_.vehicles.value_or(kDefaultVehicles), dice);
-  Scenario scenario = loaded_ ? *loaded_ : generator_->make({vehicles, seed});
+  FleetDraw fleet(options_.fleet, generator_ != nullptr ? generator_->most_radius_m : 0,
+                  (options_.delay_ms + options_.jitter_ms) / 1000, Random(seed, kRobots));
+  const auto draw = [&](VehicleOptions* options) { fleet.Take(options); };
+  Scenario scenario = loaded_ ? *loaded_ : generator_->make({vehicles, seed, draw});
+  scenario.sonar = fleet.Sonar(scenario.sonar);
   if (loaded_) {
+    std::ranges::for_each(scenario.vehicles, [&](auto& vehicle) { fleet.Take(&vehicle); });
+    std::ranges::for_each(scenario.spawns, [&](auto& place) { fleet.Take(&place); });
     FillPlaces(options_.vehicles ? vehicles : std::max(1U, scenario.start_with), &scenario);
     scenario.seed = seed;
     PerturbBySeed(&scenario);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/faults/fault_file.h"
+#include "services/fleetctl/virtual/fleet_draw.h"
 #include "services/types/math/random.h"
 #include "services/types/scenario.h"
 #include "sim_world/virtual/generators.h"
@@ -32,6 +33,7 @@ struct CaseOptions {
   std::string scenario;                // a file, a shipped one, or a generator
   std::optional<WholeRange> vehicles;  // of a generator, or of an open fleet
   std::optional<Behaviour> behaviour;
+  FleetChoice fleet;
   std::optional<double> duration_s;  // of a scenario; absent: its own, or kEndless_s
   NumberRange loss_percent;
   bool burst = false;  // the loss comes in bursts, the mean is the same
@@ -39,10 +41,10 @@ struct CaseOptions {
   double jitter_ms = 0;
   double reorder_percent = 0;
   double duplicate_percent = 0;
-  bool loops_back = false;    // everyone hears its own beacons too
-  std::uint32_t crashes = 0;  // vehicles that die, pause, or start anew, each at a time drawn
-  std::uint32_t pauses = 0;
-  std::uint32_t restarts = 0;
+  bool loops_back = false;  // everyone hears its own beacons too
+  WholeRange crashes;       // vehicles that die, pause, or start anew, each at a time drawn
+  WholeRange pauses;
+  WholeRange restarts;
   std::vector<sim::ProcessFault> faults;    // on top of those drawn
   std::string fault_file;                   // a file or a shipped one; empty: none
   bool skip_unsupported = false;            // of the file what a virtual run cannot do
@@ -73,6 +75,7 @@ class CaseMaker {
 
  private:
   void CheckVehicles() const;
+  void CheckFleet() const;
   void TakeFaults();
   Scenario MakeScenario(std::uint32_t seed, Random* dice) const;
 

@@ -65,6 +65,16 @@ void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
   verb->add_flag("--loopback", made_by->loops_back, "Everyone hears its own beacons too");
 }
 
+const std::vector<SonarTier> kMixedTiers = {SonarTier::kIdeal, SonarTier::kTypical,
+                                            SonarTier::kP3dx};
+
+std::vector<SonarTier> TiersOf(const std::string& tier) {
+  if (tier == "mixed") return kMixedTiers;
+  if (tier == "ideal") return {SonarTier::kIdeal};
+  if (tier == "typical") return {SonarTier::kTypical};
+  return {tier == "p3dx" ? SonarTier::kP3dx : SonarTier::kCrosstalk};
+}
+
 // KIND:ID@AT+FOR, seconds: pause:3@12.5+0.4.
 sim::ProcessFault FaultOf(const std::string& text) {
   static const std::regex kForm(R"((crash|pause|restart):(\d{1,9})@(\d+\.?\d*)(?:\+(\d+\.?\d*))?)");
@@ -84,13 +94,56 @@ sim::ProcessFault FaultOf(const std::string& text) {
   return fault;
 }
 
+void AddCountFlag(CLI::App* verb, const std::string& flag, WholeRange* counts,
+                  const std::string& description) {
+  verb->add_option_function<std::string>(
+      flag, [=](const std::string& text) { *counts = WholesOf(flag, text, 0, 1000); },
+      description + ", or LO..HI");
+}
+
+// The first of the flags, for those after it say more.
+void AddFleetFlag(CLI::App* verb, CaseOptions* made_by) {
+  verb->add_option_function<std::string>(
+          "--fleet",
+          [made_by](const std::string& fleet) {
+            if (fleet == "stock") return;
+            made_by->fleet = {.mixed_robots = true, .tiers = kMixedTiers, .most_slip = 0.02};
+            made_by->loss_percent = {0, 20};
+            made_by->crashes = {0, 1};
+            made_by->pauses = {0, 2};
+            made_by->restarts = {0, 1};
+          },
+          "stock, or mixed: short for --robots mixed --tier mixed --slip 0..2 --loss 0..20 "
+          "--crashes 0..1 --pauses 0..2 --restarts 0..1; what is given beside it counts")
+      ->check(CLI::IsMember({"stock", "mixed"}));
+}
+
+void AddRobotFlags(CLI::App* verb, CaseOptions* made_by) {
+  verb->add_option_function<std::string>(
+          "--robots",
+          [made_by](const std::string& robots) { made_by->fleet.mixed_robots = robots == "mixed"; },
+          "stock: Pioneers at 0.2 to 0.6 m/s. mixed: each vehicle of a generator draws its body, "
+          "acceleration, braking, turn rate and 0.2 to 1.0 m/s; what could not stop is drawn again")
+      ->check(CLI::IsMember({"stock", "mixed"}));
+  verb->add_option_function<std::string>(
+          "--tier", [made_by](const std::string& tier) { made_by->fleet.tiers = TiersOf(tier); },
+          "Of the ultrasonics: ideal, typical, p3dx, crosstalk, or mixed: each seed draws one of "
+          "the first three; default the scenario's, of generators ideal")
+      ->check(CLI::IsMember({"ideal", "typical", "p3dx", "crosstalk", "mixed"}));
+  verb->add_option_function<std::string>(
+      "--slip",
+      [made_by](const std::string& text) {
+        const NumberRange percent = NumbersOf("--slip", text, 0, 50);
+        made_by->fleet.least_slip = percent.low / 100;
+        made_by->fleet.most_slip = percent.high / 100;
+      },
+      "Percent of wheel slip and of encoder noise, or LO..HI: each vehicle draws both");
+}
+
 void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
-  verb->add_option("--crashes", made_by->crashes, "Vehicles that die in each run")
-      ->check(CLI::Range(0U, 1000U));
-  verb->add_option("--pauses", made_by->pauses, "Processes that stand still for a while")
-      ->check(CLI::Range(0U, 1000U));
-  verb->add_option("--restarts", made_by->restarts, "Processes that start anew")
-      ->check(CLI::Range(0U, 1000U));
+  AddCountFlag(verb, "--crashes", &made_by->crashes, "Vehicles that die in each run");
+  AddCountFlag(verb, "--pauses", &made_by->pauses, "Processes that stand still for a while");
+  AddCountFlag(verb, "--restarts", &made_by->restarts, "Processes that start anew");
   verb->add_option_function<std::vector<std::string>>(
       "--fault",
       [made_by](const std::vector<std::string>& texts) {
@@ -116,6 +169,7 @@ WholeRange WholesOf(const std::string& flag, const std::string& text, double lea
 void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option("SCENARIO", made_by->scenario, "A scenario file, a shipped one, or a generator")
       ->required();
+  AddFleetFlag(verb, made_by);
   verb->add_option_function<std::string>(
       "--vehicles",
       [made_by](const std::string& text) {
@@ -136,6 +190,7 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
           "Of a scenario: end after so many seconds instead; without it one that lasts until "
           "it is stopped is looked at for 600")
       ->check(CLI::Range(1.0, 86400.0));
+  AddRobotFlags(verb, made_by);
   verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
   AddRadioFlags(verb, made_by);
   AddFaultFlags(verb, made_by);

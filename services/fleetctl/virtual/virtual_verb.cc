@@ -10,12 +10,14 @@ namespace {
 
 constexpr const char* kFooter = R"(
 SCENARIO is a scenario file, the name of a shipped one, or a generator:
-crossing, roundabout, corridor, swarm, merge, convoy, warehouse.
+crossing, roundabout, corridor, swarm, merge, convoy, warehouse,
+door, one_lane, antipodal, parking, shared_goal, mixed_yard.
 A range LO..HI is drawn from anew by every seed.
 
 Examples
   fleetctl virtual crossing --seeds 1..200 --vehicles 6 --loss 5
   fleetctl virtual swarm --seeds 1..10000 --vehicles 2..50 --loss 0..20 --jobs 2 --json
+  fleetctl virtual parking --seeds 1..20 --vehicles 4..12 --fleet mixed --crashes 0
   fleetctl virtual swarm --seed 17 --vehicles 12 --picture swarm.svg --trace swarm.tsv
 
 Exit code: 0 passed, 1 failed or interrupted, 2 could not run.

@@ -11,6 +11,7 @@
 
 #include "services/types/math/math.h"
 #include "sim_world/geometry/geometry.h"
+#include "sim_world/virtual/arriving.h"
 #include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::sim {
@@ -56,6 +57,8 @@ double Distance(const Leg& leg, const Wall& wall) {
 
 class EveryGenerator : public testing::TestWithParam<Generator> {
  protected:
+  static bool SharesGoals() { return GetParam().name == "shared_goal"; }
+
   template <typename Check>
   void OnManySeeds(Check check) const {
     for (std::uint32_t seed = 1; seed <= 200; ++seed) {
@@ -81,13 +84,14 @@ TEST_P(EveryGenerator, MakesAsManyVehiclesAsAskedForByAscendingId) {
 }
 
 TEST_P(EveryGenerator, LeavesRoomBetweenStartsAndBetweenGoals) {
-  OnManySeeds([](const Scenario& scenario, const std::string& which) {
+  OnManySeeds([&](const Scenario& scenario, const std::string& which) {
     for (const VehicleOptions& a : scenario.vehicles) {
       for (const VehicleOptions& b : scenario.vehicles) {
         if (a.id >= b.id) continue;
         const double starts_m = Norm(a.start_world.position_world - b.start_world.position_world);
         ASSERT_GE(starts_m, kRoom_m - kRounding_m)
             << which << ": " << Number(a.id) << ' ' << Number(b.id);
+        if (SharesGoals()) continue;
         ASSERT_GE(Norm(a.goal.at_world - b.goal.at_world), kRoom_m - kRounding_m)
             << which << ": " << Number(a.id) << ' ' << Number(b.id);
       }
@@ -152,7 +156,9 @@ std::vector<Generator> WithBays() {
   std::vector<Generator> with_bays;
   std::ranges::copy_if(Generators(), std::back_inserter(with_bays), [](const Generator& generator) {
     const std::string name(generator.name);
-    return name != "swarm" && name != "crossing" && name != "convoy";
+    const bool open = name == "swarm" || name == "shared_goal" || name == "mixed_yard";
+    return !open && name != "crossing" && name != "convoy" && name != "antipodal" &&
+           name != "parking";
   });
   return with_bays;
 }
@@ -168,6 +174,66 @@ TEST(ConvoyGenerator, ParksInTheOrderOfTheQueue) {
               convoy.vehicles[i + 1].start_world.position_world.x);
     EXPECT_GT(convoy.vehicles[i].goal.at_world.x, convoy.vehicles[i + 1].goal.at_world.x);
   }
+}
+
+TEST_P(EveryGenerator, SaysThatEveryoneArrivesOrOneOfThoseWhoShareAGoal) {
+  OnManySeeds([&](const Scenario& scenario, const std::string& which) {
+    const Arriving arriving = WhoCanArrive(scenario);
+    if (!SharesGoals()) {
+      ASSERT_EQ(arriving.each.size(), scenario.vehicles.size()) << which;
+      return;
+    }
+    ASSERT_EQ(arriving.one_of.size(), scenario.vehicles.size() / 2) << which;
+    ASSERT_TRUE(arriving.each.empty()) << which;
+  });
+}
+
+// A body of the largest size that is drawn gets through.
+TEST(NarrowGenerators, LetTheLargestThroughAndNoTwoAbreast) {
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    for (const char* name : {"door", "one_lane"}) {
+      const Generator& generator = *FindGenerator(name);
+      const Scenario scenario = generator.make({4, seed});
+      ASSERT_EQ(scenario.walls.size(), 8U);
+      const double width_m = scenario.walls[0].from_world.y - scenario.walls[6].from_world.y;
+      EXPECT_GE(width_m, 2 * generator.most_radius_m + 0.3) << name << " " << seed;
+      EXPECT_LE(width_m, scenario.name == "door" ? 1.8 : 1.1) << name << " " << seed;
+    }
+  }
+}
+
+TEST(ParkingGenerator, LetsSomeIntoTheBayOfOneThatLeaves) {
+  int taken = 0;
+  for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+    const Scenario scenario = MakeParking({10, seed});
+    for (const VehicleOptions& comes : scenario.vehicles) {
+      for (const VehicleOptions& leaves : scenario.vehicles) {
+        taken += Norm(comes.goal.at_world - leaves.start_world.position_world) < 0.01 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(taken, 25);
+  EXPECT_LT(taken, 75);
+}
+
+// Close enough that ultrasonics matter, and no way leads into one.
+TEST(MixedYardGenerator, PutsThingsCloseBesideTheWays) {
+  int close = 0;
+  for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+    const Scenario scenario = MakeMixedYard({8, seed});
+    for (const Obstacle& obstacle : scenario.obstacles) {
+      if (obstacle.speed_m_s > 0) continue;
+      for (const VehicleOptions& vehicle : scenario.vehicles) {
+        for (const Leg& leg : WayOf(vehicle)) {
+          const double gap_m = Distance(leg, obstacle.start_world.position_world) -
+                               obstacle.radius_m - vehicle.profile.body_radius_m;
+          ASSERT_GE(gap_m, 0.15 - kRounding_m) << seed;
+          close += gap_m < 0.3 ? 1 : 0;
+        }
+      }
+    }
+  }
+  EXPECT_GT(close, 50);
 }
 
 TEST(CorridorGenerator, IsWideEnoughForTwo) {
@@ -194,7 +260,8 @@ TEST(CorridorGenerator, LastsUntilEveryoneCanHavePassedItAlone) {
 
 TEST(AnyGenerator, IsFoundByItsName) {
   for (const char* name :
-       {"crossing", "roundabout", "corridor", "swarm", "merge", "convoy", "warehouse"}) {
+       {"crossing", "roundabout", "corridor", "swarm", "merge", "convoy", "warehouse", "door",
+        "one_lane", "antipodal", "parking", "shared_goal", "mixed_yard"}) {
     ASSERT_NE(FindGenerator(name), nullptr) << name;
     EXPECT_EQ(FindGenerator(name)->name, name);
   }

@@ -24,7 +24,7 @@ CaseOptions Lossy(const std::string& generator) {
   options.vehicles = WholeRange{2, 5};
   options.loss_percent = {0, 20};
   options.jitter_ms = 60;
-  options.pauses = 1;
+  options.pauses = {1, 1};
   return options;
 }
 
@@ -101,7 +101,7 @@ TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
   CaseOptions options;
   options.scenario = "crossing";
   options.vehicles = WholeRange{8, 8};
-  options.pauses = 4;
+  options.pauses = {4, 4};
   const BatchTotals totals = RunBatch(CaseMaker(options), {1, 40}, 2, kGoOn);
   EXPECT_TRUE(totals.failing_seeds.empty()) << totals.failing_seeds.size() << " failed";
 }
@@ -198,8 +198,9 @@ std::vector<std::uint32_t> IdsOf(const CaseOptions& options) {
 TEST(VirtualCaseOfASeed, AnOpenFleetStandsOnItsPlaces) {
   using Ids = std::vector<std::uint32_t>;
   EXPECT_EQ(IdsOf({.scenario = "open_fleet"}), (Ids{1, 2}));
-  EXPECT_EQ(IdsOf({.scenario = "open_fleet", .vehicles = WholeRange{5, 5}, .pauses = 2}),
-            (Ids{1, 2, 3, 4, 5}));
+  EXPECT_EQ(
+      IdsOf({.scenario = "open_fleet", .vehicles = WholeRange{5, 5}, .pauses = WholeRange{2, 2}}),
+      (Ids{1, 2, 3, 4, 5}));
   EXPECT_EQ(IdsOf({.scenario = "fleet_20"}).size(), 20U);
   const VirtualCase made = CaseMaker({.scenario = "open_fleet"}).Make(1);
   EXPECT_TRUE(made.scenario.spawns.empty());

@@ -1,0 +1,49 @@
+// Fleets as they are: of what a generator puts in, another robot each, another sensor tier, wheels
+// that slip and encoders that miscount. Draws of its own, so that without it every seed means what
+// it ever meant. What physics forbids, by the sums that refuse it in a scenario file, is drawn
+// again.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "services/types/math/random.h"
+#include "services/types/scenario.h"
+
+namespace giveway::fleetctl {
+
+// What the operator asked for.
+struct FleetChoice {
+  bool mixed_robots = false;     // else Pioneers as the place has them
+  std::vector<SonarTier> tiers;  // a seed draws one; empty: the place's own
+  double least_slip = 0;         // of wheel slip and of encoder noise: share of a wheel's speed
+  double most_slip = 0;
+};
+
+class FleetDraw {
+ public:
+  // Bodies up to most_radius_m. `delay_s` is the longest that a beacon is under way.
+  FleetDraw(const FleetChoice& choice, double most_radius_m, double delay_s, Random dice);
+
+  // The place's ultrasonics: the tier drawn, or as they were.
+  SonarModel Sonar(SonarModel sonar) const;
+  // Makes the next vehicle of the fleet of one that has its id and behaviour.
+  void Take(VehicleOptions* options);
+  // Draws that no brakes could make good, so far.
+  std::uint32_t Refused() const { return refused_; }
+
+ private:
+  bool ComesOut(const VehicleOptions& options) const;
+  VehicleOptions Draw(const VehicleOptions& plain);
+
+  FleetChoice choice_;
+  double most_radius_m_;
+  double delay_s_;
+  Random dice_;
+  std::optional<SonarTier> tier_;
+  std::vector<VehicleOptions> taken_;
+  std::uint32_t refused_ = 0;
+};
+
+}  // namespace giveway::fleetctl

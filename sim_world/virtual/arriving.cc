@@ -1,0 +1,46 @@
+#include "sim_world/virtual/arriving.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "services/types/math/math.h"
+
+namespace giveway::sim {
+namespace {
+
+bool ExcludeEachOther(const VehicleOptions& a, const VehicleOptions& b) {
+  // Each may stand off its goal by the goal's radius, away from the other.
+  const double apart_m = Norm(a.goal.at_world - b.goal.at_world);
+  return apart_m + a.goal.radius_m + b.goal.radius_m <
+         a.profile.body_radius_m + b.profile.body_radius_m;
+}
+
+}  // namespace
+
+// A vehicle belongs to the first group whose first member excludes it.
+Arriving WhoCanArrive(const Scenario& scenario) {
+  std::vector<const VehicleOptions*> firsts;
+  std::vector<std::vector<VehicleId>> groups;
+  for (const VehicleOptions& options : scenario.vehicles) {
+    if (!HasGoal(options)) continue;
+    const auto first = std::ranges::find_if(
+        firsts, [&](const VehicleOptions* other) { return ExcludeEachOther(options, *other); });
+    if (first != firsts.end()) {
+      groups[static_cast<std::size_t>(first - firsts.begin())].push_back(options.id);
+      continue;
+    }
+    firsts.push_back(&options);
+    groups.push_back({options.id});
+  }
+  Arriving arriving;
+  for (std::vector<VehicleId>& group : groups) {
+    if (group.size() == 1) {
+      arriving.each.push_back(group.front());
+    } else {
+      arriving.one_of.push_back(std::move(group));
+    }
+  }
+  return arriving;
+}
+
+}  // namespace giveway::sim

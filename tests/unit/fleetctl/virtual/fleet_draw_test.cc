@@ -1,0 +1,130 @@
+// What a drawn fleet is, and that a seed without the draws means what it meant.
+#include "services/fleetctl/virtual/fleet_draw.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "services/config/braking_rules.h"
+#include "services/config/problem.h"
+#include "services/fleetctl/virtual/virtual_case.h"
+#include "sim_world/virtual/virtual_run.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+CaseOptions MixedOf(const std::string& generator) {
+  CaseOptions options;
+  options.scenario = generator;
+  options.vehicles = WholeRange{12, 12};
+  options.fleet = {.mixed_robots = true,
+                   .tiers = {SonarTier::kIdeal, SonarTier::kTypical, SonarTier::kP3dx},
+                   .most_slip = 0.02};
+  return options;
+}
+
+template <typename Check>
+void OnManySeeds(const CaseOptions& options, Check check) {
+  const CaseMaker maker(options);
+  for (std::uint32_t seed = 1; seed <= 40; ++seed) check(maker.Make(seed).scenario);
+}
+
+TEST(FleetDraw, EveryFleetOfEveryGeneratorCanStop) {
+  for (const sim::Generator& generator : sim::Generators()) {
+    OnManySeeds(MixedOf(std::string(generator.name)), [&](const Scenario& scenario) {
+      for (const VehicleOptions& own : scenario.vehicles) {
+        EXPECT_TRUE(CanStopForStanding(own)) << generator.name;
+        EXPECT_LE(own.profile.body_radius_m, generator.most_radius_m) << generator.name;
+        for (const VehicleOptions& peer : scenario.vehicles) {
+          EXPECT_TRUE(SumOf(own, peer, 0).ComesOut()) << generator.name;
+        }
+      }
+    });
+  }
+}
+
+TEST(FleetDraw, DrawsAllThereIs) {
+  double weakest = 9, fastest = 0, slowest = 9, largest = 0, most_slip = 0, turns_least = 9;
+  std::set<BodyShape> shapes;
+  std::set<SonarTier> tiers;
+  OnManySeeds(MixedOf("swarm"), [&](const Scenario& scenario) {
+    tiers.insert(scenario.sonar.tier);
+    for (const VehicleOptions& vehicle : scenario.vehicles) {
+      shapes.insert(vehicle.profile.shape);
+      weakest = std::min(weakest, vehicle.profile.deceleration_m_s2);
+      fastest = std::max(fastest, vehicle.cruise_m_s);
+      slowest = std::min(slowest, vehicle.cruise_m_s);
+      largest = std::max(largest, vehicle.profile.body_radius_m);
+      most_slip = std::max(most_slip, vehicle.profile.wheel_slip);
+      turns_least = std::min(turns_least, vehicle.profile.max_turn_rad_s);
+      EXPECT_EQ(vehicle.sonar_noise > 0, scenario.sonar.tier != SonarTier::kIdeal);
+      EXPECT_EQ(vehicle.sonar_refresh.count() > 0, scenario.sonar.tier == SonarTier::kP3dx);
+    }
+  });
+  EXPECT_EQ(shapes.size(), 2U);
+  EXPECT_EQ(tiers.size(), 3U);
+  EXPECT_LT(weakest, 0.2);
+  EXPECT_GT(fastest, 0.9);
+  EXPECT_LT(slowest, 0.25);
+  EXPECT_GT(largest, 0.4);
+  EXPECT_GT(most_slip, 0.015);
+  EXPECT_LT(turns_least, 0.7);
+}
+
+// A box is held by the disc that beacons tell of.
+TEST(FleetDraw, ABoxHasTheDiscRoundIt) {
+  OnManySeeds(MixedOf("swarm"), [](const Scenario& scenario) {
+    for (const VehicleOptions& vehicle : scenario.vehicles) {
+      if (vehicle.profile.shape != BodyShape::kBox) continue;
+      EXPECT_NEAR(Norm(vehicle.profile.box_half_m), vehicle.profile.body_radius_m, 1e-12);
+    }
+  });
+}
+
+TEST(FleetDraw, WhatCouldNotStopIsDrawnAgain) {
+  FleetDraw draw({.mixed_robots = true}, 0.45, 0.4, Random(3));  // beacons that come 0.4 s late
+  for (int i = 0; i < 200; ++i) {
+    VehicleOptions options;
+    options.profile = PioneerP3dx();
+    draw.Take(&options);
+    EXPECT_TRUE(SumOf(options, options, 0.4).ComesOut());
+  }
+  EXPECT_GT(draw.Refused(), 10U);
+}
+
+TEST(FleetDraw, TheDurationIsThatOfTheRobotsDrawn) {
+  OnManySeeds(MixedOf("crossing"), [](const Scenario& scenario) {
+    for (const VehicleOptions& vehicle : scenario.vehicles) {
+      EXPECT_GE(scenario.duration_s, sim::FreeFlowSeconds(vehicle) + 60);
+    }
+  });
+}
+
+// Goldens and campaigns rest on it: nothing asked for, nothing drawn, and the places are the same.
+TEST(FleetDraw, LeavesTheRestOfASeedAlone) {
+  CaseOptions plain = MixedOf("warehouse");
+  plain.fleet = {};
+  const Scenario stock = CaseMaker(plain).Make(7).scenario;
+  const Scenario mixed = CaseMaker(MixedOf("warehouse")).Make(7).scenario;
+  const Scenario made = sim::MakeWarehouse({12, 7});
+  ASSERT_EQ(stock.vehicles.size(), made.vehicles.size());
+  for (std::size_t i = 0; i < made.vehicles.size(); ++i) {
+    EXPECT_EQ(stock.vehicles[i].cruise_m_s, made.vehicles[i].cruise_m_s);
+    EXPECT_EQ(stock.vehicles[i].profile.deceleration_m_s2, 0.6);
+    EXPECT_EQ(mixed.vehicles[i].start_world.position_world.x,
+              made.vehicles[i].start_world.position_world.x);
+    EXPECT_EQ(mixed.vehicles[i].goal.at_world.y, made.vehicles[i].goal.at_world.y);
+  }
+}
+
+TEST(FleetDraw, AScenarioThatNamesItsRobotsKeepsThem) {
+  EXPECT_THROW(CaseMaker({.scenario = "four_way", .fleet = {.mixed_robots = true}}), InputError);
+  const CaseMaker maker({.scenario = "four_way", .fleet = {.tiers = {SonarTier::kP3dx}}});
+  const Scenario scenario = maker.Make(1).scenario;
+  EXPECT_EQ(scenario.sonar.tier, SonarTier::kP3dx);
+  EXPECT_GT(scenario.vehicles[0].sonar_refresh.count(), 0);
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl
