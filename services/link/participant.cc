@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <regex>
+#include <string_view>
 
 #include "services/link/fastdds/interfaces.h"
 #include "services/link/fastdds/library_log.h"
@@ -19,12 +19,18 @@ constexpr std::uint32_t kLargeFleet = 32;
 const Duration kLargeFleetLease{20, 0};
 const Duration kLargeFleetAnnouncement{5, 0};
 
+bool IsAreaName(std::string_view name) {
+  constexpr std::string_view kAllowed = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+  return !name.empty() && name.size() <= 64 &&
+         name.find_first_not_of(kAllowed) == std::string_view::npos;
+}
+
 void CheckOptions(const LinkOptions& options) {
   if (options.domain < 1 || options.domain > 99) {
     throw LinkError("domain " + std::to_string(options.domain) +
                     ": must be 1 to 99; above 101 its ports collide with ephemeral ones");
   }
-  if (!std::regex_match(options.area, std::regex("[a-z0-9_-]{1,64}"))) {
+  if (!IsAreaName(options.area)) {
     throw LinkError("area \"" + options.area + "\": must be 1 to 64 of a-z 0-9 _ -");
   }
 }
