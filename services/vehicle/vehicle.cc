@@ -126,6 +126,7 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.reaction_s = ReactionSeconds(options_);
   s.slows_m =
       StoppingDistance(options_.cruise_m_s, s.reaction_s, options_.profile.deceleration_m_s2);
+  s.sweeps_m = OwnSweep(s);
   s.looks_m = LooksAround(options_.profile);
   s.order = ActingOrder(state.order, state.peers, options_.id);
   s.steer_side = state.steer_side;

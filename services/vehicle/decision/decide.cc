@@ -33,10 +33,17 @@ Action AvoidingAction(const Situation& s) {
   return action;
 }
 
+// The turn that this vehicle is too fast for, if it is.
+std::optional<TurnLimit> TurnTooFast(const Steering& steering, const Situation& s) {
+  if (s.options.behaviour != Behaviour::kCooperative) return std::nullopt;
+  const std::optional<TurnLimit> turn = LimitOfTurn(steering, s);
+  return turn && turn->max_speed_m_s < s.speed_m_s ? turn : std::nullopt;
+}
+
 // Drives to the goal no faster than `limit`, slowing so that it can stop there.
 Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   const VehicleProfile& profile = s.options.profile;
-  const Steering steering = SteerToGoal(s);
+  Steering steering = SteerToGoal(s);
   Action action;
   double speed = s.options.cruise_m_s;
   if (s.stops_there) {
@@ -58,6 +65,13 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
                        .peer = limit->peer,
                        .sensor = limit->sensor,
                        .cause_tick = limit->cause_tick};
+  }
+  if (const auto turn = TurnTooFast(steering, s); turn && turn->max_speed_m_s <= speed) {
+    speed = turn->max_speed_m_s;
+    action.decision = {
+        .rule = Rule::kKeepClear, .peer = turn->peer, .cause_tick = turn->cause_tick};
+    // Straight on until it is slow enough for the turn: both rims brake alike.
+    steering.heading_error_rad = 0;
   }
   action.blocked_by = steering.blocked_by;
   action.steer_side = steering.side;

@@ -5,6 +5,7 @@
 
 #include "services/types/math/math.h"
 #include "services/vehicle/estimation/planted.h"
+#include "services/vehicle/situation/claim.h"
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/look.h"
 
@@ -22,6 +23,8 @@ constexpr double kKeepSide_rad = 0.6;
 constexpr double kNoWayBack_rad = 1.8;
 // Farther off the heading than this it turns before it drives.
 constexpr double kTurnOnTheSpot_rad = 0.3;
+// A turn by less than this is none.
+constexpr double kSmallTurn_rad = 0.02;
 // A gap no wider than this is none.
 constexpr double kNarrow_rad = 0.02;
 
@@ -299,17 +302,56 @@ double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double t
   return std::min(speed_m_s, std::max(0.0, now.forward_m_s) + more_m_s);
 }
 
+// Driving off while it turns on the spot, the rim that rolls back has to brake first, which may
+// take long, and the other would outrun it: the vehicle would turn faster than anybody counts on.
+double SpeedWithinTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s,
+                       double most_rad_s) {
+  const double axle_m = profile.drive.axle_m;
+  const double turn_now_rad_s = turn_rad_s < 0 ? -now.turn_rad_s : now.turn_rad_s;
+  const double inner_m_s = now.forward_m_s - axle_m / 2 * turn_now_rad_s;
+  if (inner_m_s >= 0) return profile.max_speed_m_s;
+  return std::max(0.0, inner_m_s + axle_m * (most_rad_s - Magnitude(turn_rad_s) / 2));
+}
+
+// Half of what the body can do, and never more than the others count on.
+double MostTurnOf(const VehicleProfile& profile) {
+  return std::min(profile.max_turn_rad_s / 2, kTurnWhileDriving_rad_s);
+}
+
 }  // namespace
+
+std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s) {
+  if (s.speed_m_s < kStandingSpeed_m_s) return std::nullopt;
+  const VehicleProfile& profile = s.options.profile;
+  const double stops_s =
+      s.reaction_s + Seconds(s.options.tick_period) + s.speed_m_s / profile.deceleration_m_s2;
+  const double most_rad = MostTurnOf(profile) * stops_s;
+  const double turned_rad = std::clamp(steering.heading_error_rad, -most_rad, most_rad);
+  if (Magnitude(turned_rad) < kSmallTurn_rad) return std::nullopt;
+  const double heading_rad = s.world_from_body.heading_rad + turned_rad;
+  const Vec2 forward_world = {Cos(heading_rad), Sin(heading_rad)};
+  std::optional<TurnLimit> lowest;
+  for (const PeerView& view : s.peers) {
+    const double free_m = std::min(FreeAlong(view, forward_world, s), s.slows_m);
+    if (free_m >= s.slows_m || free_m >= view.free_m) continue;
+    const double limit = SpeedToStopWithin(free_m, s.reaction_s, profile.deceleration_m_s2);
+    if (!lowest || limit < lowest->max_speed_m_s) {
+      lowest = TurnLimit{limit, view.peer->id, view.peer->beacon.tick};
+    }
+  }
+  return lowest;
+}
 
 WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
                   double speed_m_s, bool may_turn) {
   if (speed_m_s <= 0 && !may_turn) return {};
   constexpr double kGain_per_s = 2.0;
   const double error = steering.heading_error_rad;
-  const double turn =
-      std::clamp(kGain_per_s * error, -profile.max_turn_rad_s / 2, profile.max_turn_rad_s / 2);
+  const double most_rad_s = MostTurnOf(profile);
+  const double turn = std::clamp(kGain_per_s * error, -most_rad_s, most_rad_s);
   const bool on_the_spot = Magnitude(error) > kTurnOnTheSpot_rad;
-  const double forward = SpeedBesideTurn(profile, now, turn, speed_m_s);
+  const double forward = std::min(SpeedBesideTurn(profile, now, turn, speed_m_s),
+                                  SpeedWithinTurn(profile, now, turn, most_rad_s));
   return WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
 }
 

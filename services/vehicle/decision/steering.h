@@ -18,6 +18,16 @@ struct Steering {
 // tangent past it on the side nearer to the goal, its left when both are alike.
 Steering SteerToGoal(const Situation& s);
 
+// The highest speed at which the stopping way stays clear of everyone's claim if the vehicle turns
+// as `steering` says; empty where the turn costs nothing of the way straight on. A turn is a choice
+// like a speed, and is held against the claims before it is made.
+struct TurnLimit {
+  double max_speed_m_s = 0;
+  VehicleId peer = kNobody;  // whose claim the turn leads to
+  Tick cause_tick = kNoTick;
+};
+std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s);
+
 // Braitenberg: wheel = base + sum of weight * activation (reference/lecture.md, behaviour A).
 struct Avoidance {
   WheelSpeeds wheels;

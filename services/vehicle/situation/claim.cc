@@ -12,10 +12,12 @@ constexpr double kFar_m = 1e6;
 // From inside a claim: how much the way out may lead inwards at first. It comes nearer by no more
 // than a thousandth of the distance, and a way square to it is not lost to rounding.
 constexpr double kAlong = 0.045;
+// The same of the body itself, past which a way out may lead: it comes nearer by a thirtieth.
+constexpr double kToBody = 0.25;
+// Slower than this it counts as one that may set off anywhere.
+constexpr double kStands_m_s = 0.02;
 // Faster than it says it cruises nobody goes but by slip and rounding.
 constexpr double kSpeedSlack = 1.1;
-// The brain's own limit on turning while it drives (steering.cc) is half of what a body can do.
-constexpr double kTurnWhileDriving_rad_s = 0.87;
 
 Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
   const double along = Dot(point - claim.axis.from_world, claim.axis.direction_world);
@@ -23,12 +25,49 @@ Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
          std::clamp(along, 0.0, claim.length_m) * claim.axis.direction_world;
 }
 
+// True if the path, begun at `offset` from something, leads no nearer to it, or hardly: the cosine
+// of the angle to it is below `inwards`.
+bool LeadsAway(Vec2 offset, const Path& path, double inwards) {
+  return Dot(offset, path.direction_world) > -inwards * Norm(offset);
+}
+
+// How fast it drives, or may at once: of one whose inner rim rolls back the centre speeds up as
+// soon as that rim brakes.
+double PaceOf(const Course& course, const DriveGeometry& drive) {
+  const double speed_m_s = Magnitude(course.speed_m_s);
+  const double outer_m_s = speed_m_s + Magnitude(course.turn_rad_s) * drive.axle_m / 2;
+  return std::max(speed_m_s, outer_m_s / 2);
+}
+
+// How fast the sender of `beacon` may drive after unknown_s.
+double MostSpeed(const Beacon& beacon, double pace_m_s, double unknown_s) {
+  const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace_m_s);
+  return std::min(most, pace_m_s + beacon.acceleration_m_s2 * unknown_s);
+}
+
+// How fast the sender of `beacon` may turn after unknown_s: one rim speeds up while the other
+// brakes.
+double MostTurn(const Beacon& beacon, double turn_rad_s, double unknown_s) {
+  const double change_rad_s =
+      (beacon.acceleration_m_s2 + beacon.deceleration_m_s2) / beacon.drive.axle_m * unknown_s;
+  return std::min(kTurnWhileDriving_rad_s, Magnitude(turn_rad_s) + change_rad_s);
+}
+
 }  // namespace
+
+double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double deceleration_m_s2) {
+  const double braking_s = speed_m_s / deceleration_m_s2;
+  return std::min(1.0, Magnitude(turn_rad_s) * (steady_s + braking_s / 3));
+}
+
+double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2) {
+  const double beside_m_s = turn_rad_s * axle_m / 2;
+  return beside_m_s * beside_m_s / (2 * deceleration_m_s2);
+}
 
 double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, double reaction_s) {
   const double pace = Magnitude(speed_m_s);
-  const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
-  const double fastest = std::min(most, pace + beacon.acceleration_m_s2 * unknown_s);
+  const double fastest = MostSpeed(beacon, pace, unknown_s);
   return (pace + fastest) / 2 * unknown_s +
          StoppingDistance(fastest, reaction_s, beacon.deceleration_m_s2);
 }
@@ -36,21 +75,33 @@ double ClaimLength(const Beacon& beacon, double speed_m_s, double unknown_s, dou
 bool IsClaimShort(const Beacon& beacon, double speed_m_s, double reaction_s, double length_m) {
   const double pace = Magnitude(speed_m_s);
   const double most = std::max(kSpeedSlack * beacon.cruise_m_s, pace);
-  const double braking_m = length_m - most * (1 + reaction_s);
+  const double rolls_on_m =
+      TurnRollsOn(kTurnWhileDriving_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
+  const double braking_m = length_m - most * (1 + reaction_s) - rolls_on_m;
   return most * most < 2 * beacon.deceleration_m_s2 * braking_m;
 }
 
 Claim ClaimOf(const Beacon& beacon, const Course& course, double unknown_s, double reaction_s) {
   const double speed = course.speed_m_s;
+  const double pace_m_s = PaceOf(course, beacon.drive);
   Claim claim;
   claim.axis = {beacon.world_from_body.position_world,
                 speed < 0 ? -1.0 * course.forward_world : course.forward_world};
   claim.length_m =
-      Has(Defect::kClaimWithoutWay) ? 0 : ClaimLength(beacon, speed, unknown_s, reaction_s);
+      Has(Defect::kClaimWithoutWay) ? 0 : ClaimLength(beacon, pace_m_s, unknown_s, reaction_s);
   claim.radius_m = beacon.body_radius_m;
-  // It may turn meanwhile: the far end swings. From standstill it may leave in any direction.
-  const double swing = std::min(1.0, kTurnWhileDriving_rad_s * unknown_s);
-  claim.radius_m += claim.length_m * (Magnitude(speed) < 0.02 ? 1.0 : swing);
+  // From standstill it may leave in any direction.
+  if (Magnitude(speed) < kStands_m_s) {
+    claim.radius_m += claim.length_m;
+    return claim;
+  }
+  // It may turn: the far end swings.
+  const double turn_rad_s = MostTurn(beacon, course.turn_rad_s, unknown_s);
+  claim.length_m += TurnRollsOn(turn_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
+  const double outer_m_s =
+      MostSpeed(beacon, pace_m_s, unknown_s) + Magnitude(turn_rad_s) * beacon.drive.axle_m / 2;
+  claim.radius_m += claim.length_m * SwingOf(turn_rad_s, unknown_s + reaction_s, outer_m_s,
+                                             beacon.deceleration_m_s2);
   return claim;
 }
 
@@ -58,7 +109,9 @@ double FreeBefore(const Claim& claim, const Path& path, double radius_m) {
   const double reach_m = radius_m + claim.radius_m;
   const Vec2 away = path.from_world - NearestOnAxis(claim, path.from_world);
   if (SquaredNorm(away) < reach_m * reach_m) {
-    return Dot(away, path.direction_world) > -kAlong * Norm(away) ? kFar_m : 0;
+    const Vec2 from_body = path.from_world - claim.axis.from_world;
+    const bool leads_out = LeadsAway(away, path, kAlong) && LeadsAway(from_body, path, kToBody);
+    return leads_out ? kFar_m : 0;
   }
   const Path tail = {claim.axis.from_world + claim.length_m * claim.axis.direction_world,
                      -1.0 * claim.axis.direction_world};

@@ -124,7 +124,7 @@ double UnknownSeconds(const Beacon& beacon, const Situation& s) {
 
 // How far apart the centre of this vehicle keeps from a claim.
 double ApartFrom(double sigma_m, const Situation& s) {
-  return s.options.profile.body_radius_m + kClearance_m + kSigmas * sigma_m;
+  return s.options.profile.body_radius_m + kClearance_m + s.sweeps_m + kSigmas * sigma_m;
 }
 
 // How far the centre of this vehicle surely keeps from a claim without length, and a bit more.
@@ -136,7 +136,10 @@ double KeptFrom(const Beacon& beacon, double sigma_m, const Situation& s) {
 // than its length and is no wider than that and the body.
 bool IsClaimFar(const Beacon& beacon, double speed_m_s, double sigma_m, double unknown_s,
                 const Situation& s) {
-  const double length_m = ClaimLength(beacon, speed_m_s, unknown_s, s.reaction_s);
+  const double length_m =
+      ClaimLength(beacon, Magnitude(speed_m_s) + kTurnWhileDriving_rad_s * beacon.drive.axle_m / 4,
+                  unknown_s, s.reaction_s) +
+      TurnRollsOn(kTurnWhileDriving_rad_s, beacon.drive.axle_m, beacon.deceleration_m_s2);
   const double far_m = s.slows_m + KeptFrom(beacon, sigma_m, s) + 2 * length_m;
   const Vec2 offset = beacon.world_from_body.position_world - s.world_from_body.position_world;
   return SquaredNorm(offset) > far_m * far_m;
@@ -188,7 +191,8 @@ double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s) {
   if (unknown_s > kClaimLasts_s || IsClaimFar(beacon, view.speed_m_s, view.sigma_m, unknown_s, s))
     return kFarAway_m;
   const Claim claim =
-      ClaimOf(beacon, {view.peer->told.forward_world, view.speed_m_s}, unknown_s, s.reaction_s);
+      ClaimOf(beacon, {view.peer->told.forward_world, view.speed_m_s, view.turn_rad_s}, unknown_s,
+              s.reaction_s);
   return FreeBefore(claim, {s.world_from_body.position_world, forward_world},
                     ApartFrom(view.sigma_m, s));
 }

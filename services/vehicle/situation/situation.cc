@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math/math.h"
+#include "services/vehicle/situation/claim.h"
 
 namespace giveway {
 namespace {
@@ -22,6 +23,14 @@ double OwnStoppingDistance(const Situation& s) {
   return StoppingDistance(speed, s.reaction_s + Seconds(s.options.tick_period),
                           s.options.profile.deceleration_m_s2) +
          kInHand_m;
+}
+
+double OwnSweep(const Situation& s) {
+  const double speed = std::max(0.0, s.speed_m_s);
+  const double steady_s = s.reaction_s + Seconds(s.options.tick_period);
+  const double deceleration_m_s2 = s.options.profile.deceleration_m_s2;
+  return StoppingDistance(speed, steady_s, deceleration_m_s2) *
+         SwingOf(s.turn_rad_s, steady_s, speed, deceleration_m_s2);
 }
 
 double StoppingDistanceOf(const PeerView& view, const Situation& s) {

@@ -93,6 +93,7 @@ struct Situation {
   PoseCovariance covariance;  // of world_from_body
   double reaction_s = 0;      // see ReactionSeconds
   double slows_m = 0;         // a free way no longer than this is too short for the cruise speed
+  double sweeps_m = 0;        // see OwnSweep
   double looks_m = 0;         // see LooksAround
   Path path;                  // towards the goal, or straight on
   double path_rad = 0;        // the heading along it, world frame
@@ -150,6 +151,9 @@ inline double ReactionSeconds(const VehicleOptions& options) {
 
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
 double OwnStoppingDistance(const Situation& s);
+
+// How far beside its straight stopping way this vehicle ends, turning as it does now.
+double OwnSweep(const Situation& s);
 
 // Distance the peer needs to stand still from its present speed, by what it says of its brakes.
 double StoppingDistanceOf(const PeerView& view, const Situation& s);
