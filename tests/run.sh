@@ -267,8 +267,14 @@ stage_virtual() {
     check "$seeds seeds of $generator" \
       bash tests/virtual/campaign.sh --generators "$generator" --seeds "$seeds"
   done
+  check "mixed fleets are drawn and judged" bash tests/virtual/table.sh 1 swarm parking
 }
-stage_planted() { prepare release fleetctl fleetctl_planted && check_lines bash tests/virtual/defects.sh; }
+stage_planted() {
+  prepare release fleetctl fleetctl_planted && check_lines bash tests/virtual/defects.sh
+  $full || return 0
+  prepare release fleetctl_mutants
+  check "defects chosen blindly are caught" bash tests/virtual/mutants.sh --least 16
+}
 
 stage_model() {
   prepare release fleetctl

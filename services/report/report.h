@@ -21,6 +21,14 @@ struct FirstViolation {
   VehicleId other = kNobody;
 };
 
+// The same of one of many virtual runs.
+struct SeedViolation {
+  std::uint32_t seed = 0;
+  double time_s = 0;  // since the start signal
+  FirstViolation what;
+  std::string rule;  // by which the vehicle drove or stood
+};
+
 // Field names, presence and meaning are those of the JSON object; see idl/report.proto.
 struct Report {
   std::string scenario;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "report.pb.h"
@@ -29,6 +30,18 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   message.set_failed_runs(report.failed_runs);
   message.set_contacts(report.contacts);
   SetViolations(report.violations, message.mutable_violations());
+  for (const SeedViolation& first : report.first_violations) {
+    schema::Violation& violation = *message.add_first_violations();
+    violation.set_invariant(first.what.invariant);
+    violation.set_tick(Number(first.what.tick));
+    violation.set_vehicle(Number(first.what.vehicle));
+    violation.set_other(Number(first.what.other));
+    violation.set_seed(first.seed);
+    violation.set_time_s(Rounded(first.time_s));
+    violation.set_rule(first.rule);
+  }
+  message.set_vehicles(report.vehicles);
+  message.set_arrived(report.arrived);
   if (!report.unmet.empty()) message.set_unmet(WellFormed(report.unmet));
   message.set_vehicle_hours(Rounded(report.vehicle_hours));
   message.set_vehicle_hours_per_minute(Rounded(report.vehicle_hours_per_minute));
@@ -41,6 +54,15 @@ schema::VirtualReport ToSchema(const VirtualReport& report) {
   for (const std::uint32_t seed : report.failing_seeds) message.add_failing_seeds(seed);
   message.set_jobs(report.jobs);
   return message;
+}
+
+// "seed 3, 12.35 s (tick 247): contact, vehicle 4 with 7, cruise".
+std::string LineOf(const SeedViolation& first) {
+  std::string line =
+      fmt::format("  seed {}, {:.2f} s (tick {}): {}, vehicle {}", first.seed, first.time_s,
+                  Number(first.what.tick), first.what.invariant, Number(first.what.vehicle));
+  if (first.what.other != kNobody) line += fmt::format(" with {}", Number(first.what.other));
+  return line + fmt::format(", {}\n", first.rule);
 }
 
 std::string_view VerdictWord(Verdict verdict) {
@@ -61,6 +83,7 @@ std::string ToJson(const VirtualReport& report) {
 }
 
 std::string ToText(const VirtualReport& report) {
+  constexpr std::size_t kLines = 20;
   std::string text =
       fmt::format("{}: {}, {}\n", report.scenario, VerdictWord(report.verdict), report.reason);
   text += fmt::format("  runs {}, failed {}, contacts {}\n", report.runs, report.failed_runs,
@@ -68,7 +91,14 @@ std::string ToText(const VirtualReport& report) {
   for (const BrokenInvariant& broken : report.violations) {
     if (broken.count > 0) text += fmt::format("  {} broken {} times\n", broken.name, broken.count);
   }
+  for (std::size_t i = 0; i < std::min(kLines, report.first_violations.size()); ++i) {
+    text += LineOf(report.first_violations[i]);
+  }
+  if (report.first_violations.size() > kLines) {
+    text += fmt::format("  and {} more in --json\n", report.first_violations.size() - kLines);
+  }
   if (!report.unmet.empty()) text += fmt::format("  {}\n", report.unmet);
+  text += fmt::format("  arrived {} of {} vehicles\n", report.arrived, report.vehicles);
   text += fmt::format("  {:.2f} vehicle-hours, {:.1f} a minute\n", report.vehicle_hours,
                       report.vehicle_hours_per_minute);
   if (report.delay_p50_s && report.delay_p99_s && report.delay_mean_s) {

@@ -21,6 +21,9 @@ struct VirtualReport {
   std::uint32_t contacts = 0;
   std::vector<BrokenInvariant> violations;  // by their names in the schema
   std::string unmet;
+  std::vector<SeedViolation> first_violations;
+  std::uint32_t vehicles = 0;
+  std::uint32_t arrived = 0;
   double vehicle_hours = 0;
   double vehicle_hours_per_minute = 0;
   std::optional<double> delay_p50_s;

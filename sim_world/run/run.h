@@ -96,6 +96,9 @@ class Run {
 
   // Null if no body of the vehicle is in the world.
   const Body* BodyOf(VehicleId vehicle) const;
+  // What moves beside the bodies, in the scenario's order.
+  std::span<const MovingObstacle> Obstacles() const { return world_.Obstacles(); }
+  std::span<const SlidingDoor> Doors() const { return world_.Doors(); }
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
   // True if nobody speaks for the vehicle any more, or yet.
   bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }

@@ -15,7 +15,33 @@ bool ExcludeEachOther(const VehicleOptions& a, const VehicleOptions& b) {
          a.profile.body_radius_m + b.profile.body_radius_m;
 }
 
+double WayOf(const VehicleOptions& options) {
+  double way_m = 0;
+  Vec2 at = options.start_world.position_world;
+  for (std::uint32_t i = 0; i < options.route.count; ++i) {
+    way_m += Norm(options.route.waypoints_world[i] - at);
+    at = options.route.waypoints_world[i];
+  }
+  return way_m + Norm(options.goal.at_world - at);
+}
+
 }  // namespace
+
+// Each wheel errs anew in each tick by a share of what it rolls, so that the heading is a random
+// walk and the place beside the way its sum.
+GoalTolerance ToleranceOf(const VehicleOptions& options) {
+  constexpr double kSigmas = 3;
+  constexpr double kDetour = 1.5;
+  const VehicleProfile& profile = options.profile;
+  const double squared =
+      profile.wheel_slip * profile.wheel_slip + profile.encoder_noise * profile.encoder_noise;
+  if (squared == 0 || !HasGoal(options)) return {};
+  const double way_m = kDetour * WayOf(options);
+  const double tick_m = options.cruise_m_s * Seconds(options.tick_period);
+  const double heading_rad = Sqrt(2 * squared) * tick_m / profile.drive.axle_m;
+  const double beside_m = heading_rad * way_m * Sqrt(way_m / tick_m / 3);
+  return {options.goal.at_world, options.goal.radius_m + kSigmas * beside_m};
+}
 
 // A vehicle belongs to the first group whose first member excludes it.
 Arriving WhoCanArrive(const Scenario& scenario) {

@@ -16,4 +16,13 @@ struct Arriving {
 // Of the vehicles that have a goal; not of those that join an open fleet.
 Arriving WhoCanArrive(const Scenario& scenario);
 
+// Where a vehicle may stand that has nothing but its wheels to know by that it has arrived, and
+// whose wheels slip or miscount: three standard deviations of what its heading drifts on the way,
+// half of the way again for turning out. beyond_m is 0 where they do neither: in its goal, then.
+struct GoalTolerance {
+  Vec2 at_world;
+  double beyond_m = 0;  // from the goal
+};
+GoalTolerance ToleranceOf(const VehicleOptions& options);
+
 }  // namespace giveway::sim

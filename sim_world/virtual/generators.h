@@ -20,7 +20,8 @@ struct Generator {
   std::string_view description;
   double most_radius_m =
       0.25;  // bodies that get through everywhere, and past each other where two lanes are
-  Scenario (*make)(const Size& size);
+  double through_m = 2;  // the longest of its places in which only one can be at a time
+  Scenario (*make)(const Size& size) = nullptr;
 };
 
 std::span<const Generator> Generators();

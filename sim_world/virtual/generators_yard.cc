@@ -126,12 +126,14 @@ Scenario MakeParking(const Size& size) {
 
 // The swarm's cells, and between the ways posts and pieces of wall that come as near to a passing
 // shell as 0.15 m, most of them 0.15 to 0.5: the nearest of some draws is taken. One obstacle walks
-// between two columns of cells, and stops for whoever is there.
+// to and fro along the rim, outside the cells: it stops only where it touches, and would walk into
+// one that stands.
 Scenario MakeMixedYard(const Size& size) {
   Layout layout("mixed_yard", size);
   constexpr double kCell_m = 2.4;
   constexpr double kMoved_m = 0.19;
   constexpr double kNearest_m = 0.15;
+  constexpr double kRim_m = 1.6;
   constexpr int kDraws = 60;
   const auto columns = static_cast<std::uint32_t>(
       std::max(3.0, std::ceil(std::sqrt(20.0 * size.vehicles) / kCell_m)));
@@ -163,7 +165,7 @@ Scenario MakeMixedYard(const Size& size) {
       layout.AddObstacle(Standing(best));
     }
   }
-  layout.AddObstacle(Walking(kCell_m * (static_cast<double>(columns / 2) - 0.5), side_m));
+  layout.AddObstacle(Walking(-kRim_m, side_m));
   return layout.Take();
 }
 

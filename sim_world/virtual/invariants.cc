@@ -13,6 +13,8 @@ constexpr std::uint32_t kUnknown = 0xffffffff;
 // How far a vehicle may be from where it says: what it says of its own doubt, and a little.
 constexpr double kPoseSigmas = 3;
 constexpr double kPoseSlack_m = 0.1;
+// Nearer to where it stood it has not gone on.
+constexpr double kOnePlace_m = 0.1;
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
 
@@ -26,9 +28,15 @@ bool Waits(const Observed& vehicle) {
 
 std::string_view Name(Invariant invariant) {
   constexpr std::array<std::string_view, kInvariantCount> kNames = {
-      "contact", "stale_motion", "wait_cycle", "wait_bound", "all_halted",
-      "order",   "arrival",      "pose",       "red_light",  "progress"};
+      "contact", "stale_motion", "wait_cycle", "wait_bound", "all_halted", "order", "arrival",
+      "pose",    "red_light",    "progress",   "clearance",  "claim",      "delay"};
   return kNames[static_cast<std::size_t>(invariant)];
+}
+
+InvariantSet RequiredInvariants() {
+  InvariantSet required;
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(Invariant::kProgress); ++i) required.set(i);
+  return required;
 }
 
 Invariants::Invariants(const Scenario& scenario, const InvariantLimits& limits)
@@ -38,9 +46,21 @@ Invariants::Invariants(const Scenario& scenario, const InvariantLimits& limits)
       wait_ticks_(TicksCovering(FromSeconds(limits.wait_s), scenario.tick_period)),
       watchdog_ticks_(scenario.watchdog_ticks),
       red_lights_(scenario),
-      progress_(scenario, limits.wedge_s) {
+      progress_(scenario, limits.wedge_s),
+      clearance_(scenario, limits.clearance_m),
+      claims_(scenario) {
   GIVEWAY_CHECK(limits.key_age_ticks < kRememberedKeys, limits.key_age_ticks);
   for (const VehicleOptions& options : scenario.vehicles) tracks_.push_back(TrackOf(options));
+  for (const auto& group : limits_.one_of) {
+    for (const VehicleId vehicle : group) {
+      const std::uint32_t index = IndexOf(vehicle);
+      if (index != kUnknown) tracks_[index].shares_goal = true;
+    }
+  }
+  for (const DueTime& due : limits_.due) {
+    const std::uint32_t index = IndexOf(due.vehicle);
+    if (index != kUnknown) tracks_[index].due_s = due.at_s;
+  }
   first_.reserve(kKeptViolations);
 }
 
@@ -49,7 +69,9 @@ Invariants::Track Invariants::TrackOf(const VehicleOptions& options) {
           .deceleration_m_s2 = options.profile.deceleration_m_s2,
           .acceleration_m_s2 = options.profile.acceleration_m_s2,
           .has_goal = HasGoal(options),
-          .last_position_world = options.start_world.position_world};
+          .last_position_world = options.start_world.position_world,
+          .on_route = !HasGoal(options) && options.route.count > 0,
+          .stands_world = options.start_world.position_world};
 }
 
 void Invariants::Admit(const VehicleOptions& options) {
@@ -61,15 +83,22 @@ void Invariants::Admit(const VehicleOptions& options) {
   }
   red_lights_.Admit(options);
   progress_.Admit(options);
+  clearance_.Admit(options);
 }
 
 void Invariants::Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other) {
   ++counts_[static_cast<std::size_t>(invariant)];
-  if (first_.size() < kKeptViolations) first_.push_back({invariant, tick, vehicle, other});
+  const std::uint32_t index = IndexOf(vehicle);
+  const Rule rule = index == kUnknown ? Rule::kNotRunning : tracks_[index].rule;
+  auto& kept = limits_.required.test(static_cast<std::size_t>(invariant)) ? first_ : noted_;
+  if (kept.size() < kKeptViolations) kept.push_back({invariant, tick, vehicle, other, rule});
 }
 
 bool Invariants::Held() const {
-  return std::ranges::all_of(counts_, [](std::uint32_t count) { return count == 0; });
+  for (std::size_t i = 0; i < kInvariantCount; ++i) {
+    if (counts_[i] > 0 && limits_.required.test(i)) return false;
+  }
+  return true;
 }
 
 std::uint32_t Invariants::IndexOf(VehicleId vehicle) const {
@@ -79,10 +108,11 @@ std::uint32_t Invariants::IndexOf(VehicleId vehicle) const {
 }
 
 void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
-                         std::span<const WorldEvent> events) {
+                         std::span<const WorldEvent> events, const Surroundings& around) {
   GIVEWAY_CHECK(vehicles.size() == tracks_.size());
   if (last_tick_ != kNoTick && tick != After(last_tick_, 1)) NoteGap(tick);
   last_tick_ = tick;
+  for (std::size_t i = 0; i < vehicles.size(); ++i) tracks_[i].rule = vehicles[i].decision.rule;
   for (const WorldEvent& event : events) {
     if (event.kind == EventKind::kContact) JudgeContact(event);
   }
@@ -94,7 +124,6 @@ void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> veh
                                                     now.position_world};
     if (now.present) JudgeStaleness(tick, now, &track);
     if (now.present) JudgePose(tick, now, &track);
-    JudgeWait(tick, now, &track);
     track.last_forward_m_s = now.forward_m_s;
     track.last_position_world = now.position_world;
   }
@@ -102,6 +131,8 @@ void Invariants::Observe(Tick tick, double time_s, std::span<const Observed> veh
   JudgeCircles(tick, vehicles);
   JudgeAllHalted(tick, vehicles);
   JudgeWays(tick, time_s, vehicles);
+  JudgeStanding(tick, vehicles);
+  JudgeBodies(tick, time_s, vehicles, around);
 }
 
 void Invariants::NoteGap(Tick tick) {
@@ -154,10 +185,23 @@ void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
   track->stale_limit_m_s = std::max(0.0, track->stale_limit_m_s - track->deceleration_m_s2 * dt_s_);
 }
 
-void Invariants::JudgeWait(Tick tick, const Observed& now, Track* track) {
-  track->waited_ticks = Waits(now) ? track->waited_ticks + 1 : 0;
-  if (track->waited_ticks == wait_ticks_ + 1) {
-    Tell(Invariant::kWaitBound, tick, now.vehicle, now.decision.peer);
+// By its place, which a name of a rule does not change, nor a little turning about.
+void Invariants::JudgeStanding(Tick tick, std::span<const Observed> vehicles) {
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    const Observed& now = vehicles[i];
+    Track& track = tracks_[i];
+    const bool waits = Waits(now);
+    const bool wants = MustArrive(track) || track.on_route;
+    const bool may = !now.present || now.arrived || track.shares_goal ||
+                     (!waits && (!wants || progress_.Excused(i)));
+    const bool left =
+        SquaredNorm(now.position_world - track.stands_world) > kOnePlace_m * kOnePlace_m;
+    if (may || left) {
+      track.stands_world = now.position_world;
+      track.stood_ticks = 0;
+    } else if (++track.stood_ticks == wait_ticks_ + 1) {
+      Tell(Invariant::kWaitBound, tick, now.vehicle, now.decision.peer);
+    }
   }
 }
 
@@ -249,13 +293,41 @@ void Invariants::JudgeWays(Tick tick, double time_s, std::span<const Observed> v
     Tell(Invariant::kRedLight, tick, vehicles[i].vehicle);
   }
   for (const std::uint32_t i : progress_.Observe(tick, time_s, red_lights_.AnyStops(), vehicles)) {
+    if (tracks_[i].shares_goal) continue;
     Tell(Invariant::kProgress, tick, vehicles[i].vehicle, vehicles[i].decision.peer);
   }
 }
 
+void Invariants::JudgeBodies(Tick tick, double time_s, std::span<const Observed> vehicles,
+                             const Surroundings& around) {
+  for (const TooNear& near : clearance_.Observe(vehicles, around)) {
+    Tell(Invariant::kClearance, tick, vehicles[near.vehicle].vehicle, near.other);
+  }
+  for (const std::uint32_t i : claims_.Observe(tick, vehicles)) {
+    Tell(Invariant::kClaim, tick, vehicles[i].vehicle);
+  }
+  for (std::size_t i = 0; i < vehicles.size(); ++i) {
+    Track& track = tracks_[i];
+    if (track.due_s <= 0 || time_s <= track.due_s) continue;
+    track.due_s = 0;
+    const Observed& now = vehicles[i];
+    if (now.arrived || !now.present || !now.lives || !MustArrive(track)) continue;
+    Tell(Invariant::kDelay, tick, now.vehicle, now.decision.peer);
+  }
+}
+
 bool Invariants::MustArrive(const Track& track) const {
-  if (!track.has_goal) return false;
+  if (!track.has_goal || track.shares_goal) return false;
   return !limits_.arriving || std::ranges::binary_search(*limits_.arriving, track.vehicle);
+}
+
+// Lives, or stands in its goal.
+bool Invariants::IsAnyOf(const std::vector<VehicleId>& group, std::span<const Observed> vehicles,
+                         bool arrived) const {
+  return std::ranges::any_of(vehicles, [&](const Observed& vehicle) {
+    const bool counts = arrived ? vehicle.arrived && Stands(vehicle) : vehicle.lives;
+    return counts && vehicle.present && std::ranges::binary_search(group, vehicle.vehicle);
+  });
 }
 
 void Invariants::Finish(Tick tick, std::span<const Observed> vehicles) {
@@ -263,8 +335,13 @@ void Invariants::Finish(Tick tick, std::span<const Observed> vehicles) {
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const Observed& vehicle = vehicles[i];
     anyone = anyone || vehicle.lives || vehicle.arrived;
-    if (!MustArrive(tracks_[i]) || !vehicle.present || !vehicle.lives || vehicle.arrived) continue;
+    if (!MustArrive(tracks_[i]) || !vehicle.present || !vehicle.lives) continue;
+    if (vehicle.arrived && Stands(vehicle)) continue;
     Tell(Invariant::kArrival, tick, vehicle.vehicle, vehicle.decision.peer);
+  }
+  for (const auto& group : limits_.one_of) {
+    if (IsAnyOf(group, vehicles, true) || !IsAnyOf(group, vehicles, false)) continue;
+    Tell(Invariant::kArrival, tick, group.front(), group.back());
   }
   if (!anyone) Tell(Invariant::kArrival, tick, vehicles.front().vehicle);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <bitset>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -13,6 +14,8 @@
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/scenario.h"
+#include "sim_world/virtual/claims.h"
+#include "sim_world/virtual/clearance.h"
 #include "sim_world/virtual/observed.h"
 #include "sim_world/virtual/progress.h"
 #include "sim_world/virtual/red_lights.h"
@@ -23,22 +26,38 @@ enum class Invariant : std::uint8_t {
   kContact,      // no contact that a moving vehicle caused
   kStaleMotion,  // no motion on stale data: at the latest the braking is under way
   kWaitCycle,    // who halts to give way and to whom: never in a circle
-  kWaitBound,    // nobody halts to give way for longer than a bound
+  kWaitBound,    // nobody stands on one place for longer than a bound, whatever it says it is for
   kAllHalted,    // never do all who are not there yet halt to give way, each for another
   kOrder,        // who halts to give way comes later in the order, as both published it
   kArrival,      // everyone who lives arrives within the duration, and somebody lives
   kPose,         // where a beacon says its vehicle was, it was: as nearly as the beacon says
   kRedLight,     // nobody drives past a red light: red_lights.h
   kProgress,     // nobody is wedged: progress.h
+  // Counted and told of in virtual runs, and held to where that is asked for: RequiredInvariants.
+  kClearance,  // nobody drives nearer to anything than its margin: clearance.h
+  kClaim,      // every body is where its beacons claim that it can be: claims.h
+  kDelay,      // everyone arrives when it is due
 };
-inline constexpr std::size_t kInvariantCount = 10;
+inline constexpr std::size_t kInvariantCount = 13;
 std::string_view Name(Invariant invariant);
+
+// By number of the invariant.
+using InvariantSet = std::bitset<kInvariantCount>;
+// What a run has to hold to pass; all but the last three.
+InvariantSet RequiredInvariants();
 
 struct Violation {
   Invariant invariant = Invariant::kContact;
   Tick tick = kNoTick;
-  VehicleId vehicle = kNobody;  // at fault, or the first concerned
-  VehicleId other = kNobody;    // the other one, where there is one
+  VehicleId vehicle = kNobody;    // at fault, or the first concerned
+  VehicleId other = kNobody;      // the other one, where there is one
+  Rule rule = Rule::kNotRunning;  // by which the vehicle drove or stood, by its own word
+};
+
+// By when a vehicle must have arrived, since the start signal.
+struct DueTime {
+  VehicleId vehicle = kNobody;
+  double at_s = 0;
 };
 
 struct InvariantLimits {
@@ -53,6 +72,11 @@ struct InvariantLimits {
   double wedge_s = 60;  // kProgress: how long a crowd may come no further
   // kArrival: only of these, ascending; absent: of all that have a goal.
   std::optional<std::vector<VehicleId>> arriving;
+  // kArrival: of each of these groups, ascending, one that lives; all of them may stand for ever.
+  std::vector<std::vector<VehicleId>> one_of;
+  double clearance_m = 0.05;  // kClearance: what vehicles keep from claims (vehicle/situation)
+  std::vector<DueTime> due;   // kDelay, ascending; who is not named may take as long as it likes
+  InvariantSet required = RequiredInvariants();
 };
 
 class Invariants {
@@ -69,7 +93,7 @@ class Invariants {
   // those since the last one. Ticks may be missing: what must last from tick to tick to be wrong
   // then begins anew.
   void Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
-               std::span<const WorldEvent> events);
+               std::span<const WorldEvent> events, const Surroundings& around = {});
   // At the end of the run: who has not arrived? In a closed one, does nobody live?
   void Finish(Tick tick, std::span<const Observed> vehicles);
 
@@ -77,9 +101,12 @@ class Invariants {
   std::uint32_t Count(Invariant invariant) const {
     return counts_[static_cast<std::size_t>(invariant)];
   }
+  // Of those that are required.
   bool Held() const;
-  // The first ones, in order of time.
+  // The first ones of those that are required, in order of time.
   std::span<const Violation> First() const { return first_; }
+  // The first ones of the others.
+  std::span<const Violation> FirstNoted() const { return noted_; }
 
  private:
   // By the truth.
@@ -98,7 +125,13 @@ class Invariants {
     std::uint32_t stale_ticks = 0;
     double stale_limit_m_s = 0;  // what the faster wheel may still be rolling at
     bool stale_told = false;
-    std::uint32_t waited_ticks = 0;
+    bool on_route = false;  // for ever
+    bool shares_goal =
+        false;  // of one of kArrival's groups: it may stand where another has arrived
+    Rule rule = Rule::kNotRunning;
+    double due_s = 0;   // 0: never, or told
+    Vec2 stands_world;  // has not left it for so many ticks
+    std::uint32_t stood_ticks = 0;
     bool order_told = false;
     std::array<OrderKey, kRememberedKeys> keys{};  // [tick % kRememberedKeys]
     std::array<Place, kRememberedKeys> places{};   // the same
@@ -111,13 +144,17 @@ class Invariants {
   void Tell(Invariant invariant, Tick tick, VehicleId vehicle, VehicleId other = kNobody);
   void JudgeContact(const WorldEvent& event);
   void JudgeStaleness(Tick tick, const Observed& now, Track* track);
-  void JudgeWait(Tick tick, const Observed& now, Track* track);
+  void JudgeStanding(Tick tick, std::span<const Observed> vehicles);
   void JudgeOrder(Tick tick, const Observed& now, Track* track);
   void JudgePose(Tick tick, const Observed& now, Track* track);
   void JudgeCircles(Tick tick, std::span<const Observed> vehicles);
   void JudgeAllHalted(Tick tick, std::span<const Observed> vehicles);
   void JudgeWays(Tick tick, double time_s, std::span<const Observed> vehicles);
+  void JudgeBodies(Tick tick, double time_s, std::span<const Observed> vehicles,
+                   const Surroundings& around);
   bool MustArrive(const Track& track) const;
+  bool IsAnyOf(const std::vector<VehicleId>& group, std::span<const Observed> vehicles,
+               bool arrived) const;
   std::uint32_t IndexOf(VehicleId vehicle) const;
   VehicleId MoreAtFault(const WorldEvent& contact) const;
 
@@ -129,12 +166,15 @@ class Invariants {
   std::vector<Track> tracks_;
   std::array<std::uint32_t, kInvariantCount> counts_{};
   std::vector<Violation> first_;
+  std::vector<Violation> noted_;
   Tick last_tick_ = kNoTick;
   std::uint32_t keys_known_at_ = 0;  // the tick from which on enough keys are remembered
   std::uint32_t circle_ticks_ = 0;
   std::uint32_t halted_ticks_ = 0;
   RedLights red_lights_;
   Progress progress_;
+  Clearance clearance_;
+  Claims claims_;
 };
 
 }  // namespace giveway::sim

@@ -5,7 +5,7 @@
 
 #include "services/types/check.h"
 #include "services/types/math/math.h"
-#include "sim_world/virtual/virtual_run.h"
+#include "sim_world/virtual/due_times.h"
 
 namespace giveway::sim {
 namespace {

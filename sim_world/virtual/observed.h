@@ -17,6 +17,7 @@ struct Observed {
   bool lives = false;    // its process runs
   bool arrived = false;
   Vec2 position_world;
+  double heading_rad = 0;
   double forward_m_s = 0;
   double rim_m_s = 0;       // of the faster wheel: what brakes is a wheel, not the middle
   Tick answered = kNoTick;  // the scan its last command answers
@@ -26,6 +27,10 @@ struct Observed {
   Tick stated = kNoTick;  // what its last beacon says of where it was at that tick
   Vec2 stated_position_world;
   PoseCovariance stated_covariance;
+  // The whole of it, valid until the next tick; null where it is not known: what needs it is not
+  // judged.
+  const Beacon* beacon = nullptr;
+  bool stops = false;  // its last command is for wheels that stand; known where the beacon is
 };
 
 // Of the faster wheel.

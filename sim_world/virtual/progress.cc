@@ -135,7 +135,8 @@ std::span<const std::uint32_t> Progress::Observe(Tick tick, double time_s, bool 
     const Observed& now = vehicles[i];
     if (!IsInCrowd(now)) track.under_way = false;
     const bool moves_on = !IsInCrowd(now) || MakesProgress(now, &track);
-    if (moves_on || IsExcused(now, time_s, red)) track.progress = tick;
+    track.excused = IsExcused(now, time_s, red);
+    if (moves_on || track.excused) track.progress = tick;
     if (track.progress == tick) track.told = false;
   }
   if (Number(tick) % second_ticks_ != 0) return wedged_;

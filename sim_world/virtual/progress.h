@@ -35,6 +35,9 @@ class Progress {
   std::span<const std::uint32_t> Observe(Tick tick, double time_s, bool red,
                                          std::span<const Observed> vehicles);
 
+  // By the last tick: the vehicle need not come further, whatever the reason of the others.
+  bool Excused(std::size_t index) const { return tracks_[index].excused; }
+
  private:
   struct Track {
     VehicleId vehicle = kNobody;
@@ -46,6 +49,7 @@ class Progress {
     double nearest_m = 0;        // to it, or to the goal; so far on this leg
     Tick progress = kNoTick;     // the last
     bool told = false;
+    bool excused = false;
   };
 
   static Track TrackOf(const VehicleOptions& options);

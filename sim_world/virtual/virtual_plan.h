@@ -85,6 +85,8 @@ struct VirtualPlan {
   std::vector<ProcessFault> faults;
   // On top of these, as real runs have it; virtual_faults.h says which of it is carried out.
   faults::Schedule schedule;
+  // Of the invariants that are else only counted: bit i for invariant i.
+  std::uint32_t also_required = 0;
 };
 
 }  // namespace giveway::sim

@@ -5,12 +5,22 @@
 #include "services/types/math/math.h"
 #include "services/types/state_hash.h"
 #include "sim_world/geometry/ticks.h"
+#include "sim_world/virtual/arriving.h"
+#include "sim_world/virtual/generators.h"
 #include "sim_world/virtual/virtual_faults.h"
 
 namespace giveway::sim {
 namespace {
 
-void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
+// It stands where by dead reckoning its goal may be.
+bool BelievesArrived(const Observed& now, const GoalTolerance& tolerance) {
+  return tolerance.beyond_m > 0 && now.decision.rule == Rule::kArrived &&
+         Magnitude(now.forward_m_s) < kStandstill_m_s &&
+         Norm(now.position_world - tolerance.at_world) <= tolerance.beyond_m;
+}
+
+void Look(const VirtualFleet& fleet, std::span<const GoalTolerance> tolerances,
+          std::vector<Observed>* observed) {
   std::size_t index = 0;
   for (const Truth& truth : fleet.World().Truths()) {
     while (index < observed->size() && (*observed)[index].vehicle != truth.vehicle) ++index;
@@ -21,6 +31,7 @@ void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
     now.lives = fleet.Answered(index);
     now.arrived = truth.arrived;
     now.position_world = truth.world_from_body.position_world;
+    now.heading_rad = truth.world_from_body.heading_rad;
     now.forward_m_s = truth.forward_m_s;
     now.rim_m_s = RimSpeed(fleet.TheScenario().vehicles[index].profile.drive, truth.wheels);
     now.answered = said.command.tick;
@@ -30,6 +41,9 @@ void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
     now.stated = said.beacon.tick;
     now.stated_position_world = said.beacon.world_from_body.position_world;
     now.stated_covariance = said.beacon.covariance;
+    now.beacon = &said.beacon;
+    now.stops = said.command.target == WheelSpeeds{};
+    now.arrived = now.arrived || (now.present && BelievesArrived(now, tolerances[index]));
   }
 }
 
@@ -54,6 +68,7 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
   outcome->delays_s = DelaysOf(fleet);
   outcome->held = invariants.Held();
   outcome->first.assign(invariants.First().begin(), invariants.First().end());
+  outcome->noted.assign(invariants.FirstNoted().begin(), invariants.FirstNoted().end());
   for (std::size_t i = 0; i < kInvariantCount; ++i) {
     outcome->violations[i] = invariants.Count(static_cast<Invariant>(i));
   }
@@ -68,20 +83,6 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
 }
 
 }  // namespace
-
-double FreeFlowSeconds(const VehicleOptions& options) {
-  double way_m = 0;
-  Vec2 at = options.start_world.position_world;
-  for (std::uint32_t i = 0; i < options.route.count; ++i) {
-    way_m += Norm(options.route.waypoints_world[i] - at);
-    at = options.route.waypoints_world[i];
-  }
-  way_m += Norm(options.goal.at_world - at);
-  way_m = std::max(0.0, way_m - options.goal.radius_m);
-  const double cruise = options.cruise_m_s;
-  return way_m / cruise + cruise / (2 * options.profile.acceleration_m_s2) +
-         cruise / (2 * options.profile.deceleration_m_s2);
-}
 
 InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses) {
   InvariantLimits limits;
@@ -109,7 +110,14 @@ InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
   for (const RadioRule& rule : translated.radio.rules) {
     late = std::max(late, radio.delay + radio.jitter + rule.delay);
   }
-  return LimitsFor(scenario, TicksCovering(late, scenario.tick_period), loses);
+  InvariantLimits limits = LimitsFor(scenario, TicksCovering(late, scenario.tick_period), loses);
+  // A file says itself what it expects; a generator knows who can arrive, and how long it may take.
+  if (const Generator* generator = FindGenerator(scenario.name)) {
+    limits.one_of = WhoCanArrive(scenario).one_of;
+    limits.due = DueTimes(scenario, generator->through_m);
+  }
+  limits.required |= InvariantSet(plan.also_required);
+  return limits;
 }
 
 VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
@@ -117,21 +125,26 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
   VirtualFleet fleet(scenario, plan);
   Invariants invariants(scenario, LimitsFor(scenario, plan));
   std::vector<Observed> observed;
+  std::vector<GoalTolerance> tolerances;
   for (const VehicleOptions& options : scenario.vehicles) {
     observed.push_back({.vehicle = options.id});
+    tolerances.push_back(ToleranceOf(options));
   }
   VirtualOutcome outcome;
+  outcome.tick_s = Seconds(scenario.tick_period);
   outcome.vehicles = static_cast<std::uint32_t>(scenario.vehicles.size());
   std::uint64_t vehicle_ticks = 0;
   for (bool goes_on = true; goes_on;) {
     goes_on = fleet.Advance();
-    Look(fleet, &observed);
+    Look(fleet, tolerances, &observed);
     invariants.Observe(fleet.World().Now(), fleet.World().TimeSeconds(), observed,
-                       fleet.World().Events());
+                       fleet.World().Events(), {fleet.World().Obstacles(), fleet.World().Doors()});
     vehicle_ticks += fleet.World().Scans().size();
     if (watch) watch(fleet);
   }
   invariants.Finish(fleet.World().Now(), observed);
+  outcome.arrived =
+      static_cast<std::uint32_t>(std::ranges::count(observed, true, &Observed::arrived));
   outcome.vehicle_seconds = static_cast<double>(vehicle_ticks) * Seconds(scenario.tick_period);
   Conclude(fleet, invariants, &outcome);
   return outcome;

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "services/types/scenario.h"
+#include "sim_world/virtual/due_times.h"
 #include "sim_world/virtual/invariants.h"
 #include "sim_world/virtual/virtual_fleet.h"
 #include "sim_world/virtual/virtual_plan.h"
@@ -17,22 +19,22 @@ namespace giveway::sim {
 
 struct VirtualOutcome {
   std::uint32_t vehicles = 0;
+  std::uint32_t arrived = 0;  // stand in their goals at the end
   std::uint32_t ticks = 0;
+  double tick_s = 0;           // of one tick
   double vehicle_seconds = 0;  // simulated
   std::uint32_t contacts = 0;
   std::array<std::uint32_t, kInvariantCount> violations{};
   bool held = false;                   // every invariant
   std::string unmet;                   // of the scenario's own expectations; empty: none
   std::vector<Violation> first;        // violations, in order of time
+  std::vector<Violation> noted;        // of invariants that are not required, the same
   std::vector<double> delays_s;        // of those who arrived: beyond the free-flow time
   std::optional<double> clear_s;       // the last arrival, if everyone living arrived
   std::optional<double> separation_m;  // the closest two shells ever came
   TrustCounters trust;                 // of all brains, as they ended
   std::uint64_t hash = 0;              // of every command and the last state
 };
-
-// Seconds a vehicle alone would take: its way at cruise speed, speeding up and slowing down.
-double FreeFlowSeconds(const VehicleOptions& options);
 
 // The limits under which a run with this plan can be held to its invariants: what is lost or late
 // on the radio is known later, and long queues wait longer.

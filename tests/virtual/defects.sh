@@ -87,5 +87,5 @@ done <"$here/defects.txt"
 # A defect without a line is one that nobody looks for.
 while read -r defect; do
   [[ -n ${tried[$defect]:-} ]] || report false "$defect: has no line in defects.txt"
-done < <(sed -n 's/^ *{"\([a-z_]*\)", Defect::k.*/\1/p' "$here/planted_main.cc")
+done < <(sed -n 's/^ *{"\([a-z_]*\)", Defect::k.*/\1/p' "$root/tests/support/planted_names.h")
 exit "$failed"

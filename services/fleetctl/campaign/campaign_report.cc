@@ -37,7 +37,7 @@ void WriteFigures(const CampaignSums& sums, schema::CampaignFigures* message) {
 std::string Reason(const CampaignSums& all) {
   std::string names;
   for (std::size_t i = 0; i < all.violations.size(); ++i) {
-    if (all.violations[i] == 0) continue;
+    if (all.violations[i] == 0 || !sim::RequiredInvariants().test(i)) continue;
     names += (names.empty() ? "" : ", ") + std::string(sim::Name(static_cast<sim::Invariant>(i)));
   }
   if (all.unmet > 0) names += names.empty() ? "expectation" : ", expectation";

@@ -27,15 +27,19 @@ double Percentile(const std::vector<double>& sorted, double share) {
   return sorted[rank];
 }
 
-std::string BrokenNames(const std::vector<BrokenInvariant>& violations) {
+// Of those by which a run fails.
+std::string BrokenNames(const std::vector<BrokenInvariant>& violations,
+                        sim::InvariantSet required) {
   std::string names;
-  for (const BrokenInvariant& broken : violations) {
+  for (std::size_t i = 0; i < violations.size(); ++i) {
+    const BrokenInvariant& broken = violations[i];
+    if (i < required.size() && !required.test(i)) continue;
     if (broken.count > 0) names += (names.empty() ? "" : ", ") + broken.name;
   }
   return names;
 }
 
-VirtualReport ReportOf(const BatchTotals& totals, double wall_s) {
+VirtualReport ReportOf(const BatchTotals& totals, double wall_s, sim::InvariantSet required) {
   VirtualReport report;
   report.runs = totals.runs;
   report.failed_runs = static_cast<std::uint32_t>(totals.failing_seeds.size());
@@ -48,6 +52,9 @@ VirtualReport ReportOf(const BatchTotals& totals, double wall_s) {
   if (totals.unmet > 0) {
     report.unmet = fmt::format("seed {}: {}", totals.first_unmet_seed, totals.first_unmet);
   }
+  report.first_violations = totals.first_violations;
+  report.vehicles = totals.vehicles;
+  report.arrived = totals.arrived;
   report.vehicle_hours = totals.vehicle_seconds / 3600;
   if (wall_s > 0) report.vehicle_hours_per_minute = totals.vehicle_seconds / 60 / wall_s;
   if (!totals.delays_s.empty()) {
@@ -64,7 +71,7 @@ VirtualReport ReportOf(const BatchTotals& totals, double wall_s) {
                               totals.failing_seeds.begin() + static_cast<std::ptrdiff_t>(shown));
   const bool failed = !totals.failing_seeds.empty();
   report.verdict = failed ? Verdict::kFailed : Verdict::kPassed;
-  report.reason = failed ? BrokenNames(report.violations) : "all_held";
+  report.reason = failed ? BrokenNames(report.violations, required) : "all_held";
   return report;
 }
 
@@ -118,7 +125,9 @@ int RunAll(const VirtualOptions& options) {
       return Interrupts::Count() == 0;
     });
   }
-  VirtualReport report = ReportOf(totals, Seconds(SteadyNow() - start));
+  VirtualReport report =
+      ReportOf(totals, Seconds(SteadyNow() - start),
+               sim::RequiredInvariants() | sim::InvariantSet(options.made_by.also_required));
   report.scenario = maker.Name();
   report.jobs = options.jobs;
   if (Interrupts::Count() > 0) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "services/fleetctl/virtual/virtual_workers.h"
 
@@ -10,6 +11,32 @@ namespace {
 
 // A sum over the seeds is the same in any order.
 std::uint64_t OfOneRun(std::uint32_t seed, std::uint64_t hash) { return Random(hash, seed).Next(); }
+
+// Which they are must not hang on which thread was first.
+constexpr std::size_t kViolationsShown = 100;
+
+void KeepFirst(std::vector<SeedViolation>* violations) {
+  std::ranges::stable_sort(*violations, {}, &SeedViolation::seed);
+  if (violations->size() > kViolationsShown) violations->resize(kViolationsShown);
+}
+
+// Those that fail the run before those that do not, each kind once.
+std::vector<SeedViolation> FirstOf(std::uint32_t seed, const sim::VirtualOutcome& outcome) {
+  std::vector<SeedViolation> first;
+  for (const auto* violations : {&outcome.first, &outcome.noted}) {
+    for (const sim::Violation& violation : *violations) {
+      const std::string name(sim::Name(violation.invariant));
+      const bool told = std::ranges::any_of(
+          first, [&](const SeedViolation& other) { return other.what.invariant == name; });
+      if (told) continue;
+      first.push_back({seed,
+                       Number(violation.tick) * outcome.tick_s,
+                       {name, violation.tick, violation.vehicle, violation.other},
+                       std::string(Name(violation.rule))});
+    }
+  }
+  return first;
+}
 
 }  // namespace
 
@@ -24,6 +51,10 @@ void BatchTotals::Add(std::uint32_t seed, const sim::VirtualOutcome& outcome,
     first_unmet = outcome.unmet;
   }
   if (missed) ++unmet;
+  for (SeedViolation& first : FirstOf(seed, outcome)) first_violations.push_back(std::move(first));
+  if (first_violations.size() > 2 * kViolationsShown) KeepFirst(&first_violations);
+  vehicles += outcome.vehicles;
+  arrived += outcome.arrived;
   vehicle_seconds += outcome.vehicle_seconds;
   delays_s.insert(delays_s.end(), outcome.delays_s.begin(), outcome.delays_s.end());
   if (outcome.separation_m && (!separation_m || *outcome.separation_m < *separation_m)) {
@@ -49,6 +80,7 @@ BatchTotals RunBatch(const CaseMaker& maker, const WholeRange& seeds, std::uint3
     const std::lock_guard lock(mutex);
     return progress(totals);
   });
+  KeepFirst(&totals.first_violations);
   std::ranges::sort(totals.failing_seeds);
   std::ranges::sort(totals.delays_s);
   return totals;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/fleetctl/virtual/virtual_case.h"
+#include "services/report/report.h"
 #include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::fleetctl {
@@ -27,6 +28,10 @@ struct BatchTotals {
   std::optional<double> separation_m;
   TrustCounters trust;
   std::uint64_t hash = 0;
+  // Of each seed the first of each invariant; of the first seeds, as many as a report shows.
+  std::vector<SeedViolation> first_violations;
+  std::uint32_t vehicles = 0;
+  std::uint32_t arrived = 0;
   std::vector<std::uint32_t> failing_seeds;  // ascending once the batch is over
 
   void Add(std::uint32_t seed, const sim::VirtualOutcome& outcome, bool judge_expectations);

@@ -215,6 +215,7 @@ VirtualCase CaseMaker::Make(std::uint32_t seed) const {
   Random dice(seed, kDraws);
   VirtualCase made{MakeScenario(seed, &dice), {}};
   made.plan.seed = options_.radio_seed.value_or(seed);
+  made.plan.also_required = options_.also_required;
   made.plan.radio = RadioOf(options_, &dice);
   using Kind = sim::ProcessFaultKind;
   AddFaults(Kind::kCrash, options_.crashes, made.scenario, &dice, &made.plan.faults);

@@ -34,6 +34,7 @@ struct CaseOptions {
   std::optional<WholeRange> vehicles;  // of a generator, or of an open fleet
   std::optional<Behaviour> behaviour;
   FleetChoice fleet;
+  std::uint32_t also_required = 0;   // as of VirtualPlan
   std::optional<double> duration_s;  // of a scenario; absent: its own, or kEndless_s
   NumberRange loss_percent;
   bool burst = false;  // the loss comes in bursts, the mean is the same

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/config/flags.h"
+#include "sim_world/virtual/invariants.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -140,6 +141,22 @@ void AddRobotFlags(CLI::App* verb, CaseOptions* made_by) {
       "Percent of wheel slip and of encoder noise, or LO..HI: each vehicle draws both");
 }
 
+void AddJudgeFlag(CLI::App* verb, CaseOptions* made_by) {
+  verb->add_option_function<std::vector<std::string>>(
+          "--judge",
+          [made_by](const std::vector<std::string>& names) {
+            for (const std::string& name : names) {
+              for (std::uint32_t i = 0; i < sim::kInvariantCount; ++i) {
+                const bool meant = name == "all" || name == Name(static_cast<sim::Invariant>(i));
+                if (meant) made_by->also_required |= 1U << i;
+              }
+            }
+          },
+          "Invariants that are else only counted fail a run too: clearance, claim, delay, or all")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"clearance", "claim", "delay", "all"}));
+}
+
 void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
   AddCountFlag(verb, "--crashes", &made_by->crashes, "Vehicles that die in each run");
   AddCountFlag(verb, "--pauses", &made_by->pauses, "Processes that stand still for a while");
@@ -194,6 +211,7 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
   AddRadioFlags(verb, made_by);
   AddFaultFlags(verb, made_by);
+  AddJudgeFlag(verb, made_by);
 }
 
 }  // namespace giveway::fleetctl

@@ -43,6 +43,23 @@ TEST(VirtualReportAsJson, HasTheFieldsOfTheSchemaOnOneLine) {
   }
 }
 
+TEST(VirtualReport, NamesWhoBrokeWhatWhen) {
+  VirtualReport report = Failed();
+  report.first_violations = {
+      {7, 12.35, {"contact", Tick{247}, VehicleId{4}, VehicleId{9}}, "cruise"},
+      {99, 3, {"clearance", Tick{60}, VehicleId{2}, kNobody}, "obstacle"}};
+  report.vehicles = 20;
+  report.arrived = 18;
+  const std::string text = ToText(report);
+  EXPECT_THAT(text, HasSubstr("seed 7, 12.35 s (tick 247): contact, vehicle 4 with 9, cruise\n"));
+  EXPECT_THAT(text, HasSubstr("seed 99, 3.00 s (tick 60): clearance, vehicle 2, obstacle\n"));
+  EXPECT_THAT(text, HasSubstr("arrived 18 of 20 vehicles"));
+  const std::string json = ToJson(report);
+  EXPECT_THAT(json, HasSubstr(R"({"invariant":"contact","tick":247,"vehicle":4,"other":9,"seed":7,)"
+                              R"("time_s":12.35,"rule":"cruise"})"));
+  EXPECT_THAT(json, HasSubstr(R"("arrived":18)"));
+}
+
 TEST(VirtualReportAsJson, LeavesOutTheDelayIfNobodyArrived) {
   VirtualReport report = Failed();
   report.delay_p50_s.reset();

@@ -48,6 +48,13 @@ class InvariantsTest : public testing::Test {
   void Observe(int ticks) {
     for (int i = 0; i < ticks; ++i) Observe();
   }
+  // They come on by as much as they are fast.
+  void Drive(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      for (Observed& vehicle : now_) vehicle.position_world.x += vehicle.forward_m_s * kTick_s;
+      Observe();
+    }
+  }
   Observed& Vehicle(std::uint32_t id) { return now_[id - 1]; }
   void Halt(std::uint32_t id, Rule rule, std::uint32_t peer) {
     Vehicle(id).forward_m_s = 0;
@@ -69,7 +76,10 @@ TEST_F(InvariantsTest, HoldWhileNothingIsWrong) {
   Observe(100);
   Halt(3, Rule::kGiveWay, 1);
   Observe(100);
-  for (Observed& vehicle : now_) vehicle.arrived = true;
+  for (Observed& vehicle : now_) {
+    vehicle.arrived = true;
+    vehicle.forward_m_s = 0;
+  }
   invariants_->Finish(Tick{tick_}, now_);
   EXPECT_TRUE(invariants_->Held());
   EXPECT_TRUE(invariants_->First().empty());
@@ -155,20 +165,20 @@ TEST_F(InvariantsTest, WhoOnlyBrakesDoesNotWaitYet) {
 TEST_F(InvariantsTest, WaitingIsBounded) {
   Begin({.wait_s = 1});
   Halt(3, Rule::kGiveWay, 1);
-  Observe(20);
+  Drive(20);
   EXPECT_EQ(Count(Invariant::kWaitBound), 0U);
-  Observe(20);
+  Drive(20);
   EXPECT_EQ(Count(Invariant::kWaitBound), 1U);
 }
 
 TEST_F(InvariantsTest, AWaitThatEndsBeginsAnew) {
   Begin({.wait_s = 1});
   Halt(3, Rule::kGiveWay, 1);
-  Observe(15);
-  Vehicle(3).forward_m_s = 0.1;
-  Observe();
+  Drive(15);
+  Vehicle(3).forward_m_s = 2.1;
+  Drive(1);
   Vehicle(3).forward_m_s = 0;
-  Observe(15);
+  Drive(15);
   EXPECT_EQ(Count(Invariant::kWaitBound), 0U);
 }
 
@@ -235,6 +245,7 @@ TEST_F(InvariantsTest, OfTwoThatActByOneKeyTheLowerIdGoesFirst) {
 
 TEST_F(InvariantsTest, WhoLivesAndHasAGoalMustArrive) {
   Vehicle(1).arrived = true;
+  Vehicle(1).forward_m_s = 0;
   Vehicle(2).lives = false;
   Observe();
   invariants_->Finish(Tick{tick_}, now_);
@@ -275,6 +286,73 @@ TEST_F(InvariantsTest, OfAPlaceToldLongAgoOrBeforeTheFirstScanNothingIsSaid) {
     Observe();
   }
   EXPECT_TRUE(invariants_->Held());
+}
+
+// Whatever it calls its reason: a word is not a way on.
+TEST_F(InvariantsTest, StandingIsBoundWhateverItIsFor) {
+  Begin({.wait_s = 2});
+  for (const Rule rule : {Rule::kObstacle, Rule::kKeepClear, Rule::kCruise, Rule::kGiveWay}) {
+    for (int i = 0; i < 10; ++i) {
+      Halt(1, rule, 0);
+      Observe();
+    }
+  }
+  EXPECT_EQ(Count(Invariant::kWaitBound), 0U);  // 40 ticks are 2 s
+  Observe(2);
+  EXPECT_EQ(Count(Invariant::kWaitBound), 3U);  // none of them has moved
+}
+
+TEST_F(InvariantsTest, WhoCreepsOrTurnsAboutOnOnePlaceStands) {
+  Begin({.wait_s = 2});
+  for (int i = 0; i < 45; ++i) {
+    Vehicle(1).position_world = {i % 2 == 0 ? 0.0 : 0.05, 0};
+    Vehicle(2).position_world.x += 0.01;
+    Vehicle(3).position_world.x += 0.01;
+    Observe();
+  }
+  EXPECT_EQ(Count(Invariant::kWaitBound), 1U);
+  EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{1});
+}
+
+TEST_F(InvariantsTest, OfThoseWhoShareAGoalOneMustArriveAndTheOthersMayStand) {
+  Begin({.wait_s = 2, .one_of = {{VehicleId{1}, VehicleId{2}, VehicleId{3}}}});
+  Observe(60);
+  EXPECT_EQ(Count(Invariant::kWaitBound), 0U);
+  Vehicle(2).forward_m_s = 0;
+  invariants_->Finish(Tick{tick_}, now_);
+  EXPECT_EQ(Count(Invariant::kArrival), 1U);
+  Begin({.one_of = {{VehicleId{1}, VehicleId{2}, VehicleId{3}}}});
+  Vehicle(2).arrived = true;
+  invariants_->Finish(Tick{tick_}, now_);
+  EXPECT_EQ(Count(Invariant::kArrival), 0U);
+}
+
+// In its goal and driving through is not there.
+TEST_F(InvariantsTest, ArrivedIsStandingInTheGoal) {
+  for (Observed& vehicle : now_) {
+    vehicle.arrived = true;
+    vehicle.forward_m_s = 0;
+  }
+  Vehicle(2).forward_m_s = 0.2;
+  invariants_->Finish(Tick{tick_}, now_);
+  EXPECT_EQ(Count(Invariant::kArrival), 1U);
+}
+
+TEST_F(InvariantsTest, WhoIsDueAndNotThereIsLate) {
+  Begin({.due = {{VehicleId{1}, 1.0}, {VehicleId{2}, 1.0}, {VehicleId{3}, 5.0}}});
+  Vehicle(2).arrived = true;
+  Observe(20);
+  EXPECT_EQ(Count(Invariant::kDelay), 0U);
+  Observe(20);
+  EXPECT_EQ(Count(Invariant::kDelay), 1U);
+  EXPECT_TRUE(invariants_->Held());
+}
+
+TEST_F(InvariantsTest, SayByWhichRule) {
+  Halt(2, Rule::kObstacle, 0);
+  Observe({{.kind = EventKind::kContact, .vehicle = VehicleId{2}, .other = kNobody}});
+  ASSERT_EQ(invariants_->First().size(), 1U);
+  EXPECT_EQ(invariants_->First()[0].rule, Rule::kObstacle);
 }
 
 }  // namespace

@@ -19,7 +19,10 @@ TEST_F(InvariantWatchTest, JudgesEveryTickOfARunInWhichNothingIsWrong) {
   Observe(50);
   Halt(two_, one_);
   Observe(50);
-  for (Car& car : cars_) car.truth.arrived = true;
+  for (Car& car : cars_) {
+    car.truth.arrived = true;
+    car.truth.forward_m_s = 0;
+  }
   Observe();
   watch_->Finish(true);
   EXPECT_TRUE(Held());
@@ -79,6 +82,7 @@ TEST_F(InvariantWatchTest, WhoIsWedgedBreaksTheRunWhateverItIsExpectedTo) {
   Begin();
   Decide(two_, Rule::kSteerRound, one_);
   Of(one_).truth.arrived = true;
+  Of(one_).truth.forward_m_s = 0;
   Observe(62 * 20 + 20);
   watch_->Finish(true);
   EXPECT_EQ(Count(Invariant::kProgress), 1U);
@@ -219,6 +223,7 @@ TEST_F(InvariantWatchTest, WhoDiedNeedNotArriveAndIsJudgedNoLonger) {
   Observe(20);
   Of(two_).truth.present = false;
   Of(one_).truth.arrived = true;
+  Of(one_).truth.forward_m_s = 0;
   Observe(20);
   watch_->Finish(true);
   EXPECT_TRUE(Held());
@@ -227,6 +232,7 @@ TEST_F(InvariantWatchTest, WhoDiedNeedNotArriveAndIsJudgedNoLonger) {
 
 TEST_F(InvariantWatchTest, WhoIsExpectedAndDoesNotArriveIsNamed) {
   Of(one_).truth.arrived = true;
+  Of(one_).truth.forward_m_s = 0;
   Observe(20);
   watch_->Finish(true);
   EXPECT_EQ(Count(Invariant::kArrival), 1U);

@@ -1,0 +1,101 @@
+#include "sim_world/virtual/claims.h"
+
+#include <algorithm>
+
+#include "services/types/math/math.h"
+#include "sim_world/geometry/ticks.h"
+
+namespace giveway::sim {
+namespace {
+
+// Rounding, and what a tick of turning bends a straight stopping way.
+constexpr double kClaimSlack_m = 0.01;
+constexpr double kClaimSigmas = 2;  // as the vehicles allow for
+
+bool Holds(const Claim& claim, double body_radius_m, double slack_m, Vec2 centre_world) {
+  const Vec2 offset = centre_world - claim.axis.from_world;
+  const double along_m = std::clamp(Dot(offset, claim.axis.direction_world), 0.0, claim.length_m);
+  const Vec2 beside = offset - along_m * claim.axis.direction_world;
+  const double room_m = claim.radius_m - body_radius_m + slack_m;
+  return SquaredNorm(beside) <= room_m * room_m;
+}
+
+double SlackOf(const Beacon& said) {
+  return kClaimSlack_m + kClaimSigmas * SigmaPosition(said.covariance);
+}
+
+}  // namespace
+
+Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) {
+  oldest_ticks_ = 2;
+  for (const VehicleOptions& options : scenario.vehicles) {
+    const std::uint32_t fresh = TicksCovering(options.beacon_age_limit, scenario.tick_period);
+    oldest_ticks_ = std::clamp<std::uint32_t>(fresh + 1, oldest_ticks_, kKept - 1);
+    tracks_.push_back({.deceleration_m_s2 = options.profile.deceleration_m_s2,
+                       .reaction_s = 2 * dt_s_ + Seconds(options.sonar_refresh)});
+  }
+}
+
+Claim Claims::ClaimOfBeacon(const Beacon& said, double unknown_s, const Track& track) const {
+  const double heading_rad = said.world_from_body.heading_rad;
+  return ClaimOf(
+      said,
+      {{Cos(heading_rad), Sin(heading_rad)}, TwistFromWheels(said.drive, said.wheels).forward_m_s},
+      unknown_s, track.reaction_s);
+}
+
+const Beacon* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& track) {
+  if (Number(tick) <= ago) return nullptr;
+  const Beacon& said = track.said[(Number(tick) - ago) % kKept];
+  return said.tick != kNoTick && TicksBetween(said.tick, tick) == ago ? &said : nullptr;
+}
+
+bool Claims::IsInside(Tick tick, const Beacon& said, const Observed& now,
+                      const Track& track) const {
+  const Claim claim = ClaimOfBeacon(said, TicksBetween(said.tick, tick) * dt_s_, track);
+  const double slack_m = SlackOf(said);
+  const double pace = Magnitude(now.forward_m_s);
+  const double braking_m = now.forward_m_s * pace / (2 * track.deceleration_m_s2);
+  const Vec2 stands_world =
+      now.position_world + braking_m * Vec2{Cos(now.heading_rad), Sin(now.heading_rad)};
+  return Holds(claim, said.body_radius_m, slack_m, now.position_world) &&
+         Holds(claim, said.body_radius_m, slack_m, stands_world);
+}
+
+// Told in a tick to stop, it brakes from the next on; others go by its beacon of the tick before.
+bool Claims::StaysWhileBraking(Tick tick, const Observed& now, Track* track) const {
+  if (!now.stops || !now.lives) {
+    track->braking.reset();
+    return true;
+  }
+  if (!track->braking) {
+    const Beacon* said = SaidBefore(tick, 1, *track);
+    if (said == nullptr) return true;
+    track->braking = ClaimOfBeacon(*said, 2 * dt_s_, *track);
+    track->braking_slack_m = SlackOf(*said);
+  }
+  return Holds(*track->braking, now.beacon->body_radius_m, track->braking_slack_m,
+               now.position_world);
+}
+
+std::span<const std::uint32_t> Claims::Observe(Tick tick, std::span<const Observed> vehicles) {
+  left_.clear();
+  if (vehicles.size() != tracks_.size()) return left_;
+  for (std::uint32_t i = 0; i < vehicles.size(); ++i) {
+    const Observed& now = vehicles[i];
+    Track& track = tracks_[i];
+    if (now.beacon == nullptr) continue;
+    bool inside = !now.present || StaysWhileBraking(tick, now, &track);
+    // Heard a tick after it is said, a beacon stands for what is done in the tick after that.
+    for (std::uint32_t ago = 2; ago <= oldest_ticks_ && now.present && inside; ++ago) {
+      const Beacon* said = SaidBefore(tick, ago, track);
+      inside = said == nullptr || IsInside(tick, *said, now, track);
+    }
+    if (!inside && !track.told) left_.push_back(i);
+    track.told = !inside;
+    if (now.lives && now.beacon->tick == tick) track.said[Number(tick) % kKept] = *now.beacon;
+  }
+  return left_;
+}
+
+}  // namespace giveway::sim

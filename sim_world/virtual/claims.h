@@ -1,0 +1,54 @@
+// Whether claims hold (vehicle/situation/claim.h): a vehicle that was last heard some ticks ago is,
+// by the truth, where its beacon of then claims that it can be, and so is the place where it would
+// stand if it braked now, straight on. Of every beacon that somebody may still go by, for others
+// may have been lost. And one that brakes as hard as it can stays, until it stands, in what it
+// claimed when it began, turning or not.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "services/types/scenario.h"
+#include "services/vehicle/situation/claim.h"
+#include "sim_world/virtual/observed.h"
+
+namespace giveway::sim {
+
+class Claims {
+ public:
+  explicit Claims(const Scenario& scenario);
+
+  // Takes in one tick. Vehicles in order of their ids, each with its beacon; without one nothing is
+  // judged. Those that leave a claim of theirs from this tick on, by index; valid until the next.
+  std::span<const std::uint32_t> Observe(Tick tick, std::span<const Observed> vehicles);
+
+ private:
+  // A beacon is heard for so many ticks at most; older ones are not fresh, and no claim rests on
+  // them alone.
+  static constexpr std::size_t kKept = 8;
+
+  struct Track {
+    double deceleration_m_s2 = 0;
+    double reaction_s = 0;
+    std::array<Beacon, kKept> said{};  // [tick % kKept]
+    std::optional<Claim> braking;      // of when it began to brake; empty: it does not
+    double braking_slack_m = 0;
+    bool told = false;
+  };
+
+  Claim ClaimOfBeacon(const Beacon& said, double unknown_s, const Track& track) const;
+  // Of the beacon said so many ticks ago; null if none was.
+  static const Beacon* SaidBefore(Tick tick, std::uint32_t ago, const Track& track);
+  bool StaysWhileBraking(Tick tick, const Observed& now, Track* track) const;
+  bool IsInside(Tick tick, const Beacon& said, const Observed& now, const Track& track) const;
+
+  double dt_s_;
+  std::uint32_t oldest_ticks_;
+  std::vector<Track> tracks_;
+  std::vector<std::uint32_t> left_;
+};
+
+}  // namespace giveway::sim

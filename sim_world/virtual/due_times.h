@@ -1,0 +1,23 @@
+// When everyone is due: what it takes a vehicle alone in the place, and a bound on what the others
+// cost it that depends on the place alone. The bound is what a crossing guard of little wit
+// reaches, who lets all others through the place first, one after the other, each from standstill.
+#pragma once
+
+#include <vector>
+
+#include "services/types/scenario.h"
+#include "sim_world/virtual/invariants.h"
+
+namespace giveway::sim {
+
+// Seconds a vehicle alone would take: its way at cruise speed, speeding up and slowing down.
+double FreeFlowSeconds(const VehicleOptions& options);
+
+// The same with the turns at its waypoints, on the spot.
+double AloneSeconds(const VehicleOptions& options);
+
+// Of a generator's vehicles with a goal, by id. through_m: how long the place is in which only one
+// can be.
+std::vector<DueTime> DueTimes(const Scenario& scenario, double through_m);
+
+}  // namespace giveway::sim
