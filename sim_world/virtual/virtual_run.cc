@@ -10,29 +10,6 @@
 namespace giveway::sim {
 namespace {
 
-void Look(const VirtualFleet& fleet, std::vector<Observed>* observed) {
-  std::size_t index = 0;
-  for (const Truth& truth : fleet.World().Truths()) {
-    while (index < observed->size() && (*observed)[index].vehicle != truth.vehicle) ++index;
-    if (index == observed->size()) return;
-    Observed& now = (*observed)[index];
-    const Outputs& said = fleet.Said(index);
-    now.present = truth.present;
-    now.lives = fleet.Answered(index);
-    now.arrived = truth.arrived;
-    now.position_world = truth.world_from_body.position_world;
-    now.forward_m_s = truth.forward_m_s;
-    now.rim_m_s = RimSpeed(fleet.TheScenario().vehicles[index].profile.drive, truth.wheels);
-    now.answered = said.command.tick;
-    now.decision = said.command.decision;
-    now.gives_way_to = said.beacon.gives_way_to;
-    now.order = said.beacon.order;
-    now.stated = said.beacon.tick;
-    now.stated_position_world = said.beacon.world_from_body.position_world;
-    now.stated_covariance = said.beacon.covariance;
-  }
-}
-
 std::vector<double> DelaysOf(const VirtualFleet& fleet) {
   std::vector<double> delays_s;
   for (const WorldEvent& event : fleet.History()) {
@@ -68,6 +45,29 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
 }
 
 }  // namespace
+
+void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
+  std::size_t index = 0;
+  for (const Truth& truth : fleet.World().Truths()) {
+    while (index < observed->size() && (*observed)[index].vehicle != truth.vehicle) ++index;
+    if (index == observed->size()) return;
+    Observed& now = (*observed)[index];
+    const Outputs& said = fleet.Said(index);
+    now.present = truth.present;
+    now.lives = fleet.Answered(index);
+    now.arrived = truth.arrived;
+    now.position_world = truth.world_from_body.position_world;
+    now.forward_m_s = truth.forward_m_s;
+    now.rim_m_s = RimSpeed(fleet.TheScenario().vehicles[index].profile.drive, truth.wheels);
+    now.answered = said.command.tick;
+    now.decision = said.command.decision;
+    now.gives_way_to = said.beacon.gives_way_to;
+    now.order = said.beacon.order;
+    now.stated = said.beacon.tick;
+    now.stated_position_world = said.beacon.world_from_body.position_world;
+    now.stated_covariance = said.beacon.covariance;
+  }
+}
 
 double FreeFlowSeconds(const VehicleOptions& options) {
   double way_m = 0;
@@ -125,7 +125,7 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
   std::uint64_t vehicle_ticks = 0;
   for (bool goes_on = true; goes_on;) {
     goes_on = fleet.Advance();
-    Look(fleet, &observed);
+    ObserveFleet(fleet, &observed);
     invariants.Observe(fleet.World().Now(), fleet.World().TimeSeconds(), observed,
                        fleet.World().Events());
     vehicle_ticks += fleet.World().Scans().size();
