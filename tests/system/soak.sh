@@ -144,7 +144,7 @@ virtually() {
 whole() {
   local code=0 report=$SCRATCH/whole
   "$FLEETCTL" soak patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-90s}" \
-    --seed 1 --record --report "$report" --json >"$SCRATCH/whole.json" 2>"$SCRATCH/whole.log" || code=$?
+    --seed 7 --record --report "$report" --json >"$SCRATCH/whole.json" 2>"$SCRATCH/whole.log" || code=$?
   if [[ $code -ne 0 ]]; then
     fail "the soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/whole.json")"
     tail -n 20 "$SCRATCH/whole.log"

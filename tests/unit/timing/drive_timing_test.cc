@@ -97,7 +97,7 @@ TEST_F(DriveTimingTest, RaisesTheAlarmWhenLessThanAFifthIsLeft) {
 }
 
 TEST_F(DriveTimingTest, CountsNoReactionOfOneThatStandsOrHasNoTick) {
-  speed_m_s_ = 0.01;
+  speed_m_s_ = 0.04;
   for (int i = 0; i < 3; ++i) Turn(Cruise());
   Turn(Obstacle(3), 0, 1.0);
   Turn(Obstacle(3), 0, 1.0);
