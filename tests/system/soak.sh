@@ -4,6 +4,7 @@
 # killed leaves nobody behind, and its soak goes on; a broken promise makes everyone keep its ring,
 # which replays; and in virtual time the same list gives the same report twice. Each in a domain of
 # its own, side by side, in under two minutes.
+# shellcheck disable=SC2317,SC2030,SC2031 # what runs beside is called by name
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 # refused WORDS ARGUMENTS...: exit code 2, the words, and no report.
@@ -162,7 +163,6 @@ whole() {
 }
 
 # beside FUNCTION: it runs from now on; its failures count.
-# shellcheck disable=SC2317
 runs=()
 beside() {
   (

@@ -81,10 +81,10 @@ ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {
 }
 
 void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFile* outcome) {
-  bool begins_with_image = false;
+  bool compared_image = false;
   while (const std::optional<Record> record = file->Next()) {
     if (const auto* image = std::get_if<RecordedImage>(&*record)) {
-      begins_with_image = true;
+      compared_image = brain_.has_value();
       outcome->finding = TakeImage(*image, outcome);
       if (!outcome->finding.empty() || outcome->difference) return;
       continue;
@@ -112,8 +112,9 @@ void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFil
   outcome->complete = end.has_value();
   outcome->lost = end ? end->lost : 0;
   outcome->failure = end ? Printable(end->failure) : "";
-  // A ring may have begun a file with its last breath: the brain in it is sound, and that is all.
-  if (outcome->steps == 0 && outcome->finding.empty() && !begins_with_image) {
+  // A ring may have begun a file with its last breath: where the brain was led up to there, that
+  // one was compared.
+  if (outcome->steps == 0 && outcome->finding.empty() && !compared_image) {
     outcome->finding = "holds no step: nothing was compared";
     if (!outcome->failure.empty()) outcome->finding += "; " + outcome->failure;
   } else if (end && end->steps != outcome->steps) {

@@ -26,10 +26,10 @@ With --record-ring every vehicle keeps its last seconds; a broken promise makes
 all of them keep those files. --around FOLDER writes the faults around the first
 broken promise of a report, for `fleetctl shrink`.
 
---virtual runs the same list in virtual time, as far as it goes there, and judges
-it alike, without detection, resources and pauses. What was seen is saved every
-ten seconds: --resume FOLDER goes on after a crash of the machine, with a new
-fleet and the rest of the list, and the verdict says so.
+--virtual runs the same list in virtual time, as far as it goes there, and
+judges it alike, without detection, resources and pauses. What was seen is saved
+every ten seconds: --resume FOLDER goes on after a crash of the machine, with a
+new fleet and the rest of the list, and the verdict says so.
 
 A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
 shipped sets: calm, radio_storm, flaky_hardware, everything; `fleetctl faults
@@ -64,8 +64,7 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
       ->check(CheckNotEmpty);
   verb->add_option("--vehicles", options->vehicles, "Of an open fleet; without it one a place")
       ->check(CLI::Range(1U, kMostVehicles));
-  verb->add_option("--qos", options->qos_file,
-                   "Fast DDS XML profiles: a file, or a shipped set; without it the default")
+  verb->add_option("--qos", options->qos_file, "QoS profiles: a file, or the name of a shipped set")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
   verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
@@ -73,27 +72,24 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   AddInterfaceFlag(verb, &options->interface);
   verb->add_flag("--record", options->record, "Every vehicle records into the report folder");
   verb->add_option("--record-ring", options->ring_s,
-                   "Every vehicle records, and keeps its last seconds: 60")
+                   "Every vehicle keeps its last seconds recorded: 60")
       ->check(CLI::Range(5U, 3600U))
       ->excludes("--record");
-  verb->add_flag("--virtual", options->in_virtual_time,
-                 "In virtual time: the brains alone, and the same bits each time")
+  verb->add_flag("--virtual", options->in_virtual_time, "In virtual time: the same bits each time")
       ->excludes("--record")
       ->excludes("--record-ring")
       ->excludes("--domain");
-  verb->add_option("--resume", options->resume,
-                   "Go on in this report folder, whose soak died with its machine")
+  verb->add_option("--resume", options->resume, "Go on in this folder of a soak that died")
       ->check(CheckNotEmpty)
       ->excludes("--report")
       ->excludes("SCENARIO")
       ->excludes("--virtual");
-  verb->add_option("--around", options->around,
-                   "Run nothing: write the faults around a report's first broken promise")
+  verb->add_option("--around", options->around, "Write the faults around the first broken promise")
       ->check(CheckNotEmpty)
       ->excludes("--report")
       ->excludes("SCENARIO");
   verb->add_flag("--skip-unsupported", options->skip_unsupported,
-                 "Leave out what this host cannot do; the report says so");
+                 "Leave out what cannot be done here, and say so");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
 }
 

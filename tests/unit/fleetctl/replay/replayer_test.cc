@@ -195,6 +195,17 @@ TEST_F(RingReplayTest, AnImageThatIsNoBrainOrAnotherIsRefused) {
   EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("another vehicle's"));
 }
 
+// Its process died as it had begun another file.
+TEST_F(RingReplayTest, AnImageWithoutAStepProvesSomethingBehindTheFileBeforeAlone) {
+  second_.resize(2);
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("no step"));
+  Replayer replayer;
+  std::istringstream first(test::FileOf(first_));
+  std::istringstream second(test::FileOf(second_));
+  replayer.Replay(&first);
+  EXPECT_EQ(replayer.Replay(&second).finding, "");
+}
+
 TEST_F(RingReplayTest, AnImageStandsAtTheBeginningOfAPartAlone) {
   first_.insert(first_.begin() + 5, Image());
   EXPECT_THAT(ReplayOf(first_).finding, HasSubstr("amid a part"));

@@ -39,6 +39,7 @@ class SoakVirtualTest : public testing::Test {
     return result;
   }
 
+  const Interrupts interrupts_{Silence::kComputes};  // none yet, whatever other tests had
   Scenario scenario_;
   faults::Schedule schedule_;
 };
