@@ -1,6 +1,7 @@
 #include "services/config/flags.h"
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <cstdio>
 #include <list>
 
@@ -45,6 +46,8 @@ class CommandLine {
           "write all the brain is told and says, for fleetctl replay; where FILE is\n"
           "there already, into the first free of FILE with a number");
       Add("--record-split", "SIZE", "begin another file of the recording at this size: 64MiB");
+      Add("--record-ring", "SECONDS",
+          "keep only the last so many seconds of the recording, in two files: 60");
       Add("--impair", "RULES",
           "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
           "none, or @FILE that says such; the README lists the keys");
@@ -145,8 +148,18 @@ std::optional<Impairment> ReadImpairment(FlagValues* values) {
   return std::move(parsed.impairment);
 }
 
+void ReadRing(FlagValues* values, ServiceFlags* flags) {
+  if (!values->Text("--record-ring")) return;
+  if (values->Text("--record-split")) {
+    values->Complain("--record-ring", "a ring is split by time, and not by size",
+                     "leave --record-split out, or --record-ring");
+  }
+  flags->record_ring = std::chrono::seconds(values->Whole("--record-ring", {5, 3600}).value_or(0));
+}
+
 void ReadRecord(FlagValues* values, ServiceFlags* flags) {
   if (values->Text("--record")) flags->record = values->TextOr("", "--record");
+  ReadRing(values, flags);
   const auto split = values->Text("--record-split");
   if (!split) return;
   const auto bytes = ParseByteSize(*split);

@@ -13,6 +13,7 @@
 #include "services/types/decision.h"
 #include "services/types/discovery_server.h"
 #include "services/types/impairment.h"
+#include "services/types/time.h"
 
 namespace giveway {
 
@@ -28,6 +29,7 @@ struct ServiceFlags {
   std::string checkpoint;          // world only; the file it is kept in; empty: none is
   std::string record;              // vehicle only; the file it is written to; empty: none is
   std::uint64_t record_split = 0;  // vehicle only; bytes of a file of it; 0: it is one file
+  Nanoseconds record_ring{0};      // vehicle only; keeps so much of it at least; 0: all
   bool partition_free = false;     // vehicle only; beacons also without a partition
   std::optional<Resumed> resume;   // it was itself before, see restart.h
   bool stay = false;               // vehicle only; outlives its world

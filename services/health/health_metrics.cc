@@ -20,6 +20,7 @@ using prometheus::MetricType;
 
 constexpr double kSecondsPerMs = 1e-3;
 constexpr double kSecondsPerUs = 1e-6;
+constexpr double kMillion = 1e6;
 
 // Families in the order they are added.
 class Metrics {
@@ -47,6 +48,16 @@ class Metrics {
     const auto number = static_cast<double>(value);
     const bool counts = families_.back().type == MetricType::Counter;
     (counts ? metric.counter.value : metric.gauge.value) = number;
+  }
+  // What has been counted since the process began, with quantiles 0.5, 0.99 and 1: millionths
+  // of the unit in its name.
+  void Summary(const std::string& name, const std::string& help, const FigureSummary& figure) {
+    Begin(name, help, MetricType::Summary);
+    ClientMetric::Summary& summary = families_.back().metric.emplace_back().summary;
+    summary.sample_count = figure.count;
+    summary.sample_sum = figure.sum / kMillion;
+    summary.quantile = {
+        {0.5, figure.p50 / kMillion}, {0.99, figure.p99 / kMillion}, {1, figure.max / kMillion}};
   }
   std::string Text() const { return prometheus::TextSerializer().Serialize(families_); }
 
@@ -145,6 +156,27 @@ void AddDriving(const VehicleHealth& vehicle, SteadyTime now, Metrics* metrics) 
                    vehicle.placements);
 }
 
+void AddTiming(const DriveFigures& timing, Metrics* metrics) {
+  metrics->Summary("beacon_age_seconds", "Time since the tick of the oldest beacon decided by.",
+                   timing.Of(DriveFigure::kBeaconAge));
+  metrics->Summary("tick_jitter_seconds", "Time between two ranges, off what their ticks say.",
+                   timing.Of(DriveFigure::kTickJitter));
+  metrics->Summary("turn_seconds", "Time from ranges to command.", timing.Of(DriveFigure::kTurn));
+  metrics->Summary("reaction_seconds", "Time from a cause to wheels that obey.",
+                   timing.Of(DriveFigure::kReaction));
+  metrics->Summary("reaction_meters", "Driven from a cause to wheels that obey.",
+                   timing.Of(DriveFigure::kReactionWay));
+  metrics->Summary("reaction_ratio", "The same as a share of the distance free at the cause.",
+                   timing.Of(DriveFigure::kReactionShare));
+  if (timing.narrowest) {
+    metrics->Gauge("narrowest_margin_ratio",
+                   "The least of its free distance that a reaction has left.",
+                   timing.narrowest->ShareLeft());
+  }
+  metrics->Counter("budget_spent", "Reactions that left less than a fifth of the free distance.",
+                   timing.budget_spent);
+}
+
 // Under the names every exporter has for them.
 std::string Text(const ProcessFigures& process) {
   Metrics metrics("process_");
@@ -189,6 +221,7 @@ std::string MetricsText(const VehicleHealth& vehicle, const ProcessFigures& proc
   AddPeers(vehicle, &metrics);
   AddBeacons(vehicle.status, &metrics);
   AddTrust(vehicle.status.trust, &metrics);
+  AddTiming(vehicle.status.timing, &metrics);
   AddLog(process, &metrics);
   return metrics.Text() + Text(process);
 }

@@ -44,11 +44,12 @@ std::vector<qos::Change> ChangesBetween(const QosProfiles& from, const QosProfil
 }  // namespace
 
 ServiceAdmin::ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options,
-                           VehicleId vehicle, bool lockstep)
+                           VehicleId vehicle, bool lockstep, std::function<bool()> keep)
     : link_(*link),
       options_(options),
       vehicle_(vehicle),
       lockstep_(lockstep),
+      keep_(std::move(keep)),
       in_use_{NameOf(options.qos.name), options.qos.text} {}
 
 void ServiceAdmin::AnswerResumed(std::uint64_t order, const std::string& rolled_back) {
@@ -63,6 +64,8 @@ bool ServiceAdmin::Serve() {
     if (order.vehicle != vehicle_) continue;
     if (order.kind == OrderKind::kTell) {
       Answer(order.number, AnswerState::kInEffect);
+    } else if (order.kind == OrderKind::kKeepRing) {
+      Keep(order);
     } else if (lockstep_) {
       Answer(order.number, AnswerState::kRefused, "runs in lockstep, which nothing may disturb");
     } else if (Apply(order)) {
@@ -70,6 +73,12 @@ bool ServiceAdmin::Serve() {
     }
   }
   return false;
+}
+
+void ServiceAdmin::Keep(const AdminOrder& order) {
+  if (keep_ && keep_()) return Answer(order.number, AnswerState::kInEffect);
+  Answer(order.number, AnswerState::kRefused,
+         "records no ring (--record-ring), or has kept as many as it may");
 }
 
 bool ServiceAdmin::Apply(const AdminOrder& order) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,8 +24,9 @@ class ServiceAdmin {
  public:
   // The link was made with `options`; `vehicle` is kNobody for a world. In lockstep nothing that
   // comes from outside the world may change a run, so orders to apply are refused.
+  // `keep` has the recording's ring kept: false where there is none, or it is kept often enough.
   ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options, VehicleId vehicle,
-               bool lockstep);
+               bool lockstep, std::function<bool()> keep = {});
 
   // Answers the order that made this process restart: it is in effect now; or not, where
   // `rolled_back` says why the process came back with what it had.
@@ -45,6 +47,7 @@ class ServiceAdmin {
   bool FinishTrial();
   // False if the library would not have them while it runs.
   bool TakeNow(const std::vector<qos::Change>& changes);
+  void Keep(const AdminOrder& order);
   void Refuse(const AdminOrder& order, const std::string& why);
   void Answer(std::uint64_t order, AnswerState state, const std::string& reason = "");
 
@@ -52,6 +55,7 @@ class ServiceAdmin {
   const link::LinkOptions& options_;
   const VehicleId vehicle_;
   const bool lockstep_;
+  const std::function<bool()> keep_;
   QosProfiles in_use_;
   std::optional<AdminOrder> pending_;
   std::unique_ptr<ProgramTrial> trial_;  // of pending_

@@ -44,7 +44,7 @@ constexpr std::array kVariables = {
              "unset it outside of experiments"},
 };
 
-constexpr std::array<std::string_view, 27> kOurs = {
+constexpr std::array<std::string_view, 28> kOurs = {
     "GIVEWAY_DOMAIN",         "GIVEWAY_INTERFACE",    "GIVEWAY_QOS",
     "GIVEWAY_SCENARIO",       "GIVEWAY_ID",           "GIVEWAY_SEED",
     "GIVEWAY_BEHAVIOUR",      "GIVEWAY_DURATION",     "GIVEWAY_THREADS",
@@ -53,7 +53,8 @@ constexpr std::array<std::string_view, 27> kOurs = {
     "GIVEWAY_LOG_FORMAT",     "GIVEWAY_CONFIG_DIR",   "GIVEWAY_IMPAIR",
     "GIVEWAY_PARTITION_FREE", "GIVEWAY_RESUME",       "GIVEWAY_HANG_ON_SIGNAL",
     "GIVEWAY_STAY",           "GIVEWAY_RECORD_SPLIT", "GIVEWAY_DISCOVERY_SERVER",
-    "GIVEWAY_HEALTH",         "GIVEWAY_HEALTH_PORT",  "GIVEWAY_HEALTH_ADDRESS"};
+    "GIVEWAY_HEALTH",         "GIVEWAY_HEALTH_PORT",  "GIVEWAY_HEALTH_ADDRESS",
+    "GIVEWAY_RECORD_RING"};
 
 // Letters to change, add or leave out to make one of the other.
 std::size_t Distance(std::string_view a, std::string_view b) {

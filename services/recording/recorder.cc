@@ -3,6 +3,7 @@
 #include <atomic>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "services/recording/recording.h"
 #include "services/recording/recording_writer.h"
@@ -19,16 +20,24 @@ constexpr const char* kTooSlow = "the disk does not keep up";
 
 }  // namespace
 
+// What is to be written, and whether what is there is to be kept first.
+struct Recorder::Queued {
+  Record record;
+  bool keeps = false;
+};
+
 // The recorder's thread and its files.
 class Recorder::Writer {
  public:
-  Writer(const std::string& file, std::uint64_t split_bytes)
-      : files_(file, split_bytes), ring_(kSlots), thread_([this] { Run(); }) {}
+  Writer(const std::string& file, const RecorderOptions& options)
+      : files_(file, options.split_bytes, options.ring > Nanoseconds{0}),
+        ring_(kSlots),
+        thread_([this] { Run(); }) {}
   ~Writer() { Finish(); }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  SlotRing<Record>& Ring() { return ring_; }
+  SlotRing<Queued>& Ring() { return ring_; }
   bool HasFailed() const { return failed_.load(std::memory_order_acquire); }
   const std::string& FirstName() const { return files_.FirstName(); }
   // Does not change any more once HasFailed.
@@ -46,20 +55,21 @@ class Recorder::Writer {
  private:
   void Run() {
     if (!files_.Failure().empty()) failed_.store(true, std::memory_order_release);
-    while (const Record* record = ring_.Next()) {
-      if (!files_.Write(*record)) failed_.store(true, std::memory_order_release);
+    while (const Queued* queued = ring_.Next()) {
+      if (queued->keeps) files_.Keep();
+      if (!files_.Write(queued->record)) failed_.store(true, std::memory_order_release);
       ring_.Pop();
     }
   }
 
   RecordingWriter files_;
-  SlotRing<Record> ring_;
+  SlotRing<Queued> ring_;
   std::atomic<bool> failed_{false};
   std::thread thread_;  // last: it uses all of the above
 };
 
-Recorder::Recorder(const std::string& file, std::uint64_t split_bytes)
-    : writer_(std::make_unique<Writer>(file, split_bytes)) {
+Recorder::Recorder(const std::string& file, const RecorderOptions& options)
+    : options_(options), writer_(std::make_unique<Writer>(file, options)) {
   if (writer_->FirstName() != file) {
     LogInfo("records in " + writer_->FirstName() + ": " + file + " is there already");
   }
@@ -70,9 +80,10 @@ Recorder::~Recorder() { Close(); }
 // True if it was queued. `fill` makes the record in a slot that may hold an older one.
 template <typename Fill>
 bool Recorder::Queue(Fill&& fill) {
-  Record* const slot = ended_ || writer_->HasFailed() ? nullptr : writer_->Ring().Free();
+  Queued* const slot = ended_ || writer_->HasFailed() ? nullptr : writer_->Ring().Free();
   if (slot != nullptr) {
-    fill(slot);
+    fill(&slot->record);
+    slot->keeps = std::exchange(keeps_next_, false);
     writer_->Ring().Push();
     return true;
   }
@@ -96,12 +107,14 @@ void Recorder::ReportLoss() {
 
 void Recorder::Begin(const VehicleOptions& options, std::uint32_t boot_epoch,
                      const std::optional<Handover>& handover) {
+  drives_by_ = options;
   Queue([&](Record* slot) {
     *slot = RecordedLife{boot_epoch, options, GIVEWAY_VERSION, handover};
   });
 }
 
 void Recorder::Reseat(const VehicleOptions& options) {
+  drives_by_ = options;
   Queue([&](Record* slot) { *slot = RecordedReseat{options}; });
 }
 
@@ -113,6 +126,27 @@ void Recorder::Step(const Inputs& inputs, const Outputs& outputs, std::uint64_t 
   });
   ++(queued ? tally_.steps : tally_.lost);
   if (!queued) ReportLoss();
+}
+
+bool Recorder::WantsImage(SteadyTime now) const {
+  return options_.ring > Nanoseconds{0} && !ended_ && now >= image_due_;
+}
+
+// The first one falls due with the first step: it says nothing new then, and sets the time.
+void Recorder::Image(std::string state, std::uint64_t hash, SteadyTime now) {
+  const bool is_first = image_due_ == SteadyTime{0};
+  image_due_ = now + options_.ring;
+  if (is_first) return;
+  Queue([&](Record* slot) {
+    *slot = RecordedImage{drives_by_, GIVEWAY_VERSION, std::move(state), hash};
+  });
+}
+
+bool Recorder::Keep() {
+  if (options_.ring == Nanoseconds{0} || ended_ || kept_ == kMostKept) return false;
+  ++kept_;
+  keeps_next_ = true;
+  return true;
 }
 
 RecorderTally Recorder::Close() {

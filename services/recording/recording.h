@@ -62,6 +62,14 @@ struct RecordedContinuation {
   friend bool operator==(const RecordedContinuation&, const RecordedContinuation&) = default;
 };
 
+// Where a ring goes on: a whole brain, so that what lies before it need not be kept.
+struct RecordedImage {
+  VehicleOptions options;  // by which it drives now
+  std::string recorded_by;
+  std::string state;       // see services/snapshot/brain_state.h
+  std::uint64_t hash = 0;  // of the brain
+};
+
 struct RecordedEnd {
   std::uint32_t steps = 0;   // written, in this part
   std::uint32_t lost = 0;    // not written
@@ -69,8 +77,8 @@ struct RecordedEnd {
   bool continues = false;    // there is another part
 };
 
-using Record =
-    std::variant<RecordedLife, RecordedStep, RecordedReseat, RecordedEnd, RecordedContinuation>;
+using Record = std::variant<RecordedLife, RecordedStep, RecordedReseat, RecordedEnd,
+                            RecordedContinuation, RecordedImage>;
 
 std::string ToBytes(const Record& record);
 // Nothing where the bytes are no record: not of the schema, an enumerator nobody knows, a list of

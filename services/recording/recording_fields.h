@@ -209,6 +209,11 @@ void Visit(auto& fields, Is<RecordedEnd> auto& end) {
   fields(steps, lost, failure, continues);
 }
 
+void Visit(auto& fields, Is<RecordedImage> auto& image) {
+  auto& [options, recorded_by, state, hash] = image;
+  fields(options, recorded_by, state, hash);
+}
+
 void Visit(auto& fields, Is<RecordedContinuation> auto& head) {
   auto& [boot_epoch, vehicle, part, steps_before] = head;
   fields(boot_epoch, vehicle, part, steps_before);

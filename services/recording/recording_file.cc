@@ -109,13 +109,24 @@ std::optional<Record> RecordingFile::Next() {
   }
   if (std::holds_alternative<RecordedLife>(*record)) return Refuse("a second vehicle is made");
   if (std::holds_alternative<RecordedContinuation>(*record)) return Refuse("another part begins");
+  if (const auto* image = std::get_if<RecordedImage>(&*record)) {
+    constexpr std::uint32_t kBehindContinuation = 2;
+    if (!continues_ || records_ != kBehindContinuation) return Refuse("a brain amid a part");
+    const std::string why = WhyNoOptions(image->options);
+    if (!why.empty()) return Refuse(why);
+  }
   if (const auto* reseat = std::get_if<RecordedReseat>(&*record)) {
-    const std::string why = reseat->options.id == (life_ ? life_->options.id : continues_->vehicle)
-                                ? WhyUnusable(reseat->options)
-                                : "options are another vehicle's";
+    const std::string why = WhyNoOptions(reseat->options);
     if (!why.empty()) return Refuse(why);
   }
   return record;
+}
+
+// Empty if the vehicle could drive by them.
+std::string RecordingFile::WhyNoOptions(const VehicleOptions& options) const {
+  return options.id == (life_ ? life_->options.id : continues_->vehicle)
+             ? WhyUnusable(options)
+             : "options are another vehicle's";
 }
 
 }  // namespace giveway

@@ -21,7 +21,8 @@ class RecordingFile {
   const std::optional<RecordedLife>& Life() const { return life_; }
   // Which part it is, where it is a part and not the first.
   const std::optional<RecordedContinuation>& Continues() const { return continues_; }
-  // The next step or reseat; nothing at the end of what is whole.
+  // The next step, reseat or image (the first record of a part, if at all); nothing at the end of
+  // what is whole.
   std::optional<Record> Next();
 
   // Why nothing more can be read; empty where the file ends as it should or was cut off.
@@ -35,6 +36,7 @@ class RecordingFile {
   bool ReadMark();
   std::optional<Record> ReadRecord();
   std::optional<Record> Refuse(const std::string& why);
+  std::string WhyNoOptions(const VehicleOptions& options) const;
   void Begin(Record first);
 
   std::istream& stream_;

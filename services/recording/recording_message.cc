@@ -224,6 +224,7 @@ std::string ToBytes(const Record& record) {
   if (const auto* head = std::get_if<RecordedContinuation>(&record)) {
     put(message.mutable_continuation(), *head);
   }
+  if (const auto* image = std::get_if<RecordedImage>(&record)) put(message.mutable_image(), *image);
   return message.SerializeAsString();
 }
 
@@ -245,6 +246,8 @@ std::optional<Record> RecordFrom(std::string_view bytes) {
       return Decoded<RecordedEnd>(message.end());
     case Cases::kContinuation:
       return Decoded<RecordedContinuation>(message.continuation());
+    case Cases::kImage:
+      return Decoded<RecordedImage>(message.image());
     case Cases::RECORD_NOT_SET:
       break;
   }

@@ -101,8 +101,12 @@ bool RecordingPart::PutEnd(RecordedEnd end) {
   }
 }
 
-RecordingWriter::RecordingWriter(const std::string& path, std::uint64_t split_bytes)
-    : path_(path), split_bytes_(split_bytes), part_(MakeNext()), first_name_(part_.Name()) {
+RecordingWriter::RecordingWriter(const std::string& path, std::uint64_t split_bytes, bool is_ring)
+    : path_(path),
+      split_bytes_(split_bytes),
+      is_ring_(is_ring),
+      part_(MakeNext()),
+      first_name_(part_.Name()) {
   head_.part = 1;
   const int fault = part_.Append(kRecordingMark, false);
   if (fault != 0) Fail(part_.Name(), std::strerror(fault), 0);
@@ -147,12 +151,28 @@ bool RecordingWriter::Split() {
     }
     head_ = head;
     steps_before_ = Steps();
+    const std::string before = part_.Name();
     part_ = std::move(next);
-    LogInfo("the recording goes on in " + part_.Name());
+    is_ring_ ? MakeRoom(before) : LogInfo("the recording goes on in " + part_.Name());
     return true;
   } catch (const std::runtime_error& error) {
     return Fail(part_.Name(), error.what(), 1);
   }
+}
+
+// Two parts are left: the one that begins, and `before`, which is full.
+void RecordingWriter::MakeRoom(const std::string& before) {
+  if (!keeps_part_) removable_.push_back(before);
+  keeps_part_ = false;
+  for (; removable_.size() > 1; removable_.pop_front()) ::unlink(removable_.front().c_str());
+}
+
+void RecordingWriter::Keep() {
+  std::string names;
+  for (const std::string& name : removable_) names += name + " and ";
+  LogInfo("keeps the recording in " + names + part_.Name());
+  removable_.clear();
+  keeps_part_ = true;
 }
 
 bool RecordingWriter::Write(const Record& record) {
@@ -165,7 +185,9 @@ bool RecordingWriter::Write(const Record& record) {
   const std::string frame = Framed(ToBytes(record));
   const bool is_full = split_bytes_ > 0 && part_.IsRegular() && part_.Steps() > 0 &&
                        part_.Bytes() + frame.size() + kRoomForEnd > split_bytes_;
-  if (is_full && !Split()) return false;
+  const bool is_image = std::holds_alternative<RecordedImage>(record);
+  if (is_image && !part_.IsRegular()) return true;  // a pipe is one file
+  if ((is_full || is_image) && !Split()) return false;
   const int fault = part_.Append(frame, is_step);
   return fault == 0 || Fail(part_.Name(), std::strerror(fault), is_step ? 1 : 0);
 }

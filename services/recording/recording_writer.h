@@ -46,11 +46,14 @@ class RecordingWriter {
  public:
   // `path`, or where that is there already PATH with the first free number before its extension. A
   // device or a pipe is written to as it is. `split_bytes`: begins another file before one grows
-  // beyond that; 0: never. Throws std::runtime_error if the first cannot be made.
-  RecordingWriter(const std::string& path, std::uint64_t split_bytes);
+  // beyond that; 0: never. `is_ring`: begins another with every image, and removes all but the last
+  // two. Throws std::runtime_error if the first cannot be made.
+  RecordingWriter(const std::string& path, std::uint64_t split_bytes, bool is_ring = false);
 
   // True if it is in a file. After a failure nothing is: a brain cannot be led over a gap.
   bool Write(const Record& record);
+  // Of a ring: the files there are now are not removed any more.
+  void Keep();
   // Ends the last file. `lost` steps were not given to Write; `why`, where that is not the fault of
   // the file.
   void End(std::uint32_t lost, const std::string& why);
@@ -65,15 +68,19 @@ class RecordingWriter {
  private:
   RecordingPart MakeNext();
   bool Split();
+  void MakeRoom(const std::string& before);
   bool Fail(const std::string& file, const std::string& why, std::uint32_t lost);
 
   const std::string path_;
   const std::uint64_t split_bytes_;
+  const bool is_ring_;
   std::uint32_t number_ = 1;  // of the last name tried
   RecordingPart part_;
   const std::string first_name_;
   RecordedContinuation head_;  // of the part being written
   std::uint32_t steps_before_ = 0;
+  std::deque<std::string> removable_;  // of a ring: those before the part being written
+  bool keeps_part_ = false;            // which is not to be removed either
   std::string failed_file_;
   std::string failure_;  // why nothing more is written; empty: all is well
 };

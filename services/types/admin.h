@@ -10,8 +10,9 @@
 namespace giveway {
 
 enum class OrderKind : std::uint8_t {
-  kTell,   // say what you run with
-  kApply,  // run with these profiles: at once where that is enough, else after a restart
+  kTell,      // say what you run with
+  kApply,     // run with these profiles: at once where that is enough, else after a restart
+  kKeepRing,  // keep for good what the recording's ring holds now: recorder.h
 };
 
 // A profile set by value: its text, because the file may be on another machine, or another by now.

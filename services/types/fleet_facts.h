@@ -9,6 +9,7 @@
 
 #include "services/types/counters.h"
 #include "services/types/decision.h"
+#include "services/types/drive_figures.h"
 #include "services/types/ids.h"
 #include "services/types/impairment.h"
 #include "services/types/math/pose.h"
@@ -137,6 +138,7 @@ struct VehicleStatus {
   // Of what it hears; without bytes, abandoned and reordered, which do not travel. All 0 where
   // nothing is impaired.
   ImpairmentCounters impaired;
+  DriveFigures timing;  // of this process, in the run
 };
 
 }  // namespace giveway

@@ -11,6 +11,7 @@
 #include "services/vehicle/estimation/lost_ticks.h"
 #include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/estimation/scan_check.h"
+#include "services/vehicle/evidence.h"
 #include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/box.h"
 #include "services/vehicle/situation/echo_trust.h"
@@ -275,6 +276,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.decision);
   Remember(s, action);
+  evidence_ = EvidenceOf(s, action.decision, changed);
 
   return {.command = {.vehicle = options_.id,
                       .epoch = state.epoch,

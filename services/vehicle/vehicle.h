@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "services/types/decision_evidence.h"
 #include "services/types/handover.h"
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
@@ -102,6 +103,8 @@ class Vehicle {
   double SpeedMps() const;
   // Neither rolls nor turns, as last measured. Until it is told it is taken to.
   bool Stands() const { return state_->wheels == WheelSpeeds{}; }
+  // What the last step decided by.
+  const DecisionEvidence& Evidence() const { return evidence_; }
   // Peers with a fresh beacon in the last step.
   std::uint32_t PeersHeard() const { return peers_heard_; }
   // The first few of the last step, for the log; the counters have all.
@@ -136,6 +139,7 @@ class Vehicle {
   std::unique_ptr<VehicleState> state_;
   std::unique_ptr<std::array<PeerView, kMaxPeers>> views_;  // scratch of one step
   std::uint32_t peers_heard_ = 0;
+  DecisionEvidence evidence_;
   std::array<RefusedBeacon, 8> refused_;
   std::uint32_t refused_count_ = 0;
 };

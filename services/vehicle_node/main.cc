@@ -20,7 +20,9 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
              const StopSignal& stop, const std::function<void()>& settled) {
   VehicleHealthTeller health(flags);
   std::optional<Recorder> recorder;
-  if (!flags.record.empty()) recorder.emplace(flags.record, flags.record_split);
+  if (!flags.record.empty()) {
+    recorder.emplace(flags.record, RecorderOptions{flags.record_split, flags.record_ring});
+  }
   options.impairment = ImpairmentOf(flags, scenario);
   if (!AwaitServers(options, stop, [&](const std::string& why) { health.Joins(why); })) return {};
   link::VehicleLink link(options);
@@ -35,7 +37,8 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   SetLogVehicle(entry->vehicle);
   if (flags.id == 0) LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   link.Open(entry->vehicle, OptionsOf(scenario, *entry).profile, !scenario.signals.empty());
-  ServiceAdmin admin(&link, options, entry->vehicle, flags.lockstep);
+  ServiceAdmin admin(&link, options, entry->vehicle, flags.lockstep,
+                     [&recorder] { return recorder && recorder->Keep(); });
   // With shared memory the library touches some of it only when samples go.
   const auto on_first_scan = [&] {
     settled();

@@ -7,6 +7,7 @@
 
 #include "services/runtime/hang_signal.h"
 #include "services/runtime/process.h"
+#include "services/snapshot/brain_state.h"
 #include "services/vehicle_node/vehicle_join.h"
 
 namespace giveway {
@@ -37,7 +38,8 @@ VehicleLoop::VehicleLoop(const VehicleLoopParts& parts, const Scenario& scenario
       boot_epoch_(RandomNonZero()),
       vehicle_(options_, boot_epoch_),
       news_(entry),
-      hearing_(&link_, clock_.Now()) {
+      hearing_(&link_, clock_.Now()),
+      report_(options_) {
   std::optional<Handover> handover = options.handover;
   if (handover && !TakeOver(*handover)) handover.reset();
   if (recorder_ != nullptr) recorder_->Begin(options_, boot_epoch_, handover);
@@ -140,6 +142,7 @@ void VehicleLoop::Follow(const RosterEntry& entry) {
   if (news != PlaceNews::kElsewhere) return;
   options_ = OptionsOf(scenario_, entry);
   vehicle_.Reseat(options_);
+  report_.Reseat(options_);
   if (recorder_ != nullptr) recorder_->Reseat(options_);
   health_.Placed(options_.id, options_.ranges_age_limit);
   LogInfo("drives on in world " + std::to_string(Number(entry.epoch)));
@@ -154,9 +157,21 @@ bool VehicleLoop::Step(Inputs* inputs, SteadyTime woke, bool by_scan) {
   outputs.command.matched_peers = link_.Counters().matched_peers;
   link_.Send(outputs);
   last_beacon_ = woke;
-  report_.NoteStep(after - before, by_scan ? clock_.Now() - woke : Nanoseconds{0});
+  const SteadyTime sent = clock_.Now();
+  report_.NoteStep(after - before, by_scan ? sent - woke : Nanoseconds{0});
   // After the wheels have their command: nobody waits for what follows.
-  if (recorder_ != nullptr) recorder_->Step(*inputs, outputs, vehicle_.Hash());
+  const auto spent = report_.NoteTurn({.woke = woke,
+                                       .sent = sent,
+                                       .scan = inputs->scan ? &*inputs->scan : nullptr,
+                                       .command = outputs.command,
+                                       .evidence = vehicle_.Evidence()});
+  if (spent) LogWarning("budget_spent: " + Describe(*spent));
+  if (recorder_ != nullptr) {
+    recorder_->Step(*inputs, outputs, vehicle_.Hash());
+    if (recorder_->WantsImage(sent)) {
+      recorder_->Image(BytesOf(vehicle_.State()), vehicle_.Hash(), sent);
+    }
+  }
   if (outputs.decision_changed) LogInfo(Describe(outputs.command.decision));
   return outputs.decision_changed;
 }

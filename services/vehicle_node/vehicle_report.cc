@@ -1,6 +1,7 @@
 #include "services/vehicle_node/vehicle_report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 namespace giveway {
@@ -33,6 +34,12 @@ std::string Describe(const QosEvent& event) {
   return std::string(Name(event.kind)) + ": " +
          (event.vehicle == kNobody ? "a vehicle the library does not name"
                                    : "vehicle " + std::to_string(Number(event.vehicle)));
+}
+
+std::string Describe(const ReactionMargin& margin) {
+  const auto centimetres = [](double metres) { return std::to_string(std::lround(metres * 100)); };
+  return centimetres(margin.reaction_m) + " cm driven of " + centimetres(margin.free_m) +
+         " cm free before the wheels obeyed";
 }
 
 std::string Describe(const ImpairmentCounters& counters) {
@@ -120,6 +127,7 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::DriveLin
   status.beacon_deadline_requested_ms = qos.deadline_requested_ms;
   status.beacon_lease_ms = qos.lease_ms;
   status.impaired = counters.impaired;
+  status.timing = timing_.Figures();
   return status;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/link/drive_link.h"
+#include "services/timing/drive_timing.h"
 #include "services/types/impairment.h"
 #include "services/vehicle/vehicle.h"
 
@@ -21,13 +22,22 @@ std::string Describe(const QosEvent& event);
 // What was injected into what a vehicle heard, one line of name=number.
 std::string Describe(const ImpairmentCounters& counters);
 
+// "31 cm driven of 35 cm free before the wheels obeyed", for log lines.
+std::string Describe(const ReactionMargin& margin);
+
 // What the link counted and fleet/status has no room for, one line of name=number.
 std::string Describe(const link::VehicleLinkCounters& counters);
 
 class VehicleReport {
  public:
+  explicit VehicleReport(const VehicleOptions& options) : timing_(options) {}
+
   // `step` is what Vehicle::Step took, `turn` the time from waking on a scan to the command sent.
   void NoteStep(Nanoseconds step, Nanoseconds turn);
+  // A reaction that spent its budget, if one ended with this turn.
+  std::optional<ReactionMargin> NoteTurn(const TurnSeen& turn) { return timing_.Note(turn); }
+  // It drives by other options from now on.
+  void Reseat(const VehicleOptions& options) { timing_.Reseat(options); }
   void NoteEvents(std::span<const QosEvent> events);
   // Sends it to the fleet, and gives back what it sent.
   VehicleStatus Send(const Vehicle& vehicle, link::DriveLink& link);
@@ -37,6 +47,7 @@ class VehicleReport {
   VehicleStatus Gather(const Vehicle& vehicle, const link::DriveLink& link);
   double StepP99Us();
 
+  DriveTiming timing_;
   std::vector<double> steps_us_;  // the last kKeptSteps, in a ring
   std::vector<double> sorted_;
   std::size_t next_ = 0;

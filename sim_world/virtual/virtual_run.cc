@@ -19,31 +19,11 @@ bool BelievesArrived(const Observed& now, const GoalTolerance& tolerance) {
          Norm(now.position_world - tolerance.at_world) <= tolerance.beyond_m;
 }
 
-void Look(const VirtualFleet& fleet, std::span<const GoalTolerance> tolerances,
-          std::vector<Observed>* observed) {
-  std::size_t index = 0;
-  for (const Truth& truth : fleet.World().Truths()) {
-    while (index < observed->size() && (*observed)[index].vehicle != truth.vehicle) ++index;
-    if (index == observed->size()) return;
-    Observed& now = (*observed)[index];
-    const Outputs& said = fleet.Said(index);
-    now.present = truth.present;
-    now.lives = fleet.Answered(index);
-    now.arrived = truth.arrived;
-    now.position_world = truth.world_from_body.position_world;
-    now.heading_rad = truth.world_from_body.heading_rad;
-    now.forward_m_s = truth.forward_m_s;
-    now.rim_m_s = RimSpeed(fleet.TheScenario().vehicles[index].profile.drive, truth.wheels);
-    now.answered = said.command.tick;
-    now.decision = said.command.decision;
-    now.gives_way_to = said.beacon.gives_way_to;
-    now.order = said.beacon.order;
-    now.stated = said.beacon.tick;
-    now.stated_position_world = said.beacon.world_from_body.position_world;
-    now.stated_covariance = said.beacon.covariance;
-    now.beacon = &said.beacon;
-    now.stops = said.command.target == WheelSpeeds{};
-    now.arrived = now.arrived || (now.present && BelievesArrived(now, tolerances[index]));
+void NoteBelievedArrivals(std::span<const GoalTolerance> tolerances,
+                          std::vector<Observed>* observed) {
+  for (std::size_t i = 0; i < observed->size(); ++i) {
+    Observed& now = (*observed)[i];
+    now.arrived = now.arrived || (now.present && BelievesArrived(now, tolerances[i]));
   }
 }
 
@@ -83,6 +63,32 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
 }
 
 }  // namespace
+
+void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
+  std::size_t index = 0;
+  for (const Truth& truth : fleet.World().Truths()) {
+    while (index < observed->size() && (*observed)[index].vehicle != truth.vehicle) ++index;
+    if (index == observed->size()) return;
+    Observed& now = (*observed)[index];
+    const Outputs& said = fleet.Said(index);
+    now.present = truth.present;
+    now.lives = fleet.Answered(index);
+    now.arrived = truth.arrived;
+    now.position_world = truth.world_from_body.position_world;
+    now.heading_rad = truth.world_from_body.heading_rad;
+    now.forward_m_s = truth.forward_m_s;
+    now.rim_m_s = RimSpeed(fleet.TheScenario().vehicles[index].profile.drive, truth.wheels);
+    now.answered = said.command.tick;
+    now.decision = said.command.decision;
+    now.gives_way_to = said.beacon.gives_way_to;
+    now.order = said.beacon.order;
+    now.stated = said.beacon.tick;
+    now.stated_position_world = said.beacon.world_from_body.position_world;
+    now.stated_covariance = said.beacon.covariance;
+    now.beacon = &said.beacon;
+    now.stops = said.command.target == WheelSpeeds{};
+  }
+}
 
 InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses) {
   InvariantLimits limits;
@@ -136,7 +142,8 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
   std::uint64_t vehicle_ticks = 0;
   for (bool goes_on = true; goes_on;) {
     goes_on = fleet.Advance();
-    Look(fleet, tolerances, &observed);
+    ObserveFleet(fleet, &observed);
+    NoteBelievedArrivals(tolerances, &observed);
     invariants.Observe(fleet.World().Now(), fleet.World().TimeSeconds(), observed,
                        fleet.World().Events(), {fleet.World().Obstacles(), fleet.World().Doors()});
     vehicle_ticks += fleet.World().Scans().size();

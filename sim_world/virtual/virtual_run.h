@@ -42,6 +42,10 @@ InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan);
 // The same for news that come up to so many ticks late, or not at all.
 InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses);
 
+// What the fleet shows after a tick; `observed` has one for each vehicle of the scenario, in its
+// order.
+void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed);
+
 // Called after every tick, for pictures and traces.
 using TickWatcher = std::function<void(const VirtualFleet& fleet)>;
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "services/fleetctl/replay/replayer.h"
+#include "services/snapshot/brain_state.h"
 #include "services/types/check.h"
 #include "tests/fuzz/target.h"
 #include "tests/support/recorded_crossing.h"
@@ -57,7 +58,14 @@ std::vector<Input> Samples() {
   const Record reseat = RecordedReseat{test::DefaultOptions()};
   records.insert(records.begin() + 8, reseat);
   const std::string full = test::FileOf(records);
-  return {std::string("\0", 1) + plain, "\1" + plain, "\1" + full};
+  Vehicle brain(test::DefaultOptions(), 42);
+  std::vector<Record> ring{RecordedContinuation{42, VehicleId{1}, 2, 3}, RecordedImage{}};
+  for (std::uint32_t number = 1; number <= 3; ++number) {
+    brain.Step(std::get<RecordedStep>(test::RecordedCrossing(3)[number]).AsInputs());
+  }
+  ring[1] = RecordedImage{test::DefaultOptions(), "test", BytesOf(brain.State()), brain.Hash()};
+  ring.push_back(test::RecordedCrossing(4)[4]);
+  return {std::string("\0", 1) + plain, "\1" + plain, "\1" + full, "\1" + test::FileOf(ring)};
 }
 
 }  // namespace giveway::fuzz

@@ -258,6 +258,13 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   sent.beacon_lease_ms = 35;
   sent.trust = {36, 37, 38, 39, 40};
   sent.final = true;
+  for (std::uint32_t i = 0; i < kDriveFigures; ++i) {
+    sent.timing.figures[i] = {
+        .count = 60 + i, .sum = 70.0 + i, .p50 = 80 + i, .p99 = 90 + i, .max = 100 + i};
+    sent.timing.figures[i].newest[15] = 110 + i;
+  }
+  sent.timing.narrowest = ReactionMargin{Tick{120}, 0.25, 0.5};
+  sent.timing.budget_spent = 121;
   sent.impaired = {.packets = 41,
                    .passed = 42,
                    .dropped_blackout = 43,
@@ -296,6 +303,7 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   EXPECT_EQ(back.beacon_deadline_requested_ms, sent.beacon_deadline_requested_ms);
   EXPECT_EQ(back.beacon_lease_ms, sent.beacon_lease_ms);
   EXPECT_TRUE(back.final);
+  EXPECT_EQ(back.timing, sent.timing);
   const auto travels = [](const ImpairmentCounters& c) {
     return std::array{c.packets,      c.passed,        c.dropped_blackout, c.dropped_rate,
                       c.dropped_loss, c.dropped_burst, c.delayed,          c.held_back,

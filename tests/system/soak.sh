@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# A soak of real processes: three minutes of everything that can go wrong here pass, the report says
-# so and is whole; wrong input is refused before anything starts; Ctrl-C ends it with a report; and a
-# supervisor that is killed leaves nobody behind.
+# A soak of real processes: everything that can go wrong here passes, the report says so and is whole;
+# wrong input is refused before anything starts; Ctrl-C ends it with a report; a supervisor that is
+# killed leaves nobody behind, and its soak goes on; a broken promise makes everyone keep its ring,
+# which replays; and in virtual time the same list gives the same report twice. Each in a domain of
+# its own, side by side, in under two minutes.
+# shellcheck disable=SC2317,SC2030,SC2031 # what runs beside is called by name
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 # refused WORDS ARGUMENTS...: exit code 2, the words, and no report.
@@ -26,7 +29,13 @@ refusals() {
   refused 'no_such' patrol --faults no_such --duration 60
   refused '30 s' patrol --faults calm --duration 5
   refused 'vehicles' intersection_yield --faults calm --duration 60 --vehicles 3
+  refused 'SCENARIO' --faults calm --duration 60
+  refused 'excludes' patrol --faults calm --virtual --record-ring 60
+  refused 'not carried out in virtual time\|cannot be carried out' patrol --faults everything --virtual --duration 60
   local code=0
+  "$FLEETCTL" soak --resume "$SCRATCH/nowhere" >"$SCRATCH/out" 2>&1 || code=$?
+  { [[ $code -eq 2 ]] && grep -q 'holds no soak' "$SCRATCH/out"; } || fail "to go on with nothing ends with $code"
+  code=0
   "$FLEETCTL" soak patrol --faults calm --duration 60 --report /proc/no >"$SCRATCH/out" 2>&1 || code=$?
   [[ $code -eq 2 ]] || fail "a folder that cannot be made: exit code $code"
 }
@@ -55,7 +64,6 @@ started() {
 
 interrupted() {
   local supervisor code=0
-  echo 'at { name: "stop" time_s: 14 kind: "pause" vehicle: 1 for_s: 30 }' >"$SCRATCH/long.textproto"
   "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/long.textproto" --duration 90 --report "$SCRATCH/early" \
     --json >"$SCRATCH/early.json" 2>"$SCRATCH/early.log" &
   supervisor=$!
@@ -69,23 +77,75 @@ interrupted() {
   [[ -s $SCRATCH/early/report.html ]] || fail "an interrupted soak has no report"
 }
 
+# The soak whose supervisor was killed goes on with the rest of its list, and says so.
 killed() {
-  local supervisor children
-  "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/long.textproto" --duration 90 --report "$SCRATCH/killed" \
+  local supervisor children code=0 report=$SCRATCH/killed
+  "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/rest.textproto" --duration 45 --report "$report" \
     >/dev/null 2>"$SCRATCH/killed.log" &
   supervisor=$!
   started "$SCRATCH/killed.log" || fail "the fleet to be orphaned never drove"
   mapfile -t children < <(children_of "$supervisor")
   [[ ${#children[@]} -ge 3 ]] || fail "a world and two vehicles are ${#children[@]} processes"
+  for _ in $(seq 200); do
+    [[ -s $report/so_far.json ]] && break
+    sleep 0.1
+  done
+  sleep 11 # the second time it is saved
   kill -9 "$supervisor"
   wait "$supervisor" 2>/dev/null || true
   all_gone "${children[@]}" || fail "processes of a killed soak live on"
+  "$FLEETCTL" soak --resume "$report" --json >"$SCRATCH/resumed.json" 2>"$SCRATCH/resumed.log" || code=$?
+  [[ $code -eq 0 ]] ||
+    fail "a soak that went on ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/resumed.json")"
+  jq -e '(.resumed_at_s | length) == 1 and .resumed_at_s[0] > 8 and .ran_s > 40 and
+    (.reasons | any(startswith("resumed at"))) and ([.faults[] | select(.observed)] | length) == 1' \
+    "$SCRATCH/resumed.json" >/dev/null || fail "a soak that went on does not say so: $(jq -c '[.resumed_at_s, .ran_s,
+      .reasons, .faults]' "$SCRATCH/resumed.json")"
+  [[ ! -e $report/so_far.json ]] || fail "a soak with its verdict could be gone on with"
+}
+
+# A vehicle dies that nobody planned to kill: everyone keeps what its ring holds, bit for bit.
+kept() {
+  local supervisor victim code=0 report=$SCRATCH/kept
+  "$FLEETCTL" soak patrol --vehicles 3 --faults "$SCRATCH/long.textproto" --duration 40 --record-ring 5 \
+    --report "$report" --json >"$SCRATCH/kept.json" 2>"$SCRATCH/kept.log" &
+  supervisor=$!
+  started "$SCRATCH/kept.log" || fail "the fleet with rings never drove"
+  sleep 13
+  victim=$(find_child "$supervisor" 3)
+  kill -9 "$victim"
+  wait "$supervisor" || code=$?
+  [[ $code -eq 1 ]] || fail "a soak of which a process died ends with $code"
+  jq -e '[.violations[] | select(.invariant == "process_ended")] | length == 1' "$SCRATCH/kept.json" >/dev/null ||
+    fail "the process that died is not told of"
+  jq -e '.kept_rings | length == 1 and .[0].kept >= 2' "$SCRATCH/kept.json" >/dev/null ||
+    fail "not everyone kept its ring: $(jq -c .kept_rings "$SCRATCH/kept.json")"
+  [[ $(find "$report/recordings" -name 'vehicle-2*' | wc -l) -ge 4 ]] ||
+    fail "vehicle 2 has no ring beside its newest: $(ls "$report/recordings")"
+  "$FLEETCTL" replay "$report"/recordings/*.recording >"$SCRATCH/replayed" ||
+    fail "the rings do not replay: $(tail -n 3 "$SCRATCH/replayed")"
+  "$FLEETCTL" soak --around "$report" >"$SCRATCH/around" || fail "there is nothing around a broken promise"
+  grep -q 'fleetctl shrink .*around.textproto' "$SCRATCH/around" || fail "--around says not how to shrink it"
+  grep -q 'stop' "$report/around.textproto" || fail "the fault around it is not in around.textproto"
+}
+
+virtually() {
+  local run
+  for run in a b; do
+    "$FLEETCTL" soak patrol --vehicles 8 --faults radio_storm --skip-unsupported --virtual --duration 10m --seed 3 \
+      --report "$SCRATCH/virtual" --json >"$SCRATCH/virtual-$run.json" 2>/dev/null ||
+      fail "a soak in virtual time does not pass: $(jq -c '[.verdict, .reasons]' "$SCRATCH/virtual-$run.json")"
+  done
+  cmp -s "$SCRATCH/virtual-a.json" "$SCRATCH/virtual-b.json" || fail "two soaks in virtual time differ"
+  jq -e '.virtual_time and (.faults | length) > 20 and ([.histograms[].name] | index("reaction_way"))' \
+    "$SCRATCH/virtual-a.json" >/dev/null || fail "a soak in virtual time has no faults or no reactions"
+  grep -q '</html>' "$SCRATCH/virtual/report.html" || fail "the page of a soak in virtual time is not whole"
 }
 
 whole() {
   local code=0 report=$SCRATCH/whole
-  "$FLEETCTL" soak patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-3m}" \
-    --seed 1 --record --report "$report" --json >"$SCRATCH/whole.json" 2>"$SCRATCH/whole.log" || code=$?
+  "$FLEETCTL" soak patrol --vehicles 8 --faults everything --skip-unsupported --duration "${GIVEWAY_SOAK:-90s}" \
+    --seed 7 --record --report "$report" --json >"$SCRATCH/whole.json" 2>"$SCRATCH/whole.log" || code=$?
   if [[ $code -ne 0 ]]; then
     fail "the soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/whole.json")"
     tail -n 20 "$SCRATCH/whole.log"
@@ -93,6 +153,8 @@ whole() {
   fi
   jq -e '(.faults | length) > 5 and ([.faults[] | select(.observed | not)] | length) == 0' \
     "$report/report.json" >/dev/null || fail "a fault of the whole soak was not observed"
+  jq -e '[.histograms[].name] as $all | ["beacon_age", "tick_jitter", "turn"] - $all == []' \
+    "$report/report.json" >/dev/null || fail "the whole soak has not measured its vehicles"
   grep -q '</html>' "$report/report.html" || fail "the page is not whole"
   "$FLEETCTL" report "$report" >"$SCRATCH/summary" || fail "fleetctl report does not read it"
   grep -q PASSED "$SCRATCH/summary" || fail "fleetctl report does not say that it passed"
@@ -100,8 +162,24 @@ whole() {
     fail "a recording of the soak does not replay"
 }
 
+# beside FUNCTION: it runs from now on; its failures count.
+runs=()
+beside() {
+  (
+    failures=0
+    "$1"
+    exit $((failures > 0))
+  ) &
+  runs+=($!)
+}
+
+echo 'at { name: "stop" time_s: 14 kind: "pause" vehicle: 1 for_s: 10 }' >"$SCRATCH/long.textproto"
+echo 'at { name: "rest" time_s: 30 kind: "pause" vehicle: 1 for_s: 2 }' >"$SCRATCH/rest.textproto"
+beside whole
+beside killed
+beside kept
 refusals
 interrupted
-killed
-whole
+virtually
+for run in "${runs[@]}"; do wait "$run" || failures=$((failures + 1)); done
 exit $((failures > 0))

@@ -99,6 +99,29 @@ JsonObject ImpairCountsOf(const ImpairmentCounters& counters) {
   return object;
 }
 
+// The newest values are for who gathers them.
+JsonObject FigureOf(const FigureSummary& figure) {
+  JsonObject object;
+  object.Add("values", figure.count);
+  object.Add("p50", figure.p50);
+  object.Add("p99", figure.p99);
+  object.Add("max", figure.max);
+  return object;
+}
+
+JsonObject TimingOf(const DriveFigures& timing) {
+  JsonObject object;
+  object.Add("beacon_age_us", FigureOf(timing.Of(DriveFigure::kBeaconAge)));
+  object.Add("tick_jitter_us", FigureOf(timing.Of(DriveFigure::kTickJitter)));
+  object.Add("turn_us", FigureOf(timing.Of(DriveFigure::kTurn)));
+  object.Add("reaction_us", FigureOf(timing.Of(DriveFigure::kReaction)));
+  object.Add("reaction_way_um", FigureOf(timing.Of(DriveFigure::kReactionWay)));
+  object.Add("reaction_share_ppm", FigureOf(timing.Of(DriveFigure::kReactionShare)));
+  if (timing.narrowest) object.Add("narrowest_share_left", timing.narrowest->ShareLeft());
+  object.Add("budget_spent", timing.budget_spent);
+  return object;
+}
+
 void AddDecision(const Decision& decision, JsonObject* object) {
   object->Add("mode", giveway::Name(decision.mode));
   object->Add("rule", giveway::Name(decision.rule));
@@ -165,6 +188,7 @@ void AddFields(const VehicleStatus& status, JsonObject* object) {
   object->Add("beacon_lease_ms", status.beacon_lease_ms);
   object->Add("last_report", status.final);
   object->Add("impaired", ImpairCountsOf(status.impaired));
+  object->Add("timing", TimingOf(status.timing));
 }
 
 void AddFields(const Truth& truth, JsonObject* object) {

@@ -44,6 +44,7 @@ Words OwnFlags(const FleetOptions& options, MemberId member) {
   if (!options.record_folder.empty()) {
     const auto folder = std::filesystem::path(options.record_folder);
     Append(&flags, {"--record", (folder / (FileNameOf(member) + ".recording")).string()});
+    if (!options.record_ring.empty()) Append(&flags, {"--record-ring", options.record_ring});
     if (!options.record_split.empty()) Append(&flags, {"--record-split", options.record_split});
   }
   if (member.kind == MemberKind::kVehicle) Append(&flags, {"--id", std::to_string(member.number)});

@@ -11,7 +11,7 @@ A recording is what giveway-vehicle --record FILE, or fleetctl run --record FOLD
 brain is told the same inputs; every command, every beacon and the hash of its state must come out
 bit for bit as recorded. A file cut off by kill -9, or by a full disk, is replayed up to its last whole
 record. The parts of a recording that was split by size are replayed one after the other: name them all,
-in any order.
+in any order. Those of a ring (--record-ring) replay by themselves too.
 The trace has the columns of fleetctl virtual --trace; places are where the vehicle believed to be.
 
 Examples

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/snapshot/brain_state.h"
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -40,9 +42,28 @@ void Replayer::Begin(const RecordingFile& file, ReplayedFile* outcome) {
   outcome->vehicle = file.Continues()->vehicle;
   outcome->part = file.Continues()->part;
   if (brain_ && *file.Continues() == next_) return;
+  brain_.reset();  // an image must bring one
+  next_ = *file.Continues();
+}
+
+// Makes the brain that a part of a ring begins with; or, if one was led up to there, compares the
+// two. What speaks against it; empty: nothing.
+std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcome) {
+  if (brain_) {
+    if (BytesOf(brain_->State()) == image.state) return "";
+    outcome->difference = {
+        outcome->steps,
+        brain_->State().tick,
+        {"state", fmt::format("{:016x}", image.hash), fmt::format("{:016x}", brain_->Hash())}};
+    return "";
+  }
+  const auto state = StateFrom(image.state, image.options);
+  if (state == nullptr) return "begins with a brain that this program cannot be in";
+  brain_.emplace(image.options, next_.boot_epoch);
+  brain_->Restore(*state);
+  if (brain_->Hash() == image.hash) return "";
   brain_.reset();
-  outcome->finding = fmt::format(
-      "is part {} of a recording: name the parts before it, too, each whole", outcome->part);
+  return "begins with a brain that is not the one recorded";
 }
 
 ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {
@@ -51,7 +72,6 @@ ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {
   outcome.finding = file.Complaint();
   if (!file.Life() && !file.Continues()) return outcome;
   Begin(file, &outcome);
-  if (!brain_) return outcome;
   Lead(&file, watch, &outcome);
   const bool continues = file.End() && file.End()->continues && !outcome.difference;
   if (!continues || !outcome.finding.empty()) brain_.reset();
@@ -61,7 +81,19 @@ ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {
 }
 
 void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFile* outcome) {
+  bool compared_image = false;
   while (const std::optional<Record> record = file->Next()) {
+    if (const auto* image = std::get_if<RecordedImage>(&*record)) {
+      compared_image = brain_.has_value();
+      outcome->finding = TakeImage(*image, outcome);
+      if (!outcome->finding.empty() || outcome->difference) return;
+      continue;
+    }
+    if (!brain_) {
+      outcome->finding = fmt::format(
+          "is part {} of a recording: name the parts before it, too, each whole", outcome->part);
+      return;
+    }
     if (const auto* reseat = std::get_if<RecordedReseat>(&*record)) {
       brain_->Reseat(reseat->options);
       continue;
@@ -80,7 +112,9 @@ void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFil
   outcome->complete = end.has_value();
   outcome->lost = end ? end->lost : 0;
   outcome->failure = end ? Printable(end->failure) : "";
-  if (outcome->steps == 0 && outcome->finding.empty()) {
+  // A ring may have begun a file with its last breath: where the brain was led up to there, that
+  // one was compared.
+  if (outcome->steps == 0 && outcome->finding.empty() && !compared_image) {
     outcome->finding = "holds no step: nothing was compared";
     if (!outcome->failure.empty()) outcome->finding += "; " + outcome->failure;
   } else if (end && end->steps != outcome->steps) {

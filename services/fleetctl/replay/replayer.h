@@ -6,6 +6,7 @@
 #include <functional>
 #include <istream>
 #include <optional>
+#include <string>
 
 #include "services/recording/recording_file.h"
 #include "services/recording/replay_report.h"
@@ -26,6 +27,7 @@ class Replayer {
 
  private:
   void Begin(const RecordingFile& file, ReplayedFile* outcome);
+  std::string TakeImage(const RecordedImage& image, ReplayedFile* outcome);
   void Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFile* outcome);
 
   std::optional<Vehicle> brain_;  // none where the parts so far did not replay to their end

@@ -223,6 +223,7 @@ void CompareCounts(const SoakResult& before, const SoakResult& after, Figures* f
   }
   compare("violations", before.violations_counted, after.violations_counted);
   compare("near misses", before.near_misses_counted, after.near_misses_counted);
+  compare("reactions that left less than a fifth", before.budget_spent, after.budget_spent);
   compare("unplanned restarts", before.restarts_unplanned, after.restarts_unplanned);
 }
 

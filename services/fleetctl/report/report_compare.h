@@ -6,8 +6,9 @@
 //              widths of both intervals. Worse only from what counts as a leak on.
 //   faults     by kind: how long until noticed, until recovered (Mann-Whitney), from 5 % on; how
 //              many were noticed late, how many had no effect (Fisher).
-//   counts     violations by invariant, near misses, unplanned restarts over vehicle-hours
-//              (conditional binomial).
+//   counts     violations by invariant, near misses, reactions that left less than a fifth of
+//              their free distance, unplanned restarts over vehicle-hours (conditional
+//              binomial).
 //   verdict    one that passed and no longer does, samples that are not accounted for, leaks that
 //              are new: no test is asked about these.
 //

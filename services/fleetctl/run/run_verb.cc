@@ -115,6 +115,11 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
                    "Begin another file of each recording at this size: 64MiB")
       ->check(CheckSplit)
       ->envname("GIVEWAY_RECORD_SPLIT");
+  verb->add_option("--record-ring", options->fleet.record_ring,
+                   "Keep only the last so many seconds of each recording: 60")
+      ->check(CLI::Range(5U, 3600U))
+      ->excludes("--record-split")
+      ->envname("GIVEWAY_RECORD_RING");
   verb->add_option("--log-level", options->fleet.log_level, "Of the world and the vehicles")
       ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
       ->capture_default_str()

@@ -325,6 +325,7 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   SetFlag(&child.words, "--id", std::to_string(id));
   DropFlag(&child.words, "--record");
   DropFlag(&child.words, "--record-split");
+  DropFlag(&child.words, "--record-ring");
   return std::make_unique<ChildProcess>(child);
 }
 

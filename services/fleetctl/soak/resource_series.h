@@ -60,6 +60,8 @@ class ResourceSeries {
   // Of all lives, those that last still included, by process, life and kind, with MarkLeaks. Costs
   // up to 10 ms a living process and resource: not for every second.
   std::vector<ResourceSlope> Slopes() const;
+  // Of lives that have ended alone, without MarkLeaks. Costs nothing.
+  const std::vector<ResourceSlope>& EndedSlopes() const { return ended_; }
   // Lives that ended before they could be judged.
   std::uint64_t LivesTooShort() const { return lives_too_short_; }
 

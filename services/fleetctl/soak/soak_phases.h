@@ -6,6 +6,9 @@
 
 namespace giveway::fleetctl {
 
+// A fleet takes ten to start.
+inline constexpr double kLeastSoak_s = 30;
+
 // Seconds since the start signal.
 struct SoakPhases {
   double faults_from_s = 0;   // before it: warm-up, nothing is broken

@@ -71,11 +71,11 @@ SoakHistogram HistogramFrom(const schema::SoakHistogram& message, const std::str
                             Complaints* complaints) {
   SoakHistogram measured;
   measured.name = message.name();
-  if (message.unit() != "ns" && message.unit() != "um") {
-    complaints->Add(field + ".unit", "\"" + message.unit() + "\"", "\"ns\" or \"um\"");
+  const auto unit = HistogramUnitOf(message.unit());
+  if (!unit) {
+    complaints->Add(field + ".unit", "\"" + message.unit() + "\"", "\"ns\", \"um\" or \"ppm\"");
   }
-  measured.unit =
-      message.unit() == "um" ? HistogramUnit::kMicrometres : HistogramUnit::kNanoseconds;
+  measured.unit = unit.value_or(HistogramUnit::kNanoseconds);
   if (message.lowest_size() != message.count_size()) {
     complaints->Add(field + ".count", fmt::format("{} numbers", message.count_size()),
                     fmt::format("as many as lowest: {}", message.lowest_size()));
@@ -219,6 +219,13 @@ void ReadFigures(const schema::SoakReport& message, SoakResult* result, Complain
     result->narrowest_margin = {margin.time_s(), VehicleId{margin.vehicle()}, margin.reaction_m(),
                                 margin.free_m(), margin.share_left()};
   }
+  for (const schema::SoakKeptRings& kept : message.kept_rings()) {
+    result->kept_rings.push_back({kept.time_s(), kept.ordered(), kept.kept()});
+  }
+  result->resumed_at_s = {message.resumed_at_s().begin(), message.resumed_at_s().end()};
+  result->budget_spent = CountOf(message.budget_spent(), "budget_spent", complaints);
+  result->timing_values_lost =
+      CountOf(message.timing_values_lost(), "timing_values_lost", complaints);
   result->restarts_planned = message.restarts_planned();
   result->restarts_unplanned = message.restarts_unplanned();
   if (message.has_supervisor_cpu_share()) {

@@ -15,6 +15,26 @@ bool WithinBudgets(const SoakHistogram& measured) {
          });
 }
 
+const char* ToString(HistogramUnit unit) {
+  switch (unit) {
+    case HistogramUnit::kNanoseconds:
+      return "ns";
+    case HistogramUnit::kMicrometres:
+      return "um";
+    case HistogramUnit::kPartsPerMillion:
+      return "ppm";
+  }
+  return "ns";
+}
+
+std::optional<HistogramUnit> HistogramUnitOf(const std::string& word) {
+  for (const HistogramUnit unit : {HistogramUnit::kNanoseconds, HistogramUnit::kMicrometres,
+                                   HistogramUnit::kPartsPerMillion}) {
+    if (word == ToString(unit)) return unit;
+  }
+  return std::nullopt;
+}
+
 const char* ToString(ResourceKind kind) {
   switch (kind) {
     case ResourceKind::kPrivateBytes:

@@ -78,7 +78,10 @@ struct ModeChange {
   std::string mode;
 };
 
-enum class HistogramUnit : std::uint8_t { kNanoseconds, kMicrometres };
+enum class HistogramUnit : std::uint8_t { kNanoseconds, kMicrometres, kPartsPerMillion };
+// "ns", "um", "ppm"; and the other way.
+const char* ToString(HistogramUnit unit);
+std::optional<HistogramUnit> HistogramUnitOf(const std::string& word);
 
 // At most `most`, in the histogram's unit, for the share `quantile` of all.
 struct HistogramBudget {
@@ -147,13 +150,20 @@ struct MachinePauses {
   double share = 0;  // of the time judged, 0 to 1
 };
 
-// The reaction that left least of its free distance.
+// The reaction that left the least share of its free distance.
 struct NarrowestMargin {
-  double time_s = 0;
+  double time_s = 0;  // at which it was told of
   VehicleId vehicle = kNobody;
-  double reaction_m = 0;  // driven from cause to applied command
+  double reaction_m = 0;  // driven from cause to wheels that obey
   double free_m = 0;      // that there was
   double share_left = 0;  // of free_m; alarm budget_spent below a fifth
+};
+
+// All vehicles were told to keep the rings of their recordings, for a promise was broken.
+struct KeptRings {
+  double time_s = 0;
+  std::uint32_t ordered = 0;  // vehicles that could be told
+  std::uint32_t kept = 0;     // of those, who said that they did
 };
 
 struct SoakResult {
@@ -188,6 +198,10 @@ struct SoakResult {
   std::vector<AccountingRow> accounting;
   MachinePauses pauses;
   std::optional<NarrowestMargin> narrowest_margin;
+  std::uint64_t budget_spent = 0;        // reactions that left less than a fifth
+  std::uint64_t timing_values_lost = 0;  // that no vehicle's report told of
+  std::vector<KeptRings> kept_rings;
+  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet went on
   std::uint32_t restarts_planned = 0;
   std::uint32_t restarts_unplanned = 0;        // a process ended and no fault says why
   std::optional<double> supervisor_cpu_share;  // of the fleet's processor time

@@ -11,6 +11,7 @@
 
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/fleet_commands.h"
+#include "services/fleetctl/soak/fleet_timing.h"
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/fleetctl/stopwatch/stopwatch_table.h"
 #include "services/types/time.h"
@@ -27,12 +28,6 @@ struct FaultCourse {
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
   std::optional<SteadyTime> recovered;  // after its end all that it struck were well again
 };
-
-// The fault that may have to do with what befell the vehicle: the last that began before and had
-// not been over for ten seconds, of those that struck it or everyone if there is one.
-std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
-                                       std::span<const FaultCourse> courses, VehicleId vehicle,
-                                       SteadyTime at);
 
 // Somebody ended who was not to.
 struct UnplannedEnd {
@@ -65,6 +60,8 @@ struct SoakSeen {
   std::uint64_t modes_counted = 0;
   std::vector<ResourceSlope> slopes;
   std::uint64_t lives_too_short = 0;
+  FleetTiming timing{Nanoseconds{0}};
+  std::vector<KeptRings> kept_rings;
   MachinePauses pauses;
   std::map<VehicleId, double> step_p99_us;  // the highest that each said of itself
 };

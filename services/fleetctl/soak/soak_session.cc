@@ -21,6 +21,7 @@ constexpr Nanoseconds kTurn = milliseconds(20);
 constexpr Nanoseconds kUntilAllDrive = seconds(60);
 constexpr Nanoseconds kSampleEvery = seconds(1);
 constexpr Nanoseconds kProgressEvery = seconds(10);
+constexpr Nanoseconds kSaveEvery = seconds(10);
 constexpr Nanoseconds kLeaveGrace = seconds(2);
 constexpr Nanoseconds kTermGrace = seconds(3);
 constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it takes reading every map
@@ -56,6 +57,15 @@ std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<
   return radius_m;
 }
 
+// Nobody may decide by a beacon older than the most patient vehicle does; its own tick, which every
+// decision is behind, is no age to a brain.
+Nanoseconds MostBeaconAge(const Scenario& scenario) {
+  Nanoseconds limit{0};
+  for (const auto& vehicle : scenario.vehicles) limit = std::max(limit, vehicle.beacon_age_limit);
+  for (const auto& spawn : scenario.spawns) limit = std::max(limit, spawn.beacon_age_limit);
+  return limit + scenario.tick_period;
+}
+
 }  // namespace
 
 std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers) {
@@ -78,11 +88,21 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       faults_(std::move(tools), &processes_),
       clock_(schedule),
       resources_(phases.faults_from_s),
+      course_(
+          fleet_, [this](VehicleId vehicle) { return faults_.IsAway(MemberOf(vehicle)); },
+          [this](VehicleId vehicle) { return faults_.IsAwayForGood(MemberOf(vehicle)); }),
       near_(RadiiOf(scenario, fleet_)),
+      timing_(MostBeaconAge(scenario)),
       tick_period_s_(Seconds(scenario.tick_period)),
-      turned_(SteadyNow()) {}
+      turned_(SteadyNow()) {
+  const std::string& ring_s = spec.options.record_ring;
+  if (ring_s.empty()) return;
+  rings_.emplace(ObserverOf(spec, scenario), fleet_, spec.options.record_folder,
+                 seconds(std::stoul(ring_s)));
+}
 
-SoakSeen SoakSession::Run() {
+SoakSeen SoakSession::Run(const Saved& save) {
+  save_ = save;
   seen_.started = WaitUntilAllDrive();
   if (seen_.started) {
     std::fprintf(stderr, "%zu vehicles drive; faults from %.0f to %.0f s, verdict at %.0f s\n",
@@ -97,28 +117,44 @@ SoakSeen SoakSession::Run() {
   CarryOut(clock_.EndAll(seen_.lasted_s));
   Stop();
   invariants_.Finish(false);
-  Gather();
+  Gather(&seen_);
+  seen_.slopes = resources_.Slopes();
   return std::move(seen_);
 }
 
-void SoakSession::Gather() {
-  seen_.courses.assign(watch_.Courses().begin(), watch_.Courses().end());
+void SoakSession::Gather(SoakSeen* seen) const {
+  seen->courses.assign(watch_.Courses().begin(), watch_.Courses().end());
   const sim::Invariants& judged = invariants_.Judged();
   for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-    seen_.broken_counted += judged.Count(static_cast<sim::Invariant>(i));
+    seen->broken_counted += judged.Count(static_cast<sim::Invariant>(i));
   }
   for (const sim::Violation& broken : judged.First()) {
-    seen_.broken.push_back({TimeOfTick(broken.tick), broken});
+    seen->broken.push_back({TimeOfTick(broken.tick), broken});
   }
-  seen_.near_misses = near_.Narrowest();
-  seen_.near_misses_counted = near_.Count();
-  seen_.slopes = resources_.Slopes();
+  seen->near_misses = near_.Narrowest();
+  seen->near_misses_counted = near_.Count();
+  seen->timing = timing_;
+  if (rings_) seen->kept_rings = rings_->Kept();
+  seen->slopes = resources_.EndedSlopes();
   for (const VehicleId vehicle : fleet_) {
-    seen_.step_p99_us[vehicle] = watch_.HighestStepP99_us(vehicle);
+    seen->step_p99_us[vehicle] = watch_.HighestStepP99_us(vehicle);
   }
-  seen_.lives_too_short = resources_.LivesTooShort();
-  seen_.pauses = {pauses_.Count(), Seconds(pauses_.Paused()), Seconds(pauses_.Longest()),
+  seen->lives_too_short = resources_.LivesTooShort();
+  seen->pauses = {pauses_.Count(), Seconds(pauses_.Paused()), Seconds(pauses_.Longest()),
                   pauses_.Share()};
+}
+
+void SoakSession::SaveIfDue(SteadyTime now) {
+  if (!save_ || !seen_.started || stopping_ || now < next_save_) return;
+  next_save_ = now + kSaveEvery;
+  SoakSeen so_far = seen_;
+  so_far.lasted_s = watch_.TimeSeconds(now);
+  Gather(&so_far);
+  // Of one that is still open nobody can say yet what it broke.
+  for (const std::size_t i : watch_.Open()) {
+    so_far.courses[i] = {.effect = watch_.Courses()[i].effect};
+  }
+  save_(so_far);
 }
 
 bool SoakSession::WaitUntilAllDrive() {
@@ -151,9 +187,10 @@ void SoakSession::Turn() {
   HearLines();
   NoteEnds();
   Sample(now);
-  NoteModes(now);
-  SeekHealing(now);
+  FollowCourse(now);
   ShowProgress(now);
+  KeepRings(now);
+  SaveIfDue(now);
 }
 
 void SoakSession::Drain() {
@@ -161,10 +198,31 @@ void SoakSession::Drain() {
   watch_.Fold(observed, SteadyNow());
   invariants_.Fold(observed);
   near_.Fold(observed.truths);
+  for (const VehicleStatus& status : observed.statuses) {
+    timing_.Fold(status, watch_.TimeSeconds(SteadyNow()));
+  }
   if (!observed.truths.empty()) any_truth_ = observed.truths.back();
   if (watch_.HasStarted() && seen_.started_at == SteadyTime{0}) {
     seen_.started_at = SteadyNow() - FromSeconds(watch_.TimeSeconds(SteadyNow()));
   }
+}
+
+// What is known to be broken while it runs: invariants, decisions on stale beacons, processes that
+// ended.
+std::uint64_t SoakSession::BrokenSoFar() const {
+  std::uint64_t broken = seen_.restarts + timing_.Stale().size();
+  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+    broken += invariants_.Judged().Count(static_cast<sim::Invariant>(i));
+  }
+  return broken;
+}
+
+void SoakSession::KeepRings(SteadyTime now) {
+  if (!rings_) return;
+  const std::uint64_t broken = BrokenSoFar();
+  if (broken > broken_before_ && !stopping_) rings_->Keep(now, watch_.TimeSeconds(now));
+  broken_before_ = broken;
+  rings_->Turn(now);
 }
 
 void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
@@ -255,33 +313,11 @@ double SoakSession::TimeOfTick(Tick tick) const {
   return any_truth_->time_s + ticks * tick_period_s_;
 }
 
-void SoakSession::NoteModes(SteadyTime now) {
+void SoakSession::FollowCourse(SteadyTime now) {
   if (!watch_.HasStarted() || stopping_) return;
-  for (const VehicleId vehicle : fleet_) {
-    const VehicleStatus* const status = watch_.StatusOf(vehicle);
-    std::string mode = faults_.IsAway(MemberOf(vehicle)) ? "gone"
-                       : status == nullptr               ? "silent"
-                       : watch_.IsWell(vehicle, now)     ? "drive"
-                                                         : std::string(Name(status->decision.rule));
-    std::string& before = mode_[vehicle];
-    if (before == mode) continue;
-    before = mode;
-    ++seen_.modes_counted;
-    if (seen_.modes.size() < kMostListed) {
-      seen_.modes.push_back({watch_.TimeSeconds(now), vehicle, std::move(mode)});
-    }
-  }
-}
-
-void SoakSession::SeekHealing(SteadyTime now) {
-  const double time_s = watch_.TimeSeconds(now);
-  if (!seen_.started || stopping_ || time_s < clock_.LastEnd_s()) return;
-  if (!healed_from_) healed_from_ = now;
-  for (const VehicleId vehicle : fleet_) {
-    if (faults_.IsAwayForGood(MemberOf(vehicle))) continue;
-    auto& healed = seen_.healing[vehicle];
-    if (!healed && watch_.IsWell(vehicle, now)) healed = Seconds(now - *healed_from_);
-  }
+  course_.NoteModes(watch_, now, &seen_);
+  if (!seen_.started || watch_.TimeSeconds(now) < clock_.LastEnd_s()) return;
+  course_.SeekHealing(watch_, now, &seen_);
 }
 
 void SoakSession::ShowProgress(SteadyTime now) {

@@ -2,6 +2,7 @@
 // it, heals it, stops it, and hands on what was seen. Judged elsewhere: soak_verdict.h.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -12,10 +13,13 @@
 #include "services/fleetctl/process/fleet_processes.h"
 #include "services/fleetctl/run/invariant_watch.h"
 #include "services/fleetctl/soak/fault_clock.h"
+#include "services/fleetctl/soak/fleet_course.h"
+#include "services/fleetctl/soak/fleet_timing.h"
 #include "services/fleetctl/soak/near_misses.h"
 #include "services/fleetctl/soak/pause_meter.h"
 #include "services/fleetctl/soak/process_faults.h"
 #include "services/fleetctl/soak/resource_series.h"
+#include "services/fleetctl/soak/ring_keeper.h"
 #include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/soak_seen.h"
 #include "services/fleetctl/soak/soak_watch.h"
@@ -31,25 +35,30 @@ class SoakSession {
   SoakSession(const FleetSpec& spec, const Scenario& scenario, const faults::Schedule& schedule,
               const SoakPhases& phases, FaultTools tools);
 
-  // Returns when the last process is gone.
-  SoakSeen Run();
+  // What was seen so far, without the slopes of lives that last: they take their time.
+  using Saved = std::function<void(const SoakSeen& so_far)>;
+
+  // Returns when the last process is gone. Calls `save` every ten seconds.
+  SoakSeen Run(const Saved& save = {});
 
   // How long the machine stood still at most, in some time of the run.
   const StallMonitor& Stalls() const { return stalls_; }
 
  private:
   double TimeOfTick(Tick tick) const;  // since the start signal
-  void Gather();
+  void Gather(SoakSeen* seen) const;
+  void SaveIfDue(SteadyTime now);
   bool WaitUntilAllDrive();
   void Turn();
   void Drain();
+  std::uint64_t BrokenSoFar() const;
+  void KeepRings(SteadyTime now);
   void CarryOut(std::span<const FaultEdge> edges);
   void NoteProcessEffects();
   void HearLines();
   void NoteEnds();
   void Sample(SteadyTime now);
-  void NoteModes(SteadyTime now);
-  void SeekHealing(SteadyTime now);
+  void FollowCourse(SteadyTime now);
   void ShowProgress(SteadyTime now);
   void Stop();
 
@@ -63,10 +72,13 @@ class SoakSession {
   ProcessFaults faults_;
   FaultClock clock_;
   ResourceSeries resources_;
+  FleetCourse course_;
   PauseMeter pauses_;
   StallMonitor stalls_;
   NearMisses near_;
-  std::map<VehicleId, std::string> mode_;
+  FleetTiming timing_;
+  std::optional<RingKeeper> rings_;
+  std::uint64_t broken_before_ = 0;  // when rings were kept last
   double tick_period_s_;
   std::optional<Truth> any_truth_;
   SoakSeen seen_;
@@ -74,7 +86,8 @@ class SoakSession {
   SteadyTime turned_{0};
   SteadyTime next_sample_{0};
   SteadyTime next_progress_{0};
-  std::optional<SteadyTime> healed_from_;
+  Saved save_;
+  SteadyTime next_save_{0};
   bool stopping_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "services/faults/kind_table.h"
@@ -18,6 +19,7 @@ using faults::Target;
 using std::chrono::milliseconds;
 
 constexpr double kHealP99_s = 2;
+constexpr Nanoseconds kLingers = std::chrono::seconds(10);
 // Of a step of the brain, which takes a thousandth of that: a fifth of the usual tick.
 constexpr double kMostStep_us = 10'000;
 // For a word to be written and read, beside the promise itself.
@@ -38,6 +40,25 @@ std::optional<fleetctl::Fault> AsOfStopwatch(Kind kind) {
   }
 }
 
+// The fault that may have to do with what befell the vehicle: the last that began before and had
+// not been over for ten seconds, of those that struck it or everyone if there is one.
+std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
+                                       std::span<const FaultCourse> courses, VehicleId vehicle,
+                                       SteadyTime at) {
+  std::optional<std::size_t> struck_it;
+  std::optional<std::size_t> any;
+  for (std::size_t i = 0; i < courses.size(); ++i) {
+    const FaultCourse& course = courses[i];
+    if (!course.began || *course.began > at) continue;
+    if (course.ended && at > *course.ended + kLingers) continue;
+    any = i;
+    const faults::Target& target = schedule[i].target;
+    const bool everyone = target.what != faults::Target::What::kVehicle;
+    if (everyone || target.vehicle == vehicle) struck_it = i;
+  }
+  return struck_it ? struck_it : any;
+}
+
 class Judging {
  public:
   Judging(const SoakEvidence& evidence, SoakResult* result) : from_(evidence), result_(*result) {}
@@ -49,11 +70,13 @@ class Judging {
     TellHealing();
     TellSlopes();
     TellSlowLoops();
+    TellTiming();
     result_.near_misses = from_.seen.near_misses;
     result_.near_misses_counted = from_.seen.near_misses_counted;
     result_.modes = from_.seen.modes;
     result_.modes_counted = from_.seen.modes_counted;
     result_.pauses = from_.seen.pauses;
+    result_.kept_rings = from_.seen.kept_rings;
     std::ranges::stable_sort(result_.violations, {}, &SoakViolation::time_s);
     Conclude();
   }
@@ -76,6 +99,10 @@ class Judging {
     std::string fault = FaultNameBehind(vehicle, time_s);
     result_.violations.push_back(
         {time_s, vehicle, other, std::move(invariant), std::move(words), std::move(fault)});
+  }
+
+  std::vector<Expected> Promised(const faults::Fault& fault) const {
+    return from_.by_processes ? ExpectedOf(fault, from_.limits) : std::vector<Expected>();
   }
 
   void TellFaults() {
@@ -109,7 +136,7 @@ class Judging {
       const double after_s = Seconds(*noticed - *course.began);
       if (!told.noticed_after_s || after_s < *told.noticed_after_s) told.noticed_after_s = after_s;
     }
-    for (const Expected& expected : ExpectedOf(fault, from_.limits)) {
+    for (const Expected& expected : Promised(fault)) {
       const double within_s = Seconds(expected.within);
       told.promised_s = std::min(told.promised_s.value_or(within_s), within_s);
     }
@@ -129,7 +156,7 @@ class Judging {
     const bool lasted = !course.ended || fault.for_s <= 0 ||
                         Seconds(*course.ended - *course.began) >= fault.for_s * 0.9;
     if (!lasted) return;
-    for (const Expected& expected : ExpectedOf(fault, from_.limits)) {
+    for (const Expected& expected : Promised(fault)) {
       JudgeDetection(fault, course, expected, NameOf(told));
     }
   }
@@ -217,6 +244,22 @@ class Judging {
       Tell(from_.seen.lasted_s, vehicle, "slow_loop",
            fmt::format("a hundredth of its steps took {:.1f} ms and more, of a tick at most {:.0f}",
                        step_us / 1000, kMostStep_us / 1000));
+    }
+  }
+
+  void TellTiming() {
+    const FleetTiming& timing = from_.seen.timing;
+    for (SoakHistogram& measured : timing.Histograms()) {
+      result_.histograms.push_back(std::move(measured));
+    }
+    result_.narrowest_margin = timing.Narrowest();
+    result_.budget_spent = timing.BudgetSpent();
+    result_.timing_values_lost = timing.Missed();
+    for (const auto& [vehicle, stale] : timing.Stale()) {
+      Tell(stale.first_s, vehicle, "stale_decision",
+           fmt::format("{} of its decisions used beacons older than they may be, the oldest of "
+                       "{:.0f} ms",
+                       stale.count, Milliseconds(stale.oldest)));
     }
   }
 

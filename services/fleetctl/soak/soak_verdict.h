@@ -19,6 +19,7 @@ struct SoakEvidence {
   Limits limits;  // what the profile set promises
   // The longest time that the machine stood still between two moments of the run.
   std::function<Nanoseconds(SteadyTime, SteadyTime)> longest_pause;
+  bool by_processes = true;  // else nothing is known of whom the middleware told
 };
 
 // What must tell peers of a fault, and within what time: its victim falls silent for longer. Not

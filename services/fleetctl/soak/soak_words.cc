@@ -14,9 +14,11 @@ constexpr const char* kNoValue = "-";
 std::string MarginWords(const SoakResult& result) {
   if (!result.narrowest_margin) return "not measured";
   const NarrowestMargin& margin = *result.narrowest_margin;
-  return fmt::format("{:.0f} % left: vehicle {} drove {:.2f} m of {:.2f} m free, at {:.1f} s",
-                     margin.share_left * 100, Number(margin.vehicle), margin.reaction_m,
-                     margin.free_m, margin.time_s);
+  return fmt::format(
+      "{:.0f} % left: vehicle {} drove {:.2f} m of {:.2f} m free, at {:.1f} s; {} left less than a "
+      "fifth",
+      margin.share_left * 100, Number(margin.vehicle), margin.reaction_m, margin.free_m,
+      margin.time_s, result.budget_spent);
 }
 
 std::string AccountingWords(const SoakResult& result) {
@@ -82,6 +84,7 @@ std::string SecondsWords(const std::optional<double>& seconds) {
 std::string ValueWords(HistogramUnit unit, std::int64_t value) {
   const double shown = static_cast<double>(value) * 1e-6;
   if (unit == HistogramUnit::kMicrometres) return fmt::format("{:.3f} m", shown);
+  if (unit == HistogramUnit::kPartsPerMillion) return fmt::format("{:.1f} %", shown * 100);
   return shown < 10 ? fmt::format("{:.3f} ms", shown) : fmt::format("{:.1f} ms", shown);
 }
 
@@ -179,6 +182,10 @@ std::vector<SummaryRow> SummaryOf(const SoakResult& result) {
       {"machine's pauses",
        fmt::format("{}, {:.2f} % of the time, the longest {:.3f} s", result.pauses.count,
                    result.pauses.share * 100, result.pauses.longest_s)}};
+  for (const KeptRings& kept : result.kept_rings) {
+    rows.push_back({"rings kept", fmt::format("at {:.1f} s, by {} of {} vehicles", kept.time_s,
+                                              kept.kept, result.vehicles)});
+  }
   if (result.supervisor_cpu_share) {
     rows.push_back({"supervisor", fmt::format("{:.1f} % of the fleet's processor time",
                                               *result.supervisor_cpu_share * 100)});

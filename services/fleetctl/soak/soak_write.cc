@@ -66,7 +66,7 @@ void Write(const ModeChange& change, schema::SoakMode* message) {
 void Write(const SoakHistogram& measured, schema::SoakHistogram* message) {
   const Histogram& histogram = measured.histogram;
   message->set_name(WellFormed(measured.name));
-  message->set_unit(measured.unit == HistogramUnit::kNanoseconds ? "ns" : "um");
+  message->set_unit(ToString(measured.unit));
   message->set_min(AsDouble(histogram.Min()));
   message->set_max(AsDouble(histogram.Max()));
   message->set_clamped(AsDouble(histogram.Clamped()));
@@ -180,6 +180,15 @@ schema::SoakReport SchemaOf(const SoakResult& result) {
     message.mutable_narrowest_margin()->set_free_m(Printable(margin->free_m));
     message.mutable_narrowest_margin()->set_share_left(Printable(margin->share_left));
   }
+  for (const KeptRings& kept : result.kept_rings) {
+    schema::SoakKeptRings& written = *message.add_kept_rings();
+    written.set_time_s(Printable(kept.time_s));
+    written.set_ordered(kept.ordered);
+    written.set_kept(kept.kept);
+  }
+  for (const double at_s : result.resumed_at_s) message.add_resumed_at_s(Printable(at_s));
+  message.set_budget_spent(AsDouble(result.budget_spent));
+  message.set_timing_values_lost(AsDouble(result.timing_values_lost));
   message.set_restarts_planned(result.restarts_planned);
   message.set_restarts_unplanned(result.restarts_unplanned);
   if (Exists(result.supervisor_cpu_share)) {

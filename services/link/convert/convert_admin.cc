@@ -59,7 +59,7 @@ bool FromWire(const wire::Order& sample, AdminOrder& order) {
   order.vehicle = VehicleId{sample.vehicle()};
   order.number = sample.number();
   order.profiles = {sample.name().c_str(), sample.profiles().c_str()};
-  return FromWireEnum(sample.kind(), giveway::OrderKind::kApply, order.kind);
+  return FromWireEnum(sample.kind(), giveway::OrderKind::kKeepRing, order.kind);
 }
 
 wire::Answer ToWire(const AdminAnswer& answer) {

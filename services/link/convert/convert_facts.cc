@@ -1,4 +1,6 @@
 // What travels now and then: joins, the roster, status, events, figures.
+#include <cmath>
+
 #include "services/link/convert/convert.h"
 #include "services/link/convert/convert_parts.h"
 
@@ -113,6 +115,60 @@ wire::LastQosEvent LastEventOf(const VehicleStatus& status) {
   return sent;
 }
 
+wire::FigureCounts ToWirePart(const FigureSummary& figure) {
+  wire::FigureCounts sent;
+  sent.values(figure.count);
+  sent.sum(figure.sum);
+  sent.p50(figure.p50);
+  sent.p99(figure.p99);
+  sent.highest(figure.max);
+  sent.newest(figure.newest);
+  return sent;
+}
+
+FigureSummary FromWirePart(const wire::FigureCounts& sent) {
+  return {.count = sent.values(),
+          .sum = sent.sum(),
+          .p50 = sent.p50(),
+          .p99 = sent.p99(),
+          .max = sent.highest(),
+          .newest = sent.newest()};
+}
+
+wire::TimingReport ToWirePart(const DriveFigures& timing) {
+  wire::TimingReport sent;
+  sent.beacon_age_us(ToWirePart(timing.Of(DriveFigure::kBeaconAge)));
+  sent.tick_jitter_us(ToWirePart(timing.Of(DriveFigure::kTickJitter)));
+  sent.turn_us(ToWirePart(timing.Of(DriveFigure::kTurn)));
+  sent.reaction_us(ToWirePart(timing.Of(DriveFigure::kReaction)));
+  sent.reaction_way_um(ToWirePart(timing.Of(DriveFigure::kReactionWay)));
+  sent.reaction_share_ppm(ToWirePart(timing.Of(DriveFigure::kReactionShare)));
+  const ReactionMargin margin = timing.narrowest.value_or(ReactionMargin{});
+  sent.margin_known(timing.narrowest.has_value());
+  sent.margin_tick(Number(margin.tick));
+  sent.margin_reaction_m(margin.reaction_m);
+  sent.margin_free_m(margin.free_m);
+  sent.budget_spent(timing.budget_spent);
+  return sent;
+}
+
+// A margin of nothing is none.
+bool TakeTiming(const wire::TimingReport& sent, DriveFigures& timing) {
+  timing.figures = {FromWirePart(sent.beacon_age_us()),   FromWirePart(sent.tick_jitter_us()),
+                    FromWirePart(sent.turn_us()),         FromWirePart(sent.reaction_us()),
+                    FromWirePart(sent.reaction_way_um()), FromWirePart(sent.reaction_share_ppm())};
+  timing.narrowest.reset();
+  timing.budget_spent = sent.budget_spent();
+  if (!sent.margin_known()) return true;
+  const ReactionMargin margin{Tick{sent.margin_tick()}, sent.margin_reaction_m(),
+                              sent.margin_free_m()};
+  if (!std::isfinite(margin.reaction_m) || !(margin.free_m > 0) || std::isinf(margin.free_m)) {
+    return false;
+  }
+  timing.narrowest = margin;
+  return true;
+}
+
 bool TakeLastEvent(const wire::LastQosEvent& sent, VehicleStatus& status) {
   giveway::QosEventKind kind{};
   if (!FromWireEnum(sent.kind(), giveway::QosEventKind::kSampleLost, kind)) return false;
@@ -149,6 +205,7 @@ wire::Status ToWire(const VehicleStatus& status) {
   sent.beacon_lease_ms(status.beacon_lease_ms);
   sent.last_report(status.final);
   sent.impaired(ToWirePart(status.impaired));
+  sent.timing(ToWirePart(status.timing));
   return sent;
 }
 
@@ -174,7 +231,8 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.beacon_lease_ms = sample.beacon_lease_ms();
   status.final = sample.last_report();
   status.impaired = FromWirePart(sample.impaired());
-  return TakeLastEvent(sample.last_qos_event(), status) &&
+  return TakeTiming(sample.timing(), status.timing) &&
+         TakeLastEvent(sample.last_qos_event(), status) &&
          FromWirePart(sample.decision(), status.decision);
 }
 

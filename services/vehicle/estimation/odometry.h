@@ -31,6 +31,7 @@ class Odometry {
   void AddTo(StateHash* hash) const;
 
  private:
+  friend struct StateFields;  // services/snapshot
   Pose pose_;
   KnownHeading heading_;
   std::array<double, 9> covariance_{};  // of x, y, heading; row by row

@@ -104,6 +104,7 @@ class PeerTable {
   void AddTo(StateHash* hash) const;
 
  private:
+  friend struct StateFields;  // services/snapshot
   Peer* FindOrInsert(VehicleId id);
   void ForgetSilent(SteadyTime now);
   bool BelongsTo(Peer* peer, const ReceivedBeacon& received);

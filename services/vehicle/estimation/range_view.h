@@ -70,6 +70,7 @@ class RangeView {
   void AddTo(StateHash* hash) const;
 
  private:
+  friend struct StateFields;  // services/snapshot
   void Mark(std::size_t sensor);
   void NoteWhoSpoke(Tick tick);
 

@@ -51,6 +51,7 @@ class SignalTable {
   void AddTo(StateHash* hash) const;
 
  private:
+  friend struct StateFields;  // services/snapshot
   struct Head {
     SignalState state;
     SteadyTime heard{0};

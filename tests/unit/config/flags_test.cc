@@ -142,6 +142,19 @@ TEST(Flags, ARecordingIsSplitBySizesOfThisWorld) {
   EXPECT_EQ(std::get<ServiceFlags>(Vehicle(least)).record_split, 100000U);
 }
 
+TEST(Flags, ARingLastsSecondsAndIsNotSplitBySize) {
+  std::vector<const char*> words{"--scenario", "s",    "--domain",      "1",
+                                 "--record",   "tape", "--record-ring", "60"};
+  EXPECT_EQ(std::get<ServiceFlags>(Vehicle(words)).record_ring, std::chrono::seconds(60));
+  for (const char* wrong : {"4", "3601", "60s", "-1"}) {
+    words.back() = wrong;
+    EXPECT_THAT(Refusal(words), HasSubstr("--record-ring")) << wrong;
+  }
+  words.back() = "60";
+  words.insert(words.end(), {"--record-split", "64MiB"});
+  EXPECT_THAT(Refusal(words), HasSubstr("leave --record-split out"));
+}
+
 TEST(Flags, OnlyAVehicleIsImpairedAndOnlyIfAsked) {
   const std::vector<const char*> least{"--scenario", "s", "--domain", "1"};
   EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(least)).impair);

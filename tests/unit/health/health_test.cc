@@ -137,6 +137,10 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
   vehicle.status.step_p99_us = 250;
   vehicle.status.loop_max_ms = 1.5;
   vehicle.status.beacons.lost = 3;
+  vehicle.status.timing.figures[static_cast<std::size_t>(DriveFigure::kReactionWay)] = {
+      .count = 4, .sum = 100'000, .p50 = 20'000, .p99 = 40'000, .max = 50'000};
+  vehicle.status.timing.narrowest = ReactionMargin{Tick{9}, 0.25, 0.5};
+  vehicle.status.timing.budget_spent = 2;
   vehicle.status.beacons.rejected_crc = 4;
   const std::string text =
       MetricsText(vehicle, {.started_s = 1000, .cpu_s = 0.5, .resident_bytes = 4096}, kNow);
@@ -156,8 +160,15 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
         "\ngiveway_vehicle_step_p99_seconds 0.00025\n",
         "\ngiveway_vehicle_loop_max_seconds 0.0015\n", "\ngiveway_vehicle_beacons_lost_total 3\n",
         "\ngiveway_vehicle_beacons_rejected_total{reason=\"crc\"} 4\n",
-        "\nprocess_start_time_seconds 1000\n", "\nprocess_cpu_seconds_total 0.5\n",
-        "\nprocess_resident_memory_bytes 4096\n"}) {
+        "\n# TYPE giveway_vehicle_reaction_meters summary\n",
+        "\ngiveway_vehicle_reaction_meters_count 4\n",
+        "\ngiveway_vehicle_reaction_meters_sum 0.1\n",
+        "\ngiveway_vehicle_reaction_meters{quantile=\"0.5\"} 0.02\n",
+        "\ngiveway_vehicle_reaction_meters{quantile=\"0.99\"} 0.04\n",
+        "\ngiveway_vehicle_reaction_meters{quantile=\"1\"} 0.05\n",
+        "\ngiveway_vehicle_narrowest_margin_ratio 0.5\n",
+        "\ngiveway_vehicle_budget_spent_total 2\n", "\nprocess_start_time_seconds 1000\n",
+        "\nprocess_cpu_seconds_total 0.5\n", "\nprocess_resident_memory_bytes 4096\n"}) {
     EXPECT_THAT(text, HasSubstr(line));
   }
 }

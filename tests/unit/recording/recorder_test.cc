@@ -92,6 +92,63 @@ TEST(Recorder, EveryRecordingWithOnePathIsAFileOfItsOwn) {
   EXPECT_EQ(StepsIn(BytesOf(folder.Path() + "/v.3.tape")), 5U);
 }
 
+// One step a second, an image whenever one is due.
+void DriveRing(const std::vector<Record>& records, Recorder* recorder, SteadyTime* now) {
+  for (const Record& record : records) {
+    if (const auto* life = std::get_if<RecordedLife>(&record)) {
+      recorder->Begin(life->options, life->boot_epoch);
+    } else if (const auto* step = std::get_if<RecordedStep>(&record)) {
+      *now += std::chrono::seconds(1);
+      recorder->Step(step->AsInputs(), step->outputs, step->hash);
+      if (recorder->WantsImage(*now)) recorder->Image("a brain", step->hash, *now);
+    }
+  }
+}
+
+TEST(Recorder, ARingKeepsItsLastTwoFiles) {
+  const TempFolder folder;
+  SteadyTime now{1};
+  {
+    Recorder recorder(folder.Path() + "/v.tape", {.ring = std::chrono::seconds(10)});
+    DriveRing(test::RecordedCrossing(95), &recorder, &now);
+  }
+  ASSERT_THAT(FilesIn(folder), ElementsAre("v.10.tape", "v.9.tape"));
+  std::ifstream stream(folder.Path() + "/v.9.tape", std::ios::binary);
+  RecordingFile file(&stream);
+  ASSERT_TRUE(file.Continues());
+  const auto first = file.Next();
+  ASSERT_TRUE(first);
+  const auto* image = std::get_if<RecordedImage>(&*first);
+  ASSERT_NE(image, nullptr);
+  EXPECT_EQ(image->state, "a brain");
+  EXPECT_EQ(image->recorded_by, GIVEWAY_VERSION);
+  EXPECT_EQ(StepsIn(BytesOf(folder.Path() + "/v.9.tape")), 11U);  // ten, and the image
+}
+
+TEST(Recorder, ARingThatIsKeptIsNotRemoved) {
+  const TempFolder folder;
+  SteadyTime now{1};
+  Recorder recorder(folder.Path() + "/v.tape", {.ring = std::chrono::seconds(10)});
+  std::vector<Record> records = test::RecordedCrossing(95);
+  const std::vector<Record> before(records.begin(), records.begin() + 36);
+  const std::vector<Record> after(records.begin() + 36, records.end());
+  DriveRing(before, &recorder, &now);
+  EXPECT_TRUE(recorder.Keep());
+  DriveRing(after, &recorder, &now);
+  recorder.Close();
+  EXPECT_THAT(FilesIn(folder), ElementsAre("v.10.tape", "v.3.tape", "v.4.tape", "v.9.tape"));
+}
+
+TEST(Recorder, OnlyARingIsKeptAndNotForEver) {
+  const TempFolder folder;
+  Recorder whole(folder.Path() + "/whole");
+  EXPECT_FALSE(whole.Keep());
+  Recorder ring(folder.Path() + "/ring", {.ring = std::chrono::seconds(10)});
+  int kept = 0;
+  for (int i = 0; i < 20; ++i) kept += ring.Keep() ? 1 : 0;
+  EXPECT_EQ(kept, 8);
+}
+
 TEST(Recorder, ALinkIsNotWrittenThrough) {
   const TempFolder folder;
   std::filesystem::create_symlink(folder.Path() + "/elsewhere", folder.Path() + "/tape");
@@ -134,7 +191,7 @@ TEST(Recorder, BeginsAnotherFileBeforeOneGrowsBeyondItsSize) {
   const TempFolder folder;
   const std::string file = folder.Path() + "/tape";
   {
-    Recorder recorder(file, kSplit);
+    Recorder recorder(file, {.split_bytes = kSplit});
     Drive(test::RecordedCrossing(60), &recorder);
     EXPECT_EQ(recorder.Close().steps, 60U);
   }

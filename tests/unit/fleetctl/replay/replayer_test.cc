@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "services/fleetctl/output/decision_trace.h"
+#include "services/snapshot/brain_state.h"
 #include "tests/support/recorded_crossing.h"
 
 namespace giveway::fleetctl {
@@ -132,6 +133,84 @@ TEST_F(ReplayTest, WhoWatchesSeesEveryStep) {
   });
   EXPECT_EQ(seen, kSteps);
   EXPECT_THAT(trace, HasSubstr("\n60\t0.00\t1\t"));
+}
+
+// The same recording as two parts of a ring.
+class RingReplayTest : public ReplayTest {
+ protected:
+  static constexpr std::uint32_t kFirst = 25;
+  RingReplayTest() {
+    Vehicle brain(test::DefaultOptions(), 42);
+    for (std::uint32_t number = 1; number <= kFirst; ++number) {
+      brain.Step(Step(number).AsInputs());
+    }
+    first_.assign(records_.begin(), records_.begin() + kFirst + 1);
+    first_.emplace_back(RecordedEnd{.steps = kFirst, .continues = true});
+    second_ = {RecordedContinuation{42, VehicleId{1}, 2, kFirst},
+               RecordedImage{test::DefaultOptions(), "test", BytesOf(brain.State()), brain.Hash()}};
+    second_.insert(second_.end(), records_.begin() + kFirst + 1, records_.end() - 1);
+    second_.emplace_back(RecordedEnd{.steps = kSteps - kFirst});
+  }
+  RecordedImage& Image() { return std::get<RecordedImage>(second_[1]); }
+  std::vector<Record> first_;
+  std::vector<Record> second_;
+};
+
+TEST_F(RingReplayTest, ComesOutTheSameFromItsImageOn) {
+  const ReplayedFile outcome = ReplayOf(second_);
+  EXPECT_EQ(outcome.finding, "");
+  EXPECT_FALSE(outcome.difference.has_value());
+  EXPECT_EQ(outcome.steps, kSteps - kFirst);
+  EXPECT_TRUE(outcome.complete);
+  EXPECT_EQ(outcome.part, 2U);
+}
+
+TEST_F(RingReplayTest, TheBrainThatWasLedUpToAnImageMustBeItsBrain) {
+  Replayer replayer;
+  const auto replay = [&replayer](const std::vector<Record>& part) {
+    std::istringstream stream(test::FileOf(part));
+    return replayer.Replay(&stream);
+  };
+  EXPECT_EQ(replay(first_).steps, kFirst);
+  EXPECT_EQ(replay(second_).steps, kSteps - kFirst);
+  EXPECT_EQ(replay(first_).steps, kFirst);
+  Vehicle other(test::DefaultOptions(), 42);
+  Image().state = BytesOf(other.State());
+  EXPECT_EQ(replay(second_).difference->field.field, "state");
+}
+
+TEST_F(RingReplayTest, AFlippedBitBehindTheImageIsFound) {
+  std::get<RecordedStep>(second_[4]).scan->readings[3].range_m += 1e-9;
+  EXPECT_TRUE(ReplayOf(second_).difference.has_value());
+}
+
+TEST_F(RingReplayTest, AnImageThatIsNoBrainOrAnotherIsRefused) {
+  const std::string state = Image().state;
+  Image().hash ^= 1;
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("not the one recorded"));
+  Image().state = "no brain";
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("cannot be in"));
+  Image().state = state;
+  Image().options.id = VehicleId{7};
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("another vehicle's"));
+}
+
+// Its process died as it had begun another file.
+TEST_F(RingReplayTest, AnImageWithoutAStepProvesSomethingBehindTheFileBeforeAlone) {
+  second_.resize(2);
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("no step"));
+  Replayer replayer;
+  std::istringstream first(test::FileOf(first_));
+  std::istringstream second(test::FileOf(second_));
+  replayer.Replay(&first);
+  EXPECT_EQ(replayer.Replay(&second).finding, "");
+}
+
+TEST_F(RingReplayTest, AnImageStandsAtTheBeginningOfAPartAlone) {
+  first_.insert(first_.begin() + 5, Image());
+  EXPECT_THAT(ReplayOf(first_).finding, HasSubstr("amid a part"));
+  std::swap(second_[1], second_[2]);
+  EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("name the parts before it"));
 }
 
 // The same recording as two parts.

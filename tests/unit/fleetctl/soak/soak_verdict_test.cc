@@ -73,6 +73,39 @@ TEST_F(SoakVerdictTest, FailsWhereNobodyNoticedOrTooLate) {
   EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("no peer noticed"));
 }
 
+TEST_F(SoakVerdictTest, FailsWhereADecisionUsedABeaconThatIsTooOld) {
+  VehicleStatus status;
+  status.vehicle = kTwo;
+  FigureSummary& age = status.timing.figures[static_cast<std::size_t>(DriveFigure::kBeaconAge)];
+  age.newest[age.count++] = 150'000;
+  seen_.timing = FleetTiming(milliseconds(200));
+  seen_.timing.Fold(status, 11);
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+  age.newest[age.count++] = 400'000;
+  seen_.timing.Fold(status, 12);
+  const SoakResult result = Judged();
+  ASSERT_THAT(result.violations, SizeIs(1));
+  EXPECT_EQ(result.violations[0].invariant, "stale_decision");
+  EXPECT_EQ(result.violations[0].vehicle, kTwo);
+  EXPECT_THAT(result.violations[0].words, HasSubstr("400 ms"));
+}
+
+TEST_F(SoakVerdictTest, TellsTheNarrowestMarginAndFiguresOfTheFleet) {
+  VehicleStatus status;
+  status.vehicle = kTwo;
+  status.timing.narrowest = ReactionMargin{Tick{5}, 0.3, 0.31};
+  status.timing.budget_spent = 1;
+  FigureSummary& way = status.timing.figures[static_cast<std::size_t>(DriveFigure::kReactionWay)];
+  way.newest[way.count++] = 300'000;
+  seen_.timing.Fold(status, 12);
+  const SoakResult result = Judged();
+  ASSERT_TRUE(result.narrowest_margin);
+  EXPECT_EQ(result.narrowest_margin->reaction_m, 0.3);
+  EXPECT_EQ(result.budget_spent, 1U);
+  EXPECT_EQ(result.verdict, SoakVerdict::kPassed) << "an alarm is no broken promise";
+  EXPECT_EQ(result.histograms.back().name, "reaction_way");
+}
+
 TEST_F(SoakVerdictTest, DoesNotJudgeAFaultThatNeverBegan) {
   seen_.courses[0] = {};
   EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);

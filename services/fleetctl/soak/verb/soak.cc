@@ -1,4 +1,4 @@
-#include "services/fleetctl/soak/soak.h"
+#include "services/fleetctl/soak/verb/soak.h"
 
 #include <fmt/format.h>
 #include <sys/utsname.h>
@@ -15,6 +15,7 @@
 #include "services/faults/hearing.h"
 #include "services/faults/kind_table.h"
 #include "services/faults/schedule_text.h"
+#include "services/faults/unsupported.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/child_process.h"
@@ -26,6 +27,8 @@
 #include "services/fleetctl/soak/soak_page.h"
 #include "services/fleetctl/soak/soak_session.h"
 #include "services/fleetctl/soak/soak_verdict.h"
+#include "services/fleetctl/soak/verb/soak_resume.h"
+#include "services/fleetctl/soak/verb/soak_virtual.h"
 #include "services/fleetctl/stopwatch/stopwatch_limits.h"
 #include "services/link/fastdds/library_release.h"
 
@@ -64,17 +67,31 @@ const char* WhyNot(const faults::Fault& fault) {
   return nullptr;
 }
 
+bool Records(const SoakOptions& options) { return options.record || options.ring_s > 0; }
+
 std::string InWords(const faults::Fault& fault) {
   return fmt::format("{}#{} ({} of {} at {:.1f} s)", fault.rule, fault.nth,
                      faults::ToString(fault.kind), faults::ToString(fault.target), fault.at_s);
+}
+
+// Of a virtual run, by the table.
+std::string WhyNotVirtually(const faults::Fault& fault) {
+  const auto cannot = faults::UnsupportedIn({fault}, faults::IncapableInVirtualTime());
+  return cannot.empty() ? "" : cannot.front().reason;
+}
+
+std::string WhyNot(const SoakOptions& options, const faults::Fault& fault) {
+  if (options.in_virtual_time) return WhyNotVirtually(fault);
+  const char* const why = WhyNot(fault);
+  return why == nullptr ? "" : why;
 }
 
 // Refuses what cannot be carried out here, all at once; or leaves it out and says so.
 void Sift(const SoakOptions& options, Prepared* prepared) {
   std::vector<Problem> problems;
   std::erase_if(prepared->schedule, [&](const faults::Fault& fault) {
-    const char* const why = WhyNot(fault);
-    if (why == nullptr) return false;
+    const std::string why = WhyNot(options, fault);
+    if (why.empty()) return false;
     if (options.skip_unsupported) {
       prepared->skipped.push_back(InWords(fault) + ": " + why);
     } else {
@@ -113,12 +130,15 @@ Prepared Prepare(const SoakOptions& options) {
   prepared.fleet = SoakFleet(as_shipped, prepared.newcomers);
   prepared.schedule = LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
   Sift(options, &prepared);
+  ForgetSoFar(options.report_folder);
 
   CheckFolder(options.report_folder);
   const fs::path folder(options.report_folder);
-  CheckFolder((folder / "logs").string());
-  CheckFolder((folder / "impair").string());
-  if (options.record) CheckFolder((folder / "recordings").string());
+  if (!options.in_virtual_time) {
+    CheckFolder((folder / "logs").string());
+    CheckFolder((folder / "impair").string());
+  }
+  if (Records(options)) CheckFolder((folder / "recordings").string());
   // All begin together, so that everyone's clock of faults is the same.
   ScenarioEdit edit{.duration_s = 0.0};
   if (!as_shipped.spawns.empty()) edit.start_with = static_cast<std::uint32_t>(vehicles);
@@ -145,7 +165,8 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
   spec.options.interface = options.interface;
   spec.options.vehicles = prepared.newcomers;
   spec.options.logs_folder = (folder / "logs").string();
-  if (options.record) spec.options.record_folder = (folder / "recordings").string();
+  if (Records(options)) spec.options.record_folder = (folder / "recordings").string();
+  if (options.ring_s > 0) spec.options.record_ring = std::to_string(options.ring_s);
   spec.extra_words[kTheWorld] = {"--checkpoint", (folder / "world.checkpoint").string(), "--faults",
                                  prepared.faults_file};
   for (const VehicleId vehicle : prepared.fleet) {
@@ -189,6 +210,8 @@ std::string CommandLine(const SoakOptions& options) {
   if (!options.qos_file.empty()) line += " --qos " + options.qos_file;
   if (options.skip_unsupported) line += " --skip-unsupported";
   if (options.record) line += " --record";
+  if (options.in_virtual_time) line += " --virtual";
+  if (options.ring_s > 0) line += fmt::format(" --record-ring {}", options.ring_s);
   return line;
 }
 
@@ -205,6 +228,7 @@ SoakResult BlankResult(const SoakOptions& options, const Prepared& prepared, std
   result.vehicles =
       static_cast<std::uint32_t>(prepared.scenario.vehicles.size()) + prepared.newcomers;
   result.domain = domain;
+  result.virtual_time = options.in_virtual_time;
   result.faults_file = options.faults;
   result.qos_set = prepared.qos_file;
   result.skipped_faults = prepared.skipped;
@@ -220,32 +244,111 @@ const VehicleOptions& AnyVehicle(const Scenario& scenario) {
   return scenario.spawns.empty() ? scenario.vehicles.front() : scenario.spawns.front();
 }
 
-}  // namespace
-
-int Soak(const SoakOptions& options) {
-  const Prepared prepared = Prepare(options);
-  const Interrupts interrupts;
-  const DomainLock lock(options.domain);
-  const FleetSpec spec = SpecOf(options, prepared, lock);
-  SoakResult result = BlankResult(options, prepared, lock.Domain());
-  const Limits limits = ReadLimits(prepared.qos_file, options.interface, result.vehicles + 1,
-                                   AnyVehicle(prepared.scenario));
-  std::fprintf(stderr, "%s on domain %u, %u vehicles, %zu faults planned, %zu left out\n",
-               result.scenario.c_str(), lock.Domain(), result.vehicles, prepared.schedule.size(),
-               prepared.skipped.size());
-  SoakSession session(spec, prepared.scenario, prepared.schedule, prepared.phases,
-                      ToolsOf(options, spec, prepared));
-  const SoakSeen seen = session.Run();
-  Judge({seen, prepared.schedule, limits,
-         [&session](SteadyTime from, SteadyTime to) {
-           return session.Stalls().LongestPause(from, to);
-         }},
-        &result);
+int Conclude(const SoakOptions& options, const SoakResult& result) {
   std::fputs((options.json ? ToJson(result) + "\n" : ToText(result)).c_str(), stdout);
   const bool told = std::fflush(stdout) == 0;
   Interrupts::AllowSeconds(kWriting_s);
   const int code = std::max(ExitCode(result.verdict), told ? 0 : 1);
-  return WriteAfterVerdict(code, [&] { WriteSoakReport(result, options.report_folder); });
+  return WriteAfterVerdict(code, [&] {
+    WriteSoakReport(result, options.report_folder);
+    ForgetSoFar(options.report_folder);
+  });
+}
+
+// As `fleetctl virtual` does: the seed moves everyone, wherever its place comes from.
+Scenario VirtualScenario(const SoakOptions& options, const Prepared& prepared) {
+  const Scenario as_written = LoadScenario(prepared.scenario_file, {0, std::nullopt, std::nullopt});
+  Scenario scenario =
+      WithPlacesFilled(as_written, static_cast<std::uint32_t>(prepared.fleet.size()));
+  scenario.seed = options.seed;
+  PerturbBySeed(&scenario);
+  return scenario;
+}
+
+int SoakVirtually(const SoakOptions& options) {
+  const Prepared prepared = Prepare(options);
+  const Interrupts interrupts(Silence::kComputes);
+  const Scenario scenario = VirtualScenario(options, prepared);
+  SoakResult result = BlankResult(options, prepared, 0);
+  const SoakSeen seen = RunSoakVirtually(scenario, prepared.schedule, prepared.phases);
+  Judge({seen, prepared.schedule, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
+        &result);
+  return Conclude(options, result);
+}
+
+// `whole` is what this is the rest of, if it is.
+int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const SoakResult* whole) {
+  const Interrupts interrupts;
+  const DomainLock lock(options.domain);
+  const FleetSpec spec = SpecOf(options, prepared, lock);
+  const SoakResult blank = BlankResult(options, prepared, lock.Domain());
+  const Limits limits = ReadLimits(prepared.qos_file, options.interface, blank.vehicles + 1,
+                                   AnyVehicle(prepared.scenario));
+  std::fprintf(stderr, "%s on domain %u, %u vehicles, %zu faults planned, %zu left out\n",
+               blank.scenario.c_str(), lock.Domain(), blank.vehicles, prepared.schedule.size(),
+               prepared.skipped.size());
+  SoakSession session(spec, prepared.scenario, prepared.schedule, prepared.phases,
+                      ToolsOf(options, spec, prepared));
+  const auto judged = [&](const SoakSeen& seen) {
+    SoakResult result = blank;
+    Judge({seen, prepared.schedule, limits,
+           [&session](SteadyTime from, SteadyTime to) {
+             return session.Stalls().LongestPause(from, to);
+           }},
+          &result);
+    return whole == nullptr ? result : Joined(*whole, result);
+  };
+  const SoakSeen seen = session.Run([&](const SoakSeen& so_far) {
+    const std::string why = SaveSoFar(judged(so_far), options.report_folder);
+    if (!why.empty()) std::fprintf(stderr, "what was seen so far is not saved: %s\n", why.c_str());
+  });
+  return Conclude(options, judged(seen));
+}
+
+// What the rest is run with: files of the folder, and figures of what was seen so far.
+SoakOptions OptionsOfRest(const SoakOptions& asked, const SoakResult& so_far) {
+  const fs::path folder(asked.resume);
+  SoakOptions options = asked;
+  options.report_folder = asked.resume;
+  options.scenario = (folder / "scenario.textproto").string();
+  options.faults = (folder / "faults.textproto").string();
+  options.seed = static_cast<std::uint32_t>(so_far.seed);
+  options.qos_file = so_far.qos_set;
+  options.duration_s = std::max(kLeastSoak_s, so_far.planned_s - so_far.ran_s);
+  return options;
+}
+
+int Resume(const SoakOptions& asked) {
+  const SoakResult so_far = LoadSoFar(asked.resume);
+  const SoakOptions options = OptionsOfRest(asked, so_far);
+  const fs::path folder(options.report_folder);
+  Prepared prepared;
+  prepared.scenario_file = options.scenario;
+  prepared.qos_file = options.qos_file;
+  prepared.scenario = LoadAndCheck(options);
+  const auto named = static_cast<std::uint32_t>(prepared.scenario.vehicles.size());
+  prepared.newcomers = so_far.vehicles - std::min(so_far.vehicles, named);
+  prepared.phases = PhasesOf(options.duration_s, so_far.vehicles);
+  prepared.fleet = SoakFleet(prepared.scenario, prepared.newcomers);
+  const faults::Course course{options.seed, so_far.planned_s, 0, 0};
+  const faults::Schedule whole =
+      LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
+  prepared.schedule = RestOf(whole, so_far.ran_s, prepared.phases.faults_from_s, &prepared.skipped);
+  prepared.faults_file =
+      (folder / fmt::format("faults.rest-{}.textproto", so_far.resumed_at_s.size() + 1)).string();
+  WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
+  // A new fleet: what the world of the one that died knew of its time and places is over.
+  fs::remove(folder / "world.checkpoint");
+  std::fprintf(stderr, "goes on at %.0f of %.0f s\n", so_far.ran_s, so_far.planned_s);
+  return SoakProcesses(options, prepared, &so_far);
+}
+
+}  // namespace
+
+int Soak(const SoakOptions& options) {
+  if (options.in_virtual_time) return SoakVirtually(options);
+  if (!options.resume.empty()) return Resume(options);
+  return SoakProcesses(options, Prepare(options), nullptr);
 }
 
 }  // namespace giveway::fleetctl

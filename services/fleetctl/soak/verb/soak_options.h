@@ -19,7 +19,11 @@ struct SoakOptions {
   std::string interface = "127.0.0.1";
   bool skip_unsupported = false;  // leave out what this host cannot do, and say so in the report
   bool record = false;            // every vehicle records into the report folder
-  bool json = false;              // the report as one JSON object on stdout and nothing else
+  std::uint32_t ring_s = 0;       // each keeps so much of it; 0: all of it, where `record` says so
+  bool in_virtual_time = false;   // no processes: see soak_virtual.h
+  std::string resume;             // goes on in this report folder; empty: begins anew
+  std::string around;  // nothing is run: a folder, see soak_around.h; empty: not asked for
+  bool json = false;   // the report as one JSON object on stdout and nothing else
 };
 
 }  // namespace giveway::fleetctl

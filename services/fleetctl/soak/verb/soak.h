@@ -2,7 +2,7 @@
 // promise, and ends in a verdict with a report. Values in; the exit code out.
 #pragma once
 
-#include "services/fleetctl/soak/soak_options.h"
+#include "services/fleetctl/soak/verb/soak_options.h"
 
 namespace giveway::fleetctl {
 

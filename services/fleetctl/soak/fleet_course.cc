@@ -1,0 +1,34 @@
+#include "services/fleetctl/soak/fleet_course.h"
+
+namespace giveway::fleetctl {
+
+std::string FleetCourse::ModeOf(const SoakWatch& watch, VehicleId vehicle, SteadyTime now) const {
+  if (is_away_(vehicle)) return "gone";
+  const VehicleStatus* const status = watch.StatusOf(vehicle);
+  if (status == nullptr) return "silent";
+  return watch.IsWell(vehicle, now) ? "drive" : std::string(Name(status->decision.rule));
+}
+
+void FleetCourse::NoteModes(const SoakWatch& watch, SteadyTime now, SoakSeen* seen) {
+  for (const VehicleId vehicle : fleet_) {
+    std::string mode = ModeOf(watch, vehicle, now);
+    std::string& before = mode_[vehicle];
+    if (before == mode) continue;
+    before = mode;
+    ++seen->modes_counted;
+    if (seen->modes.size() < kMostListed) {
+      seen->modes.push_back({watch.TimeSeconds(now), vehicle, std::move(mode)});
+    }
+  }
+}
+
+void FleetCourse::SeekHealing(const SoakWatch& watch, SteadyTime now, SoakSeen* seen) {
+  if (!healed_from_) healed_from_ = now;
+  for (const VehicleId vehicle : fleet_) {
+    if (is_gone_(vehicle)) continue;
+    auto& healed = seen->healing[vehicle];
+    if (!healed && watch.IsWell(vehicle, now)) healed = Seconds(now - *healed_from_);
+  }
+}
+
+}  // namespace giveway::fleetctl

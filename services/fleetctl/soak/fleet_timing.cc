@@ -1,0 +1,81 @@
+#include "services/fleetctl/soak/fleet_timing.h"
+
+#include <algorithm>
+#include <string>
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr std::int64_t kNanosecondsPerUs = 1000;
+constexpr double kPartsPerMillion = 1e6;
+
+HistogramUnit UnitOf(DriveFigure figure) {
+  switch (figure) {
+    case DriveFigure::kReactionWay:
+      return HistogramUnit::kMicrometres;
+    case DriveFigure::kReactionShare:
+      return HistogramUnit::kPartsPerMillion;
+    default:
+      return HistogramUnit::kNanoseconds;
+  }
+}
+
+}  // namespace
+
+void FleetTiming::Fold(const VehicleStatus& status, double time_s) {
+  DriveFigures& before = before_[status.vehicle];
+  const DriveFigures& now = status.timing;
+  const bool began_anew = now.Of(DriveFigure::kTurn).count < before.Of(DriveFigure::kTurn).count ||
+                          now.budget_spent < before.budget_spent;
+  if (began_anew) before = {};
+  for (std::size_t i = 0; i < kDriveFigures; ++i) TakeNewest(status, i, time_s);
+  budget_spent_ += now.budget_spent - before.budget_spent;
+  if (now.narrowest && now.narrowest != before.narrowest &&
+      (!narrowest_ || now.narrowest->ShareLeft() < narrowest_->share_left)) {
+    narrowest_ = {time_s, status.vehicle, now.narrowest->reaction_m, now.narrowest->free_m,
+                  now.narrowest->ShareLeft()};
+  }
+  before = now;
+}
+
+void FleetTiming::TakeNewest(const VehicleStatus& status, std::size_t figure, double time_s) {
+  const FigureSummary& now = status.timing.figures[figure];
+  const std::uint32_t seen = before_[status.vehicle].figures[figure].count;
+  if (now.count <= seen) return;
+  constexpr auto kKept = static_cast<std::uint32_t>(FigureSummary::kNewest);
+  const std::uint32_t told = std::min(now.count - seen, kKept);
+  missed_ += now.count - seen - told;
+  for (std::uint32_t n = now.count - told; n != now.count; ++n) {
+    Take(status.vehicle, static_cast<DriveFigure>(figure), now.newest[n % kKept], time_s);
+  }
+}
+
+void FleetTiming::Take(VehicleId vehicle, DriveFigure figure, std::uint32_t value, double time_s) {
+  const bool is_time = UnitOf(figure) == HistogramUnit::kNanoseconds;
+  const std::int64_t counted = is_time ? kNanosecondsPerUs * value : std::int64_t{value};
+  histograms_[static_cast<std::size_t>(figure)].Add(counted);
+  if (figure != DriveFigure::kBeaconAge || Nanoseconds(counted) <= most_age_) return;
+  StaleDecisions& stale = stale_[vehicle];
+  if (stale.count++ == 0) stale.first_s = time_s;
+  stale.oldest = std::max(stale.oldest, Nanoseconds(counted));
+}
+
+std::vector<SoakHistogram> FleetTiming::Histograms() const {
+  std::vector<SoakHistogram> all;
+  for (std::size_t i = 0; i < kDriveFigures; ++i) {
+    if (histograms_[i].Count() == 0) continue;
+    const auto figure = static_cast<DriveFigure>(i);
+    SoakHistogram measured{
+        .name = std::string(Name(figure)), .unit = UnitOf(figure), .histogram = histograms_[i]};
+    if (figure == DriveFigure::kBeaconAge) {
+      measured.budgets.push_back({1.0, most_age_.count()});
+    } else if (figure == DriveFigure::kReactionShare) {
+      measured.budgets.push_back(
+          {1.0, static_cast<std::int64_t>((1 - kLeastShareLeft) * kPartsPerMillion)});
+    }
+    all.push_back(std::move(measured));
+  }
+  return all;
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,55 @@
+// How timely a whole fleet was, from what its vehicles report of themselves: every value of every
+// life that a report told of, added up. Bounded. Pure.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "services/fleetctl/soak/soak_result.h"
+#include "services/types/drive_figures.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+// A vehicle decided by beacons older than it may.
+struct StaleDecisions {
+  double first_s = 0;  // heard of, since the start signal
+  Nanoseconds oldest{0};
+  std::uint64_t count = 0;
+};
+
+class FleetTiming {
+ public:
+  // No beacon older than this, since its tick, may be decided by.
+  explicit FleetTiming(Nanoseconds most_age) : most_age_(most_age) {}
+
+  // `time_s` since the start signal. Lives of a vehicle follow each other: one whose counts fall
+  // has begun anew.
+  void Fold(const VehicleStatus& status, double time_s);
+
+  // Those that hold something, with their budgets, in the order of DriveFigure.
+  std::vector<SoakHistogram> Histograms() const;
+  std::optional<NarrowestMargin> Narrowest() const { return narrowest_; }
+  std::uint64_t BudgetSpent() const { return budget_spent_; }
+  // Values that no report told of: reports were lost, or a process died before its next one.
+  std::uint64_t Missed() const { return missed_; }
+  const std::map<VehicleId, StaleDecisions>& Stale() const { return stale_; }
+
+ private:
+  void Take(VehicleId vehicle, DriveFigure figure, std::uint32_t value, double time_s);
+  void TakeNewest(const VehicleStatus& status, std::size_t figure, double time_s);
+
+  Nanoseconds most_age_;
+  std::array<Histogram, kDriveFigures> histograms_;
+  std::map<VehicleId, DriveFigures> before_;
+  std::map<VehicleId, StaleDecisions> stale_;
+  std::optional<NarrowestMargin> narrowest_;
+  std::uint64_t budget_spent_ = 0;
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace giveway::fleetctl

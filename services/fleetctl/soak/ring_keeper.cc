@@ -1,0 +1,83 @@
+#include "services/fleetctl/soak/ring_keeper.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace giveway::fleetctl {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr Nanoseconds kPruneEvery = std::chrono::seconds(30);
+constexpr const char* kEnding = ".recording";
+
+struct RingFile {
+  fs::file_time_type written;
+  fs::path path;
+};
+
+// By vehicle, the newest first: "vehicle-3" of vehicle-3.17.recording.
+std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
+  std::map<std::string, std::vector<RingFile>> files;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename();
+    if (!name.ends_with(kEnding)) continue;
+    const fs::file_time_type written = entry.last_write_time(error);
+    files[name.substr(0, name.find('.'))].push_back({written, entry.path()});
+  }
+  for (auto& [vehicle, of_one] : files) {
+    std::ranges::sort(of_one, std::ranges::greater(), &RingFile::written);
+  }
+  return files;
+}
+
+}  // namespace
+
+RingKeeper::RingKeeper(const link::LinkOptions& options, std::span<const VehicleId> fleet,
+                       fs::path folder, Nanoseconds ring)
+    : link_(options), fleet_(fleet.begin(), fleet.end()), folder_(std::move(folder)), ring_(ring) {
+  for (const VehicleId vehicle : fleet_) link_.Seek(vehicle);
+}
+
+void RingKeeper::Keep(SteadyTime now, double time_s) {
+  const bool soon = !kept_.empty() && now - ordered_ < ring_;
+  if (soon || kept_.size() == kMostOrders) return;
+  ordered_ = now;
+  KeptRings kept{.time_s = time_s};
+  for (const auto& [vehicle, files] : FilesIn(folder_)) {
+    for (const RingFile& file : files) kept_files_.insert(file.path);
+  }
+  for (const VehicleId vehicle : fleet_) {
+    if (!link_.Reaches(vehicle)) continue;
+    const AdminOrder order{
+        .vehicle = vehicle, .number = kept_.size() + 1, .kind = OrderKind::kKeepRing};
+    if (link_.Send(order)) ++kept.ordered;
+  }
+  kept_.push_back(kept);
+}
+
+void RingKeeper::Turn(SteadyTime now) {
+  for (const AdminAnswer& answer : link_.Take()) {
+    const bool ours = answer.order > 0 && answer.order <= kept_.size();
+    if (ours && answer.state == AnswerState::kInEffect) ++kept_[answer.order - 1].kept;
+  }
+  if (now < next_prune_) return;
+  next_prune_ = now + kPruneEvery;
+  Prune();
+}
+
+// A file that is kept may be followed by others that the vehicle is still to keep.
+void RingKeeper::Prune() {
+  for (const auto& [vehicle, files] : FilesIn(folder_)) {
+    std::size_t unkept = 0;
+    for (const RingFile& file : files) {
+      if (kept_files_.contains(file.path) || ++unkept <= kMostUnkept) continue;
+      std::error_code error;
+      fs::remove(file.path, error);
+    }
+  }
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,49 @@
+// Has every vehicle keep its ring of a recording when a promise was broken, by an order on
+// fleet/admin, and removes rings of lives that are over and that nobody kept: a soak of weeks has
+// thousands of lives. At the edge.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/soak/soak_result.h"
+#include "services/link/operator_link.h"
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+class RingKeeper {
+ public:
+  static constexpr std::size_t kMostOrders = 3;
+  // Of the files of one vehicle that nobody keeps; two are of the life it has.
+  static constexpr std::size_t kMostUnkept = 6;
+
+  // `folder`: where they record, `ring`: how much of it each keeps. Throws LinkError.
+  RingKeeper(const link::LinkOptions& options, std::span<const VehicleId> fleet,
+             std::filesystem::path folder, Nanoseconds ring);
+
+  // Orders it from all that are reached. Not again within a ring's length, which is in the files
+  // anyhow, and kMostOrders times at most.
+  void Keep(SteadyTime now, double time_s);
+  // Takes the answers; removes what is too much.
+  void Turn(SteadyTime now);
+  const std::vector<KeptRings>& Kept() const { return kept_; }
+
+ private:
+  void Prune();
+
+  link::OperatorLink link_;
+  std::vector<VehicleId> fleet_;
+  std::filesystem::path folder_;
+  Nanoseconds ring_;
+  std::vector<KeptRings> kept_;
+  std::set<std::string> kept_files_;
+  SteadyTime ordered_{0};
+  SteadyTime next_prune_{0};
+};
+
+}  // namespace giveway::fleetctl

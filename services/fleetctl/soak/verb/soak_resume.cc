@@ -1,0 +1,153 @@
+#include "services/fleetctl/soak/verb/soak_resume.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "services/config/problem.h"
+#include "services/fleetctl/soak/soak_json.h"
+#include "services/runtime/whole_file.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+std::string FileIn(const std::string& folder) {
+  return (std::filesystem::path(folder) / "so_far.json").string();
+}
+
+template <typename Item>
+void Append(const std::vector<Item>& more, std::vector<Item>* items) {
+  items->insert(items->end(), more.begin(), more.end());
+}
+
+// Of lists of things that have a time.
+template <typename Item>
+void AppendLater(const std::vector<Item>& more, double by_s, std::vector<Item>* items) {
+  for (Item item : more) {
+    if (items->size() == kMostListed) return;
+    item.time_s += by_s;
+    items->push_back(std::move(item));
+  }
+}
+
+void AppendFaults(const SoakResult& rest, double by_s, SoakResult* joined) {
+  std::erase_if(joined->faults, [by_s](const SoakFault& fault) { return fault.at_s >= by_s; });
+  for (SoakFault fault : rest.faults) {
+    fault.at_s += by_s;
+    if (fault.observed_s) *fault.observed_s += by_s;
+    joined->faults.push_back(std::move(fault));
+  }
+}
+
+void JoinHistograms(const SoakResult& rest, SoakResult* joined) {
+  for (const SoakHistogram& more : rest.histograms) {
+    const auto found = std::ranges::find(joined->histograms, more.name, &SoakHistogram::name);
+    if (found == joined->histograms.end()) {
+      joined->histograms.push_back(more);
+    } else {
+      found->histogram.Merge(more.histogram);
+    }
+  }
+}
+
+void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
+  joined->violations_counted += rest.violations_counted;
+  joined->near_misses_counted += rest.near_misses_counted;
+  joined->modes_counted += rest.modes_counted;
+  joined->lives_too_short += rest.lives_too_short;
+  joined->budget_spent += rest.budget_spent;
+  joined->timing_values_lost += rest.timing_values_lost;
+  joined->restarts_unplanned += rest.restarts_unplanned;
+  const double paused_s = joined->pauses.total_s + rest.pauses.total_s;
+  joined->pauses = {joined->pauses.count + rest.pauses.count, paused_s,
+                    std::max(joined->pauses.longest_s, rest.pauses.longest_s),
+                    paused_s / std::max(1.0, by_s + rest.ran_s)};
+  if (!rest.narrowest_margin) return;
+  NarrowestMargin margin = *rest.narrowest_margin;
+  margin.time_s += by_s;
+  const bool narrower =
+      !joined->narrowest_margin || margin.share_left < joined->narrowest_margin->share_left;
+  if (narrower) joined->narrowest_margin = margin;
+}
+
+// The rest ends as it ends; a promise that was broken before stays broken.
+void JoinVerdicts(const SoakResult& rest, SoakResult* joined) {
+  joined->verdict = rest.verdict;
+  std::map<std::string, std::uint64_t> by_kind;
+  for (const SoakViolation& broken : joined->violations) ++by_kind[broken.invariant];
+  joined->reasons.clear();
+  if (rest.verdict == SoakVerdict::kNotRun) joined->reasons = rest.reasons;
+  for (const auto& [kind, count] : by_kind) {
+    joined->reasons.push_back(fmt::format("{}: {}", kind, count));
+  }
+  if (joined->violations_counted > 0 && rest.verdict != SoakVerdict::kNotRun) {
+    joined->verdict = SoakVerdict::kFailed;
+  }
+  for (const double at_s : joined->resumed_at_s) {
+    joined->reasons.push_back(fmt::format("resumed at {:.0f} s", at_s));
+  }
+}
+
+}  // namespace
+
+std::string SaveSoFar(const SoakResult& so_far, const std::string& folder) {
+  return WriteStateFile(FileIn(folder), ToJson(so_far));
+}
+
+void ForgetSoFar(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::remove(FileIn(folder), error);
+}
+
+SoakResult LoadSoFar(const std::string& folder) {
+  ReadSoak read = ReadSoakReport(FileIn(folder));
+  if (read.complaint.empty()) return std::move(read.result);
+  throw InputError({{.file = folder,
+                     .field = "--resume",
+                     .value = folder,
+                     .message = "holds no soak to go on with: " + read.complaint,
+                     .remedy = "one that came to its verdict is over: see report.json there; one "
+                               "that died before its fleet drove is to be started anew"}});
+}
+
+faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
+                        std::vector<std::string>* lost) {
+  faults::Schedule rest;
+  for (faults::Fault fault : whole) {
+    if (fault.at_s < from_s) continue;
+    fault.at_s -= from_s;
+    if (fault.at_s >= warm_up_s) {
+      rest.push_back(std::move(fault));
+    } else {
+      lost->push_back(
+          fmt::format("{}#{} at {:.1f} s: fell into the start of the fleet that went on",
+                      fault.rule, fault.nth, fault.at_s + from_s));
+    }
+  }
+  return rest;
+}
+
+SoakResult Joined(const SoakResult& so_far, const SoakResult& rest) {
+  SoakResult joined = so_far;
+  const double by_s = so_far.ran_s;
+  joined.ran_s = by_s + rest.ran_s;
+  joined.domain = rest.domain;
+  joined.versions = rest.versions;
+  joined.resumed_at_s.push_back(by_s);
+  AppendFaults(rest, by_s, &joined);
+  Append(rest.skipped_faults, &joined.skipped_faults);
+  AppendLater(rest.violations, by_s, &joined.violations);
+  AppendLater(rest.near_misses, by_s, &joined.near_misses);
+  AppendLater(rest.modes, by_s, &joined.modes);
+  AppendLater(rest.kept_rings, by_s, &joined.kept_rings);
+  Append(rest.slopes, &joined.slopes);
+  Append(rest.accounting, &joined.accounting);
+  JoinHistograms(rest, &joined);
+  JoinCounts(rest, by_s, &joined);
+  JoinVerdicts(rest, &joined);
+  return joined;
+}
+
+}  // namespace giveway::fleetctl

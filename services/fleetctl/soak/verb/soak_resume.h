@@ -1,0 +1,28 @@
+// Going on with a soak whose supervisor or machine died: what was seen up to there is saved in the
+// report folder, whole or not at all, and a new fleet takes up the rest of the list.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "services/faults/fault.h"
+#include "services/fleetctl/soak/soak_result.h"
+
+namespace giveway::fleetctl {
+
+// Replaces what was saved before. Why it could not, as on a full disk; empty: it could.
+std::string SaveSoFar(const SoakResult& so_far, const std::string& folder);
+// It has come to its verdict: there is nothing to go on with.
+void ForgetSoFar(const std::string& folder);
+// Throws InputError where the folder holds no soak that could be gone on with.
+SoakResult LoadSoFar(const std::string& folder);
+
+// Of the whole list what is left after `from_s`, by the clock of a new fleet, whose own warm-up is
+// `warm_up_s`. What would begin before that is over comes to `lost`, in words. Pure.
+faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
+                        std::vector<std::string>* lost);
+
+// Both as one, whose times are those of the whole; `rest` began at so_far.ran_s. Pure.
+SoakResult Joined(const SoakResult& so_far, const SoakResult& rest);
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,124 @@
+#include <limits>
+#include <memory>
+#include <string>
+
+#include "services/fleetctl/args/duration_flag.h"
+#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/process/domain_lock.h"
+#include "services/fleetctl/soak/soak_phases.h"
+#include "services/fleetctl/soak/verb/soak.h"
+#include "services/fleetctl/soak/verb/soak_around.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+Starts a world and one process a vehicle, waits until all drive, breaks things
+by a seeded schedule, heals everything, and judges: every invariant, every
+fault's effect, how soon peers noticed, that all drive again within 5 s, that no
+process grows. Who ends by itself is started again, and told of. The report
+folder gets report.html, report.json, the logs, the scenario and the list of
+faults as they were run; `fleetctl report` reads it. The first Ctrl-C ends the
+soak with an honest report.
+
+With --record-ring every vehicle keeps its last seconds; a broken promise makes
+all of them keep those files. --around FOLDER writes the faults around the first
+broken promise of a report, for `fleetctl shrink`.
+
+--virtual runs the same list in virtual time, as far as it goes there, and
+judges it alike, without detection, resources and pauses. What was seen is saved
+every ten seconds: --resume FOLDER goes on after a crash of the machine, with a
+new fleet and the rest of the list, and the verdict says so.
+
+A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
+shipped sets: calm, radio_storm, flaky_hardware, everything; `fleetctl faults
+expand` prints what comes of one.
+
+Examples
+  fleetctl soak patrol --faults calm --duration 2m --report soak
+  fleetctl soak patrol --faults everything --skip-unsupported --duration 30m \
+      --seed 7 --record-ring 60 --report soak
+  fleetctl report soak
+  fleetctl soak --around soak
+  fleetctl soak city_grid --faults everything --skip-unsupported --virtual \
+      --duration 12h --report night
+
+Exit code: 0 passed; 1 failed or interrupted; 2 could not run, or the machine
+was too busy to judge.
+)";
+
+constexpr std::uint32_t kMostVehicles = 1024;
+
+void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
+  verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one");
+  verb->add_option("--faults", options->faults, "A fault file, or the name of a shipped one")
+      ->check(CheckNotEmpty)
+      ->capture_default_str();
+  AddDurationFlag(verb, "--duration", &options->duration_s,
+                  "From the start signal to the verdict: 30s to 30d");
+  verb->add_option("--seed", options->seed, "Of start poses, cruise speeds and faults")
+      ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
+      ->capture_default_str();
+  verb->add_option("--report", options->report_folder, "Folder of the report; made where it is not")
+      ->check(CheckNotEmpty);
+  verb->add_option("--vehicles", options->vehicles, "Of an open fleet; without it one a place")
+      ->check(CLI::Range(1U, kMostVehicles));
+  verb->add_option("--qos", options->qos_file, "QoS profiles: a file, or the name of a shipped set")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_QOS");
+  verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
+      ->check(CLI::Range(kFirstDomain, kLastDomain));
+  AddInterfaceFlag(verb, &options->interface);
+  verb->add_flag("--record", options->record, "Every vehicle records into the report folder");
+  verb->add_option("--record-ring", options->ring_s,
+                   "Every vehicle keeps its last seconds recorded: 60")
+      ->check(CLI::Range(5U, 3600U))
+      ->excludes("--record");
+  verb->add_flag("--virtual", options->in_virtual_time, "In virtual time: the same bits each time")
+      ->excludes("--record")
+      ->excludes("--record-ring")
+      ->excludes("--domain");
+  verb->add_option("--resume", options->resume, "Go on in this folder of a soak that died")
+      ->check(CheckNotEmpty)
+      ->excludes("--report")
+      ->excludes("SCENARIO")
+      ->excludes("--virtual");
+  verb->add_option("--around", options->around, "Write the faults around the first broken promise")
+      ->check(CheckNotEmpty)
+      ->excludes("--report")
+      ->excludes("SCENARIO");
+  verb->add_flag("--skip-unsupported", options->skip_unsupported,
+                 "Leave out what cannot be done here, and say so");
+  verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+}
+
+void RequireWhatIsRun(const SoakOptions& options) {
+  if (!options.resume.empty()) return;
+  if (options.scenario.empty()) throw CLI::RequiredError("SCENARIO");
+  if (options.report_folder.empty()) throw CLI::RequiredError("--report");
+}
+
+}  // namespace
+
+void AddSoakVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<SoakOptions>();
+  CLI::App* verb = fleetctl->add_subcommand(
+      "soak", "Drive a fleet under faults for minutes or days, and judge it");
+  verb->footer(kFooter);
+  AddSoakFlags(verb, options.get());
+  verb->callback([options, exit_code] {
+    if (!options->around.empty()) {
+      *exit_code = WriteAround(options->around);
+      return;
+    }
+    RequireWhatIsRun(*options);
+    if (options->resume.empty() && options->duration_s < kLeastSoak_s) {
+      throw CLI::ValidationError("--duration",
+                                 "must be at least 30 s: the fleet takes ten to start");
+    }
+    *exit_code = Soak(*options);
+  });
+}
+
+}  // namespace giveway::fleetctl

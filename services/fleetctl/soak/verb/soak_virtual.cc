@@ -1,0 +1,225 @@
+#include "services/fleetctl/soak/verb/soak_virtual.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+#include "services/config/plan_read.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/soak/fault_clock.h"
+#include "services/fleetctl/soak/fleet_course.h"
+#include "services/fleetctl/soak/near_misses.h"
+#include "services/fleetctl/soak/soak_watch.h"
+#include "services/runtime/process.h"
+#include "services/timing/drive_timing.h"
+#include "sim_world/virtual/virtual_run.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using faults::Kind;
+using faults::Target;
+using std::chrono::seconds;
+
+// A status comes every so many ticks: no value of a figure is missed between two.
+constexpr std::uint32_t kStatusTicks = 4;
+static_assert(kStatusTicks <= FigureSummary::kNewest);
+constexpr SteadyTime kBegin = seconds(1);  // 0 is no time
+constexpr Nanoseconds kTellEvery = seconds(10);
+
+std::vector<VehicleId> IdsIn(const Scenario& scenario) {
+  std::vector<VehicleId> ids;
+  for (const VehicleOptions& vehicle : scenario.vehicles) ids.push_back(vehicle.id);
+  return ids;
+}
+
+std::map<VehicleId, double> RadiiIn(const Scenario& scenario) {
+  std::map<VehicleId, double> radius_m;
+  for (const VehicleOptions& vehicle : scenario.vehicles) {
+    radius_m[vehicle.id] = vehicle.profile.body_radius_m;
+  }
+  return radius_m;
+}
+
+Nanoseconds MostBeaconAgeIn(const Scenario& scenario) {
+  Nanoseconds limit{0};
+  for (const auto& vehicle : scenario.vehicles) limit = std::max(limit, vehicle.beacon_age_limit);
+  return limit + scenario.tick_period;
+}
+
+class VirtualSoak {
+ public:
+  VirtualSoak(const Scenario& scenario, const faults::Schedule& schedule, const SoakPhases& phases)
+      : scenario_(scenario),
+        schedule_(schedule),
+        phases_(phases),
+        plan_{.seed = scenario.seed, .schedule = schedule},
+        fleet_(scenario, plan_),
+        invariants_(scenario, sim::LimitsFor(scenario, plan_)),
+        watch_(IdsIn(scenario), schedule),
+        clock_(schedule),
+        course_(
+            IdsIn(scenario), [this](VehicleId vehicle) { return away_.contains(vehicle); },
+            [this](VehicleId vehicle) { return gone_.contains(vehicle); }),
+        near_(RadiiIn(scenario)),
+        timing_(MostBeaconAgeIn(scenario)) {
+    for (const VehicleOptions& vehicle : scenario.vehicles) {
+      observed_.push_back({.vehicle = vehicle.id});
+      timings_.emplace_back(vehicle);
+    }
+  }
+
+  SoakSeen Run() {
+    seen_.started = true;
+    seen_.started_at = kBegin;
+    while (Time_s() < phases_.end_s && Interrupts::Count() == 0 && fleet_.Advance()) Look();
+    seen_.interrupted = Interrupts::Count() > 0;
+    seen_.lasted_s = Time_s();
+    CarryOut(clock_.EndAll(Time_s()));
+    invariants_.Finish(fleet_.World().Now(), observed_);
+    Gather();
+    return std::move(seen_);
+  }
+
+ private:
+  double Time_s() const { return fleet_.World().TimeSeconds(); }
+  SteadyTime Now() const { return kBegin + FromSeconds(Time_s()); }
+
+  void Look() {
+    sim::ObserveFleet(fleet_, &observed_);
+    invariants_.Observe(fleet_.World().Now(), Time_s(), observed_, fleet_.World().Events());
+    MeasureTurns();
+    const link::Observed news = News();
+    watch_.Fold(news, Now());
+    near_.Fold(news.truths);
+    for (const VehicleStatus& status : news.statuses) timing_.Fold(status, Time_s());
+    CarryOut(clock_.TakeDue(Time_s()));
+    course_.NoteModes(watch_, Now(), &seen_);
+    if (Time_s() >= clock_.LastEnd_s()) course_.SeekHealing(watch_, Now(), &seen_);
+    ShowProgress();
+  }
+
+  // In virtual time a step takes none: jitter and turns are those of lost ticks alone.
+  void MeasureTurns() {
+    for (std::size_t i = 0; i < fleet_.Size(); ++i) {
+      if (!fleet_.Answered(i)) continue;
+      const auto scans = fleet_.World().Scans();
+      const auto scan = std::ranges::find(scans, scenario_.vehicles[i].id, &RangeScan::vehicle);
+      if (scan == scans.end()) continue;
+      timings_[i].Note({.woke = Now(),
+                        .sent = Now(),
+                        .scan = &*scan,
+                        .command = fleet_.Said(i).command,
+                        .evidence = fleet_.Brain(i).Evidence()});
+    }
+  }
+
+  link::Observed News() {
+    link::Observed news;
+    const auto truths = fleet_.World().Truths();
+    news.truths.assign(truths.begin(), truths.end());
+    const auto events = fleet_.World().Events();
+    news.events.assign(events.begin(), events.end());
+    if (Number(fleet_.World().Now()) % kStatusTicks != 0) return news;
+    for (std::size_t i = 0; i < fleet_.Size(); ++i) {
+      if (!fleet_.Answered(i)) continue;
+      VehicleStatus& status = news.statuses.emplace_back();
+      status.vehicle = scenario_.vehicles[i].id;
+      status.tick = fleet_.World().Now();
+      status.decision = fleet_.Said(i).command.decision;
+      status.gives_way_to = fleet_.Said(i).beacon.gives_way_to;
+      status.forward_m_s = fleet_.Brain(i).SpeedMps();
+      status.timing = timings_[i].Figures();
+    }
+    return news;
+  }
+
+  // Those of the world say by an event that they began.
+  void CarryOut(std::span<const FaultEdge> edges) {
+    for (const FaultEdge& edge : edges) {
+      const faults::Fault& fault = schedule_[edge.fault];
+      SetAway(fault, edge.begins);
+      if (!edge.begins) {
+        watch_.NoteEnd(edge.fault, Now());
+        continue;
+      }
+      watch_.NoteBegin(edge.fault, Now());
+      if (faults::ActorOf(fault.kind) != faults::Actor::kWorld) {
+        watch_.NoteEffect(edge.fault, "carried out by the virtual fleet");
+      }
+    }
+  }
+
+  void SetAway(const faults::Fault& fault, bool begins) {
+    if (fault.kind != Kind::kKill && fault.kind != Kind::kRestart) return;
+    for (const VehicleOptions& vehicle : scenario_.vehicles) {
+      if (fault.target.what != Target::What::kAll && fault.target.vehicle != vehicle.id) continue;
+      if (begins) away_.insert(vehicle.id);
+      if (begins && fault.kind == Kind::kKill) gone_.insert(vehicle.id);
+      if (!begins && !gone_.contains(vehicle.id)) away_.erase(vehicle.id);
+      watch_.SetAway(vehicle.id, away_.contains(vehicle.id));
+    }
+  }
+
+  void ShowProgress() {
+    if (SteadyNow() < next_progress_) return;
+    next_progress_ = SteadyNow() + kTellEvery;
+    std::fprintf(stderr, "%6.0f of %.0f s of virtual time\n", Time_s(), phases_.end_s);
+  }
+
+  void Gather() {
+    seen_.courses.assign(watch_.Courses().begin(), watch_.Courses().end());
+    const double now_s = Time_s();
+    const Tick now = fleet_.World().Now();
+    for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
+      seen_.broken_counted += invariants_.Count(static_cast<sim::Invariant>(i));
+    }
+    for (const sim::Violation& broken : invariants_.First()) {
+      const double ago_s = TicksBetween(broken.tick, now) * Seconds(scenario_.tick_period);
+      seen_.broken.push_back({std::max(0.0, now_s - ago_s), broken});
+    }
+    seen_.near_misses = near_.Narrowest();
+    seen_.near_misses_counted = near_.Count();
+    seen_.timing = timing_;
+  }
+
+  const Scenario& scenario_;
+  const faults::Schedule& schedule_;
+  const SoakPhases phases_;
+  sim::VirtualPlan plan_;
+  sim::VirtualFleet fleet_;
+  sim::Invariants invariants_;
+  std::vector<sim::Observed> observed_;
+  SoakWatch watch_;
+  FaultClock clock_;
+  FleetCourse course_;
+  NearMisses near_;
+  FleetTiming timing_;
+  std::vector<DriveTiming> timings_;  // in the order of the scenario
+  std::set<VehicleId> away_;
+  std::set<VehicleId> gone_;
+  SoakSeen seen_;
+  SteadyTime next_progress_{0};
+};
+
+}  // namespace
+
+Scenario WithPlacesFilled(Scenario scenario, std::uint32_t count) {
+  const std::set<VehicleId> ids = IdsOf(scenario).joining;
+  auto id = ids.begin();
+  for (const VehicleOptions& place : scenario.spawns) {
+    if (scenario.vehicles.size() >= count || id == ids.end()) break;
+    scenario.vehicles.push_back(place);
+    scenario.vehicles.back().id = *id++;
+  }
+  std::ranges::sort(scenario.vehicles, {}, &VehicleOptions::id);
+  scenario.spawns.clear();
+  return scenario;
+}
+
+SoakSeen RunSoakVirtually(const Scenario& scenario, const faults::Schedule& schedule,
+                          const SoakPhases& phases) {
+  return VirtualSoak(scenario, schedule, phases).Run();
+}
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,158 @@
+// Which fields a brain's state consists of, in the order of their declaration: recording_fields.h
+// for what only a brain has. A struct that gains or loses a field no longer compiles here.
+#pragma once
+
+#include <new>
+
+#include "services/recording/recording_fields.h"
+#include "services/vehicle/vehicle.h"
+
+namespace giveway {
+
+void Visit(auto& fields, Is<Twist> auto& twist) {
+  auto& [forward, turn] = twist;
+  fields(forward, turn);
+}
+
+void Visit(auto& fields, Is<KnownHeading> auto& known) {
+  auto& [heading, forward] = known;
+  fields(heading, forward);
+}
+
+void Visit(auto& fields, Is<KnownBearing> auto& known) {
+  auto& [direction, heading] = known;
+  fields(direction, heading);
+}
+
+void Visit(auto& fields, Is<OwnWay> auto& way) {
+  auto& [driven, turned] = way;
+  fields(driven, turned);
+}
+
+void Visit(auto& fields, Is<SensorView> auto& view) {
+  auto& [kind, range, tick, echo_tick, echo_before, missed, closing, streak, own, echo_way] = view;
+  fields(kind, range, tick, echo_tick, echo_before, missed, closing, streak, own, echo_way);
+}
+
+void Visit(auto& fields, Is<Encounter> auto& encounter) {
+  auto& [active, holds, clears, lost, released, entered, lost_at, lost_wait] = encounter;
+  fields(active, holds, clears, lost, released, entered, lost_at, lost_wait);
+}
+
+void Visit(auto& fields, Is<PeerTrust> auto& trust) {
+  auto& [ever_doubted, doubted_at, missing, standing, closing] = trust;
+  fields(ever_doubted, doubted_at, missing, standing, closing);
+}
+
+void Visit(auto& fields, Is<Peer> auto& peer) {
+  auto& [id, boot_epoch, writer, last_seq, waiting_count, spoke, rival_spoke, received, known,
+         rivalled, deadline_missed, liveliness_lost, left, out_of_reach, encounter, trust, told,
+         beacon, waiting, waiting_received] = peer;
+  fields(id, boot_epoch, writer, last_seq, waiting_count, spoke, rival_spoke, received, known,
+         rivalled, deadline_missed, liveliness_lost, left, out_of_reach, encounter, trust, told,
+         beacon, waiting, waiting_received);
+}
+
+template <typename Scan>
+void Visit(auto& fields, HeldScan<Scan>& held) {
+  auto& [scan, taken, pose, speed] = held;
+  fields(scan, taken, pose, speed);
+}
+template <typename Scan>
+void Visit(auto& fields, const HeldScan<Scan>& held) {
+  auto& [scan, taken, pose, speed] = held;
+  fields(scan, taken, pose, speed);
+}
+
+void Visit(auto& fields, Is<SeenObjects> auto& seen) {
+  auto& [radar, lidar, camera] = seen;
+  fields(radar, lidar, camera);
+}
+
+void Visit(auto& fields, Is<LastHeard> auto& last) {
+  auto& [vehicle, wheels, received] = last;
+  fields(vehicle, wheels, received);
+}
+
+void Visit(auto& fields, Is<BeaconCounters> auto& counters) {
+  auto& [sent, taken, accepted, not_heard, lost, not_finite, out_of_range, crc, replayed, own,
+         wrong_name, duplicate_id, wrong_epoch, table_full] = counters;
+  fields(sent, taken, accepted, not_heard, lost, not_finite, out_of_range, crc, replayed, own,
+         wrong_name, duplicate_id, wrong_epoch, table_full);
+}
+
+void Visit(auto& fields, Is<QosCounters> auto& counters) {
+  auto& [deadline_missed, liveliness_lost, incompatible, matched, unmatched] = counters;
+  fields(deadline_missed, liveliness_lost, incompatible, matched, unmatched);
+}
+
+void Visit(auto& fields, Is<TrustCounters> auto& counters) {
+  auto& [without_echo, without_beacon, closing, jumps, speeds] = counters;
+  fields(without_echo, without_beacon, closing, jumps, speeds);
+}
+
+// Of those that keep their members to themselves.
+struct StateFields {
+  static void Of(auto& fields, Is<Odometry> auto& odometry) {
+    auto& [pose, heading, covariance] = odometry;
+    fields(pose, heading, covariance);
+  }
+  static void Of(auto& fields, Is<RangeView> auto& view) {
+    auto& [sensors, echoes, spoke, spoke_tick, way, taken, any] = view;
+    fields(sensors, echoes, spoke, spoke_tick, way, taken, any);
+  }
+  // As many heads as there are.
+  static void Of(auto& fields, Is<SignalTable> auto& table) {
+    auto& [heads, count] = table;
+    fields(count);
+    for (std::uint32_t i = 0; i < count && i < kMaxSignals; ++i) {
+      auto& [state, heard, weighed, clears] = heads[i];
+      fields(state, heard, weighed, clears);
+    }
+  }
+  // Who was found last is only a guess, and left out.
+  static void Of(auto& fields, Is<PeerTable> auto& table) {
+    fields(table.count_);
+    for (std::uint32_t i = 0; i < table.count_ && i < kMaxPeers; ++i) fields(table.peers_[i]);
+    fields(table.last_deadline_missed_, table.last_liveliness_lost_, table.last_rejected_);
+  }
+  static std::uint32_t CountOf(const SignalTable& table) { return table.count_; }
+  static const SignalState& SignalOf(const SignalTable& table, std::uint32_t i) {
+    return table.heads_[i].state;
+  }
+  static std::uint32_t SensorBitsOf(const RangeView& view) { return view.echoes_ | view.spoke_; }
+  // At most kMaxPeers.
+  static void MakePeers(PeerTable* table, std::uint32_t count) {
+    table->count_ = count;
+    for (std::uint32_t i = 0; i < count; ++i) new (&table->peers_[i]) Peer;
+  }
+  static void FindAnew(PeerTable* table) {
+    table->found_ = 0;
+    for (std::uint32_t i = 0; i < table->count_; ++i) {
+      table->ids_[i] = table->peers_[i].id;
+      table->after_[i] = i;
+    }
+  }
+};
+
+template <typename T>
+concept KeepsItsOwn = Is<T, Odometry> || Is<T, RangeView> || Is<T, SignalTable> || Is<T, PeerTable>;
+
+void Visit(auto& fields, KeepsItsOwn auto& part) { StateFields::Of(fields, part); }
+
+void Visit(auto& fields, Is<VehicleState> auto& state) {
+  auto& [boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
+         way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
+         decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
+         steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
+         caught_ticks, ranges, peers, signals, objects, last_heard, scans_refused, signals_refused,
+         beacons, qos, trust] = state;
+  fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
+         way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
+         decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
+         steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
+         caught_ticks, ranges, peers, signals, objects, last_heard, scans_refused, signals_refused,
+         beacons, qos, trust);
+}
+
+}  // namespace giveway

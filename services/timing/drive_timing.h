@@ -1,0 +1,91 @@
+// Measures how timely a vehicle is, turn by turn, over its whole life: what it decided by and how
+// old that was, how evenly its ticks came, and how far it drove between a cause and the first scan
+// that shows its wheels obeying. All from what travels anyhow: scans and beacons carry ticks, and a
+// decision names the tick that first showed its cause. Times are those at which this vehicle took
+// its scans, so no other clock is believed. Reads no clock, decides nothing. Pure.
+//
+//   scan of the cause's tick -> ... -> decided -> command sent -> scan with obeying wheels
+//   |<---------------------- reaction, in us and in um ----------------------->|
+//
+// A command that is lost, or a motor that is weak, makes a reaction longer: it ends when the wheels
+// are seen to slow down, not when something was sent.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "services/types/decision_evidence.h"
+#include "services/types/drive_figures.h"
+#include "services/types/histogram.h"
+#include "services/types/motor_command.h"
+#include "services/types/range_scan.h"
+#include "services/types/time.h"
+#include "services/types/vehicle_options.h"
+
+namespace giveway {
+
+// One turn of a control loop.
+struct TurnSeen {
+  SteadyTime woke{0};               // the arrival of the scan, where one came
+  SteadyTime sent{0};               // the command is out
+  const RangeScan* scan = nullptr;  // null: none came
+  MotorCommand command;
+  DecisionEvidence evidence;
+};
+
+class DriveTiming {
+ public:
+  // Causes older than this are not measured.
+  static constexpr std::uint32_t kRememberedTicks = 64;
+  // Wheels that do not obey for so long: the reaction ends there, and counts as that long.
+  static constexpr std::uint32_t kMostTicks = 40;
+
+  explicit DriveTiming(const VehicleOptions& options) : options_(options) {}
+
+  // It drives by other options from now on; the figures go on.
+  void Reseat(const VehicleOptions& options);
+  // What the turn showed. A reaction that ended with it and spent its budget, if one did.
+  std::optional<ReactionMargin> Note(const TurnSeen& turn);
+
+  DriveFigures Figures() const;
+
+ private:
+  struct Moment {
+    Tick tick = kNoTick;
+    SteadyTime at{0};
+    double way_m = 0;  // the axle centre's, as the encoders counted it
+  };
+  // Of a decision that slows the vehicle down: until its wheels obey.
+  struct Reaction {
+    Moment cause;
+    Tick decided = kNoTick;
+    double speed_m_s = 0;          // as it was decided
+    double wanted_m_s = 0;         // by the command
+    std::optional<double> free_m;  // at the cause
+  };
+
+  void Add(DriveFigure figure, double value);
+  void NoteScan(const RangeScan& scan, SteadyTime woke);
+  std::optional<ReactionMargin> SeekEnd();
+  void SeekBegin(const TurnSeen& turn);
+  Moment MomentOf(Tick tick) const;
+  bool Obeys(const Reaction& reaction) const;
+
+  struct Kept {
+    Histogram histogram;
+    FigureSummary summary;  // without quantiles
+  };
+
+  VehicleOptions options_;
+  std::array<Kept, kDriveFigures> kept_;
+  std::array<Moment, kRememberedTicks> moments_{};  // [tick % kRememberedTicks]
+  WorldEpoch epoch_ = kNoEpoch;
+  Moment last_;           // the newest scan
+  double speed_m_s_ = 0;  // in it, forward
+  std::optional<Reaction> reaction_;
+  std::optional<ReactionMargin> narrowest_;
+  std::uint32_t budget_spent_ = 0;
+};
+
+}  // namespace giveway

@@ -1,0 +1,51 @@
+#include "services/vehicle/evidence.h"
+
+#include <algorithm>
+
+#include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/objects_ahead.h"
+
+namespace giveway {
+namespace {
+
+std::optional<double> FreeOf(const Situation& s, const Decision& decision) {
+  switch (decision.rule) {
+    case Rule::kGiveWay:
+    case Rule::kNotGranted:
+    case Rule::kPeerLost:
+    case Rule::kKeepClear:
+      for (const PeerView& view : s.peers) {
+        if (view.peer->id == decision.peer) return view.gap_m;
+      }
+      return std::nullopt;
+    case Rule::kObstacle:
+    case Rule::kDeaf:
+    case Rule::kAvoid:
+      if (decision.sensor < 0) return std::nullopt;
+      return FreeAhead(static_cast<std::size_t>(decision.sensor), s);
+    case Rule::kObject:
+      if (const auto object = NearestObstacle(s.objects, s)) return object->free_m;
+      return std::nullopt;
+    case Rule::kSignal:
+      return s.stop_line ? std::optional(s.stop_line->free_m) : std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+}  // namespace
+
+DecisionEvidence EvidenceOf(const Situation& s, const Decision& decision, bool is_new) {
+  DecisionEvidence evidence;
+  for (const PeerView& view : s.peers) {
+    if (!view.fresh) continue;
+    const Nanoseconds age = Age(*view.peer, s.now, s.tick, s.options.tick_period);
+    evidence.oldest_beacon = std::max(evidence.oldest_beacon.value_or(age), age);
+  }
+  if (!is_new) return evidence;
+  evidence.free_m = FreeOf(s, decision);
+  if (evidence.free_m) evidence.free_m = std::max(0.0, *evidence.free_m);
+  return evidence;
+}
+
+}  // namespace giveway

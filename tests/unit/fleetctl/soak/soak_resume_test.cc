@@ -1,0 +1,106 @@
+#include "services/fleetctl/soak/verb/soak_resume.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "services/config/problem.h"
+#include "services/fleetctl/soak/soak_json.h"
+#include "tests/unit/config/scenario_files.h"
+#include "tests/unit/fleetctl/soak/soak_results.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+faults::Fault Beginning(const char* rule, double at_s) {
+  faults::Fault fault;
+  fault.rule = rule;
+  fault.at_s = at_s;
+  return fault;
+}
+
+TEST(SoakResume, TheRestOfAListIsByTheNewFleetsClock) {
+  std::vector<std::string> lost;
+  const faults::Schedule rest = RestOf(
+      {Beginning("before", 90), Beginning("lost", 105), Beginning("left", 130)}, 100, 12, &lost);
+  ASSERT_THAT(rest, SizeIs(1));
+  EXPECT_EQ(rest[0].rule, "left");
+  EXPECT_EQ(rest[0].at_s, 30);
+  ASSERT_THAT(lost, SizeIs(1));
+  EXPECT_THAT(lost[0], HasSubstr("lost#0 at 105.0 s"));
+}
+
+TEST(SoakResume, TwoLegsAreOneSoak) {
+  SoakResult first = SampleSoak(1);
+  SoakResult rest = SampleSoak(2);
+  first.ran_s = 100;
+  first.planned_s = 280;
+  rest.ran_s = 180;
+  first.budget_spent = 1;
+  rest.budget_spent = 2;
+  rest.narrowest_margin->share_left = 0.1;
+  rest.narrowest_margin->time_s = 7;
+  const std::uint64_t values = first.histograms[0].histogram.Count();
+  const std::size_t before = static_cast<std::size_t>(
+      std::ranges::count_if(first.faults, [](const SoakFault& fault) { return fault.at_s < 100; }));
+  const SoakResult joined = Joined(first, rest);
+  EXPECT_EQ(joined.ran_s, 280);
+  EXPECT_EQ(joined.planned_s, 280);
+  EXPECT_THAT(joined.faults, SizeIs(before + rest.faults.size()));
+  EXPECT_EQ(joined.faults[before].at_s, rest.faults[0].at_s + 100);
+  EXPECT_EQ(joined.histograms[0].histogram.Count(), 2 * values);
+  EXPECT_EQ(joined.near_misses_counted, 60U);
+  EXPECT_EQ(joined.near_misses.back().time_s, rest.near_misses.back().time_s + 100);
+  EXPECT_EQ(joined.budget_spent, 3U);
+  EXPECT_EQ(joined.narrowest_margin->time_s, 107);
+  EXPECT_EQ(joined.verdict, SoakVerdict::kPassed);
+  EXPECT_THAT(joined.reasons, ElementsAre("resumed at 100 s"));
+  EXPECT_THAT(joined.resumed_at_s, ElementsAre(100));
+}
+
+TEST(SoakResume, WhatWasBrokenBeforeStaysBroken) {
+  SoakResult first = SampleSoak(1);
+  first.violations.push_back({50, VehicleId{1}, kNobody, "contact", "tick 5", ""});
+  first.violations_counted = 1;
+  EXPECT_EQ(Joined(first, SampleSoak(2)).verdict, SoakVerdict::kFailed);
+  EXPECT_THAT(Joined(first, SampleSoak(2)).reasons, ElementsAre("contact: 1", "resumed at 180 s"));
+  SoakResult busy = SampleSoak(2);
+  busy.verdict = SoakVerdict::kNotRun;
+  busy.reasons = {"machine_too_busy"};
+  EXPECT_EQ(Joined(first, busy).verdict, SoakVerdict::kNotRun);
+  EXPECT_EQ(Joined(first, busy).reasons.front(), "machine_too_busy");
+}
+
+TEST(SoakResume, WhatIsSavedComesBackAndIsForgottenWithTheVerdict) {
+  const TempFolder folder;
+  const SoakResult saved = SampleSoak(3);
+  ASSERT_EQ(SaveSoFar(saved, folder.Path()), "");
+  EXPECT_EQ(ToJson(LoadSoFar(folder.Path())), ToJson(saved));
+  EXPECT_NE(SaveSoFar(saved, folder.Path() + "/nowhere"), "");
+  ForgetSoFar(folder.Path());
+  EXPECT_THROW(LoadSoFar(folder.Path()), InputError);
+}
+
+// A machine may die while it saves: there is the one before, or the new one.
+TEST(SoakResume, IsSavedWholeOrNotAtAll) {
+  const TempFolder folder;
+  ASSERT_EQ(SaveSoFar(SampleSoak(3), folder.Path()), "");
+  ASSERT_EQ(SaveSoFar(SampleSoak(4), folder.Path()), "");
+  EXPECT_EQ(LoadSoFar(folder.Path()).seed, 4U);
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(folder.Path())) {
+    ++files;
+  }
+  EXPECT_EQ(files, 1U) << "nothing is left beside it";
+  std::ofstream(folder.Path() + "/so_far.json") << "{\"format\":1,";
+  EXPECT_THROW(LoadSoFar(folder.Path()), InputError);
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl

@@ -1,0 +1,92 @@
+// The same soak in virtual time.
+#include "services/fleetctl/soak/verb/soak_virtual.h"
+
+#include <gmock/gmock.h>
+
+#include "services/config/scenario_file.h"
+#include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/soak/soak_json.h"
+#include "services/fleetctl/soak/soak_verdict.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+using ::testing::Contains;
+using ::testing::IsEmpty;
+
+faults::Fault Planned(faults::Kind kind, double at_s, double for_s, std::uint32_t vehicle) {
+  faults::Fault fault;
+  fault.rule = "planned";
+  fault.nth = vehicle;
+  fault.kind = kind;
+  fault.at_s = at_s;
+  fault.for_s = for_s;
+  fault.target.what = faults::Target::What::kVehicle;
+  fault.target.vehicle = VehicleId{vehicle};
+  return fault;
+}
+
+class SoakVirtualTest : public testing::Test {
+ protected:
+  SoakVirtualTest()
+      : scenario_(WithPlacesFilled(LoadScenario("patrol", {0, std::nullopt, std::nullopt}), 6)) {}
+
+  SoakResult Soak() const {
+    const SoakSeen seen = RunSoakVirtually(scenario_, schedule_, PhasesOf(90, 6));
+    SoakResult result;
+    Judge({seen, schedule_, {}, [](SteadyTime, SteadyTime) { return Nanoseconds{0}; }, false},
+          &result);
+    return result;
+  }
+
+  const Interrupts interrupts_{Silence::kComputes};  // none yet, whatever other tests had
+  Scenario scenario_;
+  faults::Schedule schedule_;
+};
+
+TEST_F(SoakVirtualTest, CarriesOutItsListAndJudgesIt) {
+  schedule_ = {Planned(faults::Kind::kPause, 20, 0.8, 2), Planned(faults::Kind::kLoss, 25, 10, 3),
+               Planned(faults::Kind::kRestart, 30, 2, 4),
+               Planned(faults::Kind::kSonarOff, 40, 5, 5)};
+  const SoakResult result = Soak();
+  EXPECT_EQ(result.verdict, SoakVerdict::kPassed) << ToJson(result);
+  EXPECT_NEAR(result.ran_s, 90, 0.1);
+  for (const SoakFault& fault : result.faults) {
+    EXPECT_TRUE(fault.observed) << fault.kind;
+    EXPECT_TRUE(fault.recovered_after_s) << fault.kind;
+    EXPECT_FALSE(fault.promised_s) << "nobody is told by a middleware";
+  }
+  std::vector<std::string> names;
+  for (const SoakHistogram& histogram : result.histograms) names.push_back(histogram.name);
+  EXPECT_THAT(names, Contains("healing"));
+  EXPECT_THAT(names, Contains("beacon_age"));
+}
+
+TEST_F(SoakVirtualTest, IsTheSameEachTime) {
+  schedule_ = {Planned(faults::Kind::kLoss, 25, 10, 3)};
+  EXPECT_EQ(ToJson(Soak()), ToJson(Soak()));
+}
+
+TEST_F(SoakVirtualTest, WhoWasKilledIsNotExpectedBack) {
+  schedule_ = {Planned(faults::Kind::kKill, 20, 0, 2)};
+  const SoakResult result = Soak();
+  EXPECT_THAT(result.violations, IsEmpty()) << ToJson(result);
+}
+
+TEST_F(SoakVirtualTest, AVehicleThatNeverDrivesAgainFailsIt) {
+  schedule_ = {Planned(faults::Kind::kSonarOff, 20, 69, 2)};
+  // Blind to the end of the run and beyond: nobody heals it.
+  schedule_[0].for_s = 500;
+  schedule_.push_back(Planned(faults::Kind::kPause, 21, 0.2, 3));
+  const SoakSeen seen = RunSoakVirtually(scenario_, schedule_, PhasesOf(90, 6));
+  EXPECT_TRUE(seen.healing.empty()) << "the last fault is not over";
+}
+
+TEST_F(SoakVirtualTest, PlacesAreFilledInTheOrderInWhichTheyStand) {
+  EXPECT_EQ(scenario_.vehicles.size(), 6U);
+  EXPECT_TRUE(scenario_.spawns.empty());
+  EXPECT_EQ(scenario_.vehicles.front().id, VehicleId{1});
+}
+
+}  // namespace
+}  // namespace giveway::fleetctl

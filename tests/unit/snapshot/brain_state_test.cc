@@ -1,0 +1,148 @@
+// A brain that is made of its bytes is the same brain; bytes that are none make none.
+#include "services/snapshot/brain_state.h"
+
+#include <gtest/gtest.h>
+
+#include "services/types/math/random.h"
+#include "tests/support/brain_bench.h"
+
+namespace giveway::test {
+namespace {
+
+constexpr std::uint32_t kPeers = 5;
+
+// What befalls a brain in one tick, by a seed: peers that come, go, lie and cross, echoes, lights,
+// further sensors, words of the middleware.
+class Fate {
+ public:
+  explicit Fate(std::uint64_t seed) : random_(seed) {}
+
+  void Lead(Vehicle* brain, std::uint32_t tick) {
+    RangeScan scan = ClearScan(tick);
+    scan.wheels = {random_.Uniform(0, 3), random_.Uniform(0, 3)};
+    counted_ = CountOn(counted_, scan.wheels, 0.05);
+    scan.counted = counted_;
+    if (Chance(0.4))
+      SetEcho(&scan, static_cast<int>(random_.Uniform(0, 7.9)), random_.Uniform(0.1, 4));
+    heard_.clear();
+    for (std::uint32_t peer = 2; peer < 2 + kPeers; ++peer) {
+      if (Chance(0.3)) continue;
+      const Pose at{{random_.Uniform(-3, 3), random_.Uniform(-3, 3)}, random_.Uniform(-3, 3)};
+      Beacon beacon = BeaconOf(peer, tick + (Chance(0.2) ? 1 : 0), at, random_.Uniform(0.1, 0.6));
+      beacon.wheels = {random_.Uniform(0, 3), random_.Uniform(0, 3)};
+      if (Chance(0.05)) beacon.mode = Mode::kLeaving;
+      heard_.push_back(Received(beacon, tick * milliseconds_));
+    }
+    events_.clear();
+    if (Chance(0.1))
+      events_.push_back({.kind = QosEventKind::kDeadlineMissed, .vehicle = VehicleId{3}});
+    Inputs inputs{.now = tick * milliseconds_, .beacons = heard_, .events = events_};
+    if (!Chance(0.1)) inputs.scan = scan;
+    const SignalState light{.id = SignalId{1},
+                            .epoch = kEpoch,
+                            .tick = Tick{tick},
+                            .line_from_world = {4, -1},
+                            .line_to_world = {4, 1},
+                            .phase = Chance(0.5) ? SignalPhase::kRed : SignalPhase::kYellow,
+                            .to_change_s = 1};
+    if (Chance(0.5)) inputs.signals = std::span(&light, 1);
+    RadarScan radar{.vehicle = VehicleId{1}, .epoch = kEpoch, .tick = Tick{tick}, .count = 1};
+    radar.detections[0] = {
+        .range_m = random_.Uniform(0.5, 5), .bearing_rad = 0.1, .range_rate_m_s = -0.2};
+    if (Chance(0.3)) inputs.radar = &radar;
+    said_ = brain->Step(inputs);
+  }
+  const Outputs& Said() const { return said_; }
+
+ private:
+  bool Chance(double share) { return random_.Uniform(0, 1) < share; }
+
+  static constexpr Nanoseconds milliseconds_ = std::chrono::milliseconds(50);
+  Random random_;
+  WheelAngles counted_;
+  std::vector<ReceivedBeacon> heard_;
+  std::vector<QosEvent> events_;
+  Outputs said_;
+};
+
+class BrainStateOfSeed : public testing::TestWithParam<std::uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(Seeds, BrainStateOfSeed, testing::Range(0U, 60U));
+
+TEST_P(BrainStateOfSeed, IsTheSameBrainAfterwards) {
+  Fate fate(GetParam());
+  Vehicle brain(DefaultOptions(), 42);
+  std::uint32_t tick = 0;
+  while (tick < 3 * GetParam()) fate.Lead(&brain, ++tick);
+  const std::string bytes = BytesOf(brain.State());
+  const auto state = StateFrom(bytes, DefaultOptions());
+  ASSERT_NE(state, nullptr);
+  ASSERT_EQ(BytesOf(*state), bytes);
+  Vehicle other(DefaultOptions(), 99);
+  other.Restore(*state);
+  ASSERT_EQ(other.Hash(), brain.Hash());
+  Fate same = fate;
+  for (const std::uint32_t end = tick + 60; tick < end;) {
+    fate.Lead(&brain, ++tick);
+    same.Lead(&other, tick);
+    ASSERT_EQ(other.Hash(), brain.Hash());
+    ASSERT_EQ(BytesOf(other.State()), BytesOf(brain.State()));
+    ASSERT_EQ(same.Said().command.target, fate.Said().command.target);
+    ASSERT_EQ(same.Said().command.decision, fate.Said().command.decision);
+  }
+}
+
+// Whatever is made of wrong bytes can be led.
+TEST_P(BrainStateOfSeed, BelievesNothing) {
+  Fate fate(7);
+  Vehicle brain(DefaultOptions(), 42);
+  for (std::uint32_t tick = 1; tick <= 40; ++tick) fate.Lead(&brain, tick);
+  const std::string whole = BytesOf(brain.State());
+  Random random(GetParam());
+  const auto drawn = [&random](std::size_t below) { return random.Next() % below; };
+  std::size_t taken = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::string bytes = whole;
+    for (std::uint64_t flips = drawn(3) + 1; flips > 0; --flips) {
+      bytes[drawn(bytes.size())] = static_cast<char>(random.Next());
+    }
+    if (drawn(10) == 0) bytes.resize(drawn(bytes.size()));
+    const auto state = StateFrom(bytes, DefaultOptions());
+    if (state == nullptr) continue;
+    ++taken;
+    Vehicle other(DefaultOptions(), 99);
+    other.Restore(*state);
+    Fate on = fate;
+    for (std::uint32_t tick = 41; tick <= 45; ++tick) on.Lead(&other, tick);
+  }
+  EXPECT_GT(taken, 0U) << "nothing was tried";
+  EXPECT_LT(taken, 300U) << "nothing was refused";
+}
+
+TEST(BrainState, OfAnotherFormatIsRefused) {
+  const Vehicle brain(DefaultOptions(), 42);
+  std::string bytes = BytesOf(brain.State());
+  ASSERT_NE(StateFrom(bytes, DefaultOptions()), nullptr);
+  EXPECT_EQ(StateFrom(bytes + '\0', DefaultOptions()), nullptr);
+  EXPECT_EQ(StateFrom("", DefaultOptions()), nullptr);
+  ++bytes[0];
+  EXPECT_EQ(StateFrom(bytes, DefaultOptions()), nullptr);
+}
+
+// Places by which a brain looks something up.
+TEST(BrainState, AWaypointThatTheRouteDoesNotHaveIsRefused) {
+  Vehicle brain(DefaultOptions(), 42);
+  auto state = std::make_unique<VehicleState>(brain.State());
+  state->waypoint = 3;
+  EXPECT_EQ(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
+  state->waypoint = 0;
+  state->decision.sensor = kSensorCount;
+  EXPECT_EQ(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
+  state->decision.sensor = -1;
+  state->nearest_m = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
+  state->nearest_m = 5;
+  EXPECT_NE(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
+}
+
+}  // namespace
+}  // namespace giveway::test
