@@ -27,7 +27,7 @@ double OwnStoppingDistance(const Situation& s) {
 
 double OwnSweep(const Situation& s) {
   const double speed = std::max(0.0, s.speed_m_s);
-  const double steady_s = s.reaction_s + Seconds(s.options.tick_period);
+  const double steady_s = Seconds(s.options.tick_period) + s.reaction_s;
   const double deceleration_m_s2 = s.options.profile.deceleration_m_s2;
   return StoppingDistance(speed, steady_s, deceleration_m_s2) *
          SwingOf(s.turn_rad_s, steady_s, speed, deceleration_m_s2);
