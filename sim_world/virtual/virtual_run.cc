@@ -12,10 +12,12 @@
 namespace giveway::sim {
 namespace {
 
-// It stands where by dead reckoning its goal may be.
-bool BelievesArrived(const Observed& now, const GoalTolerance& tolerance) {
-  return tolerance.beyond_m > 0 && now.decision.rule == Rule::kArrived &&
-         Magnitude(now.forward_m_s) < kStandstill_m_s &&
+// It stands where by dead reckoning its goal may be, and says that it has arrived, or did so when
+// the run ended: from then on it says no more than that.
+bool BelievesArrived(const Observed& now, bool before, const GoalTolerance& tolerance) {
+  const Rule rule = now.decision.rule;
+  const bool says_so = rule == Rule::kArrived || (before && rule == Rule::kNotRunning);
+  return tolerance.beyond_m > 0 && says_so && Magnitude(now.forward_m_s) < kStandstill_m_s &&
          Norm(now.position_world - tolerance.at_world) <= tolerance.beyond_m;
 }
 
@@ -27,6 +29,7 @@ void Look(const VirtualFleet& fleet, std::span<const GoalTolerance> tolerances,
     if (index == observed->size()) return;
     Observed& now = (*observed)[index];
     const Outputs& said = fleet.Said(index);
+    const bool before = now.arrived;
     now.present = truth.present;
     now.lives = fleet.Answered(index);
     now.arrived = truth.arrived;
@@ -43,7 +46,7 @@ void Look(const VirtualFleet& fleet, std::span<const GoalTolerance> tolerances,
     now.stated_covariance = said.beacon.covariance;
     now.beacon = &said.beacon;
     now.stops = said.command.target == WheelSpeeds{};
-    now.arrived = now.arrived || (now.present && BelievesArrived(now, tolerances[index]));
+    now.arrived = now.arrived || (now.present && BelievesArrived(now, before, tolerances[index]));
   }
 }
 
