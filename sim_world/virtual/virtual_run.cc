@@ -12,18 +12,22 @@
 namespace giveway::sim {
 namespace {
 
-// It stands where by dead reckoning its goal may be.
-bool BelievesArrived(const Observed& now, const GoalTolerance& tolerance) {
-  return tolerance.beyond_m > 0 && now.decision.rule == Rule::kArrived &&
-         Magnitude(now.forward_m_s) < kStandstill_m_s &&
+// It stands where by dead reckoning its goal may be, and says that it has arrived, or did so when
+// the run ended: from then on it says no more than that.
+bool BelievesArrived(const Observed& now, bool before, const GoalTolerance& tolerance) {
+  const Rule rule = now.decision.rule;
+  const bool says_so = rule == Rule::kArrived || (before && rule == Rule::kNotRunning);
+  return tolerance.beyond_m > 0 && says_so && Magnitude(now.forward_m_s) < kStandstill_m_s &&
          Norm(now.position_world - tolerance.at_world) <= tolerance.beyond_m;
 }
 
-void NoteBelievedArrivals(std::span<const GoalTolerance> tolerances,
+// `before` is who had arrived, by the world or by itself, at the last look.
+void NoteBelievedArrivals(std::span<const GoalTolerance> tolerances, std::vector<bool>* before,
                           std::vector<Observed>* observed) {
   for (std::size_t i = 0; i < observed->size(); ++i) {
     Observed& now = (*observed)[i];
-    now.arrived = now.arrived || (now.present && BelievesArrived(now, tolerances[i]));
+    now.arrived = now.arrived || (now.present && BelievesArrived(now, (*before)[i], tolerances[i]));
+    (*before)[i] = now.arrived;
   }
 }
 
@@ -136,6 +140,7 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
     observed.push_back({.vehicle = options.id});
     tolerances.push_back(ToleranceOf(options));
   }
+  std::vector<bool> had_arrived(observed.size());
   VirtualOutcome outcome;
   outcome.tick_s = Seconds(scenario.tick_period);
   outcome.vehicles = static_cast<std::uint32_t>(scenario.vehicles.size());
@@ -143,7 +148,7 @@ VirtualOutcome RunVirtually(const Scenario& scenario, const VirtualPlan& plan,
   for (bool goes_on = true; goes_on;) {
     goes_on = fleet.Advance();
     ObserveFleet(fleet, &observed);
-    NoteBelievedArrivals(tolerances, &observed);
+    NoteBelievedArrivals(tolerances, &had_arrived, &observed);
     invariants.Observe(fleet.World().Now(), fleet.World().TimeSeconds(), observed,
                        fleet.World().Events(), {fleet.World().Obstacles(), fleet.World().Doors()});
     vehicle_ticks += fleet.World().Scans().size();

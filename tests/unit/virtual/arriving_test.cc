@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "sim_world/virtual/due_times.h"
+#include "sim_world/virtual/generators.h"
+#include "sim_world/virtual/virtual_run.h"
 
 namespace giveway::sim {
 namespace {
@@ -48,6 +50,15 @@ TEST(GoalTolerances, AreForWheelsThatSlip) {
   EXPECT_LT(slips_m, 2);
   options.profile.encoder_noise = 0.02;
   EXPECT_GT(ToleranceOf(options).beyond_m, slips_m);
+}
+
+// Nobody can tell better than its wheels do; at the end of the run it still stands there.
+TEST(GoalTolerances, WhoStandsWithinHasArrivedWhenTheRunEnds) {
+  Scenario scenario = MakeCrossing({2, 3});
+  for (VehicleOptions& options : scenario.vehicles) options.profile.wheel_slip = 0.02;
+  const VirtualOutcome outcome = RunVirtually(scenario, {});
+  EXPECT_EQ(outcome.violations[static_cast<std::size_t>(Invariant::kArrival)], 0U);
+  EXPECT_EQ(outcome.arrived, 2U);
 }
 
 // 10 m at 0.5 m/s alone, and a second vehicle that takes 2 m at 0.25 m/s from standstill.

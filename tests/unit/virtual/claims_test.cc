@@ -56,14 +56,15 @@ TEST_F(ClaimsTest, OneThatCannotStopWithinLeavesThem) {
   EXPECT_EQ(Drive(0.9, 0.03, &claims), 1U);
 }
 
-// Each beacon claims anew, but who was told to stop is expected to stand where it said.
+// By so little a tick that no later beacon of it shows: who was told to stop stands where it said
+// then.
 TEST_F(ClaimsTest, OneThatBrakesOnAnArcLeavesThem) {
   Claims claims(scenario_);
   for (int i = 0; i < 10; ++i) Drive(0.3, 0.015, &claims);
   now_[0].stops = true;
   std::size_t left = 0;
   for (int i = 0; i < 20; ++i) {
-    now_[0].position_world.y += 0.014;
+    now_[0].position_world.y += 0.005;
     left += Drive(0.25, 0.002, &claims);
   }
   EXPECT_EQ(left, 1U);
