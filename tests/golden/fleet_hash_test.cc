@@ -37,7 +37,7 @@ TEST_P(FleetHash, IsTheSameEverywhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Crossing, FleetHash,
-                         testing::Values(Golden{Behaviour::kCooperative, 0x177315419dbb48b5ULL},
+                         testing::Values(Golden{Behaviour::kCooperative, 0xa8daf0b25a15d8bfULL},
                                          Golden{Behaviour::kLectureAvoid, 0xfa667c8a15b53f38ULL},
                                          Golden{Behaviour::kStockAvoid, 0xaa467e89e787cc05ULL},
                                          Golden{Behaviour::kLectureYield, 0xdc5d190684d77a14ULL},
@@ -62,12 +62,12 @@ TEST_P(ScenarioHash, IsTheSameEverywhere) {
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ScenarioHash,
                          testing::Values(GoldenScenario{"head_on", 0xffcdebfcdff7c6ddULL},
-                                         GoldenScenario{"three_way", 0xc6792d79a9da48e3ULL},
-                                         GoldenScenario{"four_way", 0x05161cc1a9dca48dULL},
+                                         GoldenScenario{"three_way", 0xbb626e7e9ab12a06ULL},
+                                         GoldenScenario{"four_way", 0x0da987f6a33d11aa3ULL},
                                          GoldenScenario{"deaf", 0xe4986410270e132aULL},
                                          GoldenScenario{"parked_nose_to_nose",
                                                         0x05c004ef78eebef9ULL},
-                                         GoldenScenario{"convoy", 0xe94ddefe951d27c0ULL}),
+                                         GoldenScenario{"convoy", 0x1d30a0aee28d2b4cULL}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

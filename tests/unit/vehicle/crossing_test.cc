@@ -63,8 +63,8 @@ int DecisionsOf(std::size_t index, const Scenario& scenario) {
   return decisions;
 }
 
-// cruise, give way, cruise, arrived; a cooperative one may brush the claim of the winner, which ends
-// a little behind it, on its way: keep clear, cruise again
+// cruise, give way, cruise, arrived; a cooperative one may brush the claim of the winner, which
+// ends a little behind it, on its way: keep clear, cruise again
 TEST_P(CrossingTest, TheLoserDoesNotFlickerOnceTheWinnerHasPassed) {
   const int brushes = GetParam() == Behaviour::kCooperative ? 2 : 0;
   EXPECT_LE(DecisionsOf(1, Crossing(GetParam(), 0.4, 0.3)), 4 + brushes);
