@@ -17,10 +17,10 @@ namespace {
 // Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean.
 constexpr std::uint32_t kStateFormat = 1;
 constexpr std::uint32_t kAllSensors = (1U << kSensorCount) - 1;
-// The difference of any two times does not overflow.
 // Of anything a brain remembers; its square is far from overflowing.
 constexpr double kMostNumber = 1e10;
 constexpr double kUnitSlack = 1e-6;
+// The difference of any two times does not overflow.
 constexpr std::int64_t kMostTime_ns = std::numeric_limits<std::int64_t>::max() / 2;
 
 // The last enumerator; ids, which are enumerations too, have none.

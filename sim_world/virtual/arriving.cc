@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "services/types/math/math.h"
+#include "sim_world/virtual/due_times.h"
 
 namespace giveway::sim {
 namespace {
@@ -13,16 +14,6 @@ bool ExcludeEachOther(const VehicleOptions& a, const VehicleOptions& b) {
   const double apart_m = Norm(a.goal.at_world - b.goal.at_world);
   return apart_m + a.goal.radius_m + b.goal.radius_m <
          a.profile.body_radius_m + b.profile.body_radius_m;
-}
-
-double WayOf(const VehicleOptions& options) {
-  double way_m = 0;
-  Vec2 at = options.start_world.position_world;
-  for (std::uint32_t i = 0; i < options.route.count; ++i) {
-    way_m += Norm(options.route.waypoints_world[i] - at);
-    at = options.route.waypoints_world[i];
-  }
-  return way_m + Norm(options.goal.at_world - at);
 }
 
 }  // namespace
@@ -36,7 +27,7 @@ GoalTolerance ToleranceOf(const VehicleOptions& options) {
   const double squared =
       profile.wheel_slip * profile.wheel_slip + profile.encoder_noise * profile.encoder_noise;
   if (squared == 0 || !HasGoal(options)) return {};
-  const double way_m = kDetour * WayOf(options);
+  const double way_m = kDetour * RouteLength(options);
   const double tick_m = options.cruise_m_s * Seconds(options.tick_period);
   const double heading_rad = Sqrt(2 * squared) * tick_m / profile.drive.axle_m;
   const double beside_m = heading_rad * way_m * Sqrt(way_m / tick_m / 3);

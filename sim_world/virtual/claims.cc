@@ -38,10 +38,12 @@ Claims::Claims(const Scenario& scenario) : dt_s_(Seconds(scenario.tick_period)) 
 
 Claim Claims::ClaimOfBeacon(const Beacon& said, double unknown_s, const Track& track) const {
   const double heading_rad = said.world_from_body.heading_rad;
-  return ClaimOf(
-      said,
-      {{Cos(heading_rad), Sin(heading_rad)}, TwistFromWheels(said.drive, said.wheels).forward_m_s},
-      unknown_s, track.reaction_s);
+  const Twist twist = TwistFromWheels(said.drive, said.wheels);
+  return ClaimOf(said,
+                 {.forward_world = {Cos(heading_rad), Sin(heading_rad)},
+                  .speed_m_s = twist.forward_m_s,
+                  .turn_rad_s = twist.turn_rad_s},
+                 unknown_s, track.reaction_s);
 }
 
 const Beacon* Claims::SaidBefore(Tick tick, std::uint32_t ago, const Track& track) {

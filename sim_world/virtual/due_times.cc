@@ -19,15 +19,18 @@ double PassageSeconds(const VehicleOptions& options, double through_m) {
 
 }  // namespace
 
-double FreeFlowSeconds(const VehicleOptions& options) {
-  double way_m = 0;
+double RouteLength(const VehicleOptions& options) {
+  double length_m = 0;
   Vec2 at = options.start_world.position_world;
   for (std::uint32_t i = 0; i < options.route.count; ++i) {
-    way_m += Norm(options.route.waypoints_world[i] - at);
+    length_m += Norm(options.route.waypoints_world[i] - at);
     at = options.route.waypoints_world[i];
   }
-  way_m += Norm(options.goal.at_world - at);
-  way_m = std::max(0.0, way_m - options.goal.radius_m);
+  return length_m + Norm(options.goal.at_world - at);
+}
+
+double FreeFlowSeconds(const VehicleOptions& options) {
+  const double way_m = std::max(0.0, RouteLength(options) - options.goal.radius_m);
   const double cruise = options.cruise_m_s;
   return way_m / cruise + cruise / (2 * options.profile.acceleration_m_s2) +
          cruise / (2 * options.profile.deceleration_m_s2);

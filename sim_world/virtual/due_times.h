@@ -10,6 +10,9 @@
 
 namespace giveway::sim {
 
+// From its start over its waypoints to its goal, metres, in straight lines.
+double RouteLength(const VehicleOptions& options);
+
 // Seconds a vehicle alone would take: its way at cruise speed, speeding up and slowing down.
 double FreeFlowSeconds(const VehicleOptions& options);
 

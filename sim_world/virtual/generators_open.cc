@@ -42,20 +42,10 @@ Scenario MakeCrossing(const Size& size) {
 // in, each with its own, moved a little within it. Ways cross anywhere.
 Scenario MakeSwarm(const Size& size) {
   Layout layout("swarm", size);
-  constexpr double kCell_m = 2.4;
-  constexpr double kMoved_m = 0.19;  // so that neighbours keep their room
   const double side_m = std::sqrt(16.0 * size.vehicles);
   const auto columns = static_cast<std::uint32_t>(
       std::max(side_m / kCell_m, std::ceil(std::sqrt(2.0 * size.vehicles))));
-  const std::vector<std::uint32_t> cells = Shuffled(columns * columns, &layout.Dice());
-  const auto place = [&](std::uint32_t cell) {
-    return Vec2{kCell_m * (cell % columns) + layout.Dice().Uniform(-kMoved_m, kMoved_m),
-                kCell_m * (cell / columns) + layout.Dice().Uniform(-kMoved_m, kMoved_m)};
-  };
-  for (std::uint32_t i = 0; i < size.vehicles; ++i) {
-    const Vec2 start = place(cells[2 * i]);
-    layout.Add(start, {}, place(cells[2 * i + 1]));
-  }
+  layout.AddCellToCell(size.vehicles, columns);
   return layout.Take();
 }
 

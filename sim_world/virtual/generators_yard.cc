@@ -130,23 +130,13 @@ Scenario MakeParking(const Size& size) {
 // one that stands.
 Scenario MakeMixedYard(const Size& size) {
   Layout layout("mixed_yard", size);
-  constexpr double kCell_m = 2.4;
-  constexpr double kMoved_m = 0.19;
   constexpr double kNearest_m = 0.15;
   constexpr double kRim_m = 1.6;
   constexpr int kDraws = 60;
   const auto columns = static_cast<std::uint32_t>(
       std::max(3.0, std::ceil(std::sqrt(20.0 * size.vehicles) / kCell_m)));
   const double side_m = kCell_m * (columns - 1);
-  const std::vector<std::uint32_t> cells = Shuffled(columns * columns, &layout.Dice());
-  const auto place = [&](std::uint32_t cell) {
-    return Vec2{kCell_m * (cell % columns) + layout.Dice().Uniform(-kMoved_m, kMoved_m),
-                kCell_m * (cell / columns) + layout.Dice().Uniform(-kMoved_m, kMoved_m)};
-  };
-  for (std::uint32_t i = 0; i < size.vehicles; ++i) {
-    const Vec2 start = place(cells[2 * i]);
-    layout.Add(start, {}, place(cells[2 * i + 1]));
-  }
+  layout.AddCellToCell(size.vehicles, columns);
   const std::uint32_t things = 2 + size.vehicles / 2;
   for (std::uint32_t i = 0; i < things; ++i) {
     double best_m = 1e6;

@@ -44,6 +44,19 @@ void Layout::Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal) {
   scenario_.vehicles.push_back(options);
 }
 
+void Layout::AddCellToCell(std::uint32_t vehicles, std::uint32_t columns) {
+  constexpr double kMoved_m = 0.19;  // so that neighbours keep their room
+  const std::vector<std::uint32_t> cells = Shuffled(columns * columns, &dice_);
+  const auto place = [&](std::uint32_t cell) {
+    return Vec2{kCell_m * (cell % columns) + dice_.Uniform(-kMoved_m, kMoved_m),
+                kCell_m * (cell / columns) + dice_.Uniform(-kMoved_m, kMoved_m)};
+  };
+  for (std::uint32_t i = 0; i < vehicles; ++i) {
+    const Vec2 start = place(cells[2 * i]);
+    Add(start, {}, place(cells[2 * i + 1]));
+  }
+}
+
 void Layout::AddBlock(Vec2 low, Vec2 high) {
   AddWall(low, {high.x, low.y});
   AddWall({high.x, low.y}, high);

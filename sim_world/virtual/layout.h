@@ -15,6 +15,9 @@ namespace giveway::sim {
 // No starts and no goals are nearer to each other than this, centre to centre.
 inline constexpr double kRoom_m = 2.0;
 
+// The edge of a cell of Layout::AddCellToCell.
+inline constexpr double kCell_m = 2.4;
+
 // Makes another robot of the one that a generator is about to put in: body, drive, cruise speed.
 // The way is not known to it yet.
 using RobotDraw = std::function<void(VehicleOptions* options)>;
@@ -34,6 +37,9 @@ class Layout {
   // The next vehicle: it stands at `start`, looks at the first point of its way, passes
   // `waypoints` and ends at `goal`. Its cruise speed is drawn, and more of it by Size::draw.
   void Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal);
+  // So many vehicles, each from a cell of a square grid to another, both its own; the places are
+  // moved a little within their cells. columns * columns is at least twice the vehicles.
+  void AddCellToCell(std::uint32_t vehicles, std::uint32_t columns);
   void AddObstacle(const Obstacle& obstacle) { scenario_.obstacles.push_back(obstacle); }
   void AddWall(Vec2 from, Vec2 to) { scenario_.walls.push_back({from, to}); }
   // Four walls round a rectangle along the axes.

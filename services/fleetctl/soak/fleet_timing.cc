@@ -43,9 +43,9 @@ void FleetTiming::TakeNewest(const VehicleStatus& status, std::size_t figure, do
   const std::uint32_t seen = before_[status.vehicle].figures[figure].count;
   if (now.count <= seen) return;
   constexpr auto kKept = static_cast<std::uint32_t>(FigureSummary::kNewest);
-  const std::uint32_t told = std::min(now.count - seen, kKept);
-  missed_ += now.count - seen - told;
-  for (std::uint32_t n = now.count - told; n != now.count; ++n) {
+  const std::uint32_t reported = std::min(now.count - seen, kKept);
+  missed_ += now.count - seen - reported;
+  for (std::uint32_t n = now.count - reported; n != now.count; ++n) {
     Take(status.vehicle, static_cast<DriveFigure>(figure), now.newest[n % kKept], time_s);
   }
 }

@@ -159,10 +159,10 @@ struct NarrowestMargin {
   double share_left = 0;  // of free_m; alarm budget_spent below a fifth
 };
 
-// All vehicles were told to keep the rings of their recordings, for a promise was broken.
+// All vehicles were ordered to keep their recording rings, because an invariant was broken.
 struct KeptRings {
   double time_s = 0;
-  std::uint32_t ordered = 0;  // vehicles that could be told
+  std::uint32_t ordered = 0;  // vehicles that were reached
   std::uint32_t kept = 0;     // of those, who said that they did
 };
 
@@ -199,7 +199,7 @@ struct SoakResult {
   MachinePauses pauses;
   std::optional<NarrowestMargin> narrowest_margin;
   std::uint64_t budget_spent = 0;        // reactions that left less than a fifth
-  std::uint64_t timing_values_lost = 0;  // that no vehicle's report told of
+  std::uint64_t timing_values_lost = 0;  // missing from every received report
   std::vector<KeptRings> kept_rings;
   std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet went on
   std::uint32_t restarts_planned = 0;

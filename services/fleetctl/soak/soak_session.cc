@@ -43,7 +43,8 @@ std::string ProcessName(MemberId member) {
   return member == kTheWorld ? "world" : fmt::format("vehicle-{}", member.number);
 }
 
-// In an open fleet who takes which place is not known: the largest body counts for all.
+}  // namespace
+
 std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet) {
   double largest_m = 0;
   for (const VehicleOptions& spawn : scenario.spawns) {
@@ -57,16 +58,12 @@ std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<
   return radius_m;
 }
 
-// Nobody may decide by a beacon older than the most patient vehicle does; its own tick, which every
-// decision is behind, is no age to a brain.
 Nanoseconds MostBeaconAge(const Scenario& scenario) {
   Nanoseconds limit{0};
   for (const auto& vehicle : scenario.vehicles) limit = std::max(limit, vehicle.beacon_age_limit);
   for (const auto& spawn : scenario.spawns) limit = std::max(limit, spawn.beacon_age_limit);
   return limit + scenario.tick_period;
 }
-
-}  // namespace
 
 std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers) {
   std::vector<VehicleId> fleet;

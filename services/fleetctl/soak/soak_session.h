@@ -94,4 +94,12 @@ class SoakSession {
 // Ids of the vehicles of a soak: those of a closed fleet's scenario, or the first of an open one.
 std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers);
 
+// The body radius of each vehicle, metres. In an open fleet the place each one takes is not known
+// in advance: the largest body counts for all.
+std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet);
+
+// The oldest beacon that any decision may use: the highest limit of any vehicle, and a tick, which
+// every decision lags behind.
+Nanoseconds MostBeaconAge(const Scenario& scenario);
+
 }  // namespace giveway::fleetctl

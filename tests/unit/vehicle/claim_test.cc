@@ -68,6 +68,7 @@ struct Rims {
 Beacon AnyBeacon(Random* random) {
   const double cruise = random->Uniform(0.1, 1.0);
   Beacon beacon = Driving(0, cruise, random->Uniform(-3, 3));
+  beacon.drive.axle_m = random->Uniform(0.2, 0.6);
   beacon.acceleration_m_s2 = random->Uniform(0.1, 2.0);
   beacon.deceleration_m_s2 = random->Uniform(0.15, 2.0);
   beacon.wheels = WheelsFromTwist(
@@ -81,10 +82,10 @@ Beacon AnyBeacon(Random* random) {
 // and nobody to turn while braking.
 TEST(Claim, HoldsWhateverThePeerDoesBeforeItStands) {
   constexpr double kStep_s = 0.01;
-  for (std::uint32_t number = 1; number <= 20000; ++number) {
+  for (std::uint32_t number = 1; number <= 50000; ++number) {
     Random random(number);
     const Beacon beacon = AnyBeacon(&random);
-    const double unknown_s = random.Uniform(0.05, 0.4);
+    const double unknown_s = random.Uniform(0.05, 1.0);  // as long as a claim lasts
     Claim centre = ClaimOf(beacon, unknown_s);
     // The claim holds the whole body: its centre stays a body's radius inside.
     centre.radius_m -= beacon.body_radius_m - 1e-3;

@@ -9,6 +9,7 @@
 #include "services/fleetctl/soak/fault_clock.h"
 #include "services/fleetctl/soak/fleet_course.h"
 #include "services/fleetctl/soak/near_misses.h"
+#include "services/fleetctl/soak/soak_session.h"
 #include "services/fleetctl/soak/soak_watch.h"
 #include "services/runtime/process.h"
 #include "services/timing/drive_timing.h"
@@ -27,26 +28,6 @@ static_assert(kStatusTicks <= FigureSummary::kNewest);
 constexpr SteadyTime kBegin = seconds(1);  // 0 is no time
 constexpr Nanoseconds kTellEvery = seconds(10);
 
-std::vector<VehicleId> IdsIn(const Scenario& scenario) {
-  std::vector<VehicleId> ids;
-  for (const VehicleOptions& vehicle : scenario.vehicles) ids.push_back(vehicle.id);
-  return ids;
-}
-
-std::map<VehicleId, double> RadiiIn(const Scenario& scenario) {
-  std::map<VehicleId, double> radius_m;
-  for (const VehicleOptions& vehicle : scenario.vehicles) {
-    radius_m[vehicle.id] = vehicle.profile.body_radius_m;
-  }
-  return radius_m;
-}
-
-Nanoseconds MostBeaconAgeIn(const Scenario& scenario) {
-  Nanoseconds limit{0};
-  for (const auto& vehicle : scenario.vehicles) limit = std::max(limit, vehicle.beacon_age_limit);
-  return limit + scenario.tick_period;
-}
-
 class VirtualSoak {
  public:
   VirtualSoak(const Scenario& scenario, const faults::Schedule& schedule, const SoakPhases& phases)
@@ -56,13 +37,13 @@ class VirtualSoak {
         plan_{.seed = scenario.seed, .schedule = schedule},
         fleet_(scenario, plan_),
         invariants_(scenario, sim::LimitsFor(scenario, plan_)),
-        watch_(IdsIn(scenario), schedule),
+        watch_(SoakFleet(scenario, 0), schedule),
         clock_(schedule),
         course_(
-            IdsIn(scenario), [this](VehicleId vehicle) { return away_.contains(vehicle); },
+            SoakFleet(scenario, 0), [this](VehicleId vehicle) { return away_.contains(vehicle); },
             [this](VehicleId vehicle) { return gone_.contains(vehicle); }),
-        near_(RadiiIn(scenario)),
-        timing_(MostBeaconAgeIn(scenario)) {
+        near_(RadiiOf(scenario, SoakFleet(scenario, 0))),
+        timing_(MostBeaconAge(scenario)) {
     for (const VehicleOptions& vehicle : scenario.vehicles) {
       observed_.push_back({.vehicle = vehicle.id});
       timings_.emplace_back(vehicle);
@@ -87,7 +68,8 @@ class VirtualSoak {
 
   void Look() {
     sim::ObserveFleet(fleet_, &observed_);
-    invariants_.Observe(fleet_.World().Now(), Time_s(), observed_, fleet_.World().Events());
+    invariants_.Observe(fleet_.World().Now(), Time_s(), observed_, fleet_.World().Events(),
+                        {fleet_.World().Obstacles(), fleet_.World().Doors()});
     MeasureTurns();
     const link::Observed news = News();
     watch_.Fold(news, Now());
