@@ -87,8 +87,8 @@ TEST(Claim, HoldsWhateverThePeerDoesBeforeItStands) {
     const Beacon beacon = AnyBeacon(&random);
     const double unknown_s = random.Uniform(0.05, 1.0);  // as long as a claim lasts
     Claim centre = ClaimOf(beacon, unknown_s);
-    // The claim holds the whole body: its centre stays a body's radius inside. Of a million draws the
-    // worst leaves it by 1.3 mm, and everyone keeps kClearance_m, 50 mm, from it.
+    // The claim holds the whole body: its centre stays a body's radius inside. Of a million draws
+    // the worst leaves it by 1.3 mm, and everyone keeps kClearance_m, 50 mm, from it.
     centre.radius_m -= beacon.body_radius_m - 2e-3;
     const Twist told = TwistFromWheels(beacon.drive, beacon.wheels);
     const double beside_m_s = told.turn_rad_s * beacon.drive.axle_m / 2;
