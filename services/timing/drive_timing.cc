@@ -10,7 +10,6 @@ namespace {
 constexpr double kDrives_m_s = 0.05;      // slower, a reaction costs no way worth telling
 constexpr double kNoise_m_s = 0.01;       // of an encoder's rate, in forward speed
 constexpr double kLeastObedience = 0.25;  // of what the brakes could have taken off
-constexpr double kLeastFree_m = 1e-3;
 
 double Microseconds(Nanoseconds duration) { return Milliseconds(duration) * 1e3; }
 
@@ -85,8 +84,8 @@ std::optional<ReactionMargin> DriveTiming::SeekEnd() {
   Add(DriveFigure::kReaction, Microseconds(last_.at - reaction.cause.at));
   Add(DriveFigure::kReactionWay, driven_m * 1e6);
   if (!reaction.free_m) return std::nullopt;
-  const ReactionMargin margin{reaction.decided, driven_m, std::max(*reaction.free_m, kLeastFree_m)};
-  Add(DriveFigure::kReactionShare, margin.reaction_m / margin.free_m * 1e6);
+  const ReactionMargin margin{reaction.decided, driven_m, *reaction.free_m};
+  Add(DriveFigure::kReactionShare, (1 - margin.ShareLeft()) * 1e6);
   if (!narrowest_ || margin.ShareLeft() < narrowest_->ShareLeft()) narrowest_ = margin;
   if (margin.ShareLeft() >= kLeastShareLeft) return std::nullopt;
   ++budget_spent_;

@@ -47,9 +47,10 @@ struct FigureSummary {
 struct ReactionMargin {
   Tick tick = kNoTick;    // of the decision
   double reaction_m = 0;  // driven from cause to obeying wheels
-  double free_m = 0;      // that there was at the cause; above 0
+  double free_m = 0;      // that there was at the cause; not negative
 
-  double ShareLeft() const { return 1 - reaction_m / free_m; }
+  // 0 to 1. Where nothing was free nothing is left: a share of a millimetre would say no more.
+  double ShareLeft() const { return reaction_m < free_m ? 1 - reaction_m / free_m : 0; }
   friend bool operator==(const ReactionMargin&, const ReactionMargin&) = default;
 };
 

@@ -152,7 +152,7 @@ wire::TimingReport ToWirePart(const DriveFigures& timing) {
   return sent;
 }
 
-// A margin of nothing is none.
+// Numbers that no distance has are refused.
 bool TakeTiming(const wire::TimingReport& sent, DriveFigures& timing) {
   timing.figures = {FromWirePart(sent.beacon_age_us()),   FromWirePart(sent.tick_jitter_us()),
                     FromWirePart(sent.turn_us()),         FromWirePart(sent.reaction_us()),
@@ -162,7 +162,7 @@ bool TakeTiming(const wire::TimingReport& sent, DriveFigures& timing) {
   if (!sent.margin_known()) return true;
   const ReactionMargin margin{Tick{sent.margin_tick()}, sent.margin_reaction_m(),
                               sent.margin_free_m()};
-  if (!std::isfinite(margin.reaction_m) || !(margin.free_m > 0) || std::isinf(margin.free_m)) {
+  if (!std::isfinite(margin.reaction_m) || !(margin.free_m >= 0) || std::isinf(margin.free_m)) {
     return false;
   }
   timing.narrowest = margin;

@@ -96,6 +96,17 @@ TEST_F(DriveTimingTest, RaisesTheAlarmWhenLessThanAFifthIsLeft) {
   EXPECT_GT(Of(DriveFigure::kReactionShare).max, 800'000U);
 }
 
+// Of a soak of twelve vehicles: 1 cm of nothing was told as -1250 % left.
+TEST_F(DriveTimingTest, LeavesNothingOfNothingAndNoLess) {
+  for (int i = 0; i < 3; ++i) Turn(Cruise());
+  Turn(Obstacle(4), 0, 0.0);
+  speed_m_s_ = 0.37;
+  const auto spent = Turn(Obstacle(4), 0, 0.0);
+  ASSERT_TRUE(spent);
+  EXPECT_EQ(spent->ShareLeft(), 0);
+  EXPECT_EQ(Of(DriveFigure::kReactionShare).max, 1'000'000U);
+}
+
 TEST_F(DriveTimingTest, CountsNoReactionOfOneThatStandsOrHasNoTick) {
   speed_m_s_ = 0.04;
   for (int i = 0; i < 3; ++i) Turn(Cruise());
