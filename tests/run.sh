@@ -282,14 +282,14 @@ stage_model() {
   if $full; then run_ctest release model_full 1; fi
 }
 
-stage_link() { prepare release link_tests && run_ctest release link 1; }
-stage_system() { prepare release && run_ctest release system 2; }
+stage_link() { prepare release link_tests && run_ctest release link 4; }
+stage_system() { prepare release && run_ctest release system 4; }
 
 stage_asan() {
   prepare asan unit_tests golden_tests link_tests
   run_ctest asan unit "$(nproc)"
   run_ctest asan golden "$(nproc)"
-  run_ctest asan link 1
+  run_ctest asan link 4
 }
 
 stage_fuzz() { prepare asan fuzz_tests && run_ctest asan fuzz "$(nproc)"; }
@@ -307,7 +307,7 @@ tsan_crossing() {
 stage_tsan() {
   prepare release fleetctl
   prepare tsan link_tests giveway-vehicle giveway-world
-  run_ctest tsan link 1
+  run_ctest tsan link 4
   check "a crossing under the thread sanitizer" tsan_crossing
 }
 

@@ -21,20 +21,33 @@ in_container() {
     giveway-check bash -c 'ip link set lo up; exec "$@"' bash "$@"
 }
 
-# system SCRIPT[:ARGUMENT]...
+# one_system SCRIPT[:ARGUMENT]: its line; what it printed before that only where it failed.
+one_system() {
+  local named=$1 script argument log
+  log=$SCRATCH/${named//:/-}
+  IFS=: read -r script argument <<<"$named"
+  if in_container env GIVEWAY_BIN_DIR=/usr/bin bash "tests/system/$script.sh" \
+    ${argument:+"$argument"} >"$log" 2>&1; then
+    echo "ok      $named on Debian 13"
+  else
+    tail -n 15 "$log" >&2
+    echo "FAILED  $named on Debian 13"
+    return 1
+  fi
+}
+
+# system SCRIPT[:ARGUMENT]...: three at once, each in a container and so on a network of its own.
 system() {
-  local named script argument
+  local named running=0
   for named in "$@"; do
-    IFS=: read -r script argument <<<"$named"
-    if in_container env GIVEWAY_BIN_DIR=/usr/bin bash "tests/system/$script.sh" \
-      ${argument:+"$argument"} >"$SCRATCH/log" 2>&1; then
-      echo "ok      $named on Debian 13"
-    else
-      tail -n 15 "$SCRATCH/log" >&2
-      echo "FAILED  $named on Debian 13"
-      failures=1
+    if ((running == 3)); then
+      wait -n || failures=1
+      running=$((running - 1))
     fi
+    one_system "$named" &
+    running=$((running + 1))
   done
+  for (( ; running > 0; --running)); do wait -n || failures=1; done
 }
 
 if [[ $1 == --system ]]; then
