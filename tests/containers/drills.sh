@@ -78,7 +78,7 @@ drill_cut() {
 }
 
 # The interface itself goes away, and another one with the same address comes. By multicast whoever
-# comes later does not find this vehicle any more, see the README: it goes last there.
+# comes later does not find this vehicle any more, see config/deploy/README.md: it goes last there.
 drill_unplug() {
   local vehicle told address
   vehicle=$(first_of vehicle)

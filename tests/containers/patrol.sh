@@ -19,7 +19,7 @@ use multicast
 unset GIVEWAY_SCENARIO
 
 # The command of the README, with this number of vehicles.
-README_UP=$(grep -Eo '^bash config/deploy/up\.sh --vehicles [0-9]+' "$GIVEWAY_ROOT/README.md" | head -n 1)
+README_UP=$(grep -Eo '^bash config/deploy/up\.sh --vehicles [0-9]+' "$GIVEWAY_ROOT/config/deploy/README.md" | head -n 1)
 [[ -n $README_UP ]] || die "the README does not say how a fleet is started"
 up_as_the_readme_says() {
   local as_it_is=()

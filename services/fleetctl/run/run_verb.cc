@@ -95,7 +95,7 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
       ->envname("GIVEWAY_QOS");
   verb->add_option("--impair", options->fleet.impair,
                    "Impair what every vehicle hears, instead of the scenario: "
-                   "loss=0.1,delay=20ms, or none; the README lists the keys")
+                   "loss=10%,delay=20ms, or none; services/link/impairment/README.md lists the keys")
       ->check(CheckImpairment)
       ->envname("GIVEWAY_IMPAIR");
 }
