@@ -16,6 +16,10 @@ namespace giveway::fleetctl {
 // neither comes back as it is, for whoever opens it to refuse.
 std::string ResolveQosFile(const std::string& argument);
 
+// Throws LinkError if the file is not there and a shipped set has nearly this name: which. What is
+// missing otherwise is left to the code that opens it.
+void RequireQosFile(const std::string& path);
+
 // The file, or the finding that says why it cannot be read. A file over the limit is not read
 // whole.
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path);

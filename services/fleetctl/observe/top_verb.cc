@@ -1,9 +1,10 @@
 #include <memory>
 
-#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/observe/top.h"
+#include "services/fleetctl/survey/local_fleets.h"
 #include "services/fleetctl/survey/other_fleets.h"
 
 namespace giveway::fleetctl {
@@ -32,12 +33,11 @@ void AddTopVerb(CLI::App* fleetctl, int* exit_code) {
   verb->footer(kTopFooter);
   AddObserverFlags(verb, &options->where);
   CLI::Option* once = verb->add_flag("--once", options->once, "Show once whom it hears, and end");
-  verb->add_option("--wait", options->wait_s, "With --once: seconds to wait for somebody")
-      ->check(CheckSeconds)
-      ->capture_default_str()
+  AddTimeFlag(verb, "--wait", &options->wait_s, "With --once: wait at most this time [5s]")
       ->needs(once);
   verb->add_flag("--json", options->json, "Print JSON objects on stdout and nothing else");
   verb->callback([options, exit_code] {
+    FindFleetIfNotNamed(&options->where);
     SayOtherFleets(options->where.domain, options->where.interface);
     *exit_code = RunTop(*options);
   });

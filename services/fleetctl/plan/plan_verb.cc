@@ -73,7 +73,9 @@ void AddPlanVerb(CLI::App* fleetctl, int* exit_code) {
   PlanRequest& request = options->request;
   CLI::App* verb = fleetctl->add_subcommand("plan", "Will so many vehicles fit on so many hosts?");
   verb->footer(kFooter);
-  verb->add_option("N", request.vehicles, "Vehicles")->required()->check(CLI::Range(1, 4096));
+  verb->add_option("N,--vehicles", request.vehicles, "Vehicles")
+      ->required()
+      ->check(CLI::Range(1, 4096));
   verb->add_option("--hosts", request.hosts, "Hosts, all alike; one also runs the world")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));

@@ -3,11 +3,13 @@
 #include <string>
 #include <vector>
 
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/whole_number.h"
 #include "services/fleetctl/qos/qos_apply.h"
+#include "services/fleetctl/survey/local_fleets.h"
 #include "services/fleetctl/survey/other_fleets.h"
 
 namespace giveway::fleetctl {
@@ -73,10 +75,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
       ->type_name("ID,...|all");
   CLI::Option* canary =
       verb->add_option("--canary", options->canary, "This one first, on trial")->type_name("ID");
-  verb->add_option("--watch", options->watch_s, "Seconds the canary is on trial")
-      ->check(CheckSeconds)
-      ->capture_default_str()
-      ->needs(canary);
+  AddTimeFlag(verb, "--watch", &options->watch_s, "How long the canary is on trial")->needs(canary);
   verb->add_flag("!--no-restart", options->restart, "Refuse what would take a restart");
   verb->add_flag("--dry-run", options->dry_run, "Say what would change, and change nothing");
   verb->add_flag("--force", options->force,
@@ -85,6 +84,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
   verb->callback([options, targets, exit_code] {
     ReadTargets(*targets, options.get());
     CheckTargets(*options);
+    FindFleetIfNotNamed(&options->where);
     SayOtherFleets(options->where.domain, options->where.interface);
     *exit_code = RunQosApply(*options);
   });

@@ -97,7 +97,9 @@ EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& 
   options.domain = 1;  // nothing is opened in it
   options.interface = interface;
   options.fleet_size = vehicles;
-  options.qos = link::ReadProfileFile(ResolveQosFile(argument));
+  const std::string file = ResolveQosFile(argument);
+  RequireQosFile(file);
+  options.qos = link::ReadProfileFile(file);
   EffectiveSet set{options.qos.name, EffectiveQos(ResolveQosApart(options), SetOf(options.qos))};
   set.endpoints.front().rows.push_back(InterfaceRow(interface));
   return set;

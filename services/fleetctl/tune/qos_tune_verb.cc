@@ -3,6 +3,7 @@
 #include <string>
 
 #include "services/config/impair.h"
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/tune/tune_run.h"
@@ -35,7 +36,7 @@ installed, and the evidence of every trial at once: the same command goes on whe
 Examples
   fleetctl qos tune --impair loss=0.1,delay=20ms,jitter=5ms
   fleetctl qos tune --quick --out try && fleetctl run four_way --qos try/recommended.xml
-  fleetctl qos tune --base mine.xml --impair burst=0.05,burst_length=4 --vehicles 8 --fleets 1
+  fleetctl qos tune --qos mine.xml --impair burst=0.05,burst_length=4 --vehicles 8 --fleets 1
 
 Exit code: 0 better than the base, and verified; 1 not so, or interrupted; 2 could not run.
 )";
@@ -64,7 +65,7 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
   verb->add_option("--vehicles", options->vehicles, "Of each fleet")
       ->check(CLI::Range(2U, 64U))
       ->capture_default_str();
-  verb->add_option("--base", options->base,
+  verb->add_option("--qos,--base", options->base,
                    "What is tuned: a file or the name of a shipped set; without it the default")
       ->check(CheckNotEmpty);
   verb->add_option("--out", options->out, "Folder of the search")
@@ -76,9 +77,8 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "Fewer candidates and trials: under 3 minutes");
-  verb->add_option("--trial-seconds", options->trial_s,
-                   "Watched while all are alive; 20, with --quick 12")
-      ->check(CheckSeconds);
+  AddTimeFlag(verb, "--trial-duration,--trial-seconds", &options->trial_s,
+              "Observed while all are alive; 20s, with --quick 12s");
   verb->add_option("--candidates", options->candidates, "At most so many, the base among them")
       ->check(CLI::Range(1U, 1000U));
   verb->add_option("--verify-trials", options->verify_trials,
