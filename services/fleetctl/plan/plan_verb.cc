@@ -11,6 +11,7 @@
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/output/finding_text.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/plan/plan.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/link/fastdds/library_release.h"
@@ -61,7 +62,7 @@ int RunPlan(PlanOptions options) {
   request.set = std::move(std::get<qos::ProfileFile>(read));
   request.library_major = link::LibraryMajor();
   const PlanReport report = Plan(request);
-  std::fputs((options.json ? ToJson(request, report) : ToText(request, report)).c_str(), stdout);
+  std::fputs((options.json ? ToJson(request, report) : ForTerminal(ToText(request, report))).c_str(), stdout);
   if (std::fflush(stdout) != 0) throw OutputError("stdout took no report");
   return report.Fits() ? 0 : 1;
 }

@@ -10,6 +10,7 @@
 #include "services/fleetctl/soak/soak_draw.h"
 #include "services/fleetctl/soak/soak_json.h"
 #include "services/fleetctl/soak/soak_page.h"
+#include "services/fleetctl/output/terminal_text.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -63,7 +64,7 @@ int RunReport(const ReportOptions& options) {
   if (results.size() == 1) {
     const SoakResult& only = results.front();
     if (!options.page_file.empty()) WriteSoakPage(only, options.page_file);
-    std::fputs((options.json ? ToJson(only) + "\n" : ToText(only)).c_str(), stdout);
+    std::fputs((options.json ? ToJson(only) + "\n" : ForTerminal(ToText(only))).c_str(), stdout);
     return ExitCode(only.verdict);
   }
   if (!options.page_file.empty()) {

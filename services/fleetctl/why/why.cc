@@ -14,6 +14,7 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/whole_number.h"
 #include "services/fleetctl/why/why_report.h"
+#include "services/fleetctl/output/terminal_text.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -165,7 +166,7 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   const ProbeResult heard = report.probe.value_or(ProbeResult{});
   AddNotKnown(hearer, options.hearer, heard.hearer_foreign, &report);
   AddNotKnown(speaker, options.speaker, heard.speaker_foreign, &report);
-  const Told told = Tell(options.json ? ToJson(report) : ToText(report));
+  const Told told = Tell(options.json ? ToJson(report) : ForTerminal(ToText(report)));
   return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report);
 }
 

@@ -18,6 +18,7 @@
 #include "services/faults/unsupported.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
@@ -245,7 +246,7 @@ const VehicleOptions& AnyVehicle(const Scenario& scenario) {
 }
 
 int Conclude(const SoakOptions& options, const SoakResult& result) {
-  std::fputs((options.json ? ToJson(result) + "\n" : ToText(result)).c_str(), stdout);
+  std::fputs((options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result))).c_str(), stdout);
   const bool told = std::fflush(stdout) == 0;
   Interrupts::AllowSeconds(kWriting_s);
   const int code = std::max(ExitCode(result.verdict), told ? 0 : 1);
