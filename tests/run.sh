@@ -99,7 +99,7 @@ failed=0
 stage=set-up
 said=$(mktemp) # what ctest printed of tests that failed, said again at the end
 
-# The end of every run, also of one that could not go on: then the stage it was in failed.
+# The end of every run, also of one that could not continue: then the stage it was in failed.
 ending() {
   if [[ -n $stage ]]; then
     passed_total=$((passed_total + passed))

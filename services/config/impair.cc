@@ -198,7 +198,7 @@ std::string KnownKeys() {
   return keys;
 }
 
-// Parses one text; every problem is noted and parsing goes on.
+// Parses one text; every problem is noted and parsing continues.
 class Parser {
  public:
   explicit Parser(int most_rules) : most_rules_(most_rules) {}

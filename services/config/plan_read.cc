@@ -11,7 +11,7 @@
 namespace giveway {
 namespace {
 
-// The kind of the one victim a fault names.
+// The kind of the one target a fault names.
 FaultKind ReadKind(const Section& section) {
   const int named = static_cast<int>(section.Has("kill")) + static_cast<int>(section.Has("dark")) +
                     static_cast<int>(section.Has("silent"));

@@ -23,7 +23,7 @@ namespace giveway::faults {
 struct Course {
   std::uint32_t seed = 0;
   double duration_s = 60;  // since the start signal
-  double warm_up_s = 10;   // before it no random fault begins
+  double warm_up_s = 10;   // before it no random fault starts
   double healing_s = 15;   // at the end: every fault is over before it
 };
 

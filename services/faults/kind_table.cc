@@ -400,7 +400,7 @@ std::string TargetsOf(const KindRow& row) {
 
 std::string_view NearestKind(std::string_view word) {
   word = word.substr(0, kLongestWord);
-  // Who writes the beginning of a word means it, however much is missing.
+  // Who writes the start of a word means it, however much is missing.
   const auto begun = std::ranges::find_if(
       kTable, [&](const KindRow& row) { return word.size() > 2 && row.word.starts_with(word); });
   if (begun != kTable.end()) return begun->word;

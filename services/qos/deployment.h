@@ -15,7 +15,7 @@ namespace giveway::qos {
 // What the kernel charges a receive buffer for a small datagram.
 inline constexpr std::int64_t kDatagramBytes = 1024;
 
-// What the samples of a topic are told apart by; says how many instances an endpoint holds.
+// What the samples of a topic are distinguished by; says how many instances an endpoint holds.
 enum class Keyed : std::uint8_t { kNot, kByVehicle, kByVehicleReaderOne, kBySignal };
 
 struct Topic {

@@ -13,7 +13,7 @@ namespace giveway {
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
 // The name that starts with `typed` (from three letters on), else the one at the least edit
-// distance, where that is at most a third of the longer of both; none if every name is farther.
+// distance, where that is at most a third of the longer of both; none if every name is further.
 // Of several the first.
 std::optional<std::string> NearestName(std::string_view typed,
                                        const std::vector<std::string>& names);

@@ -10,7 +10,7 @@ namespace giveway::sim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Corners nearer than this give no direction that rounding has not spoilt.
+// Corners nearer than this give no direction that rounding has not corrupted.
 constexpr double kNoDirection_m = 1e-9;
 // Corners this much behind the foremost belong to the same side: less than what contacts are
 // found to, more than rounding.
@@ -92,7 +92,7 @@ Way ShortestWay(const Outline& a, const Outline& b) {
 // The normal speed along the part of the shell that is foremost in one direction: linear in the
 // place across, between two corners.
 struct Front {
-  Range across;             // where it begins and ends
+  Range across;             // where it starts and ends
   double speed_at_low = 0;  // m/s along the axis
   double speed_at_high = 0;
 

@@ -33,7 +33,7 @@ class Admission {
   std::vector<VehicleId> TakeGone();
   // What there is to tell since the last call, in this order. Before the run's Advance.
   std::vector<RosterEntry> Answer();
-  // Everyone in is told anew, with the run's present state and this reason.
+  // Everyone in is told again, with the run's present state and this reason.
   std::vector<RosterEntry> TellAll(const std::string& reason);
 
   // Who was told that they are in, in this epoch.

@@ -6,9 +6,9 @@
 // In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration. Where
 // that is without an end, until End is called.
 //
-// A schedule of faults beside the scenario: the world's own are carried out here, and each begin
+// A schedule of faults beside the scenario: the world's own are carried out here, and each start
 // and end is an event. Of others' faults it only knows whose silence is meant to be. Where
-// processes are stopped or restarted by it, a closed run too goes on without a vehicle that falls
+// processes are stopped or restarted by it, a closed run too continues without a vehicle that falls
 // silent, waits for it, and takes it back.
 #pragma once
 
@@ -49,7 +49,7 @@ class Run {
   // A vehicle that is in the run asks for its place with the same session: its process has
   // restarted itself, and its new endpoints must be found before it is heard again.
   void AsksAgain(VehicleId vehicle);
-  // The vehicle said good-bye: its body is taken away. Ends a closed run that is under way.
+  // The vehicle sent a leave notice: its body is taken away. Ends a closed run that is under way.
   void Leave(VehicleId vehicle);
   bool EveryoneJoined() const;
   // The start signal: from the next tick on bodies move and time counts.
@@ -60,8 +60,8 @@ class Run {
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
   // when the duration is over; a closed run also when everyone living has arrived, when a vehicle
-  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans go on,
-  // and nothing is judged any more.
+  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans
+  // continue, and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
   Tick Now() const { return world_.Now(); }
@@ -103,9 +103,9 @@ class Run {
   // True if nobody speaks for the vehicle any more, or yet.
   bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
 
-  // All that a run of the same scenario in a new epoch needs to go on from here.
+  // All that a run of the same scenario in a new epoch needs to continue from here.
   RunCheckpoint Save() const;
-  // Goes on from there, paused: bodies brake and time stands still until Start. `joined` are the
+  // Continues from there, paused: bodies brake and time stands still until Start. `joined` are the
   // vehicles the checkpoint names that are not the scenario's. False, and this run is of no use any
   // more, if the checkpoint is not of this scenario.
   bool Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined);

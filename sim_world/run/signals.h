@@ -24,7 +24,7 @@ class SignalHeads {
   // Who speaks in this tick, by id; valid until the next Advance.
   std::span<const SignalState> States() const { return states_; }
 
-  // From the next Advance on: kSignalDark goes on talking with its lamps out, kSignalSilent says
+  // From the next Advance on: kSignalDark continues talking with its lamps out, kSignalSilent says
   // nothing any more. Other faults and unknown heads are none of ours: false.
   bool Fail(SignalId signal, FaultKind fault);
 

@@ -1,6 +1,6 @@
 // Who drives nearer to something than the margin it promises, shell to shell and by the truth: to
 // another body, a wall, an obstacle or the leaf of a door. Only of one that moves towards it:
-// whoever stands is passed at the other's cost, and whoever began near may leave.
+// whoever stands is passed at the other's cost, and whoever started near may leave.
 #pragma once
 
 #include <cstdint>

@@ -234,7 +234,7 @@ void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
 }
 
 // The edges come once each. Who drove out of the radius is not missed: the middleware hears it
-// still, only nobody listens. Who is lost for good is expected no more.
+// still, only nobody listens. Who is lost permanently is expected no more.
 void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
   std::uint32_t* const expected = expected_.data() + receiver * count_;
   std::uint32_t kept = 0;

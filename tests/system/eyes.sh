@@ -26,7 +26,7 @@ until_true() {
   done
 }
 
-# Begins a run; its domain in $domain.
+# Starts a run; its domain in $domain.
 begin() {
   : >run.err # that of the run before names a domain too
   "$FLEETCTL" run "$1" --json --logs logs >run.json 2>run.err &

@@ -112,7 +112,7 @@ judged_run() {
 
 LISTENERS=()
 # listen_places NAME DOMAIN VEHICLE: from now on until end_listening, what its beacons say of where it
-# is, and where it is. By the set that requests least: it goes on hearing a fleet that takes another.
+# is, and where it is. By the set that requests least: it continues hearing a fleet that takes another.
 listen_places() {
   local topic
   for topic in beacon truth; do

@@ -34,7 +34,7 @@ Told Tell(const std::string& text);
 // free descriptor's place would be written to.
 bool HasStdout();
 
-// The exit code for it; says on stderr why, where it failed. 0 for nobody reads.
+// The exit code for it; says on stderr why, where it failed. 0 for no process reads.
 int ExitCodeOf(Told told);
 
 }  // namespace giveway::fleetctl

@@ -112,7 +112,7 @@ void ReadProcesses(const fs::path& proc, std::optional<std::uint32_t> domain, Ho
   }
 }
 
-// The processes, and the ports that are taken: those before and after, for a process that begins or
+// The processes, and the ports that are taken: those before and after, for a process that starts or
 // ends meanwhile must not seem to be a stranger's.
 void ReadProcessesAndPorts(const fs::path& proc, std::optional<std::uint32_t> domain,
                            HostFacts* host) {

@@ -31,7 +31,7 @@ FileDescriptor OpenLockFile(const std::string& path) {
   return {};
 }
 
-// True if nobody else holds this UDP port on any address.
+// True if no other holds this UDP port on any address.
 bool IsPortFree(std::uint32_t port) {
   const FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   sockaddr_in any{};

@@ -69,7 +69,7 @@ struct FleetSpec {
 struct MemberCommand {
   MemberId member;
   ChildCommand child;
-  Nanoseconds start_after{0};  // the beginning of the fleet
+  Nanoseconds start_after{0};  // the start of the fleet
 };
 
 // How many vehicles the scenario does not name are to be started: 0 of a closed fleet.

@@ -239,7 +239,7 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   CanaryTrial trial;
   trial.vehicle = canary->vehicle;
   if (!ApplyTo(canary, wanted_, false)) {
-    // Refused: nothing was changed. Without an answer nobody knows.
+    // Refused: nothing was changed. Without an answer it is not known.
     if (canary->answered) {
       RollBack();
       return ApplyVerdict::kRefused;

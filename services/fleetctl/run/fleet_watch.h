@@ -64,7 +64,7 @@ class FleetWatch {
   struct KeptTrack {
     Track track;
     std::uint32_t stride = 1;  // of so many points one is kept
-    std::uint32_t since = 0;   // the last one that was kept for good
+    std::uint32_t since = 0;   // the last one that was kept permanently
   };
 
   void FoldTruth(const Truth& truth);

@@ -8,7 +8,7 @@
 //  - brains miss beacons and scans here as they do behind a radio that loses some: LimitsFor;
 //  - what is seen may be VehicleSight::kHeldTicks old: this much longer may a circle last, and
 //    everyone halt; this much older may a key be that somebody goes by; this much later may
-//    braking begin.
+//    braking start.
 #pragma once
 
 #include <cstdint>

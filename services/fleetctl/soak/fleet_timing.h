@@ -28,7 +28,7 @@ class FleetTiming {
   explicit FleetTiming(Nanoseconds most_age) : most_age_(most_age) {}
 
   // `time_s` since the start signal. Lives of a vehicle follow each other: one whose counts fall
-  // has begun anew.
+  // has started again.
   void Fold(const VehicleStatus& status, double time_s);
 
   // Those that hold something, with their budgets, in the order of DriveFigure.

@@ -236,7 +236,7 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
   switch (fault.kind) {
     case Kind::kRestart:
     case Kind::kQosMismatch:
-      // Of one that was away for another fault nothing began.
+      // Of one that was away for another fault nothing started.
       if (const auto away = away_.find(member); away != away_.end() && away->second == &fault) {
         if (processes_->IsRunning(member)) processes_->Kill(member);
         away_.erase(away);

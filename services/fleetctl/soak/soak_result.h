@@ -201,7 +201,7 @@ struct SoakResult {
   std::uint64_t budget_spent = 0;        // reactions that left less than a fifth
   std::uint64_t timing_values_lost = 0;  // missing from every received report
   std::vector<KeptRings> kept_rings;
-  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet went on
+  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet continued
   std::uint32_t restarts_planned = 0;
   std::uint32_t restarts_unplanned = 0;        // a process ended and no fault says why
   std::optional<double> supervisor_cpu_share;  // of the fleet's processor time

@@ -22,11 +22,11 @@ namespace giveway::fleetctl {
 // One fault as it went.
 struct FaultCourse {
   std::optional<SteadyTime> began;
-  std::optional<SteadyTime> ended;  // or, of one that takes no time, the moment it began
+  std::optional<SteadyTime> ended;  // or, of one that takes no time, the moment it started
   std::string effect;               // that was seen; empty: none yet
   // By the first peer, by each mechanism that told of it.
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
-  std::optional<SteadyTime> recovered;  // after its end all that it struck were well again
+  std::optional<SteadyTime> recovered;  // after its end all that it faulted were well again
 };
 
 // Somebody ended who was not to.

@@ -22,7 +22,7 @@ struct SoakEvidence {
   bool by_processes = true;  // else nothing is known of whom the middleware told
 };
 
-// What must tell peers of a fault, and within what time: its victim falls silent for longer. Not
+// What must tell peers of a fault, and within what time: its target falls silent for longer. Not
 // the age of beacons, which is of those that are near, and not the lease, which outlasts most
 // faults.
 struct Expected {

@@ -214,7 +214,7 @@ void SoakWatch::CloseSettled(SteadyTime now) {
   });
 }
 
-// Where it struck one vehicle, that one; else everyone.
+// Where it faulted one vehicle, that one; else everyone.
 void SoakWatch::SeekRecovery(SteadyTime now) {
   for (const std::size_t i : open_) {
     FaultCourse& course = courses_[i];

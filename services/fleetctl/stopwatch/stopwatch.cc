@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kBroken = 1;
-// A fleet takes so many of a fault; then a fresh one goes on with it.
+// A fleet takes so many of a fault; then a fresh one continues with it.
 constexpr std::uint32_t kTrialsAFleet = 20;
 constexpr int kAttempts = 3;  // at cuts that came before discovery was through
 

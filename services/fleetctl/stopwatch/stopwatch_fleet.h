@@ -36,7 +36,7 @@ class StopwatchFleet {
   // Since the last ForgetSaid, vehicle by vehicle in its order.
   const std::vector<Said>& Heard() const { return said_; }
   void ForgetSaid() { said_.clear(); }
-  // When a vehicle began to count its blackouts.
+  // When a vehicle started to count its blackouts.
   std::optional<SteadyTime> BlackoutsSince(VehicleId vehicle) const;
 
   void Signal(VehicleId vehicle, int signal_number) {

@@ -89,7 +89,7 @@ std::vector<Term> Promise(Mechanism mechanism, const Limits& limits) {
     terms.push_back({limits.beacon_period,
                      "a beacon's age counts from the peer's tick after the one it was sent in"});
   }
-  // Measured: half of a fleet of eight struck together, 10 ms for each in the worst case.
+  // Measured: half of a fleet of eight faulted together, 10 ms for each in the worst case.
   constexpr Nanoseconds kDropsOthersFirst = std::chrono::milliseconds(50);
   if (mechanism == Mechanism::kLease) {
     terms.push_back(

@@ -18,7 +18,7 @@ enum class Fault : std::uint8_t {
   kKill,    // kill -9
   kPause,   // SIGSTOP: nothing of the process runs
   kExit,    // SIGTERM: it leaves in good order
-  kHung,    // the control loop stands still, the library's threads go on
+  kHung,    // the control loop stands still, the library's threads continue
   kCut,     // no packet between it and its peers, either way
   kOneWay,  // its packets are lost, it hears its peers
 };
@@ -46,8 +46,8 @@ enum class Duty : std::uint8_t {
   kMay,       // may or may not
 };
 
-// A row a fault, a column a mechanism. After an exit nobody is stale, for who said good-bye is not
-// missed; and the process is silent for a while before it is gone, longer than deadline and
+// A row a fault, a column a mechanism. After an exit nobody is stale, for who sent a leave notice
+// is not missed; and the process is silent for a while before it is gone, longer than deadline and
 // liveliness if the end takes its time.
 inline constexpr std::array<std::array<Duty, kMechanisms>, kFaults> kDuties = {{
     //  beacon_age    deadline       liveliness        lease        good_bye

@@ -29,7 +29,7 @@ class Trouble : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A victim, and when it was struck: of cuts by each watcher's own clock of blackouts.
+// A target, and when it was faulted: of cuts by each watcher's own clock of blackouts.
 struct Struck {
   VehicleId victim = kNobody;
   std::map<VehicleId, SteadyTime> at;  // by watcher; empty until it is known

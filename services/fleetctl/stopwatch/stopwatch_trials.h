@@ -1,5 +1,5 @@
 // Conducts the trials of one fleet: waits until everyone hears everyone, strikes, collects what the
-// peers say, heals, and begins again.
+// peers say, heals, and starts again.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +23,9 @@ struct StopwatchTask {
 
 struct StopwatchResult {
   std::vector<Trial> trials;
-  // Trouble that peers told of one another, or of a victim before it was struck: nobody's fault.
+  // Trouble that peers told of one another, or of a target before it was faulted: nobody's fault.
   std::uint32_t false_alarms = 0;
-  bool too_soon = false;  // the blackouts began while somebody was not well: nothing was tried
+  bool too_soon = false;  // the blackouts started while somebody was not well: nothing was tried
   std::string problem;    // why it ended early; empty: it did not
 };
 

@@ -54,7 +54,7 @@ struct ProcessSituation {
   int pid_inside = 0;  // in its own namespace of process ids: what its GUID holds; 0: not known
   Instructions told;
   std::optional<qos::ProfileSet> profiles;  // the set as the file is now
-  bool profiles_changed = false;            // the file was written to after the process began
+  bool profiles_changed = false;            // the file was written to after the process started
 
   std::optional<char> state;  // as /proc says: R, S, D, T, t, Z
   std::optional<std::uint64_t> network_namespace;

@@ -50,7 +50,7 @@ struct TuneFleet {
 
 struct Prediction {
   double alarms_per_hour = 0;  // of a vehicle, over all of its peers
-  double detection_ms = 0;     // mean, from the victim's last beacon
+  double detection_ms = 0;     // mean, from the target's last beacon
   double age_mean_ms = 0;      // of beacons at a decision
 };
 

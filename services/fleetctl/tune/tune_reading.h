@@ -47,7 +47,7 @@ struct Killing {
   SteadyTime at{0};
 };
 
-// Puts the readings of all vehicles together. A peer that did not believe the victim when it was
+// Puts the readings of all vehicles together. A peer that did not believe the target when it was
 // killed, by a false alarm, says nothing of the detection.
 void FoldReadings(const std::vector<VehicleReading>& readings, const std::vector<Killing>& killings,
                   Nanoseconds tick, TrialEvidence* evidence);

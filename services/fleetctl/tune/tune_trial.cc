@@ -116,7 +116,7 @@ void TuneTrial::EndAlive(SteadyTime now) {
   Enter(Phase::kKilling, now + planned_.front().after);
 }
 
-// Who dies, and how long after the last one, is the seed's; where in the victim's own tick that
+// Who dies, and how long after the last one, is the seed's; where in the target's own tick that
 // falls is chance.
 void TuneTrial::PlanKillings() {
   std::vector<VehicleId> vehicles;

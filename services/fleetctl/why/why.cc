@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/whole_number.h"
 #include "services/fleetctl/why/why_report.h"
-#include "services/fleetctl/output/terminal_text.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -75,7 +75,7 @@ bool MayBeNameless(const Named& named, const std::vector<FleetMember>& members,
 }
 
 // Names those that publish no id, as far as they are heard in the place of the first of them. Two
-// that discovery cannot tell apart, being the same process id of two containers, stay nameless.
+// that discovery cannot distinguish, being the same process id of two containers, stay nameless.
 void NameByEar(const std::vector<FleetMember*>& nameless) {
   std::map<std::uint16_t, std::vector<FleetMember*>> by_process;
   std::optional<ProcessSituation> place;

@@ -15,7 +15,7 @@ namespace giveway::fleetctl {
 struct ProbedTopic {
   bool matched = false;
   std::uint64_t samples = 0;
-  std::optional<double> first_ms;  // since the probe began
+  std::optional<double> first_ms;  // since the probe started
   // Whether a reader of the hearer's own matches a writer of the speaker's, by what discovery tells
   // of both, and if not, why; neither where it tells nothing of one of them.
   bool fits = false;
@@ -25,7 +25,7 @@ struct ProbedTopic {
 // What the hearer's own status says, if one came.
 struct OwnWord {
   std::uint32_t peers_heard = 0;  // near enough, and with a fresh beacon
-  std::uint32_t taken = 0;        // beacons of anybody, since it began; here and below
+  std::uint32_t taken = 0;        // beacons of anybody, since it started; here and below
   std::uint32_t accepted = 0;
   std::uint32_t too_far = 0;  // from beyond the emission radius: heard, and passed over
   std::uint32_t rejected = 0;

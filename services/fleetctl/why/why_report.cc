@@ -221,7 +221,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
     }
     verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
-    // That could not be foretold.
+    // That could not be predicted.
     if (!heard && report.speaker_without_place && NeedsPlace(topic)) verdict.disagree = false;
   } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
     verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;

@@ -1,5 +1,5 @@
-// What `fleetctl why` found, put together and printed. Pure: foretold and probed in, verdicts, text
-// and exit code out.
+// What `fleetctl why` found, put together and printed. Pure: predicted and probed in, verdicts,
+// text and exit code out.
 #pragma once
 
 #include <optional>
@@ -22,14 +22,14 @@ struct WhyReport {
   bool speaker_without_place = false;
   std::optional<ProbeResult> probe;  // absent: not asked for
   std::vector<std::string> not_known;
-  std::optional<std::uint16_t> host_id;  // of the speaker, as foretold
+  std::optional<std::uint16_t> host_id;  // of the speaker, as predicted
 };
 
 enum class Verdict : std::uint8_t { kHears, kDoesNot, kNotKnown };
 
 struct TopicVerdict {
   Verdict verdict = Verdict::kNotKnown;
-  bool disagree = false;    // of what was foretold with what was probed
+  bool disagree = false;    // of what was predicted with what was probed
   std::string explanation;  // "predicted: hears; probed: heard 40 samples, the first after 31 ms"
 };
 
@@ -42,7 +42,7 @@ double ListenSeconds(const std::vector<TopicOutlook>& topics);
 void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
                   WhyReport* report);
 
-// Adds what discovery tells of endpoints that will not match, where that could not be foretold
+// Adds what discovery tells of endpoints that will not match, where that could not be predicted
 // because one of the two is no process that can be seen.
 void AddUnfit(WhyReport* report);
 

@@ -140,7 +140,7 @@ Prepared Prepare(const SoakOptions& options) {
     CheckFolder((folder / "impair").string());
   }
   if (Records(options)) CheckFolder((folder / "recordings").string());
-  // All begin together, so that everyone's clock of faults is the same.
+  // All start together, so that everyone's clock of faults is the same.
   ScenarioEdit edit{.duration_s = 0.0};
   if (!as_shipped.spawns.empty()) edit.start_with = static_cast<std::uint32_t>(vehicles);
   prepared.scenario_file = (folder / "scenario.textproto").string();
