@@ -49,13 +49,13 @@ class CommandLine {
     if (service == Service::kVehicle) {
       Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
       Add("--record", "FILE",
-          "write all the brain is told and says, for fleetctl replay; where FILE is "
+          "record all inputs and outputs of the brain, for fleetctl replay; where FILE is "
           "there already, into the first free of FILE with a number");
-      Add("--record-split", "SIZE", "begin another file of the recording at this size: 64MiB");
+      Add("--record-split", "SIZE", "start another file of the recording at this size: 64MiB");
       Add("--record-ring", "SECONDS",
           "keep only the last so many seconds of the recording, in two files: 60");
       Add("--impair", "RULES",
-          "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or "
+          "impairs what it receives instead of the scenario: loss=0.1,delay=20ms, or "
           "none, or @FILE; services/link/impairment/README.md lists the keys");
       AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
@@ -86,7 +86,7 @@ class CommandLine {
     Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
     AddOptional("--health", "live|ready|metrics",
                 "asks the service at --health-port, prints the answer, and ends: "
-                "0 yes, 1 no, 2 nobody answered (ready if no word follows)");
+                "0 yes, 1 no, 2 no answer (ready if no value follows)");
     Add("--log-format", "text|json", "of the lines on stderr (default text)");
     Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
   }

@@ -16,10 +16,10 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kListenFooter = R"(
-One line a sample, headed by the seconds since it began to listen and by the vehicle; with --json one
+One line a sample, headed by the seconds since it started to listen and by the vehicle; with --json one
 object, with every field. Topics that are kept for latecomers (world/roster, world/event,
-world/figures) begin with what was. Ends by --count, --duration, Ctrl-C, or when nobody reads stdout.
-Begin it after the fleet: fleetctl run takes no domain in which somebody already listens.
+world/figures) start with what was. Ends by --count, --duration, Ctrl-C, or when stdout is closed.
+Start it after the fleet: fleetctl run takes no domain in which another process listens.
 
 Examples
   fleetctl listen fleet/beacon --domain 7
@@ -51,7 +51,7 @@ void Listen(ListenOptions options, int* exit_code) {
 
 void AddListenVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<ListenOptions>();
-  CLI::App* verb = fleetctl->add_subcommand("listen", "Print what travels on a topic of a fleet");
+  CLI::App* verb = fleetctl->add_subcommand("listen", "Print the samples of a topic of a fleet");
   verb->footer(kListenFooter);
   verb->add_option_function<std::string>(
           "TOPIC", [options](const std::string& name) { options->filter.topic = ParseTopic(name); },

@@ -159,7 +159,7 @@ std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTi
 
 std::string NobodyHeard(const ListeningPost& post, SteadyTime now) {
   return fmt::format(
-      "nobody heard for {:.1f} s in domain {} on interface {} in area {}: is a fleet running "
+      "nothing received for {:.1f} s in domain {} on interface {} in area {}: is a fleet running "
       "there? "
       "fleetctl run and the services' logs name its domain; --interface, --area and --qos must be "
       "those it was started with",

@@ -24,12 +24,12 @@ struct Verdict {
 
 // Legible on a light and on a dark ground.
 constexpr std::array kVerdicts = {
-    Verdict{"passed", kGreen},        Verdict{"It fits.", kGreen},
-    Verdict{"Verified", kGreen},      Verdict{"failed", kRed},
-    Verdict{"FAILED", kRed},          Verdict{"not_run", kRed},
-    Verdict{"error", kRed},           Verdict{"It does not fit.", kRed},
-    Verdict{"does not hear", kRed},   Verdict{"interrupted", kYellow},
-    Verdict{"warning", kYellow},      Verdict{"rolled back", kYellow},
+    Verdict{"passed", kGreen},      Verdict{"It fits.", kGreen},
+    Verdict{"Verified", kGreen},    Verdict{"failed", kRed},
+    Verdict{"FAILED", kRed},        Verdict{"not_run", kRed},
+    Verdict{"error", kRed},         Verdict{"It does not fit.", kRed},
+    Verdict{"does not hear", kRed}, Verdict{"interrupted", kYellow},
+    Verdict{"warning", kYellow},    Verdict{"rolled back", kYellow},
 };
 
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }

@@ -20,7 +20,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kFooter = R"(
-Reckons before anything is started, from what fleets of 2 to 32 vehicles were measured to cost here
+Estimates before anything is started, from what fleets of 2 to 32 vehicles were measured to cost here
 (tests/bench/fleet_costs.sh measures them on another machine), and holds the QoS set against so many
 vehicles. Nothing is started, no network is touched. Cores and memory of a host are this machine's,
 unless they are given.
@@ -62,7 +62,9 @@ int RunPlan(PlanOptions options) {
   request.set = std::move(std::get<qos::ProfileFile>(read));
   request.library_major = link::LibraryMajor();
   const PlanReport report = Plan(request);
-  std::fputs((options.json ? ToJson(request, report) : ForTerminal(ToText(request, report))).c_str(), stdout);
+  std::fputs(
+      (options.json ? ToJson(request, report) : ForTerminal(ToText(request, report))).c_str(),
+      stdout);
   if (std::fflush(stdout) != 0) throw OutputError("stdout took no report");
   return report.Fits() ? 0 : 1;
 }

@@ -43,7 +43,7 @@ Examples
   fleetctl qos show --live 2 --domain 7                # does vehicle 2 run with the default?
   fleetctl qos show --json | jq '.endpoints[] | select(.topic == "fleet/beacon")'
 
-Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run, or nobody answered.
+Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run, or no answer.
 )";
 
 void AddCheck(CLI::App* qos, int* exit_code) {

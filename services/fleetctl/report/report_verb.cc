@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/report/report_compare.h"
 #include "services/fleetctl/report/report_show.h"
 #include "services/fleetctl/soak/soak_draw.h"
 #include "services/fleetctl/soak/soak_json.h"
 #include "services/fleetctl/soak/soak_page.h"
-#include "services/fleetctl/output/terminal_text.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -97,7 +97,7 @@ void AddReportVerb(CLI::App* fleetctl, int* exit_code) {
       ->expected(1, 2);
   verb->add_flag("--all", options->all, "Show also what stayed the same");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
-  verb->add_option("--page", options->page_file, "Write the HTML page of the only report anew");
+  verb->add_option("--page", options->page_file, "Write the HTML page of the only report again");
   verb->callback([options, exit_code] { *exit_code = RunReport(*options); });
 }
 

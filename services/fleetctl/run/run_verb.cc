@@ -96,7 +96,7 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
       ->envname("GIVEWAY_QOS");
   verb->add_option(
           "--impair", options->fleet.impair,
-          "Impair what every vehicle hears, instead of the scenario: "
+          "Impair what every vehicle receives, instead of the scenario: "
           "loss=10%,delay=20ms, or none; services/link/impairment/README.md lists the keys")
       ->check(CheckImpairment)
       ->envname("GIVEWAY_IMPAIR");
@@ -114,7 +114,7 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_RECORD");
   verb->add_option("--record-split", options->fleet.record_split,
-                   "Begin another file of each recording at this size: 64MiB")
+                   "Start another file of each recording at this size: 64MiB")
       ->check(CheckSplit)
       ->envname("GIVEWAY_RECORD_SPLIT");
   verb->add_option("--record-ring", options->fleet.record_ring,

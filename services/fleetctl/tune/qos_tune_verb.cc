@@ -22,7 +22,7 @@ run by real vehicles in a domain of its own: watched while all are alive, when e
 false one, then up to three are killed (kill -9). All get one trial, the better half more, and so on.
   false alarm   a vehicle stops believing a living peer, by deadline, liveliness or beacon age
   noticed after from a killed vehicle's last beacon to the turn in which a peer acts on its silence
-Both are read from what the vehicles recorded, told again to fresh brains. Bandwidth is what a
+Both are read from what the vehicles recorded, replayed by fresh brains. Bandwidth is what a
 vehicle heard, all packets; CPU is utime + stime of a vehicle's process.
 
 Recommended: of those with fewer false alarms than the base, beyond chance, that notice no later, the
@@ -31,7 +31,7 @@ then CPU. If there is none: the one with the fewest false alarms of all.
 Base and recommended are then run once more, with seeds of their own.
 
 The folder --out gets recommended.xml, evidence.json, report.html, pictures as SVG where gnuplot is
-installed, and the evidence of every trial at once: the same command goes on where it was cut off.
+installed, and the evidence of every trial at once: the same command continues where it was cut off.
 
 Examples
   fleetctl qos tune --impair loss=0.1,delay=20ms,jitter=5ms
@@ -59,7 +59,7 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
   const auto options = std::make_shared<QosTuneOptions>();
   CLI::App* verb = qos->add_subcommand("tune", "Search better beacon QoS on real vehicles");
   verb->footer(kFooter);
-  verb->add_option("--impair", options->impair, "What every vehicle hears through, as of run")
+  verb->add_option("--impair", options->impair, "What every vehicle receives through, as of run")
       ->check(CheckImpairment)
       ->capture_default_str();
   verb->add_option("--vehicles", options->vehicles, "Of each fleet")

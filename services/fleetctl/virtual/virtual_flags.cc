@@ -73,7 +73,7 @@ void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
       ->check(Between(0, 100));
   verb->add_option("--duplicate", made_by->duplicate_percent, "Percent heard twice")
       ->check(Between(0, 100));
-  verb->add_flag("--loopback", made_by->loops_back, "Everyone hears its own beacons too");
+  verb->add_flag("--loopback", made_by->loops_back, "Every vehicle receives its own beacons too");
 }
 
 const std::vector<SonarTier> kMixedTiers = {SonarTier::kIdeal, SonarTier::kTypical,
@@ -125,7 +125,7 @@ void AddFleetFlag(CLI::App* verb, CaseOptions* made_by) {
             made_by->restarts = {0, 1};
           },
           "stock, or mixed: short for --robots mixed --tier mixed --slip 0..2 --loss 0..20 "
-          "--crashes 0..1 --pauses 0..2 --restarts 0..1; what is given beside it counts")
+          "--crashes 0..1 --pauses 0..2 --restarts 0..1; flags given in addition count")
       ->check(CLI::IsMember({"stock", "mixed"}));
 }
 
@@ -170,7 +170,7 @@ void AddJudgeFlag(CLI::App* verb, CaseOptions* made_by) {
 void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
   AddCountFlag(verb, "--crashes", &made_by->crashes, "Vehicles that die in each run");
   AddCountFlag(verb, "--pauses", &made_by->pauses, "Processes that stand still for a while");
-  AddCountFlag(verb, "--restarts", &made_by->restarts, "Processes that start anew");
+  AddCountFlag(verb, "--restarts", &made_by->restarts, "Processes that restart");
   verb->add_option_function<std::vector<std::string>>(
       "--fault",
       [made_by](const std::vector<std::string>& texts) {

@@ -6,7 +6,8 @@ namespace giveway::fleetctl {
 namespace {
 
 TEST(TerminalText, AVerdictIsColouredAndNothingElse) {
-  EXPECT_EQ(InColour("crossing: passed, all_held\n"), "crossing: \x1b[32mpassed\x1b[0m, all_held\n");
+  EXPECT_EQ(InColour("crossing: passed, all_held\n"),
+            "crossing: \x1b[32mpassed\x1b[0m, all_held\n");
   EXPECT_EQ(InColour("a\nfailed: b"), "a\n\x1b[31mfailed\x1b[0m: b");
   EXPECT_EQ(InColour("x.xml:3: warning: y"), "x.xml:3: \x1b[33mwarning\x1b[0m: y");
   EXPECT_EQ(InColour("nothing here\n"), "nothing here\n");
