@@ -60,6 +60,48 @@ std::string LineInColour(std::string_view line) {
                      line.substr(first_at + first->word.size()));
 }
 
+// In characters, not bytes.
+std::size_t Width(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+// Where to break so that at most `columns` characters stay in front: at the last space within, else
+// at the first behind; npos if there is none. Spaces at the start do not count.
+std::size_t BreakOf(std::string_view line, std::size_t columns) {
+  std::size_t best = std::string_view::npos;
+  const std::size_t text = line.find_first_not_of(' ');
+  if (text == std::string_view::npos) return best;
+  for (std::size_t at = line.find(' ', text); at != std::string_view::npos;
+       at = line.find(' ', at + 1)) {
+    if (best != std::string_view::npos && Width(line.substr(0, at)) > columns) break;
+    best = at;
+  }
+  return best;
+}
+
+std::string LineFolded(std::string_view line, std::size_t columns) {
+  constexpr std::size_t kHanging = 4;
+  const std::size_t indent = std::min(line.find_first_not_of(' '), line.size()) + kHanging;
+  std::string folded;
+  std::size_t room = columns;
+  while (Width(line) > room) {
+    const std::size_t end = BreakOf(line, room);
+    if (end == std::string_view::npos) break;
+    folded += std::string(line.substr(0, end)) + "\n" + std::string(indent, ' ');
+    line.remove_prefix(std::min(line.find_first_not_of(' ', end), line.size()));
+    room = columns > indent ? columns - indent : 1;
+  }
+  return folded + std::string(line);
+}
+
+std::size_t ColumnsOf(int descriptor) {
+  constexpr std::size_t kUsual = 80;
+  winsize size{};
+  if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
+  return size.ws_col;
+}
+
 std::optional<std::string_view> Environment(const char* name) {
   const char* value = std::getenv(name);
   if (value == nullptr || *value == '\0') return std::nullopt;
@@ -78,6 +120,18 @@ std::string InColour(std::string_view text) {
     text.remove_prefix(end + 1);
   }
   return coloured;
+}
+
+std::string Folded(std::string_view text, std::size_t columns) {
+  std::string folded;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    folded += LineFolded(text.substr(0, end), columns);
+    if (end == std::string_view::npos) break;
+    folded += '\n';
+    text.remove_prefix(end + 1);
+  }
+  return folded;
 }
 
 std::string TimeLeft(std::uint64_t done, std::uint64_t all, double gone_s) {
@@ -105,15 +159,12 @@ std::string ProgressLine(std::uint64_t done, std::uint64_t all, const std::strin
 }
 
 std::string ForTerminal(const std::string& text) {
+  if (::isatty(STDOUT_FILENO) != 1) return text;
+  const std::string folded = Folded(text, ColumnsOf(STDOUT_FILENO));
   const bool forbidden = Environment("NO_COLOR") || Environment("TERM").value_or("dumb") == "dumb";
-  return ::isatty(STDOUT_FILENO) == 1 && !forbidden ? InColour(text) : text;
+  return forbidden ? folded : InColour(folded);
 }
 
-std::size_t StderrColumns() {
-  constexpr std::size_t kUsual = 80;
-  winsize size{};
-  if (::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
-  return size.ws_col;
-}
+std::size_t StderrColumns() { return ColumnsOf(STDERR_FILENO); }
 
 }  // namespace giveway::fleetctl

@@ -13,6 +13,10 @@ namespace giveway::fleetctl {
 // red or yellow. Everything else is as it was.
 std::string InColour(std::string_view text);
 
+// Lines of at most `columns` characters, broken at spaces; what follows a break is indented by four
+// more than its line. A word that is longer stays whole.
+std::string Folded(std::string_view text, std::size_t columns);
+
 // "about 90 s left", "about 12 min left", at the pace so far; "no estimate yet" before the first.
 std::string TimeLeft(std::uint64_t done, std::uint64_t all, double gone_s);
 
@@ -20,7 +24,8 @@ std::string TimeLeft(std::uint64_t done, std::uint64_t all, double gone_s);
 std::string ProgressLine(std::uint64_t done, std::uint64_t all, const std::string& text,
                          std::size_t columns);
 
-// Asks the terminal: `text` in colour where stdout is one, and NO_COLOR and TERM do not forbid it.
+// Asks the terminal: where stdout is one, `text` is folded to its width, and in colour unless
+// NO_COLOR or TERM forbid it.
 std::string ForTerminal(const std::string& text);
 // Of stderr; 80 where it is no terminal.
 std::size_t StderrColumns();

@@ -22,7 +22,7 @@ class HelpTest : public testing::Test {
     CLI::App* run = app_.add_subcommand("run", "Run");
     run->add_option("--vehicles", number_, "How many");
     run->add_option("--log-level", text_, "Of the log")->check(CLI::IsMember({"debug", "info"}));
-    run->add_flag("--lockstep", "Wait");
+    run->add_flag("--lockstep", lockstep_, "Wait");
     CLI::App* qos = app_.add_subcommand("qos", "QoS");
     qos->require_subcommand(1);
     qos->add_subcommand("check", "Check");
@@ -41,6 +41,7 @@ class HelpTest : public testing::Test {
 
   CLI::App app_{"Fleets", "fleetctl"};
   int number_ = 0;
+  bool lockstep_ = false;
   std::string text_;
 };
 

@@ -21,6 +21,16 @@ TEST(TerminalText, APartOfAWordIsNoVerdict) {
   EXPECT_EQ(InColour("expectations_passed, terrors"), "expectations_passed, terrors");
 }
 
+TEST(TerminalText, LongLinesAreFoldedAtSpacesWithAHangingIndent) {
+  EXPECT_EQ(Folded("  Remedy: raise the lease of both", 20),
+            "  Remedy: raise the\n      lease of both");
+  EXPECT_EQ(Folded("short\nlines\n", 20), "short\nlines\n");
+  EXPECT_EQ(Folded("a_word_that_is_longer_than_the_line and", 10),
+            "a_word_that_is_longer_than_the_line\n    and");
+  EXPECT_EQ(Folded("five \xc2\xb5\xc2\xb5\xc2\xb5\xc2\xb5", 9),
+            "five \xc2\xb5\xc2\xb5\xc2\xb5\xc2\xb5");
+}
+
 TEST(TerminalText, TimeLeftFollowsThePace) {
   EXPECT_EQ(TimeLeft(0, 10, 3), "no estimate yet");
   EXPECT_EQ(TimeLeft(5, 10, 20), "about 20 s left");
