@@ -27,7 +27,7 @@ struct Topic {
   int ticks = 0;                  // between two samples of an instance; 0: no fixed rate
   bool guarded = false;           // a reader must learn that it fell silent
   bool lively = false;            // and by liveliness, too
-  bool late_joiners = false;      // who comes later must be told
+  bool late_joiners = false;      // late joiners must receive it
   std::int64_t reader_depth = 1;  // less overwrites samples somebody counts on
 };
 

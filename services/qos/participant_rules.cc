@@ -115,7 +115,7 @@ void ParticipantRules::CheckDiscovery() {
   }
   if (Number(Policy::kLivelinessProtocol) == 0) {
     Add(Severity::kWarning, "liveliness_protocol_off", Policy::kLivelinessProtocol, "",
-        "Liveliness that is not asserted by samples is never told to anybody.", "true");
+        "Liveliness that is not asserted by samples is never reported to any process.", "true");
   }
 }
 

@@ -1,4 +1,4 @@
-// Writes what a brain is told and says into a file, so that its decisions can be made again.
+// Writes the inputs and outputs of a brain into a file, so that its decisions can be made again.
 //
 // The deciding thread only copies into a bounded queue and never waits; a thread of the recorder's
 // own makes bytes of it and writes one record at a time. A full queue (the disk does not keep up

@@ -1,4 +1,4 @@
-// What a vehicle's recording consists of, as values, and their bytes. The format is told in
+// What a vehicle's recording consists of, as values, and their bytes. The format is documented in
 // idl/recording.proto; files are recorder.h's and recording_file.h's.
 #pragma once
 

@@ -1,6 +1,6 @@
 // The files of one recording: each made under a name that was free, so that none is ever written
 // over; split by size where that is asked for; and ended so that a reader knows why it ends, on a
-// full disk too. Knows no thread. The format is told in idl/recording.proto.
+// full disk too. Knows no thread. The format is documented in idl/recording.proto.
 #pragma once
 
 #include <cstdint>

@@ -7,7 +7,7 @@
 namespace giveway {
 namespace {
 
-constexpr double kDrives_m_s = 0.05;      // slower, a reaction costs no way worth telling
+constexpr double kDrives_m_s = 0.05;      // slower, a reaction costs no distance worth reporting
 constexpr double kNoise_m_s = 0.01;       // of an encoder's rate, in forward speed
 constexpr double kLeastObedience = 0.25;  // of what the brakes could have taken off
 

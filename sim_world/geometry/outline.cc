@@ -129,7 +129,7 @@ Nearest NearestBetween(const Outline& a, const Outline& b) {
   const Way way = ShortestWay(a, b);
   const double distance = Sqrt(way.squared_m2);
   // Where a side is nearest its own direction is exact, the way's is only as good as it is long.
-  // Only corners are nearer to each other than any side tells.
+  // Only corners are nearer to each other than any side shows.
   const bool corners = best.apart_m > 0 && distance > best.apart_m + kNoDirection_m;
   const bool discs = best.apart_m == -kInfinity;
   Nearest nearest = {best.apart_m, best.axis_world, {}};

@@ -90,7 +90,7 @@ class Run {
   // Says in an answer to a vehicle where its body is now, and how far its task; nothing where it
   // has no body.
   void Locate(const VehicleOptions& options, RosterEntry* entry) const;
-  // Whom the last Advance forgot, whom nothing more is told of: vehicles that are not the
+  // Whom the last Advance forgot, of which nothing more is reported: vehicles that are not the
   // scenario's, a second after their bodies were taken away.
   std::span<const VehicleId> Forgotten() const { return forgotten_; }
 
@@ -151,7 +151,7 @@ class Run {
   bool started_ = false;                         // the start signal was given
   std::uint32_t ticks_run_ = 0;                  // since then, without pauses
   std::vector<WorldEvent> comings_and_goings_;   // since the last tick
-  std::vector<Gone> gone_;                       // still told of, as not present
+  std::vector<Gone> gone_;                       // still reported, as not present
   std::vector<VehicleId> forgotten_;
   std::string asked_end_;
   std::string end_reason_;

@@ -1,5 +1,5 @@
 // The scenario's signal heads: what each shows at a tick, and which of them speak in it. Follows
-// the plans and the faults it is told of; knows no vehicles and obeys nobody.
+// the plans and the faults it is given; knows no vehicles and obeys none.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,7 @@ enum class Invariant : std::uint8_t {
   kPose,         // where a beacon says its vehicle was, it was: as nearly as the beacon says
   kRedLight,     // no vehicle drives past a red light: red_lights.h
   kProgress,     // nobody is wedged: progress.h
-  // Counted and told of in virtual runs, and held to where that is asked for: RequiredInvariants.
+  // Counted and reported in virtual runs, and held to where that is asked for: RequiredInvariants.
   kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h
   kDelay,      // everyone arrives when it is due

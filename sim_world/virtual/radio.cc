@@ -11,7 +11,7 @@ namespace giveway::sim {
 namespace {
 
 // Beyond the radius in which beacons are listened to they still come: so a brain learns that a peer
-// drove out of it. One stated from well outside tells it; the rest would only be counted.
+// drove out of it. One stated from well outside shows it; the rest would only be counted.
 constexpr double kFringe_m = 1.5;
 constexpr double kWellOutside_m = 0.5;
 constexpr std::uint32_t kHeldBackTicks = 2;

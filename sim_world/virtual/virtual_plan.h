@@ -67,7 +67,7 @@ struct RadioSettings {
 enum class ProcessFaultKind : std::uint8_t {
   kCrash,    // silent for ever; the body stays as long as the scenario says
   kPause,    // stands still for a time, then continues with everything queued
-  kRestart,  // is gone for a time; then a new one continues as the world tells it: where and
+  kRestart,  // is gone for a time; then a new one continues as the world says: where and
              // whereto
   kSlow,     // answers only a share of the ticks for a time, and finds the rest queued
 };

@@ -104,7 +104,7 @@ killed() {
   [[ ! -e $report/so_far.json ]] || fail "a soak with its verdict could be gone on with"
 }
 
-# A vehicle dies that nobody planned to kill: everyone keeps what its ring holds, bit for bit.
+# A vehicle dies unplanned: every one keeps what its ring holds, bit for bit.
 kept() {
   local supervisor victim code=0 report=$SCRATCH/kept
   "$FLEETCTL" soak patrol --vehicles 3 --faults "$SCRATCH/long.textproto" --duration 40 --record-ring 5 \

@@ -1,5 +1,5 @@
 // What `fleetctl top` and `fleetctl listen` share: they join a fleet that was started elsewhere as
-// observers, start and stop nothing, and tell stdout what they hear.
+// observers, start and stop nothing, and write what they receive to stdout.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ struct Removal {
 };
 
 // `memory` as read from `memory.folder`. Only what IsGone(), and of those only what `user` owns,
-// unless `user` is 0. Those left for another reason than being in use are told of, too.
+// unless `user` is 0. Those left for another reason than being in use are reported, too.
 std::vector<Removal> RemoveGone(const SharedMemory& memory, std::uint32_t user);
 
 }  // namespace giveway::fleetctl

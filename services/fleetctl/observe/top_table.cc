@@ -56,7 +56,7 @@ std::string StatusRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now)
                      AgeText(vehicle.beacon_at, now), status.peers_heard, EventsOf(vehicle));
 }
 
-// A foreign peer, or one whose statuses do not come: its beacons alone tell.
+// A foreign peer, or one whose statuses do not come: only its beacons are known.
 std::string BeaconRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
   const Beacon& beacon = *vehicle.beacon;
   const Decision said{.mode = beacon.mode, .rule = beacon.rule, .peer = beacon.gives_way_to};

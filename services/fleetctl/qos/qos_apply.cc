@@ -304,7 +304,7 @@ int RunQosApply(const QosApplyOptions& options) {
   // The library's own word, before this process touches it and before any vehicle depends on it.
   link::LinkOptions tried = link;
   tried.qos = {ResolveQosFile(options.profile), wanted.text};
-  // Where the rules find errors the report tells them, and the library is not asked.
+  // Where the rules find errors the report lists them, and the library is not asked.
   if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
   const Interrupts interrupts;
   Applying applying(options, link, std::move(wanted));

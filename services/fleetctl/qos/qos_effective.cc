@@ -77,7 +77,7 @@ std::vector<EffectiveEndpoint> EffectiveQos(const std::vector<link::ResolvedEnti
     const qos::Profile silent = qos::DefaultProfile(owner, entity.profile);
     const qos::Profile* profile = set.Find(owner, entity.profile);
     EffectiveEndpoint endpoint{entity.profile, entity.topic, {}};
-    // In the order of the table, whatever the order they were told in.
+    // In the order of the table, whatever the order they were answered in.
     for (const qos::PolicyInfo& info : qos::Policies()) {
       const auto value = std::ranges::find(entity.values, info.name, &link::ResolvedValue::policy);
       if (value == entity.values.end()) continue;

@@ -17,7 +17,7 @@ enum class QosOrigin : std::uint8_t {
   kCode,         // follows from fleet size, area or id
   kEnvironment,  // a GIVEWAY_ variable
   kFlag,         // of this command line
-  kDiscovered,   // of a foreign vehicle: as discovery tells it
+  kDiscovered,   // of a foreign vehicle: as discovery reports it
 };
 std::string Name(QosOrigin origin);
 

@@ -60,7 +60,7 @@ class InvariantWatch {
   Tick first_ = kNoTick;                       // that was judged, and
   double first_time_s_ = 0;                    // its time since the start signal
   Tick last_ = kNoTick;                        // the run's, once it has ended
-  std::vector<WorldEvent> events_;             // not told to the invariants yet
+  std::vector<WorldEvent> events_;             // not given to the invariants yet
   std::size_t noted_ = 0;                      // of them: who lives was learnt from them
   std::vector<sim::Observed> seen_;
   std::uint32_t ticks_judged_ = 0;

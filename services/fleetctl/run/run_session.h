@@ -41,7 +41,7 @@ class RunSession {
   void Drain();
   // One turn of the loop: sleep, drain, carry out faults, poll, show.
   void Turn();
-  // What a child continues after, such as a full disk: nothing else would tell the operator.
+  // What a child continues after, such as a full disk: nothing else would inform the operator.
   void ShowErrors();
   void ShowTrouble(const MemberEnd& gone, const std::string& what);
 

@@ -24,8 +24,8 @@ class FaultClock {
   // `schedule` outlives this.
   explicit FaultClock(std::span<const faults::Fault> schedule);
 
-  // Those that are due at `now_s` and were not told before, in order of time. Of two at one time
-  // the end comes first.
+  // Those that are due at `now_s` and were not given out before, in order of time. Of two at one
+  // time the end comes first.
   std::span<const FaultEdge> TakeDue(double now_s);
   // Every fault that has started and not ended is to end now; none starts any more.
   std::span<const FaultEdge> EndAll(double now_s);

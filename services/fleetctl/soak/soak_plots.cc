@@ -1,4 +1,4 @@
-// The gnuplot programs of a soak's pictures. Colours tell things apart for the colour-blind too
+// The gnuplot programs of a soak's pictures. Colours differ for the colour-blind too
 // (Okabe and Ito 2008), and stand on white as on black: the page gives black its text's colour.
 #include <fmt/format.h>
 

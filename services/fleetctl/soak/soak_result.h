@@ -152,7 +152,7 @@ struct MachinePauses {
 
 // The reaction that left the least share of its free distance.
 struct NarrowestMargin {
-  double time_s = 0;  // at which it was told of
+  double time_s = 0;  // at which it was reported
   VehicleId vehicle = kNobody;
   double reaction_m = 0;  // driven from cause to wheels that obey
   double free_m = 0;      // that there was

@@ -24,7 +24,7 @@ struct FaultCourse {
   std::optional<SteadyTime> began;
   std::optional<SteadyTime> ended;  // or, of one that takes no time, the moment it started
   std::string effect;               // that was seen; empty: none yet
-  // By the first peer, by each mechanism that told of it.
+  // By the first peer, by each mechanism that reported it.
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
   std::optional<SteadyTime> recovered;  // after its end all that it faulted were well again
 };

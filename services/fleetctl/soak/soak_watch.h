@@ -37,7 +37,7 @@ class SoakWatch {
   void NoteEnd(std::size_t fault, SteadyTime now);
   // The supervisor saw it happen. The first words stay.
   void NoteEffect(std::size_t fault, std::string effect);
-  // Of a process that is meant to be gone nothing is expected; a new one has everything to tell
+  // Of a process that is meant to be gone nothing is expected; a new one has everything to report
   // again.
   void SetAway(VehicleId vehicle, bool away);
 

@@ -22,7 +22,7 @@ struct Said {
 
 class StopwatchFleet {
  public:
-  // `spec` but for the domain; `impair` is what each hearer is told with --impair. Lives on one
+  // `spec` but for the domain; `impair` is what each hearer is given with --impair. Lives on one
   // thread: see FleetProcesses. Throws StartError, DomainError.
   StopwatchFleet(const FleetSpec& spec, const std::map<VehicleId, std::string>& impair);
   // Ends whoever is left, in good order if they do it within two seconds.

@@ -43,7 +43,7 @@ std::uint32_t VictimsOf(std::size_t fleet);
 // True of the faults that are made of blackouts.
 constexpr bool IsCut(Fault fault) { return fault == Fault::kCut || fault == Fault::kOneWay; }
 
-// What `hearer` is told with --impair; empty for nothing.
+// What `hearer` is given with --impair; empty for nothing.
 std::string BlackoutsOf(VehicleId hearer, Fault fault, std::span<const Wave> waves,
                         std::span<const VehicleId> fleet);
 

@@ -41,7 +41,7 @@ std::string_view LimitName(Mechanism mechanism) {
     case Mechanism::kLease:
       return "lease of the profile giveway_participant";
     case Mechanism::kGoodBye:
-      return "who is told to stop looks once a beacon period, then says so";
+      return "a vehicle that is asked to stop checks once a beacon period, then says so";
   }
   return "";
 }

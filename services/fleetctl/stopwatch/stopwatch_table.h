@@ -24,7 +24,7 @@ enum class Fault : std::uint8_t {
 };
 inline constexpr std::size_t kFaults = 6;
 
-// What tells a vehicle that a peer is gone.
+// What informs a vehicle that a peer is gone.
 enum class Mechanism : std::uint8_t {
   kBeaconAge,   // its own limit on the age of the newest beacon
   kDeadline,    // DEADLINE of the beacon reader

@@ -19,9 +19,9 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Nanoseconds kUntilWell = seconds(30);
-constexpr Nanoseconds kLateStill = seconds(1);  // what comes after the promise is told as late
+constexpr Nanoseconds kLateStill = seconds(1);  // what comes after the promise is reported as late
 constexpr Nanoseconds kNoticing = milliseconds(200);  // for a word to be written and read
-constexpr Nanoseconds kEnding = seconds(3);           // of a process that was told to
+constexpr Nanoseconds kEnding = seconds(3);           // of a process that was asked to
 
 // Ends the trials of this fleet; what() says why.
 class Trouble : public std::runtime_error {
@@ -173,7 +173,8 @@ class Conductor {
       }
       Turn();
     }
-    throw Trouble(fmt::format("vehicle {} does not hang, though it was told to", Number(victim)));
+    throw Trouble(
+        fmt::format("vehicle {} does not hang, though it was signalled to", Number(victim)));
   }
 
   // The first word of the watcher by that mechanism after the fault.
@@ -244,7 +245,8 @@ class Conductor {
     const SteadyTime limit = SteadyNow() + kEnding;
     while (fleet_.IsRunning(victim)) {
       if (SteadyNow() > limit) {
-        throw Trouble(fmt::format("vehicle {} did not end, though it was told to", Number(victim)));
+        throw Trouble(
+            fmt::format("vehicle {} did not end, though it was asked to", Number(victim)));
       }
       Turn();
     }

@@ -40,7 +40,7 @@ struct Word {
 // Of a line of a vehicle's JSON log; nothing where it says something else.
 std::optional<Word> WordOf(std::string_view line);
 
-// What told of a peer's absence, where a word is of that.
+// What reported a peer's absence, where a message is of that.
 std::optional<Mechanism> MechanismOf(WordKind kind);
 
 // Who hears whom, by what they have said so far.

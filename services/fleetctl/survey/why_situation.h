@@ -1,5 +1,5 @@
-// Where a process of a fleet stands: what it was told, and what the system gives it to talk with.
-// Values only. What could not be read is absent, and its name is in `not_known`.
+// Where a process of a fleet stands: its launch options, and what the system gives it to
+// communicate with. Values only. What could not be read is absent, and its name is in `not_known`.
 #pragma once
 
 #include <cstdint>

@@ -14,7 +14,7 @@ namespace giveway::fleetctl {
 enum class AlarmCause : std::uint8_t { kDeadline, kLiveliness, kBeaconAge };
 std::string_view Name(AlarmCause cause);
 
-// How often a vehicle stopped believing a peer, by what told it first.
+// How often a vehicle stopped believing a peer, by what reported it first.
 struct AlarmCounts {
   std::uint32_t deadline = 0;
   std::uint32_t liveliness = 0;

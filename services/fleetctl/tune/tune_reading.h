@@ -1,4 +1,4 @@
-// What a vehicle's recording says of QoS: a fresh brain is told again what the vehicle was told,
+// What a vehicle's recording says of QoS: a fresh brain is given again what the vehicle was given,
 // and asked at each step which peers it believes (vehicle/peer_table.h, IsFresh). So an alarm is
 // what the vehicle acted on, at the time it did. Pure but for the stream it reads.
 #pragma once
@@ -22,7 +22,7 @@ struct AliveWindow {
   SteadyTime to{0};    // just before the first is killed
 };
 
-// Since when a peer was not believed, at the recording's end, and what told it.
+// Since when a peer was not believed, at the recording's end, and what reported it.
 struct Silenced {
   SteadyTime at{0};
   AlarmCause cause = AlarmCause::kDeadline;

@@ -85,7 +85,7 @@ bool TuneTrial::AllHearAll() const {
          std::ranges::all_of(hears_all_, [](const auto& entry) { return entry.second; });
 }
 
-// Nobody but the killed may end before they are told to.
+// None but the killed may end before it is asked to.
 void TuneTrial::CheckAlive() {
   const auto gone = processes_->FirstEndNotAllowed([](const auto& end) { return end.planned; });
   if (!gone) return;
@@ -145,7 +145,7 @@ void TuneTrial::KillIfDue(SteadyTime now) {
 
 void TuneTrial::Stop(SteadyTime now) {
   stopped_ = now;
-  // All alike: a vehicle that is told to go says what was injected.
+  // All alike: a vehicle that is asked to leave says what was injected.
   processes_->AskToStop();
   Enter(Phase::kStopping, now + kLeaveGrace);
 }

@@ -126,7 +126,7 @@ void AddNotKnown(const std::optional<ProcessSituation>& process, const Named& na
     report->not_known.push_back(
         foreign.empty()
             ? TextOf(named) + " is no process of a fleet on this machine: judged by what is heard"
-            : fmt::format("{} is foreign ({}): judged by what discovery tells and what is heard",
+            : fmt::format("{} is foreign ({}): judged by what discovery reports and what is heard",
                           TextOf(named), foreign));
     return;
   }

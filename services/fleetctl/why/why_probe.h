@@ -16,8 +16,8 @@ struct ProbedTopic {
   bool matched = false;
   std::uint64_t samples = 0;
   std::optional<double> first_ms;  // since the probe started
-  // Whether a reader of the hearer's own matches a writer of the speaker's, by what discovery tells
-  // of both, and if not, why; neither where it tells nothing of one of them.
+  // Whether a reader of the hearer's own matches a writer of the speaker's, by what discovery
+  // reports of both, and if not, why; neither where it reports nothing of one of them.
   bool fits = false;
   std::string unfit;
 };
@@ -40,7 +40,7 @@ struct ProbeResult {
   // A vehicle without a place in a world has no beacons, and reads none: its writers name nobody.
   bool joined = false;
   bool hearer_joined = false;
-  std::optional<std::uint16_t> host_id;       // as its participant tells it
+  std::optional<std::uint16_t> host_id;       // as its participant reports it
   std::map<std::string, ProbedTopic> topics;  // by name
   std::optional<OwnWord> own_word;
   // Whose DDS they are, where it is another vendor's than ours.

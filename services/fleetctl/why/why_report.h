@@ -37,12 +37,12 @@ struct TopicVerdict {
 // through a channel that loses packets discovery takes its time.
 double ListenSeconds(const std::vector<TopicOutlook>& topics);
 
-// Adds the reason that no file of /proc tells and the probe does: a vehicle that has no place in a
+// Adds the reason that no file of /proc shows and the probe does: a vehicle that has no place in a
 // world yet.
 void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
                   WhyReport* report);
 
-// Adds what discovery tells of endpoints that will not match, where that could not be predicted
+// Adds what discovery reports of endpoints that will not match, where that could not be predicted
 // because one of the two is no process that can be seen.
 void AddUnfit(WhyReport* report);
 
