@@ -95,6 +95,7 @@ while IFS=$'\t' read -r manual line needs _ command; do
   esac
 done <"$SCRATCH/commands" | tee "$SCRATCH/checked"
 
+: >"$SCRATCH/said." # there may be none
 mapfile -t running < <(awk -F '\t' '$3 == "-" && !seen[$1]++ {print $1}' "$SCRATCH/commands")
 for manual in "${running[@]}"; do
   while [[ $(jobs -rp | wc -l) -ge $at_once ]]; do wait -n || true; done
