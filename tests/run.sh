@@ -244,7 +244,7 @@ stage_rules() {
   check "include rules catch what is planted" bash tests/rules/include_rules_test.sh
   check "the table of modules in services/README.md" bash tests/rules/modules_table.sh --check
   check "lengths and links of the manuals" bash tests/rules/manuals.sh
-  check "the rules over manuals catch what is planted" bash tests/rules/manuals_test.sh
+  check "the rules over manuals find each violation" bash tests/rules/manuals_test.sh
   check "commands of manuals are run or checked" bash tests/manuals/commands_test.sh
   check "words of the vocabulary" bash tests/rules/words.sh
   check "words are counted where people read them" bash tests/rules/words_test.sh

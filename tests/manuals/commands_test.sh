@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # shellcheck disable=SC2016  # fences of Markdown
-# What commands.sh must find, in manuals planted for it, with a fleetctl that only explains itself.
+# What commands.sh must find, in manuals made for it, with a fleetctl that only explains itself.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 scratch=$(mktemp -d)
