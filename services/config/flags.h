@@ -54,11 +54,10 @@ struct ServiceFlags {
   std::string log_level = "info";   // "debug", "info", "warning" or "error"
 };
 
-// The flags, or the exit code to end with at once: 0 after --help or --version, 2 after telling
-after writing to every wrong flag with its value,
-    the allowed range and the remedy. `library` is what
-    // --version names beside the service: "Fast DDS 2.9.1".
-    using ParsedFlags = std::variant<ServiceFlags, int>;
+// The flags, or the exit code to end with at once: 0 after --help or --version, 2 after writing to
+// stderr every wrong flag with its value, the allowed range and the remedy. `library` is what
+// --version names beside the service: "Fast DDS 2.9.1".
+using ParsedFlags = std::variant<ServiceFlags, int>;
 ParsedFlags ParseVehicleFlags(int argc, const char* const* argv, std::string_view library);
 ParsedFlags ParseWorldFlags(int argc, const char* const* argv, std::string_view library);
 

@@ -9,7 +9,7 @@
 namespace giveway::fleetctl {
 
 // Writes NAME.gnuplot and NAME.svg into the folder. Empty where there is no gnuplot, or it refuses:
-after writing to says so.std::vector<DrawnPlot> Draw(const std::vector<TunePlot>& plots,
-                                                     const TuneStore& store);
+// stderr says so.
+std::vector<DrawnPlot> Draw(const std::vector<TunePlot>& plots, const TuneStore& store);
 
 }  // namespace giveway::fleetctl
