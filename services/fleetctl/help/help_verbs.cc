@@ -43,7 +43,7 @@ complete -o default -F _fleetctl fleetctl
 
 int ShowHelp(const CLI::App& fleetctl, const std::vector<std::string>& words) {
   const CLI::App* app = &fleetctl;
-  std::string before;
+  std::string name = app->get_name();
   for (const std::string& word : words) {
     const CLI::App* verb = FindVerb(*app, word);
     if (verb == nullptr) {
@@ -51,10 +51,12 @@ int ShowHelp(const CLI::App& fleetctl, const std::vector<std::string>& words) {
                    DidYouMean(word, VerbNames(*app)).c_str());
       return kCouldNotRun;
     }
-    before += (before.empty() ? "" : " ") + app->get_name();
     app = verb;
+    name += " " + word;
   }
-  std::fputs(app->help(before).c_str(), stdout);
+  // App::help() would explain the verb that was parsed, which is this one.
+  const std::string help = app->get_formatter()->make_help(app, name, CLI::AppFormatMode::Normal);
+  std::fputs(help.c_str(), stdout);
   return 0;
 }
 
