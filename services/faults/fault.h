@@ -1,5 +1,5 @@
-// What goes wrong in a run, when, to whom and for how long: faults as values, and the table of all
-// kinds. Who makes them happen is said by the table; nothing here does. Pure.
+// What goes wrong in a run, when, to which target and for how long: faults as values, and the table
+// of all kinds. Who makes them happen is said by the table; nothing here does. Pure.
 #pragma once
 
 #include <cstdint>
@@ -66,7 +66,7 @@ inline constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kMalformed)
 // Who makes a kind happen.
 enum class Actor : std::uint8_t { kSupervisor, kHearer, kWorld, kAttacker };
 
-// To whom.
+// The target.
 struct Target {
   enum class What : std::uint8_t { kVehicle, kWorld, kDiscoveryServer, kAll };
   What what = What::kVehicle;
@@ -86,7 +86,7 @@ struct Parameters {
   std::optional<double> rate_hz;       // 1 to 100000
   std::optional<double> bytes;         // 1 to 1e12; of kRate a second
   std::optional<std::uint32_t> count;  // 1 to 100000
-  std::optional<VehicleId> from;       // whom the target does not hear; absent: no other
+  std::optional<VehicleId> from;       // the sender the target does not hear; absent: no other
   std::string qos;                     // name or file of a profile set
 
   friend bool operator==(const Parameters&, const Parameters&) = default;

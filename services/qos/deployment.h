@@ -28,7 +28,7 @@ struct Topic {
   bool guarded = false;           // a reader must learn that it fell silent
   bool lively = false;            // and by liveliness, too
   bool late_joiners = false;      // late joiners must receive it
-  std::int64_t reader_depth = 1;  // less overwrites samples somebody counts on
+  std::int64_t reader_depth = 1;  // less overwrites samples a reader counts on
 };
 
 std::span<const Topic> FleetTopics();

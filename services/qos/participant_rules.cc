@@ -1,5 +1,5 @@
-// Participant profiles against the fleet: who finds whom, for how long one is remembered, and
-// whether there are ports for all.
+// Participant profiles against the fleet: which participant finds which, for how long one is
+// remembered, and whether there are ports for all.
 #include <algorithm>
 
 #include "services/qos/rules.h"

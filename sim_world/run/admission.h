@@ -24,7 +24,7 @@ class Admission {
   // `run` outlives this object.
   Admission(const Scenario& scenario, WorldEpoch epoch, Run* run);
 
-  // Asks, or leaves. Who waits asks again and again: whoever does not is forgotten.
+  // Asks, or leaves. Who waits asks again and again: one that does not is forgotten.
   void Take(const JoinRequest& request);
   // Once a tick, after the run's Advance: seats of bodies that were taken away are free again.
   void FollowRun();

@@ -28,7 +28,7 @@ class Judge {
                EventLog* log);
 
   bool HasArrived(VehicleId vehicle) const;
-  // Everyone who ever halted to give way, and everyone who arrived; sorted.
+  // Every vehicle that ever halted to give way, and every vehicle that arrived; sorted.
   std::vector<VehicleId> Halted() const;
   std::vector<VehicleId> Arrived() const;
   // The rules that started the halts; sorted, each once.

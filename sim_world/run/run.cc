@@ -188,7 +188,7 @@ bool Run::IsKilled(VehicleId vehicle) const {
   return faults_.IsKilled(vehicle) || silence_.IsKilled(vehicle, TimeSeconds());
 }
 
-// Whether the vehicle speaks, or will again as far as anybody knows.
+// Whether the vehicle speaks, or will again as far as is known.
 bool Run::IsWaitedFor(VehicleId vehicle) const {
   return !attendance_.IsSilent(vehicle) || (silence_.VehiclesReturn() && !IsKilled(vehicle));
 }

@@ -2,9 +2,9 @@
 // caller brings commands and takes scans, truths and events away. world_main wires it to DDS, the
 // virtual fleet wires it to brains in memory.
 //
-// A closed run knows everybody from the start and ends when its vehicles have arrived or one dies.
-// In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration. Where
-// that is without an end, until End is called.
+// A closed run knows every vehicle from the start and ends when its vehicles have arrived or one
+// dies. In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration.
+// Where that is without an end, until End is called.
 //
 // A schedule of faults beside the scenario: the world's own are carried out here, and each start
 // and end is an event. Of others' faults it only knows whose silence is meant to be. Where
@@ -59,8 +59,8 @@ class Run {
   void End(std::string reason);
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
-  // when the duration is over; a closed run also when everyone living has arrived, when a vehicle
-  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans
+  // when the duration is over; a closed run also when every living vehicle has arrived, when a
+  // vehicle fell silent unplanned, and when none lives any more. After the end bodies brake, scans
   // continue, and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
@@ -68,7 +68,7 @@ class Run {
   RunState State() const { return state_; }
   double TimeSeconds() const;  // since the start signal, without pauses; 0 before it
   // What the last Advance produced; valid until the next. Scans are of the bodies present, truths
-  // of everyone who joined.
+  // of every vehicle that joined.
   std::span<const RangeScan> Scans() const { return scans_; }
   std::span<const RadarScan> Radars() const { return further_.Radars(); }
   std::span<const LidarScan> Lidars() const { return further_.Lidars(); }
@@ -100,7 +100,7 @@ class Run {
   std::span<const MovingObstacle> Obstacles() const { return world_.Obstacles(); }
   std::span<const SlidingDoor> Doors() const { return world_.Doors(); }
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
-  // True if nobody speaks for the vehicle any more, or yet.
+  // True if no process speaks for the vehicle any more, or yet.
   bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
 
   // All that a run of the same scenario in a new epoch needs to continue from here.

@@ -1,6 +1,6 @@
 // Whether claims hold (vehicle/situation/claim.h): a vehicle that was last heard some ticks ago is,
 // by the truth, where its beacon of then claims that it can be, and so is the place where it would
-// stand if it braked now, straight on. Of every beacon that somebody may still go by, for others
+// stand if it braked now, straight on. Of every beacon that a peer may still go by, for others
 // may have been lost. And one that brakes as hard as it can stays, until it stands, in what it
 // claimed when it started, turning or not.
 #pragma once

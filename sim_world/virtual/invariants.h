@@ -26,17 +26,17 @@ enum class Invariant : std::uint8_t {
   kContact,      // no contact that a moving vehicle caused
   kStaleMotion,  // no motion on stale data: at the latest the braking is under way
   kWaitCycle,    // who halts to give way and to whom: never in a circle
-  kWaitBound,    // nobody stands on one place for longer than a bound, whatever it says it is for
-  kAllHalted,    // never do all who are not there yet halt to give way, each for another
-  kOrder,        // who halts to give way comes later in the order, as both published it
-  kArrival,      // everyone who lives arrives within the duration, and somebody lives
-  kPose,         // where a beacon says its vehicle was, it was: as nearly as the beacon says
-  kRedLight,     // no vehicle drives past a red light: red_lights.h
-  kProgress,     // nobody is wedged: progress.h
+  kWaitBound,  // no vehicle stands on one place for longer than a bound, whatever it says it is for
+  kAllHalted,  // never do all who are not there yet halt to give way, each for another
+  kOrder,      // who halts to give way comes later in the order, as both published it
+  kArrival,    // every living vehicle arrives within the duration, and at least one lives
+  kPose,       // where a beacon says its vehicle was, it was: as nearly as the beacon says
+  kRedLight,   // no vehicle drives past a red light: red_lights.h
+  kProgress,   // no vehicle is wedged: progress.h
   // Counted and reported in virtual runs, and held to where that is asked for: RequiredInvariants.
   kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h
-  kDelay,      // everyone arrives when it is due
+  kDelay,      // every vehicle arrives when it is due
 };
 inline constexpr std::size_t kInvariantCount = 13;
 std::string_view Name(Invariant invariant);
@@ -94,7 +94,7 @@ class Invariants {
   // then starts again.
   void Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
                std::span<const WorldEvent> events, const Surroundings& around = {});
-  // At the end of the run: who has not arrived? In a closed one, does nobody live?
+  // At the end of the run: who has not arrived? In a closed one, does none live?
   void Finish(Tick tick, std::span<const Observed> vehicles);
 
   // Each is counted when it starts, not once a tick.

@@ -35,7 +35,7 @@ std::uint64_t DrawsOf(const faults::Fault& fault) {
   return hash.Value();
 }
 
-// The rule is of one hearer, or of everyone.
+// The rule is of one hearer, or of every vehicle.
 RadioRule RadioRuleOf(const faults::Fault& fault) {
   const faults::Parameters with = faults::Filled(fault.kind, fault.parameters);
   RadioRule rule{.from_s = fault.at_s,

@@ -17,8 +17,8 @@ namespace giveway::sim {
 
 class VirtualFleet {
  public:
-  // Everyone joins and the run starts at once. Without a plan nothing is lost and nobody fails but
-  // by the scenario.
+  // Every vehicle joins and the run starts at once. Without a plan nothing is lost and no process
+  // fails but by the scenario.
   explicit VirtualFleet(const Scenario& scenario, const VirtualPlan& plan = {});
 
   // One tick for world and brains. False once the run has ended.

@@ -173,7 +173,7 @@ HostFacts ReadHost(const DoctorOptions& options, const HostFolders& folders) {
       std::ranges::count(GroupsOf(host.memory), MemoryState::kNotKnown, &MemoryGroup::state);
   if (unknown > 0) {
     host.not_known.push_back(fmt::format(
-        "whether somebody uses {}: only their owner and root may ask",
+        "whether another process uses {}: only their owner and root may ask",
         Counted(static_cast<std::size_t>(unknown), "segment or port", "segments and ports")));
   }
   ReadNetwork(folders.proc, &host);

@@ -1,4 +1,4 @@
-// Removes the files of segments and ports that nobody uses any more. What was examined may have
+// Removes the files of segments and ports that no process uses any more. What was examined may have
 // changed since: nothing is removed that the kernel does not grant us alone, and a port only behind
 // the lock that participants take to open it.
 #pragma once

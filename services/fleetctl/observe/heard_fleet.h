@@ -50,9 +50,9 @@ class HeardFleet {
   const std::map<VehicleId, HeardVehicle>& Vehicles() const { return vehicles_; }
   const HeardWorld& World() const { return world_; }
   bool Anybody() const { return world_.heard_at.has_value() || !vehicles_.empty(); }
-  // True once everyone there is to hear has been heard: nobody new came for a while, every body in
-  // the world has spoken, and every vehicle published its status or had time to: a foreign one has
-  // none.
+  // True once everyone there is to hear has been heard: no new vehicle came for a while, every body
+  // in the world has spoken, and every vehicle published its status or had time to: a foreign one
+  // has none.
   bool IsSettled(SteadyTime now) const;
 
  private:

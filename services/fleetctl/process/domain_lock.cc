@@ -44,8 +44,8 @@ bool IsPortFree(std::uint32_t port) {
 }  // namespace
 
 bool IsSpokenIn(std::uint32_t domain) {
-  // RTPS 9.6.2: participant p of domain d hears discovery at 7400 + 250 d + 10 + 2 p. Whoever is
-  // alone has a low number; the first ten are enough.
+  // RTPS 9.6.2: participant p of domain d hears discovery at 7400 + 250 d + 10 + 2 p. A process
+  // that is alone has a low number; the first ten are enough.
   for (std::uint32_t participant = 0; participant < 10; ++participant) {
     if (!IsPortFree(7410 + 250 * domain + 2 * participant)) return true;
   }

@@ -102,7 +102,7 @@ class Applying {
   const link::LinkOptions& link_;
   Orders orders_;
   const QosProfiles wanted_;
-  std::map<VehicleId, AdminAnswer> told_;  // by everyone who takes orders, targets or not
+  std::map<VehicleId, AdminAnswer> told_;  // by every vehicle that takes orders, targets or not
   qos::Rollout rollout_;                   // its processes are report_.vehicles
   std::vector<Undo> undo_;
   ApplyReport report_;
@@ -128,7 +128,7 @@ int Applying::Ask() {
   return 0;
 }
 
-// At each moment each must hear whom it heard, whether it moves or keeps what it has.
+// At each moment each must hear the peers it heard, whether it moves or keeps what it has.
 void Applying::Plan() {
   std::vector<qos::RolloutProcess> processes;
   const auto add = [&](VehicleId process, bool moves) {

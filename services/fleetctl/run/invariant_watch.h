@@ -1,5 +1,5 @@
 // Holds a real run to the invariants of the virtual ones, by what an observer sees of it: truths,
-// beacons, statuses and events. Off the vehicles' path: nobody waits for it. Pure.
+// beacons, statuses and events. Off the vehicles' path: no vehicle waits for it. Pure.
 //
 // A tick is judged kLagTicks after it was, when everything said in it has come. A tick of which
 // something is not known is left out and counted, for a check that looks away must say so.

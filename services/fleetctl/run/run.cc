@@ -25,7 +25,7 @@ namespace {
 
 constexpr unsigned kDrawing_s = 30;
 
-// False if stdout did not take it: then nobody has the verdict.
+// False if stdout did not take it: then the verdict is lost.
 bool Print(const RunOptions& options, const Report& report) {
   const std::string text =
       options.json ? ToJson(report) : ForTerminal(ToTable(report, SizeOfTerminal().columns));

@@ -277,7 +277,7 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
     return true;
   });
   for (auto& [member, away] : away_) {
-    // Gone as planned: it comes back at once, with a set that matches nobody's.
+    // Gone as planned: it comes back at once, with a set that matches no other.
     if (away->kind == Kind::kQosMismatch && !processes_->IsRunning(member) &&
         processes_->EndOf(member)) {
       MemberCommand command = CommandNow(member);

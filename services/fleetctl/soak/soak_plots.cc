@@ -112,7 +112,7 @@ std::string Bars(const char* colour, const std::string& title) {
 
 SoakPlot FaultPlot(const SoakResult& result) {
   const TimeAxis axis = AxisOf(result);
-  const double least_s = std::max(result.ran_s, 1.0) / 300;  // or nobody sees it
+  const double least_s = std::max(result.ran_s, 1.0) / 300;  // or it is not visible
   PlotRows rows = KindRows(result);
   std::string seen;
   std::string unseen;

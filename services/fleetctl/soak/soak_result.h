@@ -45,9 +45,10 @@ struct SoakFault {
   bool observed = false;     // by its effect, not by the order given
   std::string observed_how;  // "waitpid: signal 9"
   std::optional<double> observed_s;
-  std::optional<double> noticed_after_s;    // by peers, from its beginning
-  std::optional<double> promised_s;         // to be noticed within
-  std::optional<double> recovered_after_s;  // until everyone concerned drove again, from its end
+  std::optional<double> noticed_after_s;  // by peers, from its beginning
+  std::optional<double> promised_s;       // to be noticed within
+  std::optional<double>
+      recovered_after_s;  // until every vehicle concerned drove again, from its end
 };
 // "burst#3", as violations name a fault.
 std::string NameOf(const SoakFault& fault);

@@ -29,7 +29,7 @@ struct FaultCourse {
   std::optional<SteadyTime> recovered;  // after its end all that it faulted were well again
 };
 
-// Somebody ended who was not to.
+// A process ended that was not to.
 struct UnplannedEnd {
   double time_s = 0;  // since the start signal
   MemberId member;
@@ -43,7 +43,7 @@ struct BrokenInvariant {
 };
 
 struct SoakSeen {
-  bool started = false;      // everyone drove before the first fault
+  bool started = false;      // every vehicle drove before the first fault
   bool interrupted = false;  // by the operator
   SteadyTime started_at{0};
   double lasted_s = 0;               // since the start signal

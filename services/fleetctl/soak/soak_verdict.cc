@@ -41,7 +41,7 @@ std::optional<fleetctl::Fault> AsOfStopwatch(Kind kind) {
 }
 
 // The fault that may have to do with what befell the vehicle: the last that started before and had
-// not been over for ten seconds, of those that faulted it or everyone if there is one.
+// not been over for ten seconds, of those that faulted it or all if there is one.
 std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
                                        std::span<const FaultCourse> courses, VehicleId vehicle,
                                        SteadyTime at) {

@@ -1,5 +1,5 @@
-// From what a soak saw to its result: which promise was broken when, by whom and after which fault,
-// and the verdict. Starts and measures nothing. Pure.
+// From what a soak saw to its result: which promise was broken when, by which vehicle and after
+// which fault, and the verdict. Starts and measures nothing. Pure.
 #pragma once
 
 #include <functional>

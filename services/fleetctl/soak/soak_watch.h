@@ -18,7 +18,7 @@
 
 namespace giveway::fleetctl {
 
-// Drives, or stands for a reason that traffic has: ranges are fresh, and nobody it must hear is
+// Drives, or stands for a reason that traffic has: ranges are fresh, and no peer it must hear is
 // missing.
 bool IsWell(const VehicleStatus& status);
 
@@ -45,7 +45,7 @@ class SoakWatch {
   // Seconds since the start signal; 0 before it.
   double TimeSeconds(SteadyTime now) const;
   bool IsWell(VehicleId vehicle, SteadyTime now) const;
-  // Everyone who is not away. False where nobody is left.
+  // Every vehicle that is not away. False where none is left.
   bool AreAllWell(SteadyTime now) const;
   // Who is not, and not away.
   std::vector<VehicleId> Unwell(SteadyTime now) const;

@@ -97,7 +97,7 @@ std::string BlackoutsOf(VehicleId hearer, Fault fault, std::span<const Wave> wav
 }
 
 std::string StopwatchScenario(std::span<const VehicleId> fleet) {
-  // Open, by a place that nobody takes: a closed fleet's run ends when somebody is gone.
+  // Open, by a place that stays free: a closed fleet's run ends when a vehicle is gone.
   std::string text = fmt::format(
       "name: \"stopwatch\"\nduration_s: 86400\nremove_after_s: 3600\nemission_radius_m: 1000\n"
       "start_with: {}\nspawn {{ start {{ x_m: -50 y_m: -50 heading_deg: 0 }} cruise_m_s: 0.2 }}\n"

@@ -21,7 +21,7 @@ struct Strike {
 // Faults that are waited for together: most of a trial is waiting for the participant's lease. At
 // least half of the fleet is left in peace, and watches.
 struct Wave {
-  // Of cuts, since the start signal; of all else a wave starts when everyone is well.
+  // Of cuts, since the start signal; of all else a wave starts when every vehicle is well.
   Nanoseconds begin{0};
   Nanoseconds end{0};           // of the blackouts
   std::vector<Strike> strikes;  // in the order of time

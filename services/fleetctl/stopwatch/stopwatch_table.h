@@ -46,9 +46,9 @@ enum class Duty : std::uint8_t {
   kMay,       // may or may not
 };
 
-// A row a fault, a column a mechanism. After an exit nobody is stale, for who sent a leave notice
-// is not missed; and the process is silent for a while before it is gone, longer than deadline and
-// liveliness if the end takes its time.
+// A row a fault, a column a mechanism. After an exit no peer is stale, for a vehicle that sent a
+// leave notice is not missed; and the process is silent for a while before it is gone, longer than
+// deadline and liveliness if the end takes its time.
 inline constexpr std::array<std::array<Duty, kMechanisms>, kFaults> kDuties = {{
     //  beacon_age    deadline       liveliness        lease        good_bye
     {Duty::kMust, Duty::kMust, Duty::kMust, Duty::kMust, Duty::kNone},      // kill

@@ -101,7 +101,7 @@ class Conductor {
     }
   }
 
-  // By the clock of whoever heard the start signal last: a tick or two after the first.
+  // By the clock of the vehicle that heard the start signal last: a tick or two after the first.
   SteadyTime BeginOf(Nanoseconds since_start) const {
     SteadyTime latest{0};
     for (const VehicleId vehicle : task_.fleet) {
@@ -232,7 +232,7 @@ class Conductor {
     }
   }
 
-  // Whoever was dropped by its peers, or left, comes back as a new process: see PlanWaves.
+  // A vehicle that was dropped by its peers, or left, comes back as a new process: see PlanWaves.
   void Heal() {
     for (const VehicleId victim : victims_) {
       task_.fault == Fault::kHung ? fleet_.Signal(victim, SIGUSR2) : Revive(victim);

@@ -1,4 +1,4 @@
-// Conducts the trials of one fleet: waits until everyone hears everyone, strikes, collects what the
+// Conducts the trials of one fleet: waits until all receive all, strikes, collects what the
 // peers say, heals, and starts again.
 #pragma once
 
@@ -26,7 +26,7 @@ struct StopwatchResult {
   // Trouble that peers reported of one another, or of a target before it was faulted: no vehicle's
   // fault.
   std::uint32_t false_alarms = 0;
-  bool too_soon = false;  // the blackouts started while somebody was not well: nothing was tried
+  bool too_soon = false;  // the blackouts started while a vehicle was not well: nothing was tried
   std::string problem;    // why it ended early; empty: it did not
 };
 

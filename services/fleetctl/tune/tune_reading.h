@@ -18,7 +18,7 @@ namespace giveway::fleetctl {
 
 // All times are of the one steady clock of the machine.
 struct AliveWindow {
-  SteadyTime from{0};  // everybody hears everybody
+  SteadyTime from{0};  // all receive all
   SteadyTime to{0};    // just before the first is killed
 };
 

@@ -12,7 +12,7 @@
 
 namespace giveway::fleetctl {
 
-// Whom an argument names: a vehicle, the world, or a process.
+// What an argument names: a vehicle, the world, or a process.
 struct Named {
   bool world = false;
   VehicleId id = kNobody;

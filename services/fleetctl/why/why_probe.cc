@@ -175,7 +175,7 @@ class Probing {
     return result_.own_word && (order_.speaker.told.is_world || result_.own_word->taken > 0);
   }
 
-  // In containers everybody is process 1: where both ids are known they must be the same.
+  // In containers every service is process 1: where both ids are known they must be the same.
   static bool MayBe(const ProcessSituation& meant, const link::EarProcess& process) {
     return meant.told.id == kNobody || process.vehicle == kNobody ||
            meant.told.id == process.vehicle;

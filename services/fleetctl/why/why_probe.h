@@ -25,7 +25,7 @@ struct ProbedTopic {
 // What the hearer's own status says, if one came.
 struct OwnWord {
   std::uint32_t peers_heard = 0;  // near enough, and with a fresh beacon
-  std::uint32_t taken = 0;        // beacons of anybody, since it started; here and below
+  std::uint32_t taken = 0;        // beacons of any vehicle, since it started; here and below
   std::uint32_t accepted = 0;
   std::uint32_t too_far = 0;  // from beyond the emission radius: heard, and passed over
   std::uint32_t rejected = 0;
@@ -37,7 +37,8 @@ struct ProbeResult {
   double listened_ms = 0;
   bool discovered = false;  // a writer of the speaker was found
   bool hearer_discovered = false;
-  // A vehicle without a place in a world has no beacons, and reads none: its writers name nobody.
+  // A vehicle without a place in a world has no beacons, and reads none: its writers name no
+  // vehicle.
   bool joined = false;
   bool hearer_joined = false;
   std::optional<std::uint16_t> host_id;       // as its participant reports it

@@ -33,7 +33,7 @@ struct TopicVerdict {
   std::string explanation;  // "predicted: hears; probed: heard 40 samples, the first after 31 ms"
 };
 
-// At most how long the probe listens if nobody says: longer where something should be heard, for
+// At most how long the probe listens by default: longer where something should be heard, for
 // through a channel that loses packets discovery takes its time.
 double ListenSeconds(const std::vector<TopicOutlook>& topics);
 

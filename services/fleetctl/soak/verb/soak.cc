@@ -140,7 +140,7 @@ Prepared Prepare(const SoakOptions& options) {
     CheckFolder((folder / "impair").string());
   }
   if (Records(options)) CheckFolder((folder / "recordings").string());
-  // All start together, so that everyone's clock of faults is the same.
+  // All start together, so that every vehicle's clock of faults is the same.
   ScenarioEdit edit{.duration_s = 0.0};
   if (!as_shipped.spawns.empty()) edit.start_with = static_cast<std::uint32_t>(vehicles);
   prepared.scenario_file = (folder / "scenario.textproto").string();
@@ -256,7 +256,7 @@ int Conclude(const SoakOptions& options, const SoakResult& result) {
   });
 }
 
-// As `fleetctl virtual` does: the seed moves everyone, wherever its place comes from.
+// As `fleetctl virtual` does: the seed moves every vehicle, wherever its place comes from.
 Scenario VirtualScenario(const SoakOptions& options, const Prepared& prepared) {
   const Scenario as_written = LoadScenario(prepared.scenario_file, {0, std::nullopt, std::nullopt});
   Scenario scenario =
