@@ -32,8 +32,8 @@ struct MemoryFile {
   std::int64_t age_s = 0;    // since it was last written to or made
   std::optional<bool> held;  // another process has it open or mapped, as the kernel says; it does
                              // not tell every user
-  bool locked = false;     // another process holds its lock; looked at where `held` is not known
-  std::vector<int> users;  // those seen to have it open or mapped
+  bool locked = false;       // another process holds its lock; looked at where `held` is not known
+  std::vector<int> users;    // those seen to have it open or mapped
 };
 
 // A process that may not be looked into, and may have open what it likes.
