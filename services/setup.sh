@@ -54,7 +54,7 @@ test_packages() {
   local clang_rt=libclang-rt-14-dev
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && clang_rt=libclang-rt-19-dev
   printf '%s\n' clang-format iproute2 jq shellcheck librsvg2-bin spin clang "$clang_rt" cyclonedds-dev \
-    cyclonedds-tools parallel
+    cyclonedds-tools parallel help2man
 }
 
 # What the world is measured against. Only tests/bench/run.sh asks for them.

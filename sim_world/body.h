@@ -18,7 +18,7 @@ struct Body {
   bool present = false;  // joined and not removed: stands in the way and is sensed
   bool obeyed = false;   // this tick followed `command`; false: braked by the world itself
   Pose world_from_body;
-  KnownHeading heading;  // of late; follow `world_from_body` before use
+  KnownHeading heading;  // recently; follow `world_from_body` before use
   WheelSpeeds wheels;    // at the end of the tick; standstill after a contact
   WheelSpeeds encoders;  // counted over the whole tick; without encoder noise and slip, the
                          // constant speeds that explain its motion exactly
@@ -35,7 +35,7 @@ struct Body {
 
 enum class Touched : std::uint8_t { kVehicle, kWall, kObstacle, kDoor };
 
-// Two shells, or a shell and something that is no vehicle, that began to touch in this tick.
+// Two shells, or a shell and something that is no vehicle, that started to touch in this tick.
 struct Contact {
   VehicleId vehicle = kNobody;
   VehicleId other = kNobody;  // kNobody: no vehicle

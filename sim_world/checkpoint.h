@@ -1,5 +1,5 @@
-// All of a world that a restarted one needs to go on from where it was. A value; who keeps it and
-// in which form is not said here.
+// All of a world that a restarted one needs to continue from where it was. A value; who keeps it
+// and in which form is not said here.
 #pragma once
 
 #include <cstdint>

@@ -44,7 +44,7 @@ class Separation {
 
   // The closest any two came; none before two bodies were observed together.
   const std::optional<ClosestApproach>& Closest() const { return closest_; }
-  // True if every pair still present is now farther apart than at its closest, by more than 1 cm;
+  // True if every pair still present is now further apart than at its closest, by more than 1 cm;
   // always without records of every pair.
   bool Parted(std::span<const Body> bodies) const;
 

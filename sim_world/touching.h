@@ -1,4 +1,4 @@
-// Who touches what, from the tick a contact begins until shells have parted: so that a pair sliding
+// Who touches what, from the tick a contact starts until shells have parted: so that a pair sliding
 // along each other is one contact, not hundreds.
 #pragma once
 

@@ -63,14 +63,14 @@ class World {
   void Advance(bool driving);
 
   Checkpoint Save() const;
-  // Goes on from there: whom it names is present, whom it does not is not. False, and nothing is
+  // Continues from there: whom it names is present, whom it does not is not. False, and nothing is
   // done, where it names vehicles that are not known or is not of this scenario.
   bool Restore(const Checkpoint& checkpoint);
 
   Tick Now() const { return now_; }
   // By id, joined or not.
   std::span<const Body> Bodies() const { return bodies_; }
-  // Contacts that began in the last tick, in order of time.
+  // Contacts that started in the last tick, in order of time.
   std::span<const Contact> NewContacts() const { return new_contacts_; }
   std::uint32_t Contacts() const { return contact_count_; }
   const Separation& Approaches() const { return separation_; }

@@ -120,7 +120,7 @@ void World::FindPairs(bool driving) {
 }
 
 // Without a record to come nearer than: the nearest two, looked for in ever wider circles. However
-// they move, what is nearest in this tick is no farther than they are now.
+// they move, what is nearest in this tick is no further than they are now.
 void World::FindFirstPairs() {
   double nearest_m = std::numeric_limits<double>::infinity();
   double searched_m = 0;

@@ -5,13 +5,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-ALL_STAGES=(format rules deploy unit golden virtual planted model link system tsan debian13 containers)
+ALL_STAGES=(format rules deploy unit golden virtual planted model link system manuals tsan debian13 containers)
 MORE_STAGES=(asan fuzz) # which debian13 runs in its container
 
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=480 [tsan]=180 [debian13]=480 [containers]=360
+  [virtual]=150 [planted]=90 [model]=240 [system]=480 [manuals]=120 [tsan]=180 [debian13]=480 [containers]=360
   [asan]=240 [fuzz]=120)
 
 usage() {
@@ -32,6 +32,7 @@ which debian13 runs in its container. Stages:
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
+  manuals  every command that README.md and the manuals show
   asan     unit, golden and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, profiles, beacons, scans and recordings in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
@@ -98,7 +99,7 @@ failed=0
 stage=set-up
 said=$(mktemp) # what ctest printed of tests that failed, said again at the end
 
-# The end of every run, also of one that could not go on: then the stage it was in failed.
+# The end of every run, also of one that could not continue: then the stage it was in failed.
 ending() {
   if [[ -n $stage ]]; then
     passed_total=$((passed_total + passed))
@@ -241,7 +242,12 @@ stage_rules() {
   mapfile -t scripts < <(git ls-files '*.sh' .ci/run)
   check "include rules" bash tests/rules/include_rules.sh
   check "include rules catch what is planted" bash tests/rules/include_rules_test.sh
-  check "README's table of modules" bash tests/rules/modules_table.sh --check
+  check "the table of modules in services/README.md" bash tests/rules/modules_table.sh --check
+  check "lengths and links of the manuals" bash tests/rules/manuals.sh
+  check "the rules over manuals find each violation" bash tests/rules/manuals_test.sh
+  check "commands of manuals are run or checked" bash tests/manuals/commands_test.sh
+  check "words of the vocabulary" bash tests/rules/words.sh
+  check "words are counted where people read them" bash tests/rules/words_test.sh
   check "shell scripts" shellcheck "${scripts[@]}"
   check "the wire types are generated beside another user's" bash tests/rules/generate_test.sh
 }
@@ -284,6 +290,10 @@ stage_model() {
 
 stage_link() { prepare release link_tests && run_ctest release link 4; }
 stage_system() { prepare release && run_ctest release system 4; }
+stage_manuals() {
+  prepare release giveway-vehicle giveway-world fleetctl
+  check_lines bash tests/manuals/commands.sh
+}
 
 stage_asan() {
   prepare asan unit_tests golden_tests link_tests

@@ -17,7 +17,7 @@ engine_packages() {
 
 engine_is_up() { docker info >/dev/null 2>&1; }
 
-# Starts an engine, whose process is ENGINE then, and waits until it answers. It goes on when the
+# Starts an engine, whose process is ENGINE then, and waits until it answers. It continues when the
 # shell that started it ends.
 start_engine() {
   local deadline=$((SECONDS + 60))

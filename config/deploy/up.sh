@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# From a fresh Debian to a fleet of containers that drives until it is told to stop. Every step does
+# From a fresh Debian to a fleet of containers that drives until it is asked to stop. Every step does
 # nothing where nothing is to be done, so that the same command again brings more or fewer vehicles.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"

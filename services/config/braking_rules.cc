@@ -47,7 +47,7 @@ double LongestDelay(const Scenario& scenario) {
   return longest_s;
 }
 
-// Everyone who drives, in the order of the file's kinds.
+// Every vehicle that drives, in the order of the file's kinds.
 struct Driver {
   const VehicleOptions* options;
   const Section* section;

@@ -15,7 +15,7 @@ struct BrakingSum {
   double reaction_s = 0;  // until both brake: two ticks, a third for the beacon's way, the radio's
                           // delay, the ultrasonics' refresh
   double reaction_m = 0;  // driven by both in that time
-  double bodies_m = 0;    // both radii: beacons tell of centres, ultrasonics of shells
+  double bodies_m = 0;    // both radii: beacons give centres, ultrasonics shells
   double radio_m = 0;     // the emission radius that both hear within
   double sonar_m = 0;     // shell to shell: at the entry gate ultrasonics alone stop a vehicle
 

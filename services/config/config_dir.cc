@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/config/problem.h"
+#include "services/types/nearest_name.h"
 
 namespace giveway {
 namespace {
@@ -31,14 +32,14 @@ bool HoldsConfig(const fs::path& folder) {
   return fs::is_directory(folder / "scenarios", error);
 }
 
-std::string ShippedNames(const fs::path& folder) {
+std::vector<std::string> ShippedNames(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     if (entry.path().extension() == kEnding) names.push_back(entry.path().stem());
   }
   std::sort(names.begin(), names.end());
-  return fmt::format("{}", fmt::join(names, ", "));
+  return names;
 }
 
 // The file itself if it is one, else the one of that name in `folder`, which holds those of `what`.
@@ -48,9 +49,11 @@ std::string Resolve(const std::string& argument, const char* folder, const char*
   const fs::path shipped = fs::path(ConfigDir()) / folder;
   const fs::path named = shipped / (argument + kEnding);
   if (!argument.empty() && fs::exists(named, error)) return named;
+  const auto names = ShippedNames(shipped);
   throw InputError({{argument.empty() ? "\"\"" : argument, 0, "", "",
-                     fmt::format("no such file, and no shipped {} {}", what, named.string()),
-                     fmt::format("name a file or one of: {}", ShippedNames(shipped))}});
+                     fmt::format("no such file, and no shipped {} {}{}", what, named.string(),
+                                 DidYouMean(argument, names)),
+                     fmt::format("name a file or one of: {}", fmt::join(names, ", "))}});
 }
 
 }  // namespace

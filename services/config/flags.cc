@@ -4,14 +4,17 @@
 #include <chrono>
 #include <cstdio>
 #include <list>
+#include <memory>
 
 #include "services/config/byte_size.h"
 #include "services/config/config_dir.h"
 #include "services/config/flag_values.h"
+#include "services/config/help_format.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/text_file.h"
 #include "services/runtime/restart.h"
+#include "services/types/nearest_name.h"
 
 namespace giveway {
 namespace {
@@ -19,10 +22,12 @@ namespace {
 constexpr int kUsageError = 2;
 enum class Service { kVehicle, kWorld };
 
-constexpr const char* kFooter =
-    "Every flag has a twin in the environment: --log-level is also GIVEWAY_LOG_LEVEL. The flag\n"
-    "wins; an empty variable counts as unset. GIVEWAY_CONFIG_DIR names the folder with qos/ and\n"
-    "scenarios/.\n\nExit code 2: a flag, a file or the network was not usable; stderr says which.";
+constexpr const char* kFooter = R"(
+Every flag has a twin in the environment: --log-level is also GIVEWAY_LOG_LEVEL. The flag wins; an
+empty variable counts as unset. GIVEWAY_CONFIG_DIR names the folder with qos/ and scenarios/.
+
+Exit code 2: a flag, a file or the network was not usable; stderr says which.
+)";
 
 // CLI11 splits the command line and prints the help. The values stay text: judging them is ours, so
 // that a flag and its twin are refused with the same words.
@@ -32,25 +37,26 @@ class CommandLine {
               std::string_view library)
       : app_(description, name) {
     app_.set_version_flag("--version", name + " " + GIVEWAY_VERSION + ", " + std::string(library));
+    app_.formatter(std::make_shared<HelpFormat>());
     app_.footer(kFooter);
     Add("--scenario", "FILE|NAME", "scenario file, or the name of a shipped one (required)");
     Add("--domain", "1..99", "DDS domain (required)");
     Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
     Add("--discovery-server", "HOST[:PORT],...",
-        "find everyone through these servers, and not by what --qos says;\n"
+        "find everyone through these servers, and not by what --qos says; "
         "the first has the id 0, the next 1 (port 11811)");
     Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
     if (service == Service::kVehicle) {
       Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
       Add("--record", "FILE",
-          "write all the brain is told and says, for fleetctl replay; where FILE is\n"
+          "record all inputs and outputs of the brain, for fleetctl replay; where FILE is "
           "there already, into the first free of FILE with a number");
-      Add("--record-split", "SIZE", "begin another file of the recording at this size: 64MiB");
+      Add("--record-split", "SIZE", "start another file of the recording at this size: 64MiB");
       Add("--record-ring", "SECONDS",
           "keep only the last so many seconds of the recording, in two files: 60");
       Add("--impair", "RULES",
-          "impairs what it hears instead of the scenario: loss=0.1,delay=20ms, or\n"
-          "none, or @FILE that says such; the README lists the keys");
+          "impairs what it receives instead of the scenario: loss=0.1,delay=20ms, or "
+          "none, or @FILE; services/link/impairment/README.md lists the keys");
       AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
       AddSwitch("--hang-on-signal",
@@ -59,28 +65,28 @@ class CommandLine {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
       Add("--faults", "FILE",
-          "carries out the world's faults of this list: ultrasonics, motors and\n"
+          "carries out the world's faults of this list: ultrasonics, motors and "
           "encoders; fleetctl faults expand writes one");
     }
     Add("--try-qos", "FILE",
         "make every endpoint of this set once, say whether that succeeds, and end");
     Add("--resume", "FILE",
-        "this and the next are given by a service to itself when an order\n"
+        "this and the next are given by a service to itself when an order "
         "restarts it");
     Add("--former-qos", "FILE", "the set it had before");
     Add("--rolled-back", "TEXT", "why it came back with that");
     if (service == Service::kWorld) Add("--go-on-from", "FILE", "the run as it was");
     Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
     Add("--behaviour", "NAME",
-        "cooperative, lecture_avoid, stock_avoid, lecture_yield, or\n"
+        "cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
         "lecture_printed, which shows the flaws of the printed scripts: it collides");
     Add("--duration", "SECONDS", "end after this time instead of the scenario's");
     AddSwitch("--lockstep", "the world waits for every command of a tick");
     Add("--health-port", "0..65535", "serves /livez, /readyz, /metrics; 0, the default: nowhere");
     Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
     AddOptional("--health", "live|ready|metrics",
-                "asks the service at --health-port, prints the answer, and ends:\n"
-                "0 yes, 1 no, 2 nobody answered (ready if no word follows)");
+                "asks the service at --health-port, prints the answer, and ends: "
+                "0 yes, 1 no, 2 no answer (ready if no value follows)");
     Add("--log-format", "text|json", "of the lines on stderr (default text)");
     Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
   }
@@ -101,12 +107,24 @@ class CommandLine {
   // Prints help or version and gives 0, or what is wrong and gives 2.
   int Exit(const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app_.exit(error);
-    std::fprintf(stderr, "command line: %s; see %s --help\n", error.what(),
+    std::fprintf(stderr, "command line: %s%s; see %s --help\n", error.what(), Meant().c_str(),
                  app_.get_name().c_str());
     return kUsageError;
   }
 
  private:
+  // "; did you mean --domain", of the first unknown flag.
+  std::string Meant() const {
+    std::vector<std::string> flags;
+    for (const CLI::Option* option : app_.get_options({})) {
+      for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+    }
+    for (const std::string& word : app_.remaining()) {
+      if (word.starts_with("-")) return DidYouMean(word.substr(0, word.find('=')), flags);
+    }
+    return "";
+  }
+
   void Add(const std::string& flag, const std::string& value_name, const std::string& help) {
     auto& [option, value] = options_.emplace_back();
     option = app_.add_option(flag, value, help)->type_name(value_name);

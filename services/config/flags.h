@@ -54,7 +54,7 @@ struct ServiceFlags {
   std::string log_level = "info";   // "debug", "info", "warning" or "error"
 };
 
-// The flags, or the exit code to end with at once: 0 after --help or --version, 2 after telling
+// The flags, or the exit code to end with at once: 0 after --help or --version, 2 after writing to
 // stderr every wrong flag with its value, the allowed range and the remedy. `library` is what
 // --version names beside the service: "Fast DDS 2.9.1".
 using ParsedFlags = std::variant<ServiceFlags, int>;

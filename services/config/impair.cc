@@ -154,6 +154,14 @@ std::optional<double> ParseNumber(std::string_view text) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+// "0.1", or "10%" of a share.
+std::optional<double> ParseShare(std::string_view text) {
+  if (!text.ends_with('%')) return ParseNumber(text);
+  text.remove_suffix(1);
+  const auto percent = ParseNumber(text);
+  return percent ? std::optional(*percent / 100) : std::nullopt;
+}
+
 // "20ms" in seconds.
 std::optional<double> ParseTime_s(std::string_view text) {
   struct Unit {
@@ -167,6 +175,11 @@ std::optional<double> ParseTime_s(std::string_view text) {
     return number ? std::optional(*number / unit.per_second) : std::nullopt;
   }
   return std::nullopt;
+}
+
+std::optional<double> ParseOf(const ImpairField& field, std::string_view text) {
+  if (field.is_time) return ParseTime_s(text);
+  return field.IsShare() ? ParseShare(text) : ParseNumber(text);
 }
 
 std::vector<std::string_view> Split(std::string_view text, char by) {
@@ -185,7 +198,7 @@ std::string KnownKeys() {
   return keys;
 }
 
-// Parses one text; every problem is noted and parsing goes on.
+// Parses one text; every problem is noted and parsing continues.
 class Parser {
  public:
   explicit Parser(int most_rules) : most_rules_(most_rules) {}
@@ -321,13 +334,15 @@ class Parser {
   }
 
   void ParseField(const ImpairField& field, std::string_view value) {
-    const auto si = field.is_time ? ParseTime_s(value) : ParseNumber(value);
+    const auto si = ParseOf(field, value);
     if (si && field.allowed.Contains(*si * field.per_si)) {
       rule_.*field.member = *si;
       return;
     }
     const std::string kind = field.is_time ? "must be a time with its unit, " : "must be a number ";
-    std::string remedy = field.is_time ? "write such as 20ms or 0.02s" : "write one in that range";
+    std::string remedy = field.is_time     ? "write such as 20ms or 0.02s"
+                         : field.IsShare() ? "write such as 0.1 or 10%"
+                                           : "write one in that range";
     if (value.ends_with('%')) remedy = "write 0.1 for 10 %";
     Complain(field.key, value, kind + Describe(field.allowed), std::move(remedy));
   }

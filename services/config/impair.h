@@ -31,6 +31,9 @@ struct ImpairField {
   Allowed allowed;       // in the unit of the scenario
   double per_si = 1;     // of that unit in one of the member's
   bool is_time = false;  // in --impair: with its unit
+
+  // In --impair a share may be given in percent.
+  bool IsShare() const { return allowed.high <= 1; }
 };
 
 inline constexpr Allowed kBlackoutTime{0, 2592000, "s"};  // and of from_s, to_s of a rule

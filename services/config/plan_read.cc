@@ -11,7 +11,7 @@
 namespace giveway {
 namespace {
 
-// The kind of the one victim a fault names.
+// The kind of the one target a fault names.
 FaultKind ReadKind(const Section& section) {
   const int named = static_cast<int>(section.Has("kill")) + static_cast<int>(section.Has("dark")) +
                     static_cast<int>(section.Has("silent"));
@@ -85,7 +85,8 @@ bool ReadAny(const Section& section, const char* field, const char* ids) {
   return any;
 }
 
-// Whoever is expected to arrive needs a goal; one that joins may get any of the spawn places.
+// A vehicle that is expected to arrive needs a goal; one that joins may get any of the spawn
+// places.
 void CheckGoals(const Section& section, const KnownIds& known, const Scenario& scenario,
                 const std::vector<VehicleId>& arrived) {
   const auto expected = [&](VehicleId id) {
@@ -107,7 +108,7 @@ void CheckGoals(const Section& section, const KnownIds& known, const Scenario& s
   }
 }
 
-// Why whoever halts does; somebody must then be allowed to.
+// Why a vehicle halts; at least one must then be allowed to.
 std::optional<Rule> ReadReason(const Section& section, const Expectation& expect) {
   constexpr std::array kAsNumberedInTheSchema = {Rule::kGiveWay, Rule::kNotGranted, Rule::kPeerLost,
                                                  Rule::kDeaf};

@@ -43,7 +43,7 @@ inline constexpr double kUnusable = std::numeric_limits<double>::quiet_NaN();
 class Section {
  public:
   bool Has(std::string_view field) const;
-  // Where it begins, from 1.
+  // Where it starts, from 1.
   int Line() const;
   // Of a repeated field.
   int Count(std::string_view field) const;
@@ -71,7 +71,7 @@ class Section {
   std::vector<Section> Subs(std::string_view field) const;
 
   // Adds a problem about a field of this section, or about the section itself if `field` is empty.
-  // An absent field is blamed on the line where the section begins.
+  // An absent field is blamed on the line where the section starts.
   void Complain(std::string_view field, std::string message, std::string remedy,
                 int index = -1) const;
   void ComplainMissing(std::string_view field, std::string remedy) const;

@@ -9,7 +9,7 @@ namespace giveway {
 
 // Vehicles, spawn places and obstacles clear of each other, of the walls and of the doorways, and
 // each vehicle outside its own goal: at most one problem a body and kind. Bodies and walls may be
-// as many as a file holds. `cause` begins the message, e.g. "with seed 7 ".
+// as many as a file holds. `cause` starts the message, e.g. "with seed 7 ".
 void CheckStarts(const ReadScenario& read, const std::string& cause);
 
 }  // namespace giveway

@@ -52,7 +52,7 @@ std::vector<Item> SortedItems(const std::vector<Bounds>& bodies, const std::vect
   return items;
 }
 
-// Calls `meet` with each of the open items that reaches as far as `item` begins and overlaps it
+// Calls `meet` with each of the open items that reaches as far as `item` starts and overlaps it
 // across the sweep; drops those that ended before.
 template <typename Meet>
 void MeetOpen(std::vector<Item>* open, const Item& item, Meet&& meet) {

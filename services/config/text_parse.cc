@@ -53,7 +53,7 @@ std::string NamesOf(const std::string& field) {
   return names;
 }
 
-// The line, from 0, of the last `word` that begins before a line; the parser has read past it.
+// The line, from 0, of the last `word` that starts before a line; the parser has read past it.
 int LineOfWordBefore(const std::string& text, const std::string& word, int line) {
   std::size_t end = 0;  // of the line
   for (int i = 0; i <= line && end != std::string::npos; ++i) end = text.find('\n', end + 1);

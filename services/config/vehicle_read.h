@@ -28,7 +28,7 @@ std::optional<Behaviour> ReadBehaviour(const Section& section);
 // `common` holds what all vehicles of the scenario share, `forced` overrides every behaviour.
 VehicleOptions ReadVehicle(const Section& section, const VehicleOptions& common,
                            std::optional<Behaviour> forced);
-// The same without an id: the world gives it to whoever takes the place.
+// The same without an id: the world gives it to the vehicle that takes the place.
 VehicleOptions ReadSpawn(const Section& section, const VehicleOptions& common,
                          std::optional<Behaviour> forced);
 

@@ -43,7 +43,7 @@ double LastsUntil_s(const Fault& fault) {
   return fault.kind == Kind::kKill ? std::numeric_limits<double>::infinity() : fault.EndsAt_s();
 }
 
-// A kill concerns its one process only: what meets all goes on meeting the others.
+// A kill concerns its one process only: what meets all continues meeting the others.
 bool OnOneTarget(const Fault& a, const Fault& b) {
   if (a.kind == Kind::kKill || b.kind == Kind::kKill) return a.target == b.target;
   return a.target == b.target || a.target.what == Target::What::kAll ||

@@ -96,7 +96,7 @@ class Expander {
     Refuse(rule, field, "there is no vehicle " + std::to_string(Number(id)) + ": " + Fleet(),
            "name one that is there, or more vehicles");
   }
-  // What no rule alone can be told by its ranges.
+  // What the ranges of one rule cannot show.
   template <typename Rule>
   void CheckParameters(const Rule& rule, double longest_s) {
     if (rule.parameters.from) RefuseUnlessThere(rule, "from", *rule.parameters.from);

@@ -1,6 +1,6 @@
 // From a fault file to the concrete list that real and virtual runs carry out. Decides times and
-// targets, refuses what cannot be, and knows nobody who carries anything out. Pure: the same file,
-// seed, duration and vehicles give the same list bit for bit on every machine.
+// targets, refuses what cannot be, and knows nothing of how they are carried out. Pure: the same
+// file, seed, duration and vehicles give the same list bit for bit on every machine.
 //
 // Each draw is a hash of seed, name of the rule and count, so taking one rule out moves no other's
 // faults. Of two that exclude each other the later one makes way, and that of a random rule to that
@@ -23,7 +23,7 @@ namespace giveway::faults {
 struct Course {
   std::uint32_t seed = 0;
   double duration_s = 60;  // since the start signal
-  double warm_up_s = 10;   // before it no random fault begins
+  double warm_up_s = 10;   // before it no random fault starts
   double healing_s = 15;   // at the end: every fault is over before it
 };
 
@@ -45,7 +45,7 @@ struct LeftOut {
 
 struct Expansion {
   Schedule schedule;
-  std::vector<Refusal> refused;   // not empty: the schedule is for nobody to use
+  std::vector<Refusal> refused;   // not empty: the schedule must not be used
   std::vector<LeftOut> left_out;  // of rules with any, in the order of the file
 };
 

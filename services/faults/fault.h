@@ -1,5 +1,5 @@
-// What goes wrong in a run, when, to whom and for how long: faults as values, and the table of all
-// kinds. Who makes them happen is said by the table; nothing here does. Pure.
+// What goes wrong in a run, when, to which target and for how long: faults as values, and the table
+// of all kinds. Who makes them happen is said by the table; nothing here does. Pure.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ enum class Kind : std::uint8_t {
   kKill,                  // SIGKILL; it does not come back
   kRestart,               // SIGKILL, and a new process after for_s
   kPause,                 // SIGSTOP for for_s
-  kHang,                  // its deciding thread stands for for_s, the others go on
+  kHang,                  // its deciding thread stands for for_s, the others continue
   kSlow,                  // gets `share` of the processor
   kMemoryLimit,           // may use `bytes` more than it does
   kDescriptorLimit,       // may open `count` more files than it has
   kDiskFull,              // what it records cannot be written
-  kLogReaderStops,        // nobody reads its stderr
+  kLogReaderStops,        // no process reads its stderr
   kClockStep,             // its system clock jumps by `offset_s`
   kQosMismatch,           // restarts with a set that does not match the others'
   kQosApply,              // an order over DDS gives it the set `qos`
@@ -46,14 +46,14 @@ enum class Kind : std::uint8_t {
   kFlapping,   // as kPartition, on and off every period_s
   // The world, so in virtual time too.
   kSonarOff,           // no echo
-  kSonarStuck,         // the ranges of when it began
+  kSonarStuck,         // the ranges of when it started
   kSonarGarbage,       // any range
   kSonarWrong,         // ranges times `factor`
   kSonarSlow,          // new ranges each period_s only
   kSonarDelayed,       // ranges of delay_s ago
   kSonarIntermittent,  // each scan is without echoes with `probability`
   kMotorWeak,          // wheels reach `factor` of what was commanded
-  kMotorStuck,         // wheels go on as they turned when it began
+  kMotorStuck,         // wheels continue as they turned when it started
   kEncoderWrong,       // encoders count `factor` of what the wheels turn
   // A program of the tests.
   kSpoofed,    // beacons under the target's id
@@ -66,7 +66,7 @@ inline constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kMalformed)
 // Who makes a kind happen.
 enum class Actor : std::uint8_t { kSupervisor, kHearer, kWorld, kAttacker };
 
-// To whom.
+// The target.
 struct Target {
   enum class What : std::uint8_t { kVehicle, kWorld, kDiscoveryServer, kAll };
   What what = What::kVehicle;
@@ -86,7 +86,7 @@ struct Parameters {
   std::optional<double> rate_hz;       // 1 to 100000
   std::optional<double> bytes;         // 1 to 1e12; of kRate a second
   std::optional<std::uint32_t> count;  // 1 to 100000
-  std::optional<VehicleId> from;       // whom the target does not hear; absent: nobody else
+  std::optional<VehicleId> from;       // the sender the target does not hear; absent: no other
   std::string qos;                     // name or file of a profile set
 
   friend bool operator==(const Parameters&, const Parameters&) = default;

@@ -24,7 +24,7 @@ struct AtRule {
   int line = 0;  // in its file, from 1; 0 if it is from none
 };
 
-// Whom the faults of a random rule meet.
+// The targets of the faults of a random rule.
 struct Targets {
   enum class What : std::uint8_t {
     kAnyVehicle,    // each time one of the fleet's

@@ -92,7 +92,7 @@ bool IsCut(Kind kind) {
   return kind == Kind::kOneWayCut || kind == Kind::kPartition || kind == Kind::kFlapping;
 }
 
-// The hearer's rules. Between two moments at which something begins or ends one rule holds for all
+// The hearer's rules. Between two moments at which something starts or ends one rule holds for all
 // vehicles, and after it, since the last that fits counts, one for each that is cut off alone.
 class Rules {
  public:

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/types/check.h"
+#include "services/types/nearest_name.h"
 
 namespace giveway::faults {
 namespace {
@@ -299,22 +300,6 @@ constexpr std::array<NumberMember, kQuantities - 1> kMembers = {{
     {"bytes", "bytes", &Parameters::bytes},
 }};
 
-// Levenshtein's: letters put in, taken out or changed.
-std::size_t EditDistance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 constexpr std::size_t kLongestWord = 64;  // of one that is compared
 
 }  // namespace
@@ -415,7 +400,7 @@ std::string TargetsOf(const KindRow& row) {
 
 std::string_view NearestKind(std::string_view word) {
   word = word.substr(0, kLongestWord);
-  // Who writes the beginning of a word means it, however much is missing.
+  // Who writes the start of a word means it, however much is missing.
   const auto begun = std::ranges::find_if(
       kTable, [&](const KindRow& row) { return word.size() > 2 && row.word.starts_with(word); });
   if (begun != kTable.end()) return begun->word;

@@ -1,4 +1,4 @@
-// The table of all kinds of faults: its word, who acts, on whom, whether it takes time, which
+// The table of all kinds of faults: its word, the actor, the target, whether it takes time, which
 // parameters it has. One table serves reading, expanding, printing and `fleetctl faults list`. Says
 // what a kind may be, never does it. ToString, KindOf and ActorOf of fault.h look into it. Pure.
 #pragma once

@@ -1,5 +1,5 @@
 // Which faults of a list cannot be carried out where it is to run, and why. Pure: what the host can
-// do is a value that somebody else found out.
+// do is a value that another module found out.
 #pragma once
 
 #include <map>

@@ -2,32 +2,18 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <string>
 
+#include "services/config/help_format.h"
 #include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/help/help_verbs.h"
+#include "services/fleetctl/help/usage_error.h"
 #include "services/fleetctl/output/library_lines.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/link/fastdds/library_release.h"
 
 namespace {
-
-// The verb that was named, as far as it was: "fleetctl qos check".
-std::string VerbOf(const CLI::App& app) {
-  const auto named = app.get_subcommands();
-  return app.get_name() + (named.empty() ? "" : " " + VerbOf(*named.front()));
-}
-
-// What was wrong, in words: the parser does not name a verb it does not know.
-std::string Explain(const CLI::App& fleetctl, int argc, char** argv, const std::string& error) {
-  if (argc < 2 || argv[1][0] == '-' || !fleetctl.get_subcommands().empty()) {
-    return error;
-  }
-  std::string verbs;
-  for (const CLI::App* verb : fleetctl.get_subcommands({})) {
-    verbs += (verbs.empty() ? "" : ", ") + verb->get_name();
-  }
-  return "there is no verb '" + std::string(argv[1]) + "'; verbs: " + verbs;
-}
 
 // Whatever no table has shown.
 struct LibraryLinesAtEnd {
@@ -41,6 +27,16 @@ struct LibraryLinesAtEnd {
   LibraryLinesAtEnd& operator=(const LibraryLinesAtEnd&) = delete;
 };
 
+constexpr const char* kFooter = R"(
+Examples
+  fleetctl run intersection_yield          # two vehicles, one crossing, one verdict
+  fleetctl virtual crossing --seeds 1..20  # the same brains in virtual time
+  fleetctl ls                              # the fleets on this machine
+  fleetctl help run                        # a verb explained, examples first
+
+Exit code of every verb: 0 passed or shown, 1 failed or interrupted, 2 could not run.
+)";
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -48,14 +44,17 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App fleetctl("Runs and judges fleets of vehicles that talk over DDS.", "fleetctl");
   fleetctl.require_subcommand(1);
-  fleetctl.set_version_flag(
-      "--version", "fleetctl " GIVEWAY_VERSION ", " + std::string(giveway::link::LibraryName()));
-  fleetctl.footer("\nExample\n  fleetctl run intersection_yield\n\nMore: fleetctl run --help\n");
+  fleetctl.formatter(std::make_shared<giveway::HelpFormat>());  // of every verb, too
+  const std::string version =
+      "fleetctl " GIVEWAY_VERSION ", " + std::string(giveway::link::LibraryName());
+  fleetctl.set_version_flag("--version", version);
+  fleetctl.footer(kFooter);
   int exit_code = giveway::fleetctl::kCouldNotRun;
   giveway::fleetctl::AddCampaignVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddFaultsVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddLsVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddPlanVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
@@ -67,15 +66,17 @@ int main(int argc, char** argv) {
   giveway::fleetctl::AddTopVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddVirtualVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddWhyVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddHelpVerbs(&fleetctl, version, &exit_code);
   giveway::fleetctl::KeepLibraryLines();
-  const LibraryLinesAtEnd told_at_end;
+  const LibraryLinesAtEnd rest_at_end;
   try {
     fleetctl.parse(argc, argv);
   } catch (const CLI::Success& help) {
     return fleetctl.exit(help);
   } catch (const CLI::ParseError& error) {
     std::fprintf(stderr, "fleetctl: %s\nTry: %s --help\n",
-                 Explain(fleetctl, argc, argv, error.what()).c_str(), VerbOf(fleetctl).c_str());
+                 giveway::fleetctl::ExplainUsageError(fleetctl, error).c_str(),
+                 giveway::fleetctl::NamedVerb(fleetctl).c_str());
     return giveway::fleetctl::kCouldNotRun;
   } catch (const std::exception& error) {  // a verb's LinkError, InputError, OutputError ...
     std::fprintf(stderr, "%s\n", error.what());

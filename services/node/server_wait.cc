@@ -14,8 +14,8 @@ constexpr auto kPoll = std::chrono::milliseconds(20);
 constexpr Nanoseconds kAskAgain = std::chrono::seconds(1);
 constexpr Nanoseconds kReminder = std::chrono::seconds(30);
 
-// On a thread that nobody joins: a lookup without a name server takes seconds, and a stop takes one
-// at most.
+// On a thread that is not joined: a lookup without a name server takes seconds, and a stop takes
+// one at most.
 std::future<std::string> Ask(const std::vector<DiscoveryServer>& servers) {
   std::packaged_task<std::string()> task([servers] { return link::FindServers(servers).fault; });
   auto answer = task.get_future();

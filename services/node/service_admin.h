@@ -1,4 +1,4 @@
-// Carries out an operator's orders to a vehicle or a world: tells what it runs with, and takes
+// Carries out an operator's orders to a vehicle or a world: reports what it runs with, and takes
 // other profiles. A deadline is changed while it runs; anything else is fixed once the participant
 // is made, so the service restarts itself. Before it does, a second process tries the profiles: the
 // library may refuse them, hang on them or end the process.

@@ -10,7 +10,7 @@
 namespace giveway::qos {
 namespace {
 
-// Policies are told apart by the table; everything else by where it stands in the file.
+// Policies are distinguished by the table; everything else by where it stands in the file.
 using Elsewhere = std::map<std::pair<std::string, std::string>, std::string>;
 
 bool IsPolicy(Owner owner, const std::string& path) {

@@ -59,7 +59,7 @@ void CheckComposeSet(const ComposeService& service, const ProfileSet& set, Findi
     findings->push_back(
         {Severity::kError, "host_network_without_ipc", service.place, service.name,
          "network_mode host without ipc host, and shared memory in " + set.file,
-         "All take each other for processes of one host and write into memory that nobody else "
+         "All take each other for processes of one host and write into memory that no other "
          "sees: they match, and hear nothing.",
          "ipc: host beside network_mode: host, or a set without shared memory"});
     return;

@@ -15,7 +15,7 @@ namespace giveway::qos {
 // What the kernel charges a receive buffer for a small datagram.
 inline constexpr std::int64_t kDatagramBytes = 1024;
 
-// What the samples of a topic are told apart by; says how many instances an endpoint holds.
+// What the samples of a topic are distinguished by; says how many instances an endpoint holds.
 enum class Keyed : std::uint8_t { kNot, kByVehicle, kByVehicleReaderOne, kBySignal };
 
 struct Topic {
@@ -27,8 +27,8 @@ struct Topic {
   int ticks = 0;                  // between two samples of an instance; 0: no fixed rate
   bool guarded = false;           // a reader must learn that it fell silent
   bool lively = false;            // and by liveliness, too
-  bool late_joiners = false;      // who comes later must be told
-  std::int64_t reader_depth = 1;  // less overwrites samples somebody counts on
+  bool late_joiners = false;      // late joiners must receive it
+  std::int64_t reader_depth = 1;  // less overwrites samples a reader counts on
 };
 
 std::span<const Topic> FleetTopics();

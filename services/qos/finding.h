@@ -9,7 +9,7 @@
 namespace giveway::qos {
 
 enum class Severity : std::uint8_t {
-  kWarning,  // works, but not as somebody who wrote this expects
+  kWarning,  // works, but not as its author expects
   kError,    // does not start, does not match, or does not keep a promise
 };
 

@@ -66,7 +66,8 @@ void FleetRules::CheckDeadline() {
   if (deadline == kInfinite) {
     if (!topic_.guarded || !Reads()) return;
     Add(Severity::kWarning, "deadline_missing", Policy::kDeadline, Every(),
-        "Nobody is told when a peer falls silent; only the age of its last sample shows it.",
+        "No process is informed when a peer falls silent; only the age of its last sample shows "
+        "it.",
         "three periods: " + DurationText(3 * period_));
     return;
   }

@@ -95,7 +95,7 @@ bool Same(const XmlElement& a, const XmlElement& b) {
          std::ranges::equal(a.children, b.children, Same);
 }
 
-// Profiles and transports are told apart by their names, all else by the element.
+// Profiles and transports are distinguished by their names, all else by the element.
 std::string NameOf(const XmlElement& element) {
   const XmlElement* const id = element.Child("transport_id");
   return id != nullptr ? id->text : element.Attribute("profile_name");

@@ -1,5 +1,5 @@
-// Participant profiles against the fleet: who finds whom, for how long one is remembered, and
-// whether there are ports for all.
+// Participant profiles against the fleet: which participant finds which, for how long one is
+// remembered, and whether there are ports for all.
 #include <algorithm>
 
 #include "services/qos/rules.h"
@@ -115,7 +115,7 @@ void ParticipantRules::CheckDiscovery() {
   }
   if (Number(Policy::kLivelinessProtocol) == 0) {
     Add(Severity::kWarning, "liveliness_protocol_off", Policy::kLivelinessProtocol, "",
-        "Liveliness that is not asserted by samples is never told to anybody.", "true");
+        "Liveliness that is not asserted by samples is never reported to any process.", "true");
   }
 }
 

@@ -194,7 +194,7 @@ EditedProfiles Edit(std::string bytes, const std::string& file,
     const XmlElement* const now =
         there ? there->element->Descendant(Info(edit.policy).path) : nullptr;
     for (const Leaf& leaf : LeavesOf(edit, now)) {
-      // Read anew each time: an edit moves all that stands behind it.
+      // Read again each time: an edit moves all that stands behind it.
       const XmlRead read = ReadXml(bytes, file);
       if (!read.root) return {"", read.findings};
       const auto profile = FindProfile(bytes, *read.root, edit);

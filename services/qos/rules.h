@@ -8,7 +8,7 @@
 
 namespace giveway::qos {
 
-// Of a file as a whole: profiles twice, missing, or used by nobody.
+// Of a file as a whole: profiles twice, missing, or unused.
 void CheckNames(const ProfileSet& set, const Deployment& deployment, Findings* findings);
 // Of every pair: writers of one file, readers of another or the same.
 void CheckPairs(const ProfileSet& writers, const ProfileSet& readers, Findings* findings);

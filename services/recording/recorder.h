@@ -1,4 +1,4 @@
-// Writes what a brain is told and says into a file, so that its decisions can be made again.
+// Writes the inputs and outputs of a brain into a file, so that its decisions can be made again.
 //
 // The deciding thread only copies into a bounded queue and never waits; a thread of the recorder's
 // own makes bytes of it and writes one record at a time. A full queue (the disk does not keep up
@@ -20,7 +20,7 @@
 namespace giveway {
 
 struct RecorderOptions {
-  std::uint64_t split_bytes = 0;  // begins another file before one grows beyond that; 0: never
+  std::uint64_t split_bytes = 0;  // starts another file before one grows beyond that; 0: never
   // Keeps only the last two files, of so long each, so that this much at least is there; 0: all.
   Nanoseconds ring{0};
 };
@@ -49,9 +49,9 @@ class Recorder {
 
   // Of a ring: true once the file is as long as it gets. Then Image is to follow the step.
   bool WantsImage(SteadyTime now) const;
-  // The brain as it is now; a new file begins with it.
+  // The brain as it is now; a new file starts with it.
   void Image(std::string state, std::uint64_t hash, SteadyTime now);
-  // Of a ring: what it holds now, and goes on to hold until the file is full, is never removed.
+  // Of a ring: what it holds now, and continues to hold until the file is full, is never removed.
   // False where it keeps kMostKept already, is no ring, or has ended.
   bool Keep();
 

@@ -1,4 +1,4 @@
-// What a vehicle's recording consists of, as values, and their bytes. The format is told in
+// What a vehicle's recording consists of, as values, and their bytes. The format is documented in
 // idl/recording.proto; files are recorder.h's and recording_file.h's.
 #pragma once
 
@@ -52,7 +52,7 @@ struct RecordedStep {
   Inputs AsInputs() const;
 };
 
-// What a part begins with that is not the first of its recording.
+// What a part starts with that is not the first of its recording.
 struct RecordedContinuation {
   std::uint32_t boot_epoch = 0;  // of the same life as the parts before
   VehicleId vehicle = kNobody;
@@ -62,7 +62,7 @@ struct RecordedContinuation {
   friend bool operator==(const RecordedContinuation&, const RecordedContinuation&) = default;
 };
 
-// Where a ring goes on: a whole brain, so that what lies before it need not be kept.
+// Where a ring continues: a whole brain, so that what lies before it need not be kept.
 struct RecordedImage {
   VehicleOptions options;  // by which it drives now
   std::string recorded_by;
@@ -81,8 +81,8 @@ using Record = std::variant<RecordedLife, RecordedStep, RecordedReseat, Recorded
                             RecordedContinuation, RecordedImage>;
 
 std::string ToBytes(const Record& record);
-// Nothing where the bytes are no record: not of the schema, an enumerator nobody knows, a list of
-// the wrong length, a time beyond decades.
+// Nothing where the bytes are no record: not of the schema, an enumerator it is not known, a list
+// of the wrong length, a time beyond decades.
 std::optional<Record> RecordFrom(std::string_view bytes);
 
 // Empty if a brain can be made of this, else what of it cannot be.

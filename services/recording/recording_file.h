@@ -13,7 +13,7 @@ namespace giveway {
 
 class RecordingFile {
  public:
-  // Reads the mark and how the file begins. `stream` must outlive this.
+  // Reads the mark and how the file starts. `stream` must outlive this.
   explicit RecordingFile(std::istream* stream);
 
   // The making of the vehicle, or nothing. If neither this nor Continues(), nothing can be

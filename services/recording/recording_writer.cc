@@ -160,7 +160,7 @@ bool RecordingWriter::Split() {
   }
 }
 
-// Two parts are left: the one that begins, and `before`, which is full.
+// Two parts are left: the one that starts, and `before`, which is full.
 void RecordingWriter::MakeRoom(const std::string& before) {
   if (!keeps_part_) removable_.push_back(before);
   keeps_part_ = false;

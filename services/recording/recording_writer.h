@@ -1,6 +1,6 @@
 // The files of one recording: each made under a name that was free, so that none is ever written
 // over; split by size where that is asked for; and ended so that a reader knows why it ends, on a
-// full disk too. Knows no thread. The format is told in idl/recording.proto.
+// full disk too. Knows no thread. The format is documented in idl/recording.proto.
 #pragma once
 
 #include <cstdint>
@@ -39,14 +39,14 @@ class RecordingPart {
   bool is_regular_;
   std::uint64_t bytes_ = 0;  // of whole frames
   std::uint32_t steps_ = 0;
-  std::deque<std::uint64_t> last_steps_;  // where they begin
+  std::deque<std::uint64_t> last_steps_;  // where they start
 };
 
 class RecordingWriter {
  public:
   // `path`, or where that is there already PATH with the first free number before its extension. A
-  // device or a pipe is written to as it is. `split_bytes`: begins another file before one grows
-  // beyond that; 0: never. `is_ring`: begins another with every image, and removes all but the last
+  // device or a pipe is written to as it is. `split_bytes`: starts another file before one grows
+  // beyond that; 0: never. `is_ring`: starts another with every image, and removes all but the last
   // two. Throws std::runtime_error if the first cannot be made.
   RecordingWriter(const std::string& path, std::uint64_t split_bytes, bool is_ring = false);
 

@@ -13,7 +13,7 @@
 namespace giveway {
 
 // The world knows it by its session, the operator by the order, and its
-// brain goes on from the handover.
+// brain continues from the handover.
 struct Resumed {
   SessionId session{};
   std::uint64_t order = 0;
@@ -23,7 +23,7 @@ struct Resumed {
 };
 
 // Bytes with a version and a checksum. Nothing where they are not exactly what ToBytes made, or
-// hold what no brain can go on from.
+// hold what no brain can continue from.
 std::string ToBytes(const Resumed& resumed);
 std::optional<Resumed> ResumedFrom(std::string_view bytes);
 

@@ -1,5 +1,5 @@
 // Draws a run as SVG: the place, every path, where each vehicle halted, the closest approach. What
-// moves by itself stands where it began. Pure text; knows no file.
+// moves by itself stands where it started. Pure text; knows no file.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ namespace giveway {
 // to where it was first seen.
 Scenario WithJoined(const Scenario& scenario, const std::vector<Track>& tracks);
 
-// Tells vehicles apart also for the colour-blind (Okabe and Ito 2008); repeats after seven.
+// Distinguishes vehicles also for the colour-blind (Okabe and Ito 2008); repeats after seven.
 std::string ColourOf(const Scenario& scenario, VehicleId vehicle);
 // A vehicle that is not in the scenario has the default profile.
 VehicleProfile ProfileOf(const Scenario& scenario, VehicleId vehicle);

@@ -1,6 +1,6 @@
-// Everything a brain remembers as bytes, and back: what a recording begins with that does not begin
+// Everything a brain remembers as bytes, and back: what a recording starts with that does not start
 // with the making of its vehicle. Believes nothing: bytes that are no state a brain of these
-// options can be in are refused, whoever wrote them. Pure.
+// options can be in are refused, however they came about. Pure.
 #pragma once
 
 #include <memory>

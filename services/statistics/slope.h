@@ -2,7 +2,7 @@
 // slopes of all pairs of samples, which up to 29 % of wild samples do not move, with the 95 %
 // interval that Kendall's statistic gives it (Sen 1968, "Estimates of the regression coefficient
 // based on Kendall's tau"). Samples of a process resemble those before them; what that takes from
-// their weight is reckoned in after Hamed and Rao (1998), and never less than a process of first
+// their weight is computed in after Hamed and Rao (1998), and never less than a process of first
 // order takes: noise that does not grow, resembling itself or not, has an interval above zero in 2
 // to 4 series of 100. Pure.
 #pragma once

@@ -7,7 +7,7 @@
 namespace giveway {
 namespace {
 
-constexpr double kDrives_m_s = 0.05;      // slower, a reaction costs no way worth telling
+constexpr double kDrives_m_s = 0.05;      // slower, a reaction costs no distance worth reporting
 constexpr double kNoise_m_s = 0.01;       // of an encoder's rate, in forward speed
 constexpr double kLeastObedience = 0.25;  // of what the brakes could have taken off
 
@@ -40,7 +40,7 @@ void DriveTiming::Add(DriveFigure figure, double value) {
   summary.max = std::max(summary.max, whole);
 }
 
-// Another world counts ticks and wheels anew.
+// Another world counts ticks and wheels again.
 void DriveTiming::NoteScan(const RangeScan& scan, SteadyTime woke) {
   if (scan.epoch != epoch_) {
     epoch_ = scan.epoch;
@@ -60,7 +60,7 @@ void DriveTiming::NoteScan(const RangeScan& scan, SteadyTime woke) {
   speed_m_s_ = Forward(options_.profile, scan.wheels);
 }
 
-// Of a tick whose scan did not come: reckoned back from the newest.
+// Of a tick whose scan did not come: computed back from the newest.
 DriveTiming::Moment DriveTiming::MomentOf(Tick tick) const {
   const Moment& known = moments_[Number(tick) % kRememberedTicks];
   if (known.tick == tick) return known;
@@ -92,7 +92,7 @@ std::optional<ReactionMargin> DriveTiming::SeekEnd() {
   return margin;
 }
 
-// A decision that lets the vehicle go on ends the wait for one that did not; of two that slow it
+// A decision that lets the vehicle continue ends the wait for one that did not; of two that slow it
 // down the first one counts.
 void DriveTiming::SeekBegin(const TurnSeen& turn) {
   const MotorCommand& command = turn.command;

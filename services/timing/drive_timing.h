@@ -43,7 +43,7 @@ class DriveTiming {
 
   explicit DriveTiming(const VehicleOptions& options) : options_(options) {}
 
-  // It drives by other options from now on; the figures go on.
+  // It drives by other options from now on; the figures continue.
   void Reseat(const VehicleOptions& options);
   // What the turn showed. A reaction that ended with it and spent its budget, if one did.
   std::optional<ReactionMargin> Note(const TurnSeen& turn);

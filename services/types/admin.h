@@ -12,7 +12,7 @@ namespace giveway {
 enum class OrderKind : std::uint8_t {
   kTell,      // say what you run with
   kApply,     // run with these profiles: at once where that is enough, else after a restart
-  kKeepRing,  // keep for good what the recording's ring holds now: recorder.h
+  kKeepRing,  // keep permanently what the recording's ring holds now: recorder.h
 };
 
 // A profile set by value: its text, because the file may be on another machine, or another by now.

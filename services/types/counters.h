@@ -37,7 +37,7 @@ struct TrustCounters {
   std::uint32_t beacon_without_echo = 0;  // a body was said to be where the ultrasonics hear none
   std::uint32_t echo_without_beacon = 0;  // something near moved by itself, and nobody said so
   std::uint32_t halted_but_closing = 0;   // said it stood, and its echo came nearer by itself
-  std::uint32_t jumps = 0;                // farther from the beacon before than it could have come
+  std::uint32_t jumps = 0;                // further from the beacon before than it could have come
   std::uint32_t impossible_speeds = 0;    // faster than anybody, or than it could have become
 
   constexpr TrustCounters& operator+=(const TrustCounters& more) {

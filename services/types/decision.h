@@ -41,7 +41,7 @@ enum class Rule : std::uint8_t {
   kSteerRound,   // turning past a halted peer that gives way
   kAvoid,        // Braitenberg weights steer away
   kSignal,       // a fresh traffic light on the own path says stop
-  kKeepClear,    // no farther than where a peer cannot be, whatever it does
+  kKeepClear,    // no further than where a peer cannot be, whatever it does
   kMakeRoom,     // turning out of the way of one that comes first and cannot pass
   kObject,       // radar or lidar: an object whose place and motion make it an obstacle
   kLeaving,      // stopping in good order

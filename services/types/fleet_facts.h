@@ -58,20 +58,20 @@ struct Truth {
 };
 
 enum class EventKind : std::uint8_t {
-  kStarted,   // the run begins; value: fleet size
-  kHalted,    // vehicle stood still to give way to other; text: the rule that began it
+  kStarted,   // the run starts; value: fleet size
+  kHalted,    // vehicle stood still to give way to other; text: the rule that started it
   kWentOn,    // vehicle moves again after a halt, or has left the goal it stood in
   kArrived,   // vehicle stands in its goal; value: seconds since the start
-  kContact,   // vehicle and other began to touch
+  kContact,   // vehicle and other started to touch
   kClosest,   // at the end: the closest approach; value: shell-to-shell metres
   kFaultDue,  // a planned fault is due now; text: "kill"
   kSilent,    // the world hears no command of vehicle any more
   kRemoved,   // the body of a silent vehicle was taken away
   kJoined,    // vehicle was put on its start pose while the run was under way
-  kLeft,      // vehicle said good-bye; its body was taken away
+  kLeft,      // vehicle sent a leave notice; its body was taken away
   kEnded,     // text: why; the verdict follows
   kVerdict,   // passed when value is 1; text: reason
-  // A fault of a schedule begins or ends in the world, of vehicle (kNobody: of all); text: kind,
+  // A fault of a schedule starts or ends in the world, of vehicle (kNobody: of all); text: kind,
   // number and rule: "sonar_stuck 3 of flaky_sonar".
   kFaultBegan,
   kFaultOver,

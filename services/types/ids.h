@@ -9,11 +9,11 @@ namespace giveway {
 enum class VehicleId : std::uint32_t {};
 inline constexpr VehicleId kNobody{0};
 
-// Counts the world's steps since the world's epoch began. 0 is "no tick".
+// Counts the world's steps since the world's epoch started. 0 is "no tick".
 enum class Tick : std::uint32_t {};
 inline constexpr Tick kNoTick{0};
 
-// Names one life of the world: a world that starts anew from the start poses takes a new epoch.
+// Names one life of the world: a world that starts again from the start poses takes a new epoch.
 // 0 is "no world heard yet".
 enum class WorldEpoch : std::uint32_t {};
 inline constexpr WorldEpoch kNoEpoch{0};

@@ -35,7 +35,7 @@ struct VehicleProfile {
   double acceleration_m_s2 = 0.3;  // of each wheel's rim, away from standstill
   double deceleration_m_s2 = 0.6;  // of each wheel's rim, towards standstill
   // What the wheels do is not what the encoders say. Standard deviations relative to the speed,
-  // drawn anew each tick: the ground's share (slip) and the encoder's (noise).
+  // drawn again each tick: the ground's share (slip) and the encoder's (noise).
   double wheel_slip = 0;
   double encoder_noise = 0;
   double sonar_half_angle_rad = 0.2617993877991494;  // 30 degree cones

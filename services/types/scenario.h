@@ -39,7 +39,7 @@ struct SonarModel {
 };
 
 // A body that is not a vehicle: stands, or follows its waypoints at constant speed for ever and
-// gives way to nobody. It stops where it would touch, and goes on when it can.
+// gives way to nobody. It stops where it would touch, and continues when it can.
 struct Obstacle {
   BodyShape shape = BodyShape::kDisc;
   double radius_m = 0.25;             // of a disc; half diagonal of a box
@@ -76,7 +76,7 @@ struct SignalPlan {
 
 enum class FaultKind : std::uint8_t {
   kKill,          // the vehicle's process dies
-  kSignalDark,    // the head goes on talking, but its lamps are out
+  kSignalDark,    // the head continues talking, but its lamps are out
   kSignalSilent,  // the head falls silent
 };
 
@@ -94,10 +94,10 @@ struct Expectation {
   std::uint32_t contacts = 0;
   std::vector<VehicleId> halted;
   std::vector<VehicleId> arrived;
-  std::optional<Rule> halted_for;  // this rule began at least one halt
+  std::optional<Rule> halted_for;  // this rule started at least one halt
   bool any_halted = false;         // who halts is not judged
   bool any_arrived = false;        // who arrives is not judged
-  bool parted = false;             // at the end every pair is farther apart than at its closest
+  bool parted = false;             // at the end every pair is further apart than at its closest
   std::optional<double> min_separation_m;  // at least this, shell to shell
   std::optional<double> time_to_clear_s;   // at most this
 };

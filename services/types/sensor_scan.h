@@ -48,7 +48,7 @@ struct LidarScan {
   std::array<double, kLidarBeams> range_m{};  // from the axle centre; only where echo is kEcho
 };
 
-// What a camera can tell apart.
+// What a camera can distinguish.
 enum class SeenClass : std::uint8_t { kUnknown, kVehicle, kCart, kFixture, kSignal };
 
 inline constexpr double kCameraRange_m = 15;

@@ -1,6 +1,6 @@
 // What a vehicle has done of its task that its body does not show. It says so with every motor
 // command, the world keeps it beside the body, and a new process of the vehicle is told: without it
-// a route would begin again at its first waypoint.
+// a route would start again at its first waypoint.
 #pragma once
 
 #include <cstdint>

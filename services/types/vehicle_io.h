@@ -37,7 +37,7 @@ struct Inputs {
   // The world's newest word on this vehicle since the last step: a new epoch brings a new pose.
   std::optional<RosterEntry> roster;
   std::optional<PoseFix> pose_fix;  // of the scan's tick
-  bool leaving = false;             // the process was asked to stop: halt and say good-bye
+  bool leaving = false;             // the process was asked to stop: halt and send a leave notice
   bool halting = false;             // the process is about to restart itself: halt
 };
 

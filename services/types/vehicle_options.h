@@ -23,7 +23,7 @@ struct Goal {
 
 inline constexpr std::size_t kMaxWaypoints = 16;
 
-// Points passed in turn on the way to the goal, each within radius_m; a loop begins anew after the
+// Points passed in turn on the way to the goal, each within radius_m; a loop starts again after the
 // last and never comes to the goal.
 struct Route {
   std::array<Vec2, kMaxWaypoints> waypoints_world{};
@@ -33,7 +33,7 @@ struct Route {
 };
 
 // A waypoint that the route does not have, as one of another scenario's, is as good as none: the
-// route begins at its first.
+// route starts at its first.
 constexpr TaskProgress OnRoute(const Route& route, TaskProgress task) {
   const bool has = task.waypoint < route.count || (task.waypoint == route.count && !route.loop);
   if (!has) task.waypoint = 0;
@@ -72,7 +72,7 @@ struct VehicleOptions {
   double gate_exit_m = 1.2;   // a latched encounter is over beyond it
   // How far a peer is at the gates, by GateDistance; of kCooperative and kLectureYield.
   DistanceMetric distance_metric = DistanceMetric::kEuclidean;
-  double emission_radius_m = 5.0;             // beacons stated from farther away are not heard
+  double emission_radius_m = 5.0;             // beacons stated from further away are not heard
   Nanoseconds beacon_age_limit{200'000'000};  // receiver's clock; older is not fresh
   Nanoseconds ranges_age_limit{150'000'000};  // a scan older than this: halt
   // How long a transducer takes from one firing to the next one's result: 0 where all fire every

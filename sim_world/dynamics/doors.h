@@ -20,8 +20,8 @@ class SlidingDoor {
   // What its times say, whatever stands in its way; as Opening.
   double PlannedOpening(double time_s) const;
 
-  // The share of the leaf that is in the jamb: 0 closed, 1 open. Opened wholly it is in nobody's
-  // way.
+  // The share of the leaf that is in the jamb: 0 closed, 1 open. Opened wholly it is in no
+  // vehicle's way.
   double Opening() const { return opening_; }
   void Restore(double opening) { opening_ = opening; }
 

@@ -1,5 +1,5 @@
 // A body that is not a vehicle: it stands, or follows its waypoints at constant speed. Something in
-// its way holds it up; it goes on from there when it can.
+// its way holds it up; it continues from there when it can.
 #pragma once
 
 #include <vector>

@@ -13,7 +13,7 @@ struct Things {
   std::size_t bodies = 0;       // so many of the motions are vehicles'
   std::vector<Motion> motions;  // of bodies and obstacles
   std::vector<Leaf> leaves;
-  std::vector<std::uint8_t> present;  // by number; what is absent is in nobody's way
+  std::vector<std::uint8_t> present;  // by number; what is absent is in no vehicle's way
 
   std::size_t Count() const { return motions.size() + leaves.size(); }
   bool IsBody(std::size_t thing) const { return thing < bodies; }

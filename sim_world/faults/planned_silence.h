@@ -15,7 +15,7 @@ class PlannedSilence {
   explicit PlannedSilence(const faults::Schedule& schedule);
 
   // Whether anything but a kill is done to processes of vehicles: any of it may silence one for a
-  // while. Then a closed run too goes on without a vehicle that has fallen silent, and takes it
+  // while. Then a closed run too continues without a vehicle that has fallen silent, and takes it
   // back when it speaks again.
   bool VehiclesReturn() const { return vehicles_return_; }
   // Whether the vehicle has been killed, never to come back, time_s after the start signal.

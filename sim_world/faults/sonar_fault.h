@@ -1,16 +1,16 @@
 // What one fault of a vehicle's ultrasonics makes of its scans, tick by tick, from the fault's
-// begin to its end. What it keeps is bounded: of kSonarDelayed 10 s of scans, of others one scan at
+// start to its end. What it keeps is bounded: of kSonarDelayed 10 s of scans, of others one scan at
 // most. Knows one body; which bodies a fault is about, and when, is said by world_faults.h.
 //
 //   kSonarOff           a transducer that fired heard nothing: clear
-//   kSonarStuck         what each said when it began, under the times of the firings since
-//   kSonarGarbage       clear with probability 1/4, else any range it could have, drawn anew for
+//   kSonarStuck         what each said when it started, under the times of the firings since
+//   kSonarGarbage       clear with probability 1/4, else any range it could have, drawn again for
 //                       each firing
 //   kSonarWrong         ranges times `factor`; clear where that is beyond its reach
 //   kSonarSlow          the readings change each period_s only, and say when they were fired
 //   kSonarDelayed       the readings of delay_s ago, and say when they were fired; until the first
-//                       of them comes, those of when it began
-//   kSonarIntermittent  a scan is as of kSonarOff with `probability`, drawn anew for each
+//                       of them comes, those of when it started
+//   kSonarIntermittent  a scan is as of kSonarOff with `probability`, drawn again for each
 #pragma once
 
 #include <cstdint>

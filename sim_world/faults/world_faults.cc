@@ -113,7 +113,7 @@ void WorldFaults::Follow(const Body& body) {
   if (drives_wrongly) drives_.push_back(drive);
 }
 
-// A body that is seen for the first time since the fault began: its wheels turn as they do now.
+// A body that is seen for the first time since the fault started: its wheels turn as they do now.
 WorldFaults::Memory* WorldFaults::Remember(Active* active, const Body& body) {
   const auto at = std::ranges::lower_bound(active->memories, body.vehicle, {}, &Memory::vehicle);
   if (at != active->memories.end() && at->vehicle == body.vehicle) return &*at;

@@ -1,6 +1,6 @@
 // The faults of a schedule that the world carries out: of ultrasonics, motors and encoders. Says in
 // each driving tick what they make of which body's wheels, alters the scans that leave the world,
-// and names those that begin and end. Which tick a fault begins and ends in hangs on its times
+// and names those that start and end. Which tick a fault starts and ends in hangs on its times
 // alone, and every number drawn on seed, rule, the fault's number and the tick. Faults of other
 // actors are not its business. Pure.
 #pragma once
@@ -45,14 +45,14 @@ class WorldFaults {
   // What this tick's faults make of the scan of a body that is present.
   void Alter(const VehicleProfile& profile, RangeScan* scan);
 
-  // A fault has begun in the first tick of its time in which a body it is about was there; only
+  // A fault has started in the first tick of its time in which a body it is about was there; only
   // such a fault ends. Of this tick.
   std::span<const faults::Fault* const> Begun() const { return begun_; }
   std::span<const faults::Fault* const> Ended() const { return ended_; }
 
   // What a checkpoint keeps of a fault under way. What ultrasonics said before is not part of it:
   // in a world that was restarted stuck ones are stuck at what they say first, and those of delayed
-  // ones begin to be late anew.
+  // ones start to be late again.
   struct HeldWheels {
     VehicleId vehicle = kNobody;
     WheelSpeeds wheels;
@@ -63,15 +63,15 @@ class WorldFaults {
     std::vector<HeldWheels> held;  // of kMotorStuck
   };
   std::vector<State> Save() const;
-  // Goes on after that driving tick. False, and nothing is done, where no such faults can have been
-  // under way then.
+  // Continues after that driving tick. False, and nothing is done, where no such faults can have
+  // been under way then.
   bool Restore(std::span<const State> states, std::uint32_t driven_tick);
 
  private:
   // What a fault remembers of one body.
   struct Memory {
     VehicleId vehicle = kNobody;
-    WheelSpeeds wheels;               // of kMotorStuck, as it began
+    WheelSpeeds wheels;               // of kMotorStuck, as it started
     std::optional<SonarFault> sonar;  // of kinds of ultrasonics
   };
   struct Planned {
@@ -92,8 +92,8 @@ class WorldFaults {
   void Follow(const Body& body);
 
   Nanoseconds tick_period_;
-  std::vector<Planned> planned_;  // by begin
-  std::size_t next_ = 0;          // of planned_, to begin
+  std::vector<Planned> planned_;  // by start
+  std::size_t next_ = 0;          // of planned_, to start
   std::vector<Active> active_;
   bool resting_ = true;
   std::uint32_t driven_tick_ = 0;

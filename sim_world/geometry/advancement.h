@@ -1,5 +1,5 @@
-// Conservative advancement: how far time may go on before a gap can have closed. Rigorous to second
-// order: a value that changes at a known rate and bends at most so much.
+// Conservative advancement: how far time may continue before a gap can have closed. Rigorous to
+// second order: a value that changes at a known rate and bends at most so much.
 #pragma once
 
 #include <limits>

@@ -51,11 +51,11 @@ void Grid::Rebuild(std::span<const Vec2> centres, double cell_m) {
     ++starts_[cell + 1];
   }
   for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) starts_[cell + 1] += starts_[cell];
-  // Counted from the back, so that starts_ ends as the begin of each cell again.
+  // Counted from the back, so that starts_ ends as the start of each cell again.
   for (std::size_t i = centres.size(); i-- > 0;) {
     order_[--starts_[cells_[i] + 1]] = static_cast<std::uint32_t>(i);
   }
-  // Every entry after the first now holds the begin of the cell before it.
+  // Every entry after the first now holds the start of the cell before it.
   std::rotate(starts_.begin(), starts_.begin() + 1, starts_.end());
   starts_.back() = static_cast<std::uint32_t>(centres.size());
 }

@@ -21,7 +21,7 @@ class Grid {
   // ascend, so that the same centres give the same order.
   std::span<const std::uint32_t> Order() const { return order_; }
 
-  // Calls visit(begin, end) with stretches of Order() that together hold every centre within
+  // Calls visit(start, end) with stretches of Order() that together hold every centre within
   // reach_m of `centre`, along either axis, and others near them. One stretch a row, in order.
   template <typename Visit>
   void Near(Vec2 centre, double reach_m, Visit&& visit) const {

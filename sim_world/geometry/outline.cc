@@ -10,7 +10,7 @@ namespace giveway::sim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Corners nearer than this give no direction that rounding has not spoilt.
+// Corners nearer than this give no direction that rounding has not corrupted.
 constexpr double kNoDirection_m = 1e-9;
 // Corners this much behind the foremost belong to the same side: less than what contacts are
 // found to, more than rounding.
@@ -92,7 +92,7 @@ Way ShortestWay(const Outline& a, const Outline& b) {
 // The normal speed along the part of the shell that is foremost in one direction: linear in the
 // place across, between two corners.
 struct Front {
-  Range across;             // where it begins and ends
+  Range across;             // where it starts and ends
   double speed_at_low = 0;  // m/s along the axis
   double speed_at_high = 0;
 
@@ -129,7 +129,7 @@ Nearest NearestBetween(const Outline& a, const Outline& b) {
   const Way way = ShortestWay(a, b);
   const double distance = Sqrt(way.squared_m2);
   // Where a side is nearest its own direction is exact, the way's is only as good as it is long.
-  // Only corners are nearer to each other than any side tells.
+  // Only corners are nearer to each other than any side shows.
   const bool corners = best.apart_m > 0 && distance > best.apart_m + kNoDirection_m;
   const bool discs = best.apart_m == -kInfinity;
   Nearest nearest = {best.apart_m, best.axis_world, {}};

@@ -49,7 +49,7 @@ class WallGrid {
   void CellsOf(const Wall& wall, const Visit& visit) const;
 
   double listed_reach_m_;
-  Vec2 low_;  // farther than the listed reach from any wall; so is high_
+  Vec2 low_;  // further than the listed reach from any wall; so is high_
   Vec2 high_;
   double cell_m_ = 1;
   std::size_t columns_ = 1;

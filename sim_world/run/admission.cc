@@ -57,7 +57,7 @@ void Admission::FollowRun() {
     gone_.push_back(event.vehicle);
     const auto told = told_.find(event.vehicle);
     if (told == told_.end()) continue;
-    // Should it still be there, deaf until now, it may ask anew.
+    // Should it still be there, deaf until now, it may ask again.
     RosterEntry gone = told->second;
     gone.accepted = false;
     gone.waiting = true;

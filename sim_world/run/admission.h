@@ -1,6 +1,6 @@
 // The door between a running world and those who want in: keeps join requests until a seat is free
-// for them, puts bodies into the run and takes them away, and says what each session is to be told.
-// A vehicle drives on only from where it is told that its body stands.
+// for them, puts bodies into the run and takes them away, and says what each session is to be sent.
+// A vehicle drives on only from where the world says that its body stands.
 #pragma once
 
 #include <map>
@@ -24,23 +24,23 @@ class Admission {
   // `run` outlives this object.
   Admission(const Scenario& scenario, WorldEpoch epoch, Run* run);
 
-  // Asks, or leaves. Who waits asks again and again: whoever does not is forgotten.
+  // Asks, or leaves. Who waits asks again and again: one that does not is forgotten.
   void Take(const JoinRequest& request);
   // Once a tick, after the run's Advance: seats of bodies that were taken away are free again.
   void FollowRun();
-  // Whose bodies were taken away since the last call: they are told nothing else any more than what
+  // Whose bodies were taken away since the last call: they are sent nothing else any more than what
   // Answer says after it.
   std::vector<VehicleId> TakeGone();
-  // What there is to tell since the last call, in this order. Before the run's Advance.
+  // What there is to send since the last call, in this order. Before the run's Advance.
   std::vector<RosterEntry> Answer();
-  // Everyone in is told anew, with the run's present state and this reason.
+  // Every admitted vehicle is informed again, with the run's present state and this reason.
   std::vector<RosterEntry> TellAll(const std::string& reason);
 
-  // Who was told that they are in, in this epoch.
+  // The sessions that know they are admitted, in this epoch.
   const std::map<VehicleId, RosterEntry>& Told() const { return told_; }
   // Requests that found the waiting list full.
   std::uint32_t PassedOver() const { return passed_over_; }
-  // Seats in use, told or not: after Restore nobody was told yet.
+  // Seats in use, told or not: after Restore none was informed yet.
   std::vector<VehicleId> Expected() const;
 
   FleetCheckpoint Save(std::uint64_t scenario) const;
@@ -53,9 +53,9 @@ class Admission {
     JoinRequest request;
     Tick since = kNoTick;
     Tick asked = kNoTick;  // last
-    std::string told;      // the last reason it was told
+    std::string told;      // the last reason it was sent
   };
-  // What became of a request in this tick; nothing if there is nothing to tell.
+  // What became of a request in this tick; nothing if there is nothing to send.
   struct Result {
     bool waits = false;
     std::optional<RosterEntry> tell;

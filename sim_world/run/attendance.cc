@@ -11,7 +11,7 @@ namespace {
 constexpr Nanoseconds kSilence{1'000'000'000};
 // From joining to the first command: its endpoints must be made and found first.
 constexpr Nanoseconds kFirstWords{5'000'000'000};
-// From then to the end of its body, at most: nobody has driven it, and its place is wanted.
+// From then to the end of its body, at most: it was not driven, and its place is wanted.
 constexpr Nanoseconds kNeverSpoke{5'000'000'000};
 
 }  // namespace

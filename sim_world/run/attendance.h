@@ -26,12 +26,12 @@ class Attendance {
   // Joins, or joins again: what it was before is forgotten.
   void Join(VehicleId vehicle, Tick tick);
   void Leave(VehicleId vehicle);
-  // From `tick` on silence counts; everybody who joined counts as heard then.
+  // From `tick` on silence counts; every vehicle that joined counts as heard then.
   void Start(Tick tick);
   void Heard(VehicleId vehicle, Tick tick);
   bool IsSilent(VehicleId vehicle) const;
-  // True if nobody seems to speak for the vehicle at `tick`, before the start too: unheard for a
-  // second; for five if it has joined and not yet spoken, for its endpoints must be found first.
+  // True if no process seems to speak for the vehicle at `tick`, before the start too: unheard for
+  // a second; for five if it has joined and not yet spoken, for its endpoints must be found first.
   bool IsAbandoned(VehicleId vehicle, Tick tick) const;
 
   // The next vehicle that has been unheard for so long at `tick`, now silent; kNobody when none.

@@ -14,7 +14,7 @@ namespace giveway::sim {
 struct Outcome {
   std::uint32_t contacts = 0;
   std::vector<VehicleId> halted;
-  std::vector<Rule> halted_for;  // what began the halts; sorted, each once
+  std::vector<Rule> halted_for;  // what started the halts; sorted, each once
   std::vector<VehicleId> arrived;
   bool parted = false;
   std::optional<double> min_separation_m;  // none if no two bodies shared the world

@@ -29,7 +29,7 @@ class FaultPlan {
   // Of each fault of the scenario.
   enum class State : std::uint8_t { kPending, kDue, kOver };
   std::span<const State> States() const { return states_; }
-  // Those that are due anew after a restart: lamps that are out stay out.
+  // Those that are due again after a restart: lamps that are out stay out.
   std::vector<PlannedFault> Lasting() const;
   // False, and nothing is done, where there is not one for each fault.
   bool Restore(std::span<const State> states);

@@ -1,4 +1,4 @@
-// Watches a run by the truth and says what happened: who halted to give way, who went on, who
+// Watches a run by the truth and says what happened: who halted to give way, who continued, who
 // arrived, who touched. It decides nothing about the run's end.
 //
 // A vehicle has arrived while it stands in its goal: its process drives it, it came to a standstill
@@ -28,20 +28,20 @@ class Judge {
                EventLog* log);
 
   bool HasArrived(VehicleId vehicle) const;
-  // Everyone who ever halted to give way, and everyone who arrived; sorted.
+  // Every vehicle that ever halted to give way, and every vehicle that arrived; sorted.
   std::vector<VehicleId> Halted() const;
   std::vector<VehicleId> Arrived() const;
-  // The rules that began the halts; sorted, each once.
+  // The rules that started the halts; sorted, each once.
   std::vector<Rule> HaltedFor() const;
   // Seconds from the start to the last arrival so far; none before the first.
   std::optional<double> LastArrival() const;
 
-  // The vehicle is put on its start pose anew: it has yet to arrive. What it did before still
+  // The vehicle is put on its start pose again: it has yet to arrive. What it did before still
   // counts among Halted and Arrived.
   void BeginAnew(VehicleId vehicle);
 
-  // The vehicle is gone, for good as it seems. What it did that counts in the verdict is kept, of
-  // so many at most.
+  // The vehicle is gone, permanently as it seems. What it did that counts in the verdict is kept,
+  // of so many at most.
   void Forget(VehicleId vehicle);
 
   // What is remembered of one vehicle.
@@ -51,7 +51,7 @@ class Judge {
     bool halted = false;            // stands, after a halt that was logged
     bool halted_once = false;
     Rule stopping_for = Rule::kCruise;  // the first of the give-way rules in a row; else kCruise
-    std::uint32_t halted_for = 0;       // bit i: rule i began a halt
+    std::uint32_t halted_for = 0;       // bit i: rule i started a halt
     bool arrived_before = false;        // and was put on its start pose again since
     std::optional<double> arrived_s;    // stands in its goal since then
   };

@@ -38,8 +38,8 @@ class Roster {
   Roster(const Scenario& scenario, WorldEpoch epoch);
 
   // Accepted with id and start pose; or `waiting` with the reason, where a seat may still come
-  // free; or refused for good with a reason. A session that has a seat gets the same answer however
-  // often and for whatever id it asks again. run_state is the caller's to set.
+  // free; or refused permanently with a reason. A session that has a seat gets the same answer
+  // however often and for whatever id it asks again. run_state is the caller's to set.
   RosterEntry Admit(const JoinRequest& request, const SeatQuestions& ask = {});
   // Gives the vehicle's seat back.
   void Free(VehicleId vehicle);

@@ -2,13 +2,13 @@
 // caller brings commands and takes scans, truths and events away. world_main wires it to DDS, the
 // virtual fleet wires it to brains in memory.
 //
-// A closed run knows everybody from the start and ends when its vehicles have arrived or one dies.
-// In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration. Where
-// that is without an end, until End is called.
+// A closed run knows every vehicle from the start and ends when its vehicles have arrived or one
+// dies. In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration.
+// Where that is without an end, until End is called.
 //
-// A schedule of faults beside the scenario: the world's own are carried out here, and each begin
+// A schedule of faults beside the scenario: the world's own are carried out here, and each start
 // and end is an event. Of others' faults it only knows whose silence is meant to be. Where
-// processes are stopped or restarted by it, a closed run too goes on without a vehicle that falls
+// processes are stopped or restarted by it, a closed run too continues without a vehicle that falls
 // silent, waits for it, and takes it back.
 #pragma once
 
@@ -49,7 +49,7 @@ class Run {
   // A vehicle that is in the run asks for its place with the same session: its process has
   // restarted itself, and its new endpoints must be found before it is heard again.
   void AsksAgain(VehicleId vehicle);
-  // The vehicle said good-bye: its body is taken away. Ends a closed run that is under way.
+  // The vehicle sent a leave notice: its body is taken away. Ends a closed run that is under way.
   void Leave(VehicleId vehicle);
   bool EveryoneJoined() const;
   // The start signal: from the next tick on bodies move and time counts.
@@ -59,16 +59,16 @@ class Run {
   void End(std::string reason);
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
-  // when the duration is over; a closed run also when everyone living has arrived, when a vehicle
-  // fell silent unplanned, and when none lives any more. After the end bodies brake, scans go on,
-  // and nothing is judged any more.
+  // when the duration is over; a closed run also when every living vehicle has arrived, when a
+  // vehicle fell silent unplanned, and when none lives any more. After the end bodies brake, scans
+  // continue, and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
   Tick Now() const { return world_.Now(); }
   RunState State() const { return state_; }
   double TimeSeconds() const;  // since the start signal, without pauses; 0 before it
   // What the last Advance produced; valid until the next. Scans are of the bodies present, truths
-  // of everyone who joined.
+  // of every vehicle that joined.
   std::span<const RangeScan> Scans() const { return scans_; }
   std::span<const RadarScan> Radars() const { return further_.Radars(); }
   std::span<const LidarScan> Lidars() const { return further_.Lidars(); }
@@ -90,7 +90,7 @@ class Run {
   // Says in an answer to a vehicle where its body is now, and how far its task; nothing where it
   // has no body.
   void Locate(const VehicleOptions& options, RosterEntry* entry) const;
-  // Whom the last Advance forgot, whom nothing more is told of: vehicles that are not the
+  // Whom the last Advance forgot, of which nothing more is reported: vehicles that are not the
   // scenario's, a second after their bodies were taken away.
   std::span<const VehicleId> Forgotten() const { return forgotten_; }
 
@@ -100,12 +100,12 @@ class Run {
   std::span<const MovingObstacle> Obstacles() const { return world_.Obstacles(); }
   std::span<const SlidingDoor> Doors() const { return world_.Doors(); }
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
-  // True if nobody speaks for the vehicle any more, or yet.
+  // True if no process speaks for the vehicle any more, or yet.
   bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
 
-  // All that a run of the same scenario in a new epoch needs to go on from here.
+  // All that a run of the same scenario in a new epoch needs to continue from here.
   RunCheckpoint Save() const;
-  // Goes on from there, paused: bodies brake and time stands still until Start. `joined` are the
+  // Continues from there, paused: bodies brake and time stands still until Start. `joined` are the
   // vehicles the checkpoint names that are not the scenario's. False, and this run is of no use any
   // more, if the checkpoint is not of this scenario.
   bool Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined);
@@ -151,7 +151,7 @@ class Run {
   bool started_ = false;                         // the start signal was given
   std::uint32_t ticks_run_ = 0;                  // since then, without pauses
   std::vector<WorldEvent> comings_and_goings_;   // since the last tick
-  std::vector<Gone> gone_;                       // still told of, as not present
+  std::vector<Gone> gone_;                       // still reported, as not present
   std::vector<VehicleId> forgotten_;
   std::string asked_end_;
   std::string end_reason_;

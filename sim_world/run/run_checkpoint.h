@@ -1,4 +1,4 @@
-// All of a run, and of who takes part in it, that a restarted world needs to go on: a value, and
+// All of a run, and of who takes part in it, that a restarted world needs to continue: a value, and
 // the bytes of it. The bytes carry a version and a checksum; whatever is not exactly what ToBytes
 // wrote is refused. Knows no files.
 #pragma once

@@ -1,5 +1,5 @@
 // The scenario's signal heads: what each shows at a tick, and which of them speak in it. Follows
-// the plans and the faults it is told of; knows no vehicles and obeys nobody.
+// the plans and the faults it is given; knows no vehicles and obeys none.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class SignalHeads {
   // Who speaks in this tick, by id; valid until the next Advance.
   std::span<const SignalState> States() const { return states_; }
 
-  // From the next Advance on: kSignalDark goes on talking with its lamps out, kSignalSilent says
+  // From the next Advance on: kSignalDark continues talking with its lamps out, kSignalSilent says
   // nothing any more. Other faults and unknown heads are none of ours: false.
   bool Fail(SignalId signal, FaultKind fault);
 

@@ -18,7 +18,7 @@ bool ExcludeEachOther(const VehicleOptions& a, const VehicleOptions& b) {
 
 }  // namespace
 
-// Each wheel errs anew in each tick by a share of what it rolls, so that the heading is a random
+// Each wheel errs again in each tick by a share of what it rolls, so that the heading is a random
 // walk and the place beside the way its sum.
 GoalTolerance ToleranceOf(const VehicleOptions& options) {
   constexpr double kSigmas = 3;

@@ -64,7 +64,7 @@ bool Claims::IsInside(Tick tick, const Beacon& said, const Observed& now,
          Holds(claim, said.body_radius_m, slack_m, stands_world);
 }
 
-// Told in a tick to stop, it brakes from the next on; others go by its beacon of the tick before.
+// Asked in a tick to stop, it brakes from the next on; others go by its beacon of the tick before.
 bool Claims::StaysWhileBraking(Tick tick, const Observed& now, Track* track) const {
   if (!now.stops || !now.lives) {
     track->braking.reset();

@@ -1,8 +1,8 @@
 // Whether claims hold (vehicle/situation/claim.h): a vehicle that was last heard some ticks ago is,
 // by the truth, where its beacon of then claims that it can be, and so is the place where it would
-// stand if it braked now, straight on. Of every beacon that somebody may still go by, for others
+// stand if it braked now, straight on. Of every beacon that a peer may still go by, for others
 // may have been lost. And one that brakes as hard as it can stays, until it stands, in what it
-// claimed when it began, turning or not.
+// claimed when it started, turning or not.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ class Claims {
     double deceleration_m_s2 = 0;
     double reaction_s = 0;
     std::array<Beacon, kKept> said{};  // [tick % kKept]
-    std::optional<Claim> braking;      // of when it began to brake; empty: it does not
+    std::optional<Claim> braking;      // of when it started to brake; empty: it does not
     double braking_slack_m = 0;
     bool told = false;
   };

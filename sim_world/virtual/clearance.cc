@@ -91,7 +91,7 @@ bool Clearance::FindNear(std::size_t index, std::span<const Observed> vehicles,
   return IsNearWall(own) || IsNearThing(own, around);
 }
 
-// Told again only once it has moved without anything near.
+// Reported again only once it has moved without anything near.
 std::span<const TooNear> Clearance::Observe(std::span<const Observed> vehicles,
                                             const Surroundings& around) {
   too_near_.clear();

@@ -1,6 +1,6 @@
 // Who drives nearer to something than the margin it promises, shell to shell and by the truth: to
 // another body, a wall, an obstacle or the leaf of a door. Only of one that moves towards it:
-// whoever stands is passed at the other's cost, and whoever began near may leave.
+// a vehicle that stands is passed at the other's cost, and one that started near may leave.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace giveway::sim {
 
-// What moves beside the vehicles. Empty where nobody can say.
+// What moves beside the vehicles. Empty where it is not known.
 struct Surroundings {
   std::span<const MovingObstacle> obstacles;
   std::span<const SlidingDoor> doors;

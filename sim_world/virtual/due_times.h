@@ -1,5 +1,5 @@
-// When everyone is due: what it takes a vehicle alone in the place, and a bound on what the others
-// cost it that depends on the place alone. The bound is what a crossing guard of little wit
+// When each vehicle is due: what it takes a vehicle alone in the place, and a bound on what the
+// others cost it that depends on the place alone. The bound is what a crossing guard of little wit
 // reaches, who lets all others through the place first, one after the other, each from standstill.
 #pragma once
 

@@ -1,9 +1,9 @@
 // Makes scenarios of a kind, sized by vehicles and varied by seed. Only layouts that can be solved:
 // starts and goals at least two metres apart (one vehicle per 4 m^2), goals off the ways of others
-// or in the order they are reached, or as in convoy and antipodal where everyone can make room. Two
-// lanes are two bodies and half a metre wide; door and one_lane are passed one by one. Everyone can
-// arrive but of those who share a goal (arriving.h), and it is said so before the run. The same
-// values give the same scenario anywhere.
+// or in the order they are reached, or as in convoy and antipodal where every vehicle can make
+// room. Two lanes are two bodies and half a metre wide; door and one_lane are passed one by one.
+// Every vehicle can arrive but of those who share a goal (arriving.h), and it is said so before the
+// run. The same values give the same scenario anywhere.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ std::span<const Generator> Generators();
 // Null if there is none of that name.
 const Generator* FindGenerator(std::string_view name);
 
-// Four roads meet; everyone drives straight across.
+// Four roads meet; every vehicle drives straight across.
 Scenario MakeCrossing(const Size& size);
 // Four roads meet in a ring, driven counter-clockwise.
 Scenario MakeRoundabout(const Size& size);
@@ -40,14 +40,14 @@ Scenario MakeMerge(const Size& size);
 Scenario MakeWarehouse(const Size& size);
 // Random starts and goals in an open field.
 Scenario MakeSwarm(const Size& size);
-// One lane, everyone the same way, at different speeds.
+// One lane, all the same way, at different speeds.
 Scenario MakeConvoy(const Size& size);
 
 // Two rooms, and a door of one to two bodies between them, with traffic both ways.
 Scenario MakeDoor(const Size& size);
 // A passage in which no two pass each other, with traffic from both ends.
 Scenario MakeOneLane(const Size& size);
-// A circle on which everyone wants to the opposite side.
+// A circle on which every vehicle wants to the opposite side.
 Scenario MakeAntipodal(const Size& size);
 // A car park: one half drives in, the other out, and some into the bay of one that leaves.
 Scenario MakeParking(const Size& size);

@@ -1,4 +1,4 @@
-// Layouts without walls in which everyone drives straight to the goal.
+// Layouts without walls in which every vehicle drives straight to the goal.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +19,7 @@ constexpr double kParked_m = 2.1;     // between goals of one lane
 //              | v  ^ |          Each of the four streams has a lane of its own. Those waiting
 //        ------+      +------    stand behind each other before the crossing; beyond it they park
 //        <                 <     in their lane in the same order, the first the farthest, so that
-//        >                 >     nobody arrives in anyone's way.
+//        >                 >     no vehicle arrives in anyone's way.
 //        ------+      +------
 //              | v  ^ |
 Scenario MakeCrossing(const Size& size) {
@@ -38,8 +38,8 @@ Scenario MakeCrossing(const Size& size) {
   return layout.Take();
 }
 
-// A square of 16 m^2 a vehicle, cut into cells; everyone has a cell to start in and another to end
-// in, each with its own, moved a little within it. Ways cross anywhere.
+// A square of 16 m^2 a vehicle, cut into cells; every vehicle has a cell to start in and another to
+// end in, each with its own, moved a little within it. Ways cross anywhere.
 Scenario MakeSwarm(const Size& size) {
   Layout layout("swarm", size);
   const double side_m = std::sqrt(16.0 * size.vehicles);

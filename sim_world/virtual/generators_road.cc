@@ -1,6 +1,6 @@
 // Layouts with lanes: roundabout, corridor, door, one_lane, merge. Who has come through parks in a
-// bay beside the lane, at a place drawn: overtaking is not asked of anyone, and nobody's order of
-// arrival matters.
+// bay beside the lane, at a place drawn: overtaking is not asked of anyone, and no vehicle's order
+// of arrival matters.
 #include <algorithm>
 #include <array>
 #include <vector>

@@ -17,8 +17,8 @@ Vec2 OnCircle(double radius_m, double angle_rad) {
 
 }  // namespace
 
-// All ways cross in one point. Whoever stands on a goal stands where another has started: it is in
-// nobody's way any more once that one has left.
+// All ways cross in one point. A vehicle that stands on a goal stands where another has started: it
+// is in nobody's way any more once that one has left.
 Scenario MakeAntipodal(const Size& size) {
   Layout layout("antipodal", size);
   constexpr double kLeast_m = 4;

@@ -8,7 +8,7 @@
 //
 // Roads run along both sides, an aisle between any two racks; each has two lanes, and traffic keeps
 // to the right. An aisle is two bodies and half a metre wide between its two strips for standing,
-// so that whoever stands is in nobody's way.
+// so that a vehicle that stands is in no vehicle's way.
 #include <algorithm>
 #include <array>
 #include <cmath>

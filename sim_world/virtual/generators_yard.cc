@@ -14,7 +14,7 @@ namespace {
 constexpr double kParkLane_m = 0.6;  // of the car park, from its middle to either lane's
 constexpr double kStand_m = 3.0;     // from its middle to those who stand in bays
 constexpr double kBackWall_m = 3.9;
-constexpr double kStubs_m = 2.2;  // from its middle to where the walls between bays begin
+constexpr double kStubs_m = 2.2;  // from its middle to where the walls between bays start
 constexpr double kFirstBay_m = 1.5;
 
 Vec2 BayAt(std::uint32_t bay) {

@@ -161,7 +161,7 @@ void Invariants::JudgeContact(const WorldEvent& event) {
 
 // Data is stale where the vehicle says so, or where its last command is older than the world's
 // watchdog allows. From then on it must brake: one tick for the command to arrive, then down by the
-// deceleration every tick. Seen from outside it may be seen too early, and braking begins later.
+// deceleration every tick. Seen from outside it may be seen too early, and braking starts later.
 void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
   const bool says_so = now.decision.rule == Rule::kRangesStale;
   const bool is_so =

@@ -26,17 +26,17 @@ enum class Invariant : std::uint8_t {
   kContact,      // no contact that a moving vehicle caused
   kStaleMotion,  // no motion on stale data: at the latest the braking is under way
   kWaitCycle,    // who halts to give way and to whom: never in a circle
-  kWaitBound,    // nobody stands on one place for longer than a bound, whatever it says it is for
-  kAllHalted,    // never do all who are not there yet halt to give way, each for another
-  kOrder,        // who halts to give way comes later in the order, as both published it
-  kArrival,      // everyone who lives arrives within the duration, and somebody lives
-  kPose,         // where a beacon says its vehicle was, it was: as nearly as the beacon says
-  kRedLight,     // nobody drives past a red light: red_lights.h
-  kProgress,     // nobody is wedged: progress.h
-  // Counted and told of in virtual runs, and held to where that is asked for: RequiredInvariants.
-  kClearance,  // nobody drives nearer to anything than its margin: clearance.h
+  kWaitBound,  // no vehicle stands on one place for longer than a bound, whatever it says it is for
+  kAllHalted,  // never do all who are not there yet halt to give way, each for another
+  kOrder,      // who halts to give way comes later in the order, as both published it
+  kArrival,    // every living vehicle arrives within the duration, and at least one lives
+  kPose,       // where a beacon says its vehicle was, it was: as nearly as the beacon says
+  kRedLight,   // no vehicle drives past a red light: red_lights.h
+  kProgress,   // no vehicle is wedged: progress.h
+  // Counted and reported in virtual runs, and held to where that is asked for: RequiredInvariants.
+  kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h
-  kDelay,      // everyone arrives when it is due
+  kDelay,      // every vehicle arrives when it is due
 };
 inline constexpr std::size_t kInvariantCount = 13;
 std::string_view Name(Invariant invariant);
@@ -67,7 +67,7 @@ struct InvariantLimits {
   std::uint32_t cycle_ticks = 1;
   // kOrder: how old a published key may be that a vehicle goes by; at most kRememberedKeys - 1.
   std::uint32_t key_age_ticks = 6;
-  // kStaleMotion: how much later than it is seen the braking may begin.
+  // kStaleMotion: how much later than it is seen the braking may start.
   std::uint32_t stale_ticks = 0;
   double wedge_s = 60;  // kProgress: how long a crowd may come no further
   // kArrival: only of these, ascending; absent: of all that have a goal.
@@ -91,13 +91,13 @@ class Invariants {
 
   // Takes in one tick, time_s after the start signal. Vehicles in order of their ids; events are
   // those since the last one. Ticks may be missing: what must last from tick to tick to be wrong
-  // then begins anew.
+  // then starts again.
   void Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
                std::span<const WorldEvent> events, const Surroundings& around = {});
-  // At the end of the run: who has not arrived? In a closed one, does nobody live?
+  // At the end of the run: who has not arrived? In a closed one, does none live?
   void Finish(Tick tick, std::span<const Observed> vehicles);
 
-  // Each is counted when it begins, not once a tick.
+  // Each is counted when it starts, not once a tick.
   std::uint32_t Count(Invariant invariant) const {
     return counts_[static_cast<std::size_t>(invariant)];
   }

@@ -55,7 +55,7 @@ class Layout {
   Scenario scenario_;
 };
 
-// Where those who go by park: beside a lane, so that they are in nobody's way. Between two bays
+// Where those who go by park: beside a lane, so that they are in no vehicle's way. Between two bays
 // there is room.
 inline constexpr double kBay_m = 2.1;     // along the lane
 inline constexpr double kBeside_m = 1.6;  // from the lane's middle

@@ -14,7 +14,7 @@ constexpr double kNearerTime_s =
     10;  // and a slow one needs no more of it than it drives in so long
 // A vehicle on a detour passes a waypoint that it cannot reach within 1.2 m (vehicle/way.cc).
 constexpr double kPassed_m = 1.3;
-// Centre to centre: from a door or a dead vehicle, of which nobody says that it waits for them.
+// Centre to centre: from a door or a dead vehicle, of which no vehicle says that it waits for them.
 constexpr double kNear_m = 1.7;
 constexpr std::uint32_t kNoTrack = 0xffffffff;
 

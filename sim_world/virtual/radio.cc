@@ -11,7 +11,7 @@ namespace giveway::sim {
 namespace {
 
 // Beyond the radius in which beacons are listened to they still come: so a brain learns that a peer
-// drove out of it. One stated from well outside tells it; the rest would only be counted.
+// drove out of it. One stated from well outside shows it; the rest would only be counted.
 constexpr double kFringe_m = 1.5;
 constexpr double kWellOutside_m = 0.5;
 constexpr std::uint32_t kHeldBackTicks = 2;
@@ -152,7 +152,7 @@ void Radio::Hear(std::size_t receiver, std::vector<ReceivedBeacon>* heard) {
              });
 }
 
-// The chain is carried over the ticks nobody asked for in closed form: its eigenvalue is
+// The chain is carried over the ticks not asked for in closed form: its eigenvalue is
 // 1 - enter - leave, and its stationary share of bad links enter / (enter + leave).
 bool Radio::IsLinkBad(std::size_t receiver, std::size_t sender, Pair* pair) const {
   const BurstLoss& burst = settings_.burst;
@@ -234,7 +234,7 @@ void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
 }
 
 // The edges come once each. Who drove out of the radius is not missed: the middleware hears it
-// still, only nobody listens. Who is lost for good is expected no more.
+// still, only it is not received. Who is lost permanently is expected no more.
 void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
   std::uint32_t* const expected = expected_.data() + receiver * count_;
   std::uint32_t kept = 0;

@@ -34,7 +34,7 @@ class Radio {
 
   // What a vehicle said in answer to `tick`. At most one beacon a vehicle and tick.
   void Say(std::size_t sender, Tick tick, const Beacon& beacon);
-  // Everyone's place at the tick now being heard, time_s after the start signal.
+  // Each vehicle's place at the tick now being heard, time_s after the start signal.
   void BeginTick(Tick now, double time_s, std::span<const RadioPlace> places);
   // Appends what the vehicle hears at this tick: of one sender in order of arrival.
   void Hear(std::size_t receiver, std::vector<ReceivedBeacon>* heard);

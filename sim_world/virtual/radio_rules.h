@@ -56,7 +56,7 @@ class RadioRules {
     std::uint32_t reorder_late = 0;
   };
 
-  // Those that have a say for a while, of all in order of their begin.
+  // Those that have a say for a while, of all in order of their start.
   struct Rules {
     std::vector<Timed> all;
     std::size_t next = 0;

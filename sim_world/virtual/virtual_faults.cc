@@ -19,7 +19,7 @@ std::optional<ProcessFaultKind> ProcessKindOf(Kind kind) {
     case Kind::kRestart:
       return ProcessFaultKind::kRestart;
     case Kind::kPause:
-    case Kind::kHang:  // whatever of a process goes on, its vehicle hears and says nothing
+    case Kind::kHang:  // whatever of a process continues, its vehicle hears and says nothing
       return ProcessFaultKind::kPause;
     case Kind::kSlow:
       return ProcessFaultKind::kSlow;
@@ -35,7 +35,7 @@ std::uint64_t DrawsOf(const faults::Fault& fault) {
   return hash.Value();
 }
 
-// The rule is of one hearer, or of everyone.
+// The rule is of one hearer, or of every vehicle.
 RadioRule RadioRuleOf(const faults::Fault& fault) {
   const faults::Parameters with = faults::Filled(fault.kind, fault.parameters);
   RadioRule rule{.from_s = fault.at_s,

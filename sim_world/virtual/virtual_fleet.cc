@@ -126,7 +126,7 @@ bool VirtualFleet::IsThere(const VehicleOptions& options) {
   return true;
 }
 
-// A new process is told where its body stands and how far its task is, as by the world's roster; so
+// A new process is sent where its body stands and how far its task is, as by the world's roster; so
 // is one that had slept until its body was taken away.
 void VirtualFleet::BringBack(std::size_t index) {
   Member& member = members_[index];

@@ -17,8 +17,8 @@ namespace giveway::sim {
 
 class VirtualFleet {
  public:
-  // Everyone joins and the run starts at once. Without a plan nothing is lost and nobody fails but
-  // by the scenario.
+  // Every vehicle joins and the run starts at once. Without a plan nothing is lost and no process
+  // fails but by the scenario.
   explicit VirtualFleet(const Scenario& scenario, const VirtualPlan& plan = {});
 
   // One tick for world and brains. False once the run has ended.
@@ -52,7 +52,7 @@ class VirtualFleet {
     std::uint32_t slow_until_tick = 0;  // not any more
     double share = 1;                   // of ticks that it answers while it is slow
     Outputs said;
-    std::optional<RosterEntry> placed;   // what a new process is told before its first scan
+    std::optional<RosterEntry> placed;   // what a new process is sent before its first scan
     std::vector<ReceivedBeacon> queued;  // in the reader of a paused process
   };
   struct DueFault {

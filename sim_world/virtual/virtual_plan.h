@@ -19,7 +19,7 @@ struct BurstLoss {
   double loss = 1;     // share of beacons a bad link loses
 };
 
-// Nobody hears the vehicle and it hears nobody.
+// No peer receives the vehicle and it hears nobody.
 struct Blackout {
   VehicleId vehicle = kNobody;  // kNobody: everyone
   double from_s = 0;            // since the start signal
@@ -59,15 +59,16 @@ struct RadioSettings {
   bool loops_back = false;  // everyone hears its own beacons too
   std::vector<Blackout> blackouts;
   std::vector<RadioRule> rules;
-  // The radio's own reach by true positions. Without one it carries farther than anyone listens, as
+  // The radio's own reach by true positions. Without one it carries further than anyone listens, as
   // the middleware does: brains leave out what was stated from beyond their emission radius.
   std::optional<double> reach_m;
 };
 
 enum class ProcessFaultKind : std::uint8_t {
   kCrash,    // silent for ever; the body stays as long as the scenario says
-  kPause,    // stands still for a time, then goes on with everything queued
-  kRestart,  // is gone for a time; then a new one goes on as the world tells it: where and whereto
+  kPause,    // stands still for a time, then continues with everything queued
+  kRestart,  // is gone for a time; then a new one continues as the world says: where and
+             // whereto
   kSlow,     // answers only a share of the ticks for a time, and finds the rest queued
 };
 

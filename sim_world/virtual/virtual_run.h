@@ -30,7 +30,7 @@ struct VirtualOutcome {
   std::vector<Violation> first;        // violations, in order of time
   std::vector<Violation> noted;        // of invariants that are not required, the same
   std::vector<double> delays_s;        // of those who arrived: beyond the free-flow time
-  std::optional<double> clear_s;       // the last arrival, if everyone living arrived
+  std::optional<double> clear_s;       // the last arrival, if every living vehicle arrived
   std::optional<double> separation_m;  // the closest two shells ever came
   TrustCounters trust;                 // of all brains, as they ended
   std::uint64_t hash = 0;              // of every command and the last state

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# The rows of qos_effects.sh: value -> another, its set, the figures that tell, the options of both
+# The rows of qos_effects.sh: value -> another, its set, the figures that show it, the options of both
 # fleets, and the edit. Sourced, never run.
 
 # profile NAME ELEMENT: the path of an element of one profile.

@@ -61,7 +61,7 @@ counter() {
     '.benchmarks[0] | .[$name] * $scale | round / $scale' "$scratch/interleaved.json"
 }
 
-# Vehicle::Step with everyone heard anew every tick, microseconds.
+# Vehicle::Step with everyone heard again every tick, microseconds.
 if wanted step; then
   figure step_10_peers_us "$(microbench VehicleStep/10 real_time)" 0.5
   figure step_100_peers_us "$(microbench VehicleStep/100 real_time)" 5

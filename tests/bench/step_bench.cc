@@ -1,4 +1,4 @@
-// What one step of the brain costs with 10, 100 and 1000 peers in the table, each heard anew every
+// What one step of the brain costs with 10, 100 and 1000 peers in the table, each heard again every
 // tick, as in a full mesh without loss: a fleet that drives along with the vehicle, to one side of
 // it or all around it.
 #include <benchmark/benchmark.h>

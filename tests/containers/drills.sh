@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A composed fleet that anything may happen to: kill -9 of a vehicle, the world, one discovery server
-# and both, a pause, a cut network, more and fewer vehicles. Nobody touches anybody, whoever returns
+# and both, a pause, a cut network, more and fewer vehicles. No bodies touch anybody, whoever returns
 # drives again within five seconds, and nobody lends a hand.
 #
 #   bash tests/containers/drills.sh multicast|servers
@@ -34,7 +34,7 @@ drill_world_crash() {
   await "world killed: all drive again" "$LIMIT_S" drive_again $((told + VEHICLES))
 }
 
-# Whoever knows the others goes on without a server; whoever is new finds them through the other
+# Whoever knows the others continues without a server; whoever is new finds them through the other
 # one, and after both were gone through either that is back.
 drill_servers_crash() {
   local server others
@@ -78,7 +78,7 @@ drill_cut() {
 }
 
 # The interface itself goes away, and another one with the same address comes. By multicast whoever
-# comes later does not find this vehicle any more, see the README: it goes last there.
+# comes later does not find this vehicle any more, see config/deploy/README.md: it goes last there.
 drill_unplug() {
   local vehicle told address
   vehicle=$(first_of vehicle)

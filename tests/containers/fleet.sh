@@ -24,7 +24,7 @@ use() {
 # One run and no more: the services end with it, and the world's exit code is its verdict.
 once() { export GIVEWAY_RESTART=on-failure GIVEWAY_STAY=; }
 
-# eight ARRIVALS: the shipped open fleet, begun by eight at once, with this line on who must arrive.
+# eight ARRIVALS: the shipped open fleet, started by eight at once, with this line on who must arrive.
 eight() {
   sed -e 's/^start_with: 2$/start_with: 8\nstart_timeout_s: 60/' -e 's/^duration_s: 90$/duration_s: 60/' \
     -e "s/^  any_arrived: true\$/  $1/" "$GIVEWAY_ROOT/config/scenarios/open_fleet.textproto" \
@@ -122,7 +122,7 @@ any_drives() {
   return 1
 }
 
-# Places all vehicles were given so far: each is told anew by another world.
+# Places all vehicles were given so far: each is told again by another world.
 places() {
   local vehicle sum=0
   for vehicle in $(running vehicle); do

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A fleet as the README starts it, for as long as wanted: it drives until it is told to stop, whatever
+# A fleet as the README starts it, for as long as wanted: it drives until it is asked to stop, whatever
 # happens meanwhile. Its world is restarted three times, two vehicles are killed, one network is cut;
-# after each every vehicle drives again, nobody touches anybody, and in the quiet last third nobody's
+# after each every vehicle drives again, no bodies touch anybody, and in the quiet last third nobody's
 # memory grows.
 #
 #   bash tests/containers/patrol.sh [MINUTES [VEHICLES]]   default: each of the three once, at once
@@ -19,7 +19,7 @@ use multicast
 unset GIVEWAY_SCENARIO
 
 # The command of the README, with this number of vehicles.
-README_UP=$(grep -Eo '^bash config/deploy/up\.sh --vehicles [0-9]+' "$GIVEWAY_ROOT/README.md" | head -n 1)
+README_UP=$(grep -Eo '^bash config/deploy/up\.sh --vehicles [0-9]+' "$GIVEWAY_ROOT/config/deploy/README.md" | head -n 1)
 [[ -n $README_UP ]] || die "the README does not say how a fleet is started"
 up_as_the_readme_says() {
   local as_it_is=()
@@ -72,7 +72,7 @@ placed() { [[ $(places) -ge $1 ]]; }
 restart_world() {
   local told
   told=$(places)
-  # The README's words, not docker's: the world is told to stop, and its run is over.
+  # The README's words, not docker's: the world is asked to stop, and its run is over.
   compose restart -t 5 world >"$SCRATCH/restart.log" 2>&1 || fail "restart: $(tail -n 3 "$SCRATCH/restart.log")"
   await "world restarted: all are given a place" 20 placed $((told + VEHICLES))
   drive_again "world restarted"

@@ -9,7 +9,7 @@ if [[ $# -ne 3 ]]; then
 fi
 vehicles=$1 crossings=$2 start_with=$3
 
-# Farther than a road reaches from its crossing (7 m), twice, plus the emission radius (5 m).
+# Further than a road reaches from its crossing (7 m), twice, plus the emission radius (5 m).
 PITCH_M=24
 # x, y, heading, cruise, and the four corners of the way round: the front four of a crossing, then
 # those behind them.
@@ -28,7 +28,7 @@ cat <<TEXT
 name: "fleet_$vehicles"
 description: "Places for $vehicles vehicles that join as they come: crossings of two roads, eight places each, $PITCH_M m apart."
 
-# Zero: until it is told to stop.
+# Zero: until it is asked to stop.
 duration_s: 0
 # Images are pulled and nodes are found meanwhile: the fleet is gathered before it starts.
 start_with: $start_with
@@ -53,7 +53,7 @@ for ((crossing = 0; crossing < crossings; ++crossing)); do
 done
 cat <<'TEXT'
 
-# Who halts and who arrives is up to whoever comes; that nobody touches is not.
+# Who halts and who arrives is up to whoever comes; that no bodies touch is not.
 expect {
   contacts: 0
   any_halted: true

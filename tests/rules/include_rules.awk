@@ -10,7 +10,7 @@ BEGIN {
            "stop_token|coroutine|filesystem|fstream|iostream|ctime|random|time\\.h|csignal)$"
   # These differ from one C library or CPU to the next; services/types/math has its own.
   INEXACT = "std::(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow|hypot|cbrt)\\("
-  # Which library a header belongs to, by the beginning of its name.
+  # Which library a header belongs to, by the start of its name.
   n = split("fastdds/ fastrtps/ fastcdr/ fleet idl/ google/protobuf/ spdlog/ httplib.h prometheus/ CLI/ " \
             "tinyxml2.h yaml-cpp/ Eigen/ immintrin.h", prefixes, " ")
   split("fastdds fastdds fastdds fastdds fastdds protobuf spdlog httplib prometheus CLI " \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Prints modules.txt as the table of README.md; with --check, says whether README.md holds just that.
+# Prints modules.txt as the table of services/README.md; with --check, says whether that holds just it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -19,8 +19,8 @@ if [[ ${1:-} != --check ]]; then
   table
   exit
 fi
-held=$(sed -n '/^| module | what it is | may include |$/,/^$/p' README.md | sed '/^$/d')
+held=$(sed -n '/^| module | what it is | may include |$/,/^$/p' services/README.md | sed '/^$/d')
 diff <(table) <(printf '%s\n' "$held") || {
-  echo "README.md: the table of modules is not that of tests/rules/modules.txt (left): put the output of tests/rules/modules_table.sh there"
+  echo "services/README.md: the table of modules is not that of tests/rules/modules.txt (left): put the output of tests/rules/modules_table.sh there"
   exit 1
 }

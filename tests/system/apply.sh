@@ -139,7 +139,7 @@ for bad in "cut.xml --to 1" "/no/such.xml --to 1" "deadline.xml --to 0" "deadlin
   [[ -s err ]] || fail "refused without a word: $bad"
 done
 
-# Before and after each restart it knew where it was, and it went on to the corner it was driving to.
+# Before and after each restart it knew where it was, and it continued to the corner it was driving to.
 end_listening
 places two >two.json
 jq -e 'length >= 2 and all(.[]; .beacons > 20 and .beyond_m < 0.1) and

@@ -3,7 +3,7 @@
 # line and what to do, nothing started, and no waiting.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
-# A small scenario that is right; each case spoils one thing.
+# A small scenario that is right; each case corrupts one thing.
 good="$SCRATCH/good.textproto"
 cat >"$good" <<'TEXT'
 name: "good"
@@ -35,7 +35,7 @@ refused() {
   echo "$name: $(head -n 1 "$SCRATCH/err" | head -c 200)" >&2
 }
 
-# spoilt NAME PATTERN SED: the same for the good scenario changed by a sed script.
+# corrupted NAME PATTERN SED: the same for the good scenario changed by a sed script.
 spoilt() {
   local file="$SCRATCH/spoilt.textproto"
   sed -E "$3" "$good" >"$file"

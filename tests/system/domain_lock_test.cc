@@ -90,7 +90,7 @@ TEST_F(DomainLockTest, OtherUsersCanReadTheLockFileWhateverTheUmask) {
   EXPECT_EQ(facts.st_mode & 0777U, 0644U);
 }
 
-// A fleet in a chroot held domain 1 by a lock file nobody else could see; both runs were spoilt.
+// A fleet in a chroot held domain 1 by a lock file no other could see; both runs were corrupted.
 TEST_F(DomainLockTest, DomainWithoutALockButWithAParticipantIsPassedOver) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in loopback{};

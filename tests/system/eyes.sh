@@ -26,7 +26,7 @@ until_true() {
   done
 }
 
-# Begins a run; its domain in $domain.
+# Starts a run; its domain in $domain.
 begin() {
   : >run.err # that of the run before names a domain too
   "$FLEETCTL" run "$1" --json --logs logs >run.json 2>run.err &
@@ -70,7 +70,7 @@ says "of one vehicle" 'length == 2 and all(.[]; .vehicle == 2 and .qos.matched =
 eyes 0 "a latecomer" listen world/event --domain "$domain" --count 1 --json
 says "a latecomer" '.[0].kind == "started"'
 eyes 1 "nothing yet" listen world/figures --domain "$domain" --duration 2
-grep -q 'somebody is there' err || fail "nothing yet: $(cat err)"
+grep -q 'a fleet is there' err || fail "nothing yet: $(cat err)"
 
 statuses=0,0
 timeout 30 "$FLEETCTL" listen fleet/beacon --domain "$domain" 2>err | head -n 1 >out ||

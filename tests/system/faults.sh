@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# `fleetctl faults` as README.md and its help show it: lists that expand to themselves, and what is
+# `fleetctl faults` as its README.md and its help show it: lists that expand to themselves, and what is
 # refused. Starts nothing.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"
 
-# The commands of README.md.
+# The commands of services/fleetctl/faults/README.md.
 "$FLEETCTL" faults list >kinds || fail "list: exit code $?"
 [[ $(grep -c '^  [a-z]' kinds) -eq 41 ]] || fail "not 41 kinds: $(<kinds)"
 "$FLEETCTL" faults expand everything --seed 1 --duration 30m --vehicles 20 >list.textproto ||
@@ -29,8 +29,8 @@ for verb in faults 'faults expand' 'faults list'; do
   "$FLEETCTL" $verb --help >/dev/null || fail "$verb --help: exit code $?"
 done
 
-# The example of README.md, and one rule less: nothing of another moves.
-sed -n '/^## Fault files/,/^## /{/^\(at\|random\) /p}' "$REPOSITORY/README.md" >three.textproto
+# The example of that README.md, and one rule less: nothing of another moves.
+sed -n '/^\(at\|random\) {/p' "$REPOSITORY/services/fleetctl/faults/README.md" >three.textproto
 [[ $(wc -l <three.textproto) -eq 3 ]] || fail "the example of README.md: $(<three.textproto)"
 expand() { "$FLEETCTL" faults expand "$1" --seed 7 --duration 1h --vehicles 4 | grep '^at '; }
 expand three.textproto >with

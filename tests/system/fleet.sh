@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # What the system tests share: where the programs are, a scratch folder, how a failure is said, and
 # who belongs to a run. Sourced, never run. Processes are found by id and by their own arguments,
-# never by name alone: other runs on the machine are nobody's business here.
+# never by name alone: other runs on the machine are of no interest here.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
@@ -112,7 +112,7 @@ judged_run() {
 
 LISTENERS=()
 # listen_places NAME DOMAIN VEHICLE: from now on until end_listening, what its beacons say of where it
-# is, and where it is. By the set that requests least: it goes on hearing a fleet that takes another.
+# is, and where it is. By the set that requests least: it continues hearing a fleet that takes another.
 listen_places() {
   local topic
   for topic in beacon truth; do

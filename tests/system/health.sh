@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # /livez, /readyz and /metrics of real services, by --health and by whatever a stranger may send; a
-# loop that hangs; and stops: within a second of SIGTERM, with exit code 0, told apart from a loss.
+# loop that hangs; and stops: within a second of SIGTERM, with exit code 0, distinguished from a loss.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 FIRST_PORT=$((21000 + DOMAIN * 10))
@@ -84,7 +84,7 @@ ended second 2 "$since" 2000
 grep -q 'already in use.*port of its own' "$SCRATCH/second.log" ||
   fail "a taken port: $(cat "$SCRATCH/second.log")"
 
-# --- Whatever a stranger sends, the loop goes on and the next probe is answered.
+# --- Whatever a stranger sends, the loop continues and the next probe is answered.
 # said_to PORT: sends stdin, prints the answer.
 said_to() {
   local socket
@@ -128,7 +128,7 @@ missed=$(($(metric "$B" giveway_vehicle_deadline_missed_total) - missed))
 echo "beside strangers: $late scans late, $missed beacons missed" >&2
 ((late <= 5 && missed <= 2)) || fail "strangers disturb the loop: $late late, $missed missed"
 
-# --- A loop that hangs is not live, and is again when it goes on.
+# --- A loop that hangs is not live, and is again when it continues.
 kill -USR2 "${PID[b]}"
 await_health "b hangs" 3 "$B" live 1 'not live: the control loop has been silent for [0-9.]+ s'
 await_health "b hangs and is not ready" 1 "$B" ready 1 'silent for'
@@ -174,7 +174,7 @@ await "a loses c" 3 a "(stale|lost).*vehicle $id_b" "$line"
 start c2 giveway-vehicle --health-port "$C" --id "$id_b" --hang-on-signal
 await_health "c is back" 5 "$C" ready 0 '^ready$'
 
-# --- Two with one id: the later one waits, says why, and stops as ever.
+# --- Two with one id: the later one waits, says why, and stops as always.
 start twin giveway-vehicle --health-port "$B" --id "$id_b"
 await_health "a taken id" 5 "$B" ready 1 "not joined: the world lets it wait: .*$id_b"
 await_health "a taken id, alive" 1 "$B" live 0 '^live$'
@@ -230,7 +230,7 @@ watched_in_vain() {
   kill_now top
 }
 
-# --- With its world dead a vehicle says so, and stops as ever.
+# --- With its world dead a vehicle says so, and stops as always.
 watched_in_vain
 kill_now world
 await_health "no world any more" 3 "$A" ready 1 'the ranges are [0-9.]+ s old'

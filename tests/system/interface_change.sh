@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A vehicle whose network interface is taken away and comes back otherwise, as another device or with
-# another address, would be deaf for good: it ends with exit code 1 within three seconds, and drives on
+# another address, would be deaf permanently: it ends with exit code 1 within three seconds, and drives on
 # from where it stands once it is started again. The other vehicle drives through. The world and the two
 # have network namespaces of their own, joined by a bridge. Needs root.
 if [[ -z ${OWN_NETWORK:-} ]]; then

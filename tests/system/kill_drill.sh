@@ -8,7 +8,7 @@ RANDOM=${2:-1} # a seeded sequence: a failure can be repeated
 
 shared_memory() { find /dev/shm -mindepth 1 2>/dev/null | sort; }
 
-# drill VICTIM MILLISECONDS: kills the victim that long after it was started.
+# drill VICTIM MILLISECONDS: kills the target that long after it was started.
 drill() {
   local victim=$1 delay_ms=$2 name="$1 after $2 ms" run target domain code=0 before
   before=$(shared_memory)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A real run in lockstep ends in the same state, to the bit, as the same scenario in virtual time,
 # also while every core is kept busy by something else, and under faults of the world: then the
-# world's log names each as it begins and ends.
+# world's log names each as it starts and ends.
 # Usage: lockstep.sh SCENARIO SEED [FAULTS.textproto]
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 scenario=${1:?name a scenario} seed=${2:?give a seed} faults=${3:-}

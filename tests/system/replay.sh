@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What vehicles of real runs recorded comes out the same to the bit: of a crossing, of one whose
-# second vehicle is killed with -9, and of a file that was spoilt on the disk, as far as it can be.
+# second vehicle is killed with -9, and of a file that was corrupted on the disk, as far as it can be.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 # replayed FILE CONDITION: true of the only file's entry in the report.
@@ -34,7 +34,7 @@ replayed "$died/vehicle-1.recording" "$same and .complete"
 replayed "$died/vehicle-2.recording" "$same and (.complete | not)"
 "$FLEETCTL" replay "$died"/*.recording || fail "peer_dies: exit code $?"
 
-# spoilt NAME COMMAND...: the file FILE as the command leaves it is refused with exit code 2.
+# corrupted NAME COMMAND...: the file FILE as the command leaves it is refused with exit code 2.
 spoilt() {
   local name=$1 code=0
   shift

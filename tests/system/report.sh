@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# fleetctl report: shows a soak's report, draws its page anew, tells a worse one from an equal one, and
+# fleetctl report: shows a soak's report, draws its page again, tells a worse one from an equal one, and
 # refuses what is no report or not comparable, in words and with exit code 2.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"

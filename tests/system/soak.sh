@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A soak of real processes: everything that can go wrong here passes, the report says so and is whole;
 # wrong input is refused before anything starts; Ctrl-C ends it with a report; a supervisor that is
-# killed leaves nobody behind, and its soak goes on; a broken promise makes everyone keep its ring,
+# killed leaves nobody behind, and its soak continues; a broken promise makes everyone keep its ring,
 # which replays; and in virtual time the same list gives the same report twice. Each in a domain of
 # its own, side by side, in under two minutes.
 # shellcheck disable=SC2317,SC2030,SC2031 # what runs beside is called by name
@@ -77,7 +77,7 @@ interrupted() {
   [[ -s $SCRATCH/early/report.html ]] || fail "an interrupted soak has no report"
 }
 
-# The soak whose supervisor was killed goes on with the rest of its list, and says so.
+# The soak whose supervisor was killed continues with the rest of its list, and says so.
 killed() {
   local supervisor children code=0 report=$SCRATCH/killed
   "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/rest.textproto" --duration 45 --report "$report" \
@@ -104,7 +104,7 @@ killed() {
   [[ ! -e $report/so_far.json ]] || fail "a soak with its verdict could be gone on with"
 }
 
-# A vehicle dies that nobody planned to kill: everyone keeps what its ring holds, bit for bit.
+# A vehicle dies unplanned: every one keeps what its ring holds, bit for bit.
 kept() {
   local supervisor victim code=0 report=$SCRATCH/kept
   "$FLEETCTL" soak patrol --vehicles 3 --faults "$SCRATCH/long.textproto" --duration 40 --record-ring 5 \

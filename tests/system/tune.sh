@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # fleetctl qos tune: refuses what it cannot search, measures with real vehicles, leaves every file it
-# promises, and goes on where it was cut off. Small searches: what comes out of them is not judged.
+# promises, and continues where it was cut off. Small searches: what comes out of them is not judged.
 # With GIVEWAY_TUNE_QUICK=1 a whole --quick search, which must be verified within three minutes.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN GIVEWAY_IMPAIR GIVEWAY_SEED
@@ -64,7 +64,7 @@ cmp -s {before,small}/trials/d190_l250_be_h5-0.json || fail "one is missing: ano
 tune 2 "another search there" "${small[@]}" --seed 9 --out small
 grep -q 'another' err || fail "another search there: $(cat err)"
 
-# Cut off while it measures: says that it goes on, leaves nobody behind, and does.
+# Cut off while it measures: says that it continues, leaves nobody behind, and does.
 "$FLEETCTL" qos tune "${small[@]}" --fleets 1 --out cut >out 2>err &
 tuning=$!
 for _ in $(seq 400); do

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The world is killed with -9 and started again, with a checkpoint, with a damaged one and without,
-# is told to stop, and comes to the end of its run: the same vehicle processes drive again within five
-# seconds, and nobody touches anybody. Who was not told to stay ends with its run.
+# is asked to stop, and comes to the end of its run: the same vehicle processes drive again within five
+# seconds, and no bodies touch anybody. Who was not told to stay ends with its run.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 checkpoint=$SCRATCH/world.checkpoint
@@ -42,7 +42,7 @@ restart world3 "with a spoilt checkpoint" 'is of no use: its checksum is wrong' 
 kill_now world3
 restart world4 "without a checkpoint" 'started with'
 
-# A fourth one still gets an id nobody else has.
+# A fourth one still gets an id no other has.
 start d giveway-vehicle
 await "another comes" 10 d 'cruise'
 [[ $(for vehicle in a b c d; do id_of "$vehicle"; done | sort -u | wc -l) -eq 4 ]] ||

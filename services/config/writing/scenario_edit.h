@@ -1,4 +1,4 @@
-// A scenario file with a few values of its own changed, as text: for whoever runs a fleet another
+// A scenario file with a few values of its own changed, as text: to run a fleet another
 // way than its file says and wants every process to read the same. What it is for is the caller's.
 #pragma once
 

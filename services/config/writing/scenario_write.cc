@@ -54,7 +54,7 @@ void Set(const PlannedFault& fault, schema::Fault* message) {
   if (fault.before_crossing_m) message->set_before_crossing_m(*fault.before_crossing_m);
 }
 
-// Wheels, caps and rates tell robots apart; the sensors follow from them.
+// Wheels, caps and rates distinguish robots; the sensors follow from them.
 bool IsPioneer(const VehicleProfile& profile) {
   const VehicleProfile pioneer = PioneerP3dx();
   return profile.shape == BodyShape::kDisc && profile.body_radius_m == pioneer.body_radius_m &&

@@ -41,4 +41,35 @@ CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* du
       });
 }
 
+CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,
+                         std::function<void(double)> take_s, const std::string& description) {
+  constexpr double kMostSeconds = 1e6;  // eleven days; beyond 2^33 the clock's arithmetic ends
+  return verb
+      ->add_option_function<std::string>(
+          name,
+          [take = std::move(take_s)](const std::string& text) {
+            take(ParseDuration_s(text).value_or(0));
+          },
+          description)
+      ->type_name("TIME")
+      ->check([](const std::string& text) {
+        const double duration_s = ParseDuration_s(text).value_or(0);
+        if (duration_s > 0 && duration_s <= kMostSeconds) return std::string();
+        return "must be a time above 0 and up to 1000000 s, such as 5, 90s or 30m, not '" + text +
+               "'";
+      });
+}
+
+CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name, double* duration_s,
+                         const std::string& description) {
+  return AddTimeFlag(
+      verb, name, [duration_s](double value_s) { *duration_s = value_s; }, description);
+}
+
+CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name, std::optional<double>* duration_s,
+                         const std::string& description) {
+  return AddTimeFlag(
+      verb, name, [duration_s](double value_s) { *duration_s = value_s; }, description);
+}
+
 }  // namespace giveway::fleetctl

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,5 +17,13 @@ std::optional<double> ParseDuration_s(std::string_view text);
 // A flag that sets `duration_s`, and leaves it where it is not given.
 CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* duration_s,
                              const std::string& description);
+
+// Such a flag whose time must be above 0, up to 1 000 000 s.
+CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,
+                         std::function<void(double)> take_s, const std::string& description);
+CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name, double* duration_s,
+                         const std::string& description);
+CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name, std::optional<double>* duration_s,
+                         const std::string& description);
 
 }  // namespace giveway::fleetctl

@@ -5,8 +5,8 @@
 
 namespace giveway::fleetctl {
 void AddObserverFlags(CLI::App* verb, ObserverOptions* options) {
-  verb->add_option("--domain", options->domain, "DDS domain of the fleet")
-      ->required()
+  verb->add_option("--domain", options->domain,
+                   "DDS domain of the fleet; may be left out where one runs on this machine")
       ->check(CLI::Range(kFirstDomain, kLastDomain))
       ->envname("GIVEWAY_DOMAIN");
   AddInterfaceFlag(verb, &options->interface);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 
@@ -12,6 +13,7 @@
 #include "services/link/fastdds/link_options.h"
 #include "services/link/fastdds/profile_file.h"
 #include "services/qos/xml_tree.h"
+#include "services/types/nearest_name.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -28,7 +30,29 @@ qos::Finding Unreadable(const std::string& path, std::string why) {
           "check the path and its permissions"};
 }
 
+// "; did you mean 'lossy_radio'?" of what may be the name of a shipped set.
+std::string NearestSet(const std::string& argument) {
+  if (argument.find('/') != std::string::npos) return "";
+  std::vector<std::string> names;
+  try {
+    for (const std::string& file : NamesIn(fs::path(ConfigDir()) / "qos")) {
+      if (file.ends_with(".xml")) names.push_back(fs::path(file).stem().string());
+    }
+  } catch (const std::exception&) {  // nothing is shipped here
+  }
+  std::ranges::sort(names);
+  return DidYouMean(fs::path(argument).stem().string(), names);
+}
+
 }  // namespace
+
+void RequireQosFile(const std::string& path) {
+  std::error_code error;
+  if (fs::exists(path, error)) return;
+  const std::string nearest = NearestSet(path);
+  if (nearest.empty()) return;
+  throw link::LinkError("QoS file " + path + ": does not exist" + nearest);
+}
 
 std::string ResolveQosFile(const std::string& argument) {
   std::error_code error;
@@ -42,7 +66,7 @@ std::string ResolveQosFile(const std::string& argument) {
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) return Unreadable(path, "does not exist");
+  if (!fs::exists(status)) return Unreadable(path, "does not exist" + NearestSet(path));
   if (!fs::is_regular_file(status)) return Unreadable(path, "is no regular file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) return Unreadable(path, std::strerror(errno));
@@ -62,6 +86,7 @@ qos::Deployment DeploymentOf(const Scenario& scenario) {
 }
 
 void RequireSoundQos(const std::string& path, const qos::Deployment& fleet) {
+  RequireQosFile(path);
   const auto read = ReadQosFile(path);
   const auto* const file = std::get_if<qos::ProfileFile>(&read);
   if (file == nullptr) return;
@@ -70,6 +95,7 @@ void RequireSoundQos(const std::string& path, const qos::Deployment& fleet) {
 }
 
 QosProfiles ReadSoundQos(const std::string& path) {
+  RequireQosFile(path);
   QosProfiles profiles = link::ReadProfileFile(path);
   const std::string why = qos::WhyRefused({profiles.name, profiles.text}, UnknownFleet());
   if (!why.empty()) throw link::LinkError(why);

@@ -1,5 +1,5 @@
 // What `fleetctl top` and `fleetctl listen` share: they join a fleet that was started elsewhere as
-// observers, start and stop nothing, and tell stdout what they hear.
+// observers, start and stop nothing, and write what they receive to stdout.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ Told Tell(const std::string& text);
 // free descriptor's place would be written to.
 bool HasStdout();
 
-// The exit code for it; says on stderr why, where it failed. 0 for nobody reads.
+// The exit code for it; says on stderr why, where it failed. 0 for no process reads.
 int ExitCodeOf(Told told);
 
 }  // namespace giveway::fleetctl

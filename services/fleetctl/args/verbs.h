@@ -11,6 +11,7 @@ void AddCampaignVerb(CLI::App* fleetctl, int* exit_code);
 void AddDoctorVerb(CLI::App* fleetctl, int* exit_code);
 void AddFaultsVerb(CLI::App* fleetctl, int* exit_code);
 void AddListenVerb(CLI::App* fleetctl, int* exit_code);
+void AddLsVerb(CLI::App* fleetctl, int* exit_code);
 void AddPlanVerb(CLI::App* fleetctl, int* exit_code);
 void AddQosApply(CLI::App* qos, int* exit_code);  // of the verb qos
 void AddQosTune(CLI::App* qos, int* exit_code);   // of the verb qos

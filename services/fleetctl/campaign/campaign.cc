@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -22,6 +23,7 @@
 #include "services/fleetctl/campaign/campaign_results.h"
 #include "services/fleetctl/campaign/campaign_run.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/runtime/process.h"
 #include "sim_world/virtual/generators.h"
@@ -85,9 +87,11 @@ std::optional<ShardResult> ThereAlready(const std::string& file, const CampaignP
   return std::nullopt;
 }
 
-bool ShowDone(std::uint32_t done, std::uint32_t of) {
+bool ShowDone(std::uint32_t done, std::uint32_t of, double gone_s) {
   if (::isatty(STDERR_FILENO) == 1) {
-    fmt::print(stderr, "\r{} of {} runs \x1b[K{}", done, of, done == of ? "\r\x1b[K" : "");
+    const std::string text = fmt::format("{} of {} runs, {}", done, of, TimeLeft(done, of, gone_s));
+    fmt::print(stderr, "\r{}\x1b[K{}", ProgressLine(done, of, text, StderrColumns()),
+               done == of ? "\r\x1b[K" : "");
     std::fflush(stderr);
   }
   return Interrupts::Count() == 0;
@@ -118,7 +122,10 @@ int RunCampaignShard(const CampaignShardOptions& options) {
   std::fputs(maker.Remark().c_str(), stderr);
   const Interrupts interrupts(Silence::kComputes);
   const SteadyTime start = SteadyNow();
-  const auto result = RunShard(maker, shard, options.jobs, ShowDone);
+  const auto show = [start](std::uint32_t done, std::uint32_t of) {
+    return ShowDone(done, of, std::chrono::duration<double>(SteadyNow() - start).count());
+  };
+  const auto result = RunShard(maker, shard, options.jobs, show);
   if (!result) {
     fmt::print(stderr, "shard {} of {} was interrupted and has no result\n", shard.index, shard.of);
     return kShardInterrupted;
@@ -140,7 +147,7 @@ int RunCampaignMerge(const CampaignMergeOptions& options) {
   for (const Problem& problem : merged.problems) unreadable.Add(problem);
   if (!unreadable.Empty()) throw InputError(unreadable.Sorted());
   const std::string text =
-      options.json ? ReportJson(merged.result) + "\n" : ReportText(merged.result);
+      options.json ? ReportJson(merged.result) + "\n" : ForTerminal(ReportText(merged.result));
   std::fputs(text.c_str(), stdout);
   const int code = AllHeld(merged.result) ? 0 : 1;
   if (std::fflush(stdout) == 0) return code;

@@ -10,7 +10,8 @@
 
 namespace giveway::fleetctl {
 
-// A shard that was told to stop has no verdict, and is to be run again: as a shell says of SIGTERM.
+// A shard that was asked to stop has no verdict, and is to be run again: as a shell says of
+// SIGTERM.
 inline constexpr int kShardInterrupted = 143;
 
 struct CampaignShardOptions {

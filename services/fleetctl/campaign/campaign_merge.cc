@@ -38,7 +38,7 @@ std::vector<std::string> NamesOf(const ShardResult& result) {
   return names;
 }
 
-// Two of one plan agree on these, unless somebody wrote in them.
+// Two of one plan agree on these, unless they were edited.
 void CompareContents(const NamedShard& first, const NamedShard& other, ProblemList* problems) {
   const ShardResult& a = first.result;
   const ShardResult& b = other.result;
@@ -52,7 +52,7 @@ void CompareContents(const NamedShard& first, const NamedShard& other, ProblemLi
                  .remedy = "remove it and run the shard again"});
 }
 
-// The shards of `of` nobody brought.
+// The shards of `of` that are missing.
 void FindLacking(const NamedShard& first, const std::map<std::uint32_t, std::string>& brought,
                  ProblemList* problems) {
   const std::uint32_t of = first.result.shard.of;

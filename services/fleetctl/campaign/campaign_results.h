@@ -10,7 +10,7 @@
 
 namespace giveway::fleetctl {
 
-// Adds what stands in the file, each line that begins with { being a result, or why it cannot be
+// Adds what stands in the file, each line that starts with { being a result, or why it cannot be
 // had.
 void ReadResults(const std::string& file, std::vector<NamedShard>* shards, ProblemList* problems);
 

@@ -24,7 +24,7 @@ Exit code: 0 all held, 1 something did not, or the file was not written, 2 could
 
 constexpr const char* kMergeFooter = R"(
 Adds up the results of all shards of a campaign, each once, all of one plan and one program. A RESULT is a
-file of --out, or the log of shards: lines that do not begin with { are passed over. Each failing run is
+file of --out, or the log of shards: lines that do not start with { are skipped. Each failing run is
 shown with the command that runs it again. The JSON object is the same whatever the shards were.
 
 Examples

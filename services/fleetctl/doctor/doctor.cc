@@ -11,6 +11,7 @@
 #include "services/fleetctl/doctor/memory_removal.h"
 #include "services/fleetctl/output/finding_text.h"
 #include "services/fleetctl/output/json_object.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/runtime/json_line.h"
 
@@ -104,7 +105,7 @@ int RunDoctor(const DoctorOptions& options) {
   const qos::Findings findings = Examine(host);
   if (!options.quiet) {
     const std::string text =
-        options.json ? Json(host, removals, findings) : Text(host, removals, findings);
+        options.json ? Json(host, removals, findings) : ForTerminal(Text(host, removals, findings));
     std::fputs(text.c_str(), stdout);
     if (std::fflush(stdout) != 0) return kCouldNotRun;
   }

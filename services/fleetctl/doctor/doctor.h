@@ -1,5 +1,5 @@
 // The verb `fleetctl doctor`: the host a fleet runs on, examined before or while it runs. Starts
-// nothing and speaks to nobody; only with `fix` something is changed. Values in; the exit code out.
+// nothing and sends nothing; only with `fix` something is changed. Values in; the exit code out.
 #pragma once
 
 #include "services/fleetctl/doctor/doctor_options.h"

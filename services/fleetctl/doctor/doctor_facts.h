@@ -30,7 +30,7 @@ struct Surroundings {
 struct ClockFacts {
   std::vector<std::int64_t> offsets_ns;  // wall clock less monotonic clock, one look after another
   std::int64_t window_ns = 0;            // from the first look to the last
-  std::optional<bool> synchronised;      // as the kernel was told
+  std::optional<bool> synchronised;      // as set in the kernel
 };
 
 struct PortRange {

@@ -65,7 +65,7 @@ void AddGroups(const HostFacts& host, MemoryState state, const char* rule, const
                        remedy});
 }
 
-// Locks anybody may open.
+// Locks any user may open.
 bool IsShut(const HostFacts& host, const MemoryFile& file) {
   return PartOf(file.name) != MemoryPart::kLock && !MayUse(host.user, file);
 }
@@ -113,15 +113,15 @@ void ForPairs(const HostFacts& host, Check&& check) {
 }  // namespace
 
 void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings) {
-  AddGroups(
-      host, MemoryState::kStale, "memory_stale",
-      "Their owners are gone: they take memory until somebody removes them, and every participant "
-      "that is killed adds its segment; once there is no room, the next dies of SIGBUS.",
-      "fleetctl doctor --fix", findings);
-  AddGroups(host, MemoryState::kOrphaned, "memory_orphaned",
-            "Parts without their lock or body that nobody uses: they take memory until somebody "
-            "removes them.",
+  AddGroups(host, MemoryState::kStale, "memory_stale",
+            "Their owners are gone: they take memory until they are removed, and every participant "
+            "that is killed adds its segment; once there is no room, the next dies of SIGBUS.",
             "fleetctl doctor --fix", findings);
+  AddGroups(
+      host, MemoryState::kOrphaned, "memory_orphaned",
+      "Parts without their lock or body that no process uses: they take memory until somebody "
+      "removes them.",
+      "fleetctl doctor --fix", findings);
 }
 
 void CheckForeignFiles(const HostFacts& host, qos::Findings* findings) {
@@ -142,7 +142,7 @@ void CheckForeignFiles(const HostFacts& host, qos::Findings* findings) {
        fmt::format("{}; {} is user {}'s, and you are user {}", Summary(groups), foreign->name,
                    foreign->user, host.user),
        "A participant of yours cannot open them: on these ports it neither sends nor listens by "
-       "shared memory, and takes whoever is there for deaf.",
+       "shared memory, and takes the participants there for deaf.",
        "run the whole fleet as one user, in another domain than other users', or without SHM; "
        "those "
        "whose owner is gone root removes with fleetctl doctor --fix"});
@@ -161,7 +161,7 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
                          fmt::format("{} free of {}; needed: {}", Megabytes(memory.free_bytes),
                                      Megabytes(memory.total_bytes), Megabytes(needed)),
                          std::move(consequence),
-                         "fleetctl doctor --fix removes what nobody uses; else a larger one "
+                         "fleetctl doctor --fix removes what no process uses; else a larger one "
                          "(--shm-size or shm_size "
                          "of a container, mount -o remount,size=), or a profile set without SHM"});
   };

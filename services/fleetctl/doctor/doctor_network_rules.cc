@@ -103,7 +103,7 @@ void CheckIds(const HostFacts& host, const DomainPorts& ports, std::uint32_t dom
   if (free < needed) {
     Add(Severity::kError, "participant_ids_short", values,
         fmt::format("The last {} find no free port, and do not start.", needed - free),
-        "end what holds the ports, a domain nobody uses, a higher mutation_tries, or fewer "
+        "end what holds the ports, an unused domain, a higher mutation_tries, or fewer "
         "vehicles on this host",
         findings);
   } else if (free_inside < needed) {
@@ -130,7 +130,7 @@ void CheckCarries(const HostFacts& host, const HostInterface& one, qos::Findings
                   refuses ? "gives back nothing that is sent to 239.255.0.1, not even on this host"
                           : "says that it carries no multicast"),
       refuses
-          ? "Nobody hears the first announcements of others, and no two vehicles meet."
+          ? "No participant receives the first announcements of others, and no two vehicles meet."
           : "Vehicles of this host may meet; whether any on other hosts do, the network decides.",
       refuses ? "let UDP to 239.255.0.1 pass the firewall, or --qos wan_discovery_server"
               : "ip link set " + one.name + " multicast on, or --qos wan_discovery_server",

@@ -12,7 +12,7 @@ struct DoctorOptions {
   std::uint32_t vehicles = 2;           // that are to run
   std::string qos;                      // a file, or a shipped set; empty: the default
   std::string interface = "127.0.0.1";
-  bool fix = false;  // remove files in shared memory that nobody uses
+  bool fix = false;  // remove files in shared memory that no process uses
   bool json = false;
   bool quiet = false;  // the exit code alone
 };

@@ -112,7 +112,7 @@ void ReadProcesses(const fs::path& proc, std::optional<std::uint32_t> domain, Ho
   }
 }
 
-// The processes, and the ports that are taken: those before and after, for a process that begins or
+// The processes, and the ports that are taken: those before and after, for a process that starts or
 // ends meanwhile must not seem to be a stranger's.
 void ReadProcessesAndPorts(const fs::path& proc, std::optional<std::uint32_t> domain,
                            HostFacts* host) {
@@ -173,7 +173,7 @@ HostFacts ReadHost(const DoctorOptions& options, const HostFolders& folders) {
       std::ranges::count(GroupsOf(host.memory), MemoryState::kNotKnown, &MemoryGroup::state);
   if (unknown > 0) {
     host.not_known.push_back(fmt::format(
-        "whether somebody uses {}: only their owner and root may ask",
+        "whether another process uses {}: only their owner and root may ask",
         Counted(static_cast<std::size_t>(unknown), "segment or port", "segments and ports")));
   }
   ReadNetwork(folders.proc, &host);

@@ -82,7 +82,7 @@ void CheckClock(const HostFacts& host, qos::Findings* findings) {
   }
   if (lifespan && host.clock.synchronised == false) {
     Add(Severity::kWarning, "clock_unsynchronised", "",
-        "the kernel says that nobody keeps the wall clock",
+        "the kernel says that nothing keeps the wall clock",
         "The set has LIFESPAN, which compares the clocks of two machines: by 0.2 s apart a "
         "LIFESPAN "
         "of 0.2 s delivers nothing, without a sign.",
@@ -103,7 +103,8 @@ void CheckDescriptors(const HostFacts& host, qos::Findings* findings) {
     if (*process.open_files * 10 < *process.open_files_limit * 9) continue;
     Add(Severity::kWarning, "descriptor_limit", NameOf(process),
         fmt::format("{} of {} files are open", *process.open_files, *process.open_files_limit),
-        "At the limit it opens no further socket, file or shared memory: it does not meet whoever "
+        "At the limit it opens no further socket, file or shared memory: it does not meet a "
+        "participant that "
         "comes next.",
         "ulimit -n, LimitNOFILE= of systemd, or ulimits of the container", findings);
   }

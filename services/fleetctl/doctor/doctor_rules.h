@@ -7,7 +7,7 @@
 
 namespace giveway::fleetctl {
 
-// Of /dev/shm: files nobody uses, files of others, room.
+// Of /dev/shm: unused files, files of others, room.
 void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings);
 void CheckForeignFiles(const HostFacts& host, qos::Findings* findings);
 void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings);

@@ -11,13 +11,13 @@ namespace {
 constexpr std::uint32_t kMostVehicles = 4096;
 
 constexpr const char* kFooter = R"(
-Looks at what a fleet needs of this host: shared memory (files nobody uses, others' files, room), network
+Looks at what a fleet needs of this host: shared memory (unused files, files of other users, free space), network
 namespaces without a common shared memory, host ids, multicast, receive buffers, ports and participant
 ids, files and variables the library reads by itself, the wall clock, descriptors. Each finding says what
 comes of it and what to do. As root it sees all processes; else it says what it could not see.
 
---fix removes the files of Fast DDS in /dev/shm that nobody has open or mapped, one line each: the kernel
-says so once more, by the lease it grants, as each is removed. It changes nothing else.
+--fix removes the files of Fast DDS in /dev/shm that no process has open or mapped, one line each: the
+kernel confirms it, by the lease it grants, as each is removed. It changes nothing else.
 
 Examples
   fleetctl doctor                                  # before a fleet is started
@@ -46,7 +46,7 @@ void AddDoctorVerb(CLI::App* fleetctl, int* exit_code) {
                    "Profile file, or name of a shipped set, they are started with")
       ->envname("GIVEWAY_QOS");
   AddInterfaceFlag(verb, &options->interface);
-  verb->add_flag("--fix", options->fix, "Remove files in shared memory that nobody uses");
+  verb->add_flag("--fix", options->fix, "Remove unused files in shared memory");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_flag("--quiet", options->quiet, "Print nothing: the exit code says it");
   verb->callback([options, exit_code] { *exit_code = RunDoctor(*options); });

@@ -13,7 +13,8 @@ FileLease::FileLease(const std::filesystem::path& file)
     if (errno == EWOULDBLOCK) said_ = Answer::kUsed;  // another has a lease
     return;
   }
-  // The kernel tells the holder when somebody opens the file; unheard, that would end the process.
+  // The kernel signals the holder when another process opens the file; ignored, that would end the
+  // process.
   std::signal(SIGIO, SIG_IGN);
   if (::fcntl(file_.Get(), F_SETLEASE, F_WRLCK) == 0) {
     said_ = Answer::kAlone;

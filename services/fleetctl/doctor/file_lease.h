@@ -1,7 +1,7 @@
-// Asks the kernel whether anybody has a file open or mapped: a lease for writing is granted to none
-// but the only one (fcntl(2), F_SETLEASE). Unlike a look at /proc this sees processes of other
-// users and of other namespaces, and holds: whoever opens the file meanwhile waits until the lease
-// ends.
+// Asks the kernel whether any process has a file open or mapped: a lease for writing is granted to
+// none but the only one (fcntl(2), F_SETLEASE). Unlike a look at /proc this sees processes of other
+// users and of other namespaces, and holds: a process that opens the file meanwhile waits until the
+// lease ends.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class FileLease {
  public:
   enum class Answer : std::uint8_t {
     kAlone,    // the lease is ours
-    kUsed,     // somebody has it open or mapped
+    kUsed,     // another process has it open or mapped
     kNotSaid,  // only its owner and root may ask, and not on every file system
   };
 

@@ -79,7 +79,7 @@ class Look {
   const std::map<FileKey, MemoryFile*>& files_;
 };
 
-// Whether somebody holds the lock; also true if it may not be tried.
+// Whether another process holds the lock; also true if it may not be tried.
 bool IsLocked(const fs::path& file) {
   const FileDescriptor lock(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
   if (!lock.IsOpen()) return errno != ENOENT;

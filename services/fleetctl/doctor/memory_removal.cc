@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // The semaphore a participant holds while it opens a port, taken if it is free: who opens the port
-// meanwhile waits for us. If its owner died it is not free either, and then nobody waits.
+// meanwhile waits for us. If its owner died it is not free either, and then no process waits.
 class PortMutex {
  public:
   explicit PortMutex(const fs::path& file) {
@@ -90,7 +90,7 @@ class Removing {
  private:
   std::string WhyNotOurs(const MemoryGroup& group) const {
     if (group.state == MemoryState::kNotKnown) {
-      return "whether somebody uses it only its owner and root may ask";
+      return "whether another process uses it only its owner and root may ask";
     }
     for (const MemoryFile& file : group.files) {
       if (user_ != 0 && file.user != user_) {

@@ -1,4 +1,4 @@
-// Removes the files of segments and ports that nobody uses any more. What was examined may have
+// Removes the files of segments and ports that no process uses any more. What was examined may have
 // changed since: nothing is removed that the kernel does not grant us alone, and a port only behind
 // the lock that participants take to open it.
 #pragma once
@@ -19,7 +19,7 @@ struct Removal {
 };
 
 // `memory` as read from `memory.folder`. Only what IsGone(), and of those only what `user` owns,
-// unless `user` is 0. Those left for another reason than being in use are told of, too.
+// unless `user` is 0. Those left for another reason than being in use are reported, too.
 std::vector<Removal> RemoveGone(const SharedMemory& memory, std::uint32_t user);
 
 }  // namespace giveway::fleetctl

@@ -1,5 +1,5 @@
-// The files Fast DDS keeps in /dev/shm, as values: which belong together, and whether somebody
-// still uses them. Pure.
+// The files Fast DDS keeps in /dev/shm, as values: which belong together, and whether another
+// process still uses them. Pure.
 //
 //   fastrtps_<16 hex digits>   a participant's segment    ..._el  locked as long as its owner lives
 //   fastrtps_port<N>           the queue of a port        ..._el, ..._sl  locked by who listens
@@ -30,9 +30,9 @@ struct MemoryFile {
   std::uint32_t user = 0;    // who owns it
   std::uint32_t mode = 0;    // permission bits
   std::int64_t age_s = 0;    // since it was last written to or made
-  std::optional<bool> held;  // somebody has it open or mapped, as the kernel says; it does not
-                             // tell everybody
-  bool locked = false;       // somebody holds its lock; looked at where `held` is not known
+  std::optional<bool> held;  // another process has it open or mapped, as the kernel says; it does
+                             // not tell every user
+  bool locked = false;       // another process holds its lock; looked at where `held` is not known
   std::vector<int> users;    // those seen to have it open or mapped
 };
 
@@ -59,7 +59,7 @@ enum class MemoryState : std::uint8_t {
   kInUse,     // locked, mapped or held open
   kNotKnown,  // the kernel does not say, and a process that may not be looked into could use it
   kStale,     // its owner is gone: its lock is free
-  kOrphaned,  // nobody uses it, and a part is missing: a body without lock, a lock without body
+  kOrphaned,  // unused, and a part is missing: a body without lock, a lock without body
 };
 
 // All files that come and go with one segment or port.

@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t kMostVehicles = 4096;
 
 constexpr const char* kExpandFooter = R"(
-Prints the concrete faults that FILE makes with this seed, duration and fleet: who, what, when, for how
-long. Real and virtual runs carry out this list. It is a fault file itself, of `at` rules only, which
+Prints the concrete faults that FILE makes with this seed, duration and fleet: target, kind, time and
+duration. Real and virtual runs carry out this list. It is a fault file itself, of `at` rules only, which
 expands to itself. The vehicles have the ids 1 to N. FILE is a path, or the name of a shipped file:
 calm, radio_storm, flaky_hardware, everything; idl/faults.proto documents each field. Nothing is
 started.
@@ -28,8 +28,8 @@ Exit code: 0 expanded; 2 the file is wrong, or does not fit the fleet or the dur
 )";
 
 constexpr const char* kListFooter = R"(
-Of each kind of fault who carries it out, whether it takes `for_s`, whom it may meet, and what it takes
-beside, with its default and range.
+Of each kind of fault: what carries it out, whether it takes `for_s`, its possible targets, and its
+parameters with default and range.
 
 Examples
   fleetctl faults list
@@ -52,7 +52,7 @@ void AddExpand(CLI::App* group, int* exit_code) {
   verb->add_option("--vehicles", options->vehicles, "Fleet size")
       ->required()
       ->check(CLI::Range(1U, kMostVehicles));
-  AddDurationFlag(verb, "--warm-up", &course.warm_up_s, "Before it no random fault begins; 10s");
+  AddDurationFlag(verb, "--warm-up", &course.warm_up_s, "No random fault starts before it; 10s");
   AddDurationFlag(verb, "--healing", &course.healing_s, "At the end all faults are over; 15s");
   auto* text = verb->add_flag("--text", options->text, "Print a line a fault, for people");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else")

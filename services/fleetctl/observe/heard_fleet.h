@@ -1,4 +1,4 @@
-// What an observer that was told nothing knows of a fleet: folds what the link brings into the
+// What an observer without prior knowledge knows of a fleet: folds what the link brings into the
 // newest of each vehicle and of the world, and when each was last heard. Pure; whose time it is, is
 // an argument.
 #pragma once
@@ -34,9 +34,9 @@ struct HeardVehicle {
 struct HeardWorld {
   std::optional<SteadyTime> heard_at;
   WorldEpoch epoch = kNoEpoch;
-  std::optional<RunState> state;  // nothing before a roster entry or an event told it
+  std::optional<RunState> state;  // nothing before a roster entry or an event
   double time_s = 0;              // since the start signal
-  std::uint32_t fleet_size = 0;   // vehicles it waits for; 0 where not told
+  std::uint32_t fleet_size = 0;   // vehicles it waits for; 0 where not known
   std::optional<WorldEvent> last_event;
 };
 
@@ -50,8 +50,9 @@ class HeardFleet {
   const std::map<VehicleId, HeardVehicle>& Vehicles() const { return vehicles_; }
   const HeardWorld& World() const { return world_; }
   bool Anybody() const { return world_.heard_at.has_value() || !vehicles_.empty(); }
-  // True once everyone there is to hear has been heard: nobody new came for a while, every body in
-  // the world has spoken, and every vehicle told its status or had time to: a foreign one has none.
+  // True once everyone there is to hear has been heard: no new vehicle came for a while, every body
+  // in the world has spoken, and every vehicle published its status or had time to: a foreign one
+  // has none.
   bool IsSettled(SteadyTime now) const;
 
  private:

@@ -66,7 +66,7 @@ class Listening {
       std::fprintf(stderr, "%s\n", NobodyHeard(post_, SteadyNow()).c_str());
       return;
     }
-    std::fprintf(stderr, "somebody is there, but nothing was heard on %s for %.1f s%s\n",
+    std::fprintf(stderr, "a fleet is there, but nothing was received on %s for %.1f s%s\n",
                  std::string(Name(options_.filter.topic)).c_str(), Seconds(Since()),
                  options_.filter.vehicles.empty() ? "" : " of the vehicles asked for");
   }

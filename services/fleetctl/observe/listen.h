@@ -16,7 +16,7 @@ struct ListenOptions {
   std::optional<double> duration_s;    // end after so long; absent: never
 };
 
-// 0 heard something, or was ended by Ctrl-C or by whoever read stdout; 1 nothing within the
+// 0 heard something, or was ended by Ctrl-C or by the reader of stdout; 1 nothing within the
 // duration; 2 could not run.
 int RunListen(const ListenOptions& options);
 

@@ -4,20 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/observe/listen.h"
+#include "services/fleetctl/survey/local_fleets.h"
 #include "services/fleetctl/survey/other_fleets.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kListenFooter = R"(
-One line a sample, headed by the seconds since it began to listen and by the vehicle; with --json one
+One line a sample, headed by the seconds since it started to listen and by the vehicle; with --json one
 object, with every field. Topics that are kept for latecomers (world/roster, world/event,
-world/figures) begin with what was. Ends by --count, --duration, Ctrl-C, or when nobody reads stdout.
-Begin it after the fleet: fleetctl run takes no domain in which somebody already listens.
+world/figures) start with what was. Ends by --count, --duration, Ctrl-C, or when stdout is closed.
+Start it after the fleet: fleetctl run takes no domain in which another process listens.
 
 Examples
   fleetctl listen fleet/beacon --domain 7
@@ -34,12 +36,13 @@ ListenTopic ParseTopic(const std::string& name) {
                              "must be one of " + ListenTopicNames() + ", not '" + name + "'");
 }
 
-void Listen(const ListenOptions& options, int* exit_code) {
+void Listen(ListenOptions options, int* exit_code) {
   const ListenFilter& filter = options.filter;
   if (!filter.vehicles.empty() && !IsAboutVehicles(filter.topic)) {
     throw CLI::ValidationError("--vehicle", "does not go with " + std::string(Name(filter.topic)) +
                                                 ", which is not about vehicles");
   }
+  FindFleetIfNotNamed(&options.where);
   SayOtherFleets(options.where.domain, options.where.interface);
   *exit_code = RunListen(options);
 }
@@ -48,7 +51,7 @@ void Listen(const ListenOptions& options, int* exit_code) {
 
 void AddListenVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<ListenOptions>();
-  CLI::App* verb = fleetctl->add_subcommand("listen", "Print what travels on a topic of a fleet");
+  CLI::App* verb = fleetctl->add_subcommand("listen", "Print the samples of a topic of a fleet");
   verb->footer(kListenFooter);
   verb->add_option_function<std::string>(
           "TOPIC", [options](const std::string& name) { options->filter.topic = ParseTopic(name); },
@@ -65,8 +68,7 @@ void AddListenVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_flag("--json", options->filter.json, "Print one JSON object a sample");
   verb->add_option("--count", options->count, "End after so many samples")
       ->check(CLI::Range(std::uint64_t{1}, std::numeric_limits<std::uint64_t>::max()));
-  verb->add_option("--duration", options->duration_s, "End after so many seconds")
-      ->check(CheckSeconds);
+  AddTimeFlag(verb, "--duration", &options->duration_s, "End after this time");
   verb->callback([options, exit_code] { Listen(*options, exit_code); });
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kNobodyThere = 1;
 constexpr Nanoseconds kTableTurn = std::chrono::milliseconds(10);
-constexpr Nanoseconds kFirstWords = std::chrono::seconds(1);  // for discovery to bring somebody
+constexpr Nanoseconds kFirstWords = std::chrono::seconds(1);  // for discovery to bring a vehicle
 // Where no terminal is: nothing is cut.
 constexpr TerminalSize kEndless{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
 

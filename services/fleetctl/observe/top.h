@@ -9,12 +9,12 @@ namespace giveway::fleetctl {
 struct TopOptions {
   ObserverOptions where;
   bool once = false;
-  double wait_s = 5;  // with `once`: how long somebody may take to be heard
+  double wait_s = 5;  // with `once`: how long a vehicle may take to be heard
   bool json = false;
 };
 
-// 0 shown, or ended by Ctrl-C or by whoever read stdout; 1 nobody was heard (with `once`); 2 could
-// not run.
+// 0 shown, or ended by Ctrl-C or by the reader of stdout; 1 nothing was received (with `once`); 2
+// could not run.
 int RunTop(const TopOptions& options);
 
 }  // namespace giveway::fleetctl

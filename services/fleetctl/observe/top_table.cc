@@ -56,7 +56,7 @@ std::string StatusRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now)
                      AgeText(vehicle.beacon_at, now), status.peers_heard, EventsOf(vehicle));
 }
 
-// A foreign peer, or one whose statuses do not come: its beacons alone tell.
+// A foreign peer, or one whose statuses do not come: only its beacons are known.
 std::string BeaconRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
   const Beacon& beacon = *vehicle.beacon;
   const Decision said{.mode = beacon.mode, .rule = beacon.rule, .peer = beacon.gives_way_to};
@@ -159,7 +159,7 @@ std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTi
 
 std::string NobodyHeard(const ListeningPost& post, SteadyTime now) {
   return fmt::format(
-      "nobody heard for {:.1f} s in domain {} on interface {} in area {}: is a fleet running "
+      "nothing received for {:.1f} s in domain {} on interface {} in area {}: is a fleet running "
       "there? "
       "fleetctl run and the services' logs name its domain; --interface, --area and --qos must be "
       "those it was started with",

@@ -22,7 +22,7 @@ struct ListeningPost {
 std::vector<std::string> TopLines(const HeardFleet& fleet, const ListeningPost& post,
                                   SteadyTime now, TerminalSize size);
 std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTime now);
-// What to look at where nobody is heard.
+// What to look at where nothing is received.
 std::string NobodyHeard(const ListeningPost& post, SteadyTime now);
 
 }  // namespace giveway::fleetctl

@@ -1,5 +1,5 @@
 // What Fast DDS complains of while a table is drawn on the terminal: a line in the middle of it
-// would tear it, so lines are kept for whoever draws next.
+// would tear it, so lines are kept for the next drawing.
 #pragma once
 
 #include <string>

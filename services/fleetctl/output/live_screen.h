@@ -25,7 +25,7 @@ class LiveScreen {
   bool IsDue(SteadyTime now);
   // Draws these lines in place of those drawn before, on stdout.
   void Draw(const std::vector<std::string>& lines);
-  // Leaves what is drawn and goes on below it.
+  // Leaves what is drawn and continues below it.
   void Finish();
 
  private:

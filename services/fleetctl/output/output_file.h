@@ -1,5 +1,5 @@
 // A file the run will write at its end. Whether it can be written is found out before anything
-// starts: nobody wants to learn that after a minute's run.
+// starts: that must not be learnt after a minute's run.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // Samples as JSON fields, for programs that read along: every field, in the names of fleet.idl.
-// Vehicle ids of nobody are left out. Pure.
+// Vehicle ids of 0 are left out. Pure.
 #pragma once
 
 #include "services/fleetctl/output/json_object.h"

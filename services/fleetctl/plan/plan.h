@@ -1,6 +1,6 @@
-// What a fleet of N vehicles takes from its hosts, reckoned before one is started. Pure: from the
+// What a fleet of N vehicles takes from its hosts, computed before one is started. Pure: from the
 // costs that tests/bench/fleet_costs.sh measured, the request and the set of QoS profiles.
-// Hosts are alike; one of them also runs the world and whoever watches it. All hear all, whatever
+// Hosts are alike; one of them also runs the world and its observers. All hear all, whatever
 // the scenario's emission radius: the samples come, and the brain leaves aside what is too far.
 #pragma once
 

@@ -11,6 +11,7 @@
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/output/finding_text.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/plan/plan.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/link/fastdds/library_release.h"
@@ -19,7 +20,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kFooter = R"(
-Reckons before anything is started, from what fleets of 2 to 32 vehicles were measured to cost here
+Estimates before anything is started, from what fleets of 2 to 32 vehicles were measured to cost here
 (tests/bench/fleet_costs.sh measures them on another machine), and holds the QoS set against so many
 vehicles. Nothing is started, no network is touched. Cores and memory of a host are this machine's,
 unless they are given.
@@ -61,7 +62,9 @@ int RunPlan(PlanOptions options) {
   request.set = std::move(std::get<qos::ProfileFile>(read));
   request.library_major = link::LibraryMajor();
   const PlanReport report = Plan(request);
-  std::fputs((options.json ? ToJson(request, report) : ToText(request, report)).c_str(), stdout);
+  std::fputs(
+      (options.json ? ToJson(request, report) : ForTerminal(ToText(request, report))).c_str(),
+      stdout);
   if (std::fflush(stdout) != 0) throw OutputError("stdout took no report");
   return report.Fits() ? 0 : 1;
 }
@@ -73,7 +76,9 @@ void AddPlanVerb(CLI::App* fleetctl, int* exit_code) {
   PlanRequest& request = options->request;
   CLI::App* verb = fleetctl->add_subcommand("plan", "Will so many vehicles fit on so many hosts?");
   verb->footer(kFooter);
-  verb->add_option("N", request.vehicles, "Vehicles")->required()->check(CLI::Range(1, 4096));
+  verb->add_option("N,--vehicles", request.vehicles, "Vehicles")
+      ->required()
+      ->check(CLI::Range(1, 4096));
   verb->add_option("--hosts", request.hosts, "Hosts, all alike; one also runs the world")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));

@@ -1,4 +1,4 @@
-// What a function tells in a forked copy of this process: for what a process can do only once, or
+// What a function answers in a forked copy of this process: for what a process can do only once, or
 // what may crash it. Called while this process has no other threads.
 #pragma once
 

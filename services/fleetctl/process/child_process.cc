@@ -36,7 +36,7 @@ Pipe MakePipe() {
 
 // The folder of the configuration is no flag's twin.
 constexpr std::string_view kNoTwin = "GIVEWAY_CONFIG_DIR=";
-// What a service may be told by the environment of fleetctl. Everything else it is told by flags:
+// What a service may be given by the environment of fleetctl. Everything else it is given by flags:
 // a twin such as GIVEWAY_HEALTH_PORT or GIVEWAY_ID means fleetctl itself, or one service, and would
 // be wrong for all of them at once.
 constexpr std::array<std::string_view, 3> kHandedOn{

@@ -36,8 +36,8 @@ struct FleetOptions {
   std::optional<double> duration_s;
   std::optional<std::uint32_t> seed;
   std::optional<Behaviour> behaviour;
-  // Of an open fleet: how many are started that nobody named. Absent: as many as the scenario waits
-  // for, or one a spawn place where it waits for none.
+  // Of an open fleet: how many are started without an id of the scenario. Absent: as many as the
+  // scenario waits for, or one a spawn place where it waits for none.
   std::optional<std::uint32_t> vehicles;
   std::string interface = "127.0.0.1";
   std::vector<DiscoveryServer> discovery_servers;  // none: as the QoS file says
@@ -69,7 +69,7 @@ struct FleetSpec {
 struct MemberCommand {
   MemberId member;
   ChildCommand child;
-  Nanoseconds start_after{0};  // the beginning of the fleet
+  Nanoseconds start_after{0};  // the start of the fleet
 };
 
 // How many vehicles the scenario does not name are to be started: 0 of a closed fleet.

@@ -46,7 +46,7 @@ class FleetProcesses {
   // has a log of its own.
   void Restart(MemberId member);
   void Restart(MemberCommand command);
-  // Whether anybody reads what its process says. As it starts, somebody does.
+  // Whether the output of its process is read. As it starts, it is.
   void HearLog(MemberId member, bool hear);
   // SIGTERM, once a process, and SIGCONT for those that were paused by Signal.
   void AskToStop(MemberId member);

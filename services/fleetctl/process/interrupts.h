@@ -21,7 +21,7 @@ class Interrupts {
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
 
-  // Asking shows that the verb is alive: its second begins again.
+  // Asking shows that the verb is alive: its second starts again.
   static int Count();
   // Where a verb that was interrupted has something to do that takes longer.
   static void AllowSeconds(unsigned seconds);

@@ -10,7 +10,7 @@
 namespace giveway::fleetctl {
 
 struct ProcessResources {
-  double cpu_s = 0;  // user and system, since the process began
+  double cpu_s = 0;  // user and system, since the process started
   std::uint64_t resident_bytes = 0;
   std::uint64_t private_bytes = 0;  // resident, shared with no other process, in no file
   std::uint32_t threads = 0;

@@ -15,7 +15,7 @@ class CanaryWatch {
  public:
   explicit CanaryWatch(const link::LinkOptions& options) : observer_(options) {}
 
-  // Waits until the vehicle has taken a beacon since its process began; false after `patience`.
+  // Waits until the vehicle has taken a beacon since its process started; false after `patience`.
   bool WaitUntilItHears(VehicleId vehicle, std::chrono::milliseconds patience);
   struct Both {
     ServiceFigures canary;

@@ -9,7 +9,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kResolvePatience = std::chrono::seconds(10);  // it takes a tenth of one
-constexpr char kComplaint = '!';  // begins the message of an error
+constexpr char kComplaint = '!';  // starts the message of an error
 
 // One line a value, tab between its parts; names have neither.
 std::string ResolvedText(const link::LinkOptions& options) {

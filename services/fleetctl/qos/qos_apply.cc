@@ -102,7 +102,7 @@ class Applying {
   const link::LinkOptions& link_;
   Orders orders_;
   const QosProfiles wanted_;
-  std::map<VehicleId, AdminAnswer> told_;  // by everyone who takes orders, targets or not
+  std::map<VehicleId, AdminAnswer> told_;  // by every vehicle that takes orders, targets or not
   qos::Rollout rollout_;                   // its processes are report_.vehicles
   std::vector<Undo> undo_;
   ApplyReport report_;
@@ -128,7 +128,7 @@ int Applying::Ask() {
   return 0;
 }
 
-// At each moment each must hear whom it heard, whether it moves or keeps what it has.
+// At each moment each must hear the peers it heard, whether it moves or keeps what it has.
 void Applying::Plan() {
   std::vector<qos::RolloutProcess> processes;
   const auto add = [&](VehicleId process, bool moves) {
@@ -239,7 +239,7 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   CanaryTrial trial;
   trial.vehicle = canary->vehicle;
   if (!ApplyTo(canary, wanted_, false)) {
-    // Refused: nothing was changed. Without an answer nobody knows.
+    // Refused: nothing was changed. Without an answer it is not known.
     if (canary->answered) {
       RollBack();
       return ApplyVerdict::kRefused;
@@ -304,7 +304,7 @@ int RunQosApply(const QosApplyOptions& options) {
   // The library's own word, before this process touches it and before any vehicle depends on it.
   link::LinkOptions tried = link;
   tried.qos = {ResolveQosFile(options.profile), wanted.text};
-  // Where the rules find errors the report tells them, and the library is not asked.
+  // Where the rules find errors the report lists them, and the library is not asked.
   if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
   const Interrupts interrupts;
   Applying applying(options, link, std::move(wanted));

@@ -69,7 +69,8 @@ int AskFleet(const QosApplyOptions& options, Orders* orders, FleetAnswers* fleet
     if (!answer) return SayNoAnswer(process);
     fleet->told.emplace(process, std::move(*answer));
   }
-  // Whoever keeps what it has must go on hearing the others. Who does not answer is left out.
+  // A process that keeps what it has must continue hearing the others. Who does not answer is left
+  // out.
   for (const VehicleId process : Everyone(orders, kQuietOfTheRest, false, fleet)) {
     if (fleet->told.contains(process)) continue;
     if (auto answer = orders->Give(TellOrder(process), kTellPatience)) {

@@ -11,9 +11,9 @@
 namespace giveway::fleetctl {
 
 struct FleetAnswers {
-  std::vector<VehicleId> targets;         // whom an order is for; the canary first
+  std::vector<VehicleId> targets;         // the targets of the request; the canary first
   std::vector<VehicleId> deaf;            // vehicles that are heard and take no orders
-  std::map<VehicleId, AdminAnswer> told;  // by everyone who does, targets or not
+  std::map<VehicleId, AdminAnswer> told;  // by every vehicle that does, targets or not
 };
 
 // Asks every process. 0, or the exit code after a word on stderr where a target does not answer.

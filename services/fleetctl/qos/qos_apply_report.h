@@ -55,7 +55,7 @@ struct ApplyReport {
 // "vehicle 3"; of kNobody "the world".
 std::string NameOf(VehicleId process);
 int ExitCode(ApplyVerdict verdict);
-// Which changes, for whom; vehicles with the same ones together.
+// Which changes, for which vehicles; vehicles with the same ones together.
 std::string PlanText(const ApplyReport& report);
 std::string LineOf(const AppliedTo& applied);
 // Of a step that leads to a set between the old and the new.

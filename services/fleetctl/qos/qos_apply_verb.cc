@@ -3,27 +3,29 @@
 #include <string>
 #include <vector>
 
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/whole_number.h"
 #include "services/fleetctl/qos/qos_apply.h"
+#include "services/fleetctl/survey/local_fleets.h"
 #include "services/fleetctl/survey/other_fleets.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kFooter = R"(
-A PROFILE is a path, or the name of a shipped set. It is checked first, alone and beside what every
-process of the fleet runs with; one of Fast DDS then makes every endpoint of it in a process apart.
+A PROFILE is a path, or the name of a shipped set. It is checked first, alone and together with what
+every process of the fleet runs with; a child process then makes every endpoint of it with Fast DDS.
 A deadline takes effect while the vehicle drives. Everything else is fixed once a participant is
 made: the vehicle halts, restarts itself (same process id, same place in the world) and drives on,
 one after the other; so does the world, with the run as it was. What cannot make its participant
 comes back with what it had.
 Every writer matches every reader at every moment. Where old and new do not match, each process
-first takes a set between, in which writers offer the more of both and readers request the less.
-Where who is not in --to forbids it, the value that does is named.
-With --canary one vehicle goes first. It is watched beside the rest for --watch seconds: if it hears
+first takes an intermediate set, in which writers offer the more of both and readers request the less.
+Where a process that is not in --to forbids it, the value that does is named.
+With --canary one vehicle goes first. It is compared with the rest for the time --watch: if it hears
 less, loses more beacons or raises more alarms than chance explains, all go back to what they had.
 
 Examples
@@ -62,7 +64,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
   const auto options = std::make_shared<QosApplyOptions>();
   CLI::App* verb = qos->add_subcommand("apply", "Give running vehicles other QoS");
   verb->footer(kFooter);
-  verb->add_option("PROFILE", options->profile, "What they shall run with")
+  verb->add_option("PROFILE", options->profile, "The set they are to run with")
       ->required()
       ->check(CheckNotEmpty);
   AddObserverFlags(verb, &options->where);
@@ -73,10 +75,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
       ->type_name("ID,...|all");
   CLI::Option* canary =
       verb->add_option("--canary", options->canary, "This one first, on trial")->type_name("ID");
-  verb->add_option("--watch", options->watch_s, "Seconds the canary is on trial")
-      ->check(CheckSeconds)
-      ->capture_default_str()
-      ->needs(canary);
+  AddTimeFlag(verb, "--watch", &options->watch_s, "How long the canary is on trial")->needs(canary);
   verb->add_flag("!--no-restart", options->restart, "Refuse what would take a restart");
   verb->add_flag("--dry-run", options->dry_run, "Say what would change, and change nothing");
   verb->add_flag("--force", options->force,
@@ -85,6 +84,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
   verb->callback([options, targets, exit_code] {
     ReadTargets(*targets, options.get());
     CheckTargets(*options);
+    FindFleetIfNotNamed(&options->where);
     SayOtherFleets(options->where.domain, options->where.interface);
     *exit_code = RunQosApply(*options);
   });

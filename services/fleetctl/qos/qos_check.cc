@@ -11,6 +11,7 @@
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/finding_text.h"
 #include "services/fleetctl/output/json_object.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 
 namespace giveway::fleetctl {
@@ -28,7 +29,7 @@ void Print(const qos::Findings& findings, std::size_t files, bool json) {
     for (const qos::Finding& finding : findings) text += ToText(finding);
     text += Counted(files, "file") + ", " + Tally(findings);
   }
-  std::puts(text.c_str());
+  std::puts((json ? text : ForTerminal(text)).c_str());
 }
 
 qos::Deployment DeploymentOf(const QosCheckOptions& options) {

@@ -77,7 +77,7 @@ std::vector<EffectiveEndpoint> EffectiveQos(const std::vector<link::ResolvedEnti
     const qos::Profile silent = qos::DefaultProfile(owner, entity.profile);
     const qos::Profile* profile = set.Find(owner, entity.profile);
     EffectiveEndpoint endpoint{entity.profile, entity.topic, {}};
-    // In the order of the table, whatever the order they were told in.
+    // In the order of the table, whatever the order they were answered in.
     for (const qos::PolicyInfo& info : qos::Policies()) {
       const auto value = std::ranges::find(entity.values, info.name, &link::ResolvedValue::policy);
       if (value == entity.values.end()) continue;
@@ -97,7 +97,9 @@ EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& 
   options.domain = 1;  // nothing is opened in it
   options.interface = interface;
   options.fleet_size = vehicles;
-  options.qos = link::ReadProfileFile(ResolveQosFile(argument));
+  const std::string file = ResolveQosFile(argument);
+  RequireQosFile(file);
+  options.qos = link::ReadProfileFile(file);
   EffectiveSet set{options.qos.name, EffectiveQos(ResolveQosApart(options), SetOf(options.qos))};
   set.endpoints.front().rows.push_back(InterfaceRow(interface));
   return set;

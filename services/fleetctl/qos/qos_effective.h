@@ -13,11 +13,11 @@ namespace giveway::fleetctl {
 
 enum class QosOrigin : std::uint8_t {
   kProfile,      // the file says it
-  kDefault,      // nobody does: the library's
+  kDefault,      // none: the library's
   kCode,         // follows from fleet size, area or id
   kEnvironment,  // a GIVEWAY_ variable
   kFlag,         // of this command line
-  kDiscovered,   // of a foreign vehicle: as discovery tells it
+  kDiscovered,   // of a foreign vehicle: as discovery reports it
 };
 std::string Name(QosOrigin origin);
 

@@ -1,4 +1,4 @@
-// The QoS of a vehicle that is none of ours: it answers no order, but discovery tells what its
+// The QoS of a vehicle that is none of ours: it answers no order, but discovery reports what its
 // endpoints offer and request.
 #pragma once
 

@@ -37,7 +37,7 @@ struct LiveRow {
   bool AsExpected() const { return !expected || expected->value == live.value; }
 };
 
-// What is known of a vehicle: its own answer, or of a foreign one what discovery tells.
+// What is known of a vehicle: its own answer, or of a foreign one what discovery reports.
 struct LiveQos {
   std::string runs_with;  // the name of its set; of a foreign one empty
   std::string foreign;    // whose DDS, if it is another vendor's
@@ -155,7 +155,7 @@ std::string Json(const QosLiveOptions& options, const std::string& file, const L
 
 std::string Text(const std::string& file, const LiveQos& live, const std::vector<LiveRow>& all) {
   std::string text;
-  if (!live.foreign.empty()) text = "foreign (" + live.foreign + "), as discovery tells it\n";
+  if (!live.foreign.empty()) text = "foreign (" + live.foreign + "), as discovery reports it\n";
   std::string profile;
   for (const LiveRow& told : all) {
     if (told.profile != profile) text += told.profile + "\n";

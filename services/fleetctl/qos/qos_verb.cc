@@ -5,6 +5,7 @@
 #include "services/fleetctl/qos/qos_check.h"
 #include "services/fleetctl/qos/qos_live.h"
 #include "services/fleetctl/qos/qos_show.h"
+#include "services/fleetctl/survey/local_fleets.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -42,7 +43,7 @@ Examples
   fleetctl qos show --live 2 --domain 7                # does vehicle 2 run with the default?
   fleetctl qos show --json | jq '.endpoints[] | select(.topic == "fleet/beacon")'
 
-Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run, or nobody answered.
+Exit code: 0 shown, or no difference; 1 the two differ; 2 could not run, or no answer.
 )";
 
 void AddCheck(CLI::App* qos, int* exit_code) {
@@ -84,7 +85,8 @@ void AddShow(CLI::App* qos, int* exit_code) {
   auto* vehicle = verb->add_option("--live", live->vehicle,
                                    "What this vehicle runs with, held against the file")
                       ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
-  verb->add_option("--domain", live->domain, "DDS domain of the fleet that --live looks into")
+  verb->add_option("--domain", live->domain,
+                   "DDS domain of the fleet that --live examines, where several run")
       ->check(CLI::Range(1U, 99U))
       ->envname("GIVEWAY_DOMAIN");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
@@ -93,7 +95,10 @@ void AddShow(CLI::App* qos, int* exit_code) {
       *exit_code = RunQosShow(*options);
       return;
     }
-    if (live->domain == 0) throw CLI::ValidationError("--live", "needs --domain");
+    ObserverOptions where{.domain = live->domain, .interface = options->interface};
+    FindFleetIfNotNamed(&where);
+    options->interface = where.interface;
+    live->domain = where.domain;
     live->set = *options;
     *exit_code = RunQosLive(*live);
   });

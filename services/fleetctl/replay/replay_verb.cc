@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* kFooter = R"(
 A recording is what giveway-vehicle --record FILE, or fleetctl run --record FOLDER, writes. A fresh
-brain is told the same inputs; every command, every beacon and the hash of its state must come out
+brain is given the same inputs; every command, every beacon and the hash of its state must come out
 bit for bit as recorded. A file cut off by kill -9, or by a full disk, is replayed up to its last whole
 record. The parts of a recording that was split by size are replayed one after the other: name them all,
 in any order. Those of a ring (--record-ring) replay by themselves too.
@@ -26,8 +26,8 @@ Exit code: 0 all the same, 1 a step differs, 2 a file could not be replayed to i
 
 void AddReplayVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<ReplayOptions>();
-  CLI::App* verb = fleetctl->add_subcommand(
-      "replay", "Make recorded decisions again, and compare them bit for bit");
+  CLI::App* verb =
+      fleetctl->add_subcommand("replay", "Repeat recorded decisions, and compare them bit for bit");
   verb->footer(kFooter);
   verb->add_option("FILE", options->files, "Recordings")->required();
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");

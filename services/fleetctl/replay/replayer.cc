@@ -46,7 +46,7 @@ void Replayer::Begin(const RecordingFile& file, ReplayedFile* outcome) {
   next_ = *file.Continues();
 }
 
-// Makes the brain that a part of a ring begins with; or, if one was led up to there, compares the
+// Makes the brain that a part of a ring starts with; or, if one was led up to there, compares the
 // two. What speaks against it; empty: nothing.
 std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcome) {
   if (brain_) {
@@ -112,7 +112,7 @@ void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFil
   outcome->complete = end.has_value();
   outcome->lost = end ? end->lost : 0;
   outcome->failure = end ? Printable(end->failure) : "";
-  // A ring may have begun a file with its last breath: where the brain was led up to there, that
+  // A ring may have started a file with its last breath: where the brain was led up to there, that
   // one was compared.
   if (outcome->steps == 0 && outcome->finding.empty() && !compared_image) {
     outcome->finding = "holds no step: nothing was compared";

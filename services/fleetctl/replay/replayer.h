@@ -31,7 +31,7 @@ class Replayer {
   void Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFile* outcome);
 
   std::optional<Vehicle> brain_;  // none where the parts so far did not replay to their end
-  RecordedContinuation next_;     // how the next part must begin
+  RecordedContinuation next_;     // how the next part must start
 };
 
 // Of a recording that is one file.

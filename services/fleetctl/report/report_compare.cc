@@ -16,7 +16,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr double kLeastChange = 0.05;                     // of a time, or nobody cares
+constexpr double kLeastChange = 0.05;                     // of a time, below it does not matter
 constexpr double kIntervalWidth = 2 * 1.959963984540054;  // of 95 %, in standard deviations
 
 // A figure with the chance of both directions, before all tests are taken together.

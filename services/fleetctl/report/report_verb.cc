@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/report/report_compare.h"
 #include "services/fleetctl/report/report_show.h"
@@ -63,7 +64,7 @@ int RunReport(const ReportOptions& options) {
   if (results.size() == 1) {
     const SoakResult& only = results.front();
     if (!options.page_file.empty()) WriteSoakPage(only, options.page_file);
-    std::fputs((options.json ? ToJson(only) + "\n" : ToText(only)).c_str(), stdout);
+    std::fputs((options.json ? ToJson(only) + "\n" : ForTerminal(ToText(only))).c_str(), stdout);
     return ExitCode(only.verdict);
   }
   if (!options.page_file.empty()) {
@@ -96,7 +97,7 @@ void AddReportVerb(CLI::App* fleetctl, int* exit_code) {
       ->expected(1, 2);
   verb->add_flag("--all", options->all, "Show also what stayed the same");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
-  verb->add_option("--page", options->page_file, "Write the HTML page of the only report anew");
+  verb->add_option("--page", options->page_file, "Write the HTML page of the only report again");
   verb->callback([options, exit_code] { *exit_code = RunReport(*options); });
 }
 

@@ -38,7 +38,7 @@ class FleetWatch {
   // Seconds since the start signal; 0 before it.
   double TimeSeconds() const { return time_s_; }
   const std::map<VehicleId, VehicleStatus>& Statuses() const { return statuses_; }
-  // Everyone the scenario names, and in an open fleet who is in it now.
+  // Every vehicle the scenario names, and in an open fleet who is in it now.
   const std::set<VehicleId>& Vehicles() const { return vehicles_; }
   // Vehicles killed as planned, or that the world hears no more.
   const std::set<VehicleId>& Silent() const { return silent_; }
@@ -64,7 +64,7 @@ class FleetWatch {
   struct KeptTrack {
     Track track;
     std::uint32_t stride = 1;  // of so many points one is kept
-    std::uint32_t since = 0;   // the last one that was kept for good
+    std::uint32_t since = 0;   // the last one that was kept permanently
   };
 
   void FoldTruth(const Truth& truth);

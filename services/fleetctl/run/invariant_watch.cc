@@ -107,7 +107,7 @@ void InvariantWatch::NoteComingsAndGoings(Tick tick) {
   }
 }
 
-// False if something is not known of somebody.
+// False if something is not known of one.
 bool InvariantWatch::Look(Tick tick) {
   seen_.clear();
   bool whole = true;

@@ -1,5 +1,5 @@
 // Holds a real run to the invariants of the virtual ones, by what an observer sees of it: truths,
-// beacons, statuses and events. Off the vehicles' path: nobody waits for it. Pure.
+// beacons, statuses and events. Off the vehicles' path: no vehicle waits for it. Pure.
 //
 // A tick is judged kLagTicks after it was, when everything said in it has come. A tick of which
 // something is not known is left out and counted, for a check that looks away must say so.
@@ -8,7 +8,7 @@
 //  - brains miss beacons and scans here as they do behind a radio that loses some: LimitsFor;
 //  - what is seen may be VehicleSight::kHeldTicks old: this much longer may a circle last, and
 //    everyone halt; this much older may a key be that somebody goes by; this much later may
-//    braking begin.
+//    braking start.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +60,7 @@ class InvariantWatch {
   Tick first_ = kNoTick;                       // that was judged, and
   double first_time_s_ = 0;                    // its time since the start signal
   Tick last_ = kNoTick;                        // the run's, once it has ended
-  std::vector<WorldEvent> events_;             // not told to the invariants yet
+  std::vector<WorldEvent> events_;             // not given to the invariants yet
   std::size_t noted_ = 0;                      // of them: who lives was learnt from them
   std::vector<sim::Observed> seen_;
   std::uint32_t ticks_judged_ = 0;

@@ -12,6 +12,7 @@
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/live_screen.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
@@ -24,10 +25,10 @@ namespace {
 
 constexpr unsigned kDrawing_s = 30;
 
-// False if stdout did not take it: then nobody has the verdict.
+// False if stdout did not take it: then the verdict is lost.
 bool Print(const RunOptions& options, const Report& report) {
   const std::string text =
-      options.json ? ToJson(report) : ToTable(report, SizeOfTerminal().columns);
+      options.json ? ToJson(report) : ForTerminal(ToTable(report, SizeOfTerminal().columns));
   std::fputs(text.c_str(), stdout);
   if (!text.ends_with('\n')) std::fputc('\n', stdout);
   return std::fflush(stdout) == 0;

@@ -7,7 +7,7 @@
 
 namespace giveway::fleetctl {
 
-// Whether the run goes on without it. In a closed fleet only after a planned end; in an open one
+// Whether the run continues without it. In a closed fleet only after a planned end; in an open one
 // without any vehicle, as long as `any_vehicle` runs.
 bool MayEndEarly(const MemberEnd& end, bool open, bool any_vehicle);
 

@@ -1,5 +1,5 @@
 // One run from the first process to the last: watches the fleet, carries out planned faults, ends
-// the run when it is over, when somebody died, or when the operator says so, and reports.
+// the run when it is over, when a process died, or when the operator says so, and reports.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,7 @@ class RunSession {
  private:
   // Waits for the run's end. A value where the verdict is not the world's to give.
   std::optional<Overruled> Supervise();
-  // Somebody ended who should not have, unless the end of the run is just on its way to us.
+  // A process ended that should not have, unless the end of the run is just on its way to us.
   std::optional<Overruled> JudgeEnd(const MemberEnd& gone);
   std::optional<MemberEnd> FirstEarlyEnd() const;
   std::optional<MemberEnd> FirstBadEnd() const;
@@ -41,7 +41,7 @@ class RunSession {
   void Drain();
   // One turn of the loop: sleep, drain, carry out faults, poll, show.
   void Turn();
-  // What a child goes on after, such as a full disk: nothing else would tell the operator.
+  // What a child continues after, such as a full disk: nothing else would inform the operator.
   void ShowErrors();
   void ShowTrouble(const MemberEnd& gone, const std::string& what);
 

@@ -6,6 +6,7 @@
 #include "services/config/byte_size.h"
 #include "services/config/flags.h"
 #include "services/config/impair.h"
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
@@ -59,8 +60,7 @@ Behaviour ParseBehaviour(const std::string& name) {
 void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one")
       ->required();
-  verb->add_option("--duration", options->fleet.duration_s, "End after this many seconds")
-      ->check(CheckSeconds)
+  AddTimeFlag(verb, "--duration", &options->fleet.duration_s, "End after this time")
       ->envname("GIVEWAY_DURATION");
   verb->add_option_function<std::string>(
           "--behaviour",
@@ -91,11 +91,13 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
           "--qos", options->qos_file,
           "Fast DDS XML profiles: a file, or a shipped set (lossy_radio, same_host, ...); without "
           "it the default")
+      ->type_name("SET|FILE")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
-  verb->add_option("--impair", options->fleet.impair,
-                   "Impair what every vehicle hears, instead of the scenario: "
-                   "loss=0.1,delay=20ms, or none; the README lists the keys")
+  verb->add_option(
+          "--impair", options->fleet.impair,
+          "Impair what every vehicle receives, instead of the scenario: "
+          "loss=10%,delay=20ms, or none; services/link/impairment/README.md lists the keys")
       ->check(CheckImpairment)
       ->envname("GIVEWAY_IMPAIR");
 }
@@ -112,7 +114,7 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_RECORD");
   verb->add_option("--record-split", options->fleet.record_split,
-                   "Begin another file of each recording at this size: 64MiB")
+                   "Start another file of each recording at this size: 64MiB")
       ->check(CheckSplit)
       ->envname("GIVEWAY_RECORD_SPLIT");
   verb->add_option("--record-ring", options->fleet.record_ring,

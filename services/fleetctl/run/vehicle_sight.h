@@ -36,7 +36,7 @@ class VehicleSight {
   // What the world's events say: the process is gone, or back.
   void SetLives(bool lives) { lives_ = lives; }
 
-  // Nothing where it cannot be told. Ticks must be asked for in order: what is older is forgotten.
+  // Nothing where it is not known. Ticks must be asked for in order: what is older is forgotten.
   std::optional<sim::Observed> At(Tick tick);
 
  private:

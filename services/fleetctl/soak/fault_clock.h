@@ -1,4 +1,4 @@
-// Says which faults of a schedule begin and end as time goes by. Makes nothing happen. Pure.
+// Says which faults of a schedule start and end as time goes by. Makes nothing happen. Pure.
 #pragma once
 
 #include <cstddef>
@@ -24,10 +24,10 @@ class FaultClock {
   // `schedule` outlives this.
   explicit FaultClock(std::span<const faults::Fault> schedule);
 
-  // Those that are due at `now_s` and were not told before, in order of time. Of two at one time
-  // the end comes first.
+  // Those that are due at `now_s` and were not given out before, in order of time. Of two at one
+  // time the end comes first.
   std::span<const FaultEdge> TakeDue(double now_s);
-  // Every fault that has begun and not ended is to end now; none begins any more.
+  // Every fault that has started and not ended is to end now; none starts any more.
   std::span<const FaultEdge> EndAll(double now_s);
   // Indices of those under way, ascending.
   std::vector<std::size_t> UnderWay() const;

@@ -1,5 +1,5 @@
 // How timely a whole fleet was, from what its vehicles report of themselves: every value of every
-// life that a report told of, added up. Bounded. Pure.
+// life that was reported, added up. Bounded. Pure.
 #pragma once
 
 #include <array>
@@ -28,14 +28,14 @@ class FleetTiming {
   explicit FleetTiming(Nanoseconds most_age) : most_age_(most_age) {}
 
   // `time_s` since the start signal. Lives of a vehicle follow each other: one whose counts fall
-  // has begun anew.
+  // has started again.
   void Fold(const VehicleStatus& status, double time_s);
 
   // Those that hold something, with their budgets, in the order of DriveFigure.
   std::vector<SoakHistogram> Histograms() const;
   std::optional<NarrowestMargin> Narrowest() const { return narrowest_; }
   std::uint64_t BudgetSpent() const { return budget_spent_; }
-  // Values that no report told of: reports were lost, or a process died before its next one.
+  // Values that are in no report: reports were lost, or a process died before its next one.
   std::uint64_t Missed() const { return missed_; }
   const std::map<VehicleId, StaleDecisions>& Stale() const { return stale_; }
 

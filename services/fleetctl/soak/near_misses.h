@@ -1,5 +1,5 @@
 // Which vehicles came near each other, how near and where, by the truth. Bodies are taken as discs
-// round their axle centres, as large as they are anywhere: a box may have been farther away than it
+// round their axle centres, as large as they are anywhere: a box may have been further away than it
 // says, never nearer. Each encounter counts once, at its narrowest. Bounded. Pure.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace giveway::fleetctl {
 
 class NearMisses {
  public:
-  // Shell to shell; an encounter begins nearer than kNear_m and is over farther than kApart_m.
+  // Shell to shell; an encounter starts nearer than kNear_m and is over further than kApart_m.
   static constexpr double kNear_m = 0.15;
   static constexpr double kApart_m = 0.30;
   // The narrowest ones are kept.
@@ -26,7 +26,7 @@ class NearMisses {
   explicit NearMisses(std::map<VehicleId, double> radius_m) : radius_m_(std::move(radius_m)) {}
 
   void Fold(std::span<const Truth> truths);
-  // Encounters that are over or go on, by time.
+  // Encounters that are over or continue, by time.
   std::vector<NearMiss> Narrowest() const;
   std::uint64_t Count() const { return count_; }
   // Of any two, encounter or not; nothing while there are not two.

@@ -1,5 +1,5 @@
 // How long and how often the machine did not let the supervisor run: what it does to the supervisor
-// it does to the fleet. Pure: the time is told.
+// it does to the fleet. Pure: the time comes in.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ class PauseMeter {
   std::uint64_t Count() const { return count_; }
   Nanoseconds Paused() const { return paused_; }
   Nanoseconds Longest() const { return longest_; }
-  // Of all the time that was told of; 0 to 1.
+  // Of all the time that was observed; 0 to 1.
   double Share() const { return total_.count() > 0 ? Seconds(paused_) / Seconds(total_) : 0; }
 
  private:

@@ -236,7 +236,7 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
   switch (fault.kind) {
     case Kind::kRestart:
     case Kind::kQosMismatch:
-      // Of one that was away for another fault nothing began.
+      // Of one that was away for another fault nothing started.
       if (const auto away = away_.find(member); away != away_.end() && away->second == &fault) {
         if (processes_->IsRunning(member)) processes_->Kill(member);
         away_.erase(away);
@@ -277,7 +277,7 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
     return true;
   });
   for (auto& [member, away] : away_) {
-    // Gone as planned: it comes back at once, with a set that matches nobody's.
+    // Gone as planned: it comes back at once, with a set that matches no other.
     if (away->kind == Kind::kQosMismatch && !processes_->IsRunning(member) &&
         processes_->EndOf(member)) {
       MemberCommand command = CommandNow(member);

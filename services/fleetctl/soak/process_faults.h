@@ -25,8 +25,8 @@ struct FaultTools {
   std::string fleetctl;                 // the program, for orders
   std::uint32_t domain = 0;
   std::string interface;
-  // What a vehicle that is started so many seconds after the start signal is told with --impair:
-  // its clock of the rules begins when it joins. Empty: nothing is impaired any more.
+  // What a vehicle that is started so many seconds after the start signal is given with --impair:
+  // its clock of the rules starts when it joins. Empty: nothing is impaired any more.
   std::function<std::string(VehicleId, double)> impairment_since;
 };
 
@@ -45,7 +45,7 @@ class ProcessFaults {
   // StartError where a process cannot be started.
   void Begin(const faults::Fault& fault);
   void End(const faults::Fault& fault);
-  // What goes on during a fault: stops and continues slow ones, polls its own children. Often.
+  // What continues during a fault: stops and continues slow ones, polls its own children. Often.
   // `time_s` since the start signal.
   void Turn(SteadyTime now, double time_s);
 
@@ -99,7 +99,7 @@ class ProcessFaults {
   FaultTools tools_;
   FleetProcesses* processes_;
   std::map<MemberId, const faults::Fault*> away_;
-  std::set<MemberId> returning_;  // killed, and started anew once that is over
+  std::set<MemberId> returning_;  // killed, and started again once that is over
   std::map<MemberId, Slow> slow_;
   std::map<const faults::Fault*, Churn> churns_;
   std::map<const faults::Fault*, std::unique_ptr<ChildProcess>> orders_;

@@ -86,7 +86,7 @@ void BoundedSeries::Add(double time_s, double value) {
 ResourceSeries::Life& ResourceSeries::LifeOf(const std::string& process, double time_s) {
   const auto [entry, is_new] = living_.try_emplace(process);
   if (is_new) {
-    // Of more names than that nobody asks which life it was.
+    // Of more names than that the life is not kept.
     if (next_life_.size() >= kMostNames) next_life_.clear();
     entry->second.number = next_life_[process]++;
     entry->second.began_s = time_s;

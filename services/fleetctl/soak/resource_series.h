@@ -50,7 +50,7 @@ class ResourceSeries {
   explicit ResourceSeries(double warm_up_s) : warm_up_s_(warm_up_s) {}
 
   // To be called at 1 Hz with what ReadResources gave, `time_s` since the start signal. The first
-  // call for a process begins its first life.
+  // call for a process starts its first life.
   void Add(const std::string& process, double time_s, const ProcessResources& resources);
   // What the fleet has in /dev/shm.
   void AddSharedMemory(double time_s, std::uint64_t bytes);

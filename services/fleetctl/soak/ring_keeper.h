@@ -1,5 +1,5 @@
 // Has every vehicle keep its ring of a recording when a promise was broken, by an order on
-// fleet/admin, and removes rings of lives that are over and that nobody kept: a soak of weeks has
+// fleet/admin, and removes rings of lives that are over and that were not kept: a soak of weeks has
 // thousands of lives. At the edge.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace giveway::fleetctl {
 class RingKeeper {
  public:
   static constexpr std::size_t kMostOrders = 3;
-  // Of the files of one vehicle that nobody keeps; two are of the life it has.
+  // Of the files of one vehicle that are not kept; two are of the life it has.
   static constexpr std::size_t kMostUnkept = 6;
 
   // `folder`: where they record, `ring`: how much of it each keeps. Throws LinkError.

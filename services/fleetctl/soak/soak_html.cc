@@ -19,7 +19,7 @@ constexpr std::size_t kRowsUnfolded = 20;
 // A table that grows row by row. Cells are escaped here.
 class HtmlTable {
  public:
-  // A head that begins with '<' stands at the left, over text.
+  // A head that starts with '<' stands at the left, over text.
   explicit HtmlTable(std::vector<std::string> heads) : heads_(std::move(heads)) {}
 
   void Row() { rows_.emplace_back(); }

@@ -1,5 +1,5 @@
 // The tables of a soak's page, a section each: its heading included, empty where there is nothing
-// to show. At most so many rows as somebody reads; all of them are in report.json. Pure text.
+// to show. At most so many rows as a reader wants; all of them are in report.json. Pure text.
 #pragma once
 
 #include <string>

@@ -16,7 +16,7 @@ struct SoakPhases {
   double end_s = 0;
 };
 
-// Everyone living drives again within this, when nothing is broken any more.
+// Every living vehicle drives again within this, when nothing is broken any more.
 inline constexpr double kHealWithin_s = 5;
 
 // Discovery is through after a few seconds, and lasts longer with more vehicles; healing must show

@@ -1,4 +1,4 @@
-// The gnuplot programs of a soak's pictures. Colours tell things apart for the colour-blind too
+// The gnuplot programs of a soak's pictures. Colours differ for the colour-blind too
 // (Okabe and Ito 2008), and stand on white as on black: the page gives black its text's colour.
 #include <fmt/format.h>
 
@@ -112,7 +112,7 @@ std::string Bars(const char* colour, const std::string& title) {
 
 SoakPlot FaultPlot(const SoakResult& result) {
   const TimeAxis axis = AxisOf(result);
-  const double least_s = std::max(result.ran_s, 1.0) / 300;  // or nobody sees it
+  const double least_s = std::max(result.ran_s, 1.0) / 300;  // or it is not visible
   PlotRows rows = KindRows(result);
   std::string seen;
   std::string unseen;

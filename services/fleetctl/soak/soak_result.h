@@ -45,9 +45,10 @@ struct SoakFault {
   bool observed = false;     // by its effect, not by the order given
   std::string observed_how;  // "waitpid: signal 9"
   std::optional<double> observed_s;
-  std::optional<double> noticed_after_s;    // by peers, from its beginning
-  std::optional<double> promised_s;         // to be noticed within
-  std::optional<double> recovered_after_s;  // until everyone concerned drove again, from its end
+  std::optional<double> noticed_after_s;  // by peers, from its beginning
+  std::optional<double> promised_s;       // to be noticed within
+  std::optional<double>
+      recovered_after_s;  // until every vehicle concerned drove again, from its end
 };
 // "burst#3", as violations name a fault.
 std::string NameOf(const SoakFault& fault);
@@ -152,7 +153,7 @@ struct MachinePauses {
 
 // The reaction that left the least share of its free distance.
 struct NarrowestMargin {
-  double time_s = 0;  // at which it was told of
+  double time_s = 0;  // at which it was reported
   VehicleId vehicle = kNobody;
   double reaction_m = 0;  // driven from cause to wheels that obey
   double free_m = 0;      // that there was
@@ -201,7 +202,7 @@ struct SoakResult {
   std::uint64_t budget_spent = 0;        // reactions that left less than a fifth
   std::uint64_t timing_values_lost = 0;  // missing from every received report
   std::vector<KeptRings> kept_rings;
-  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet went on
+  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet continued
   std::uint32_t restarts_planned = 0;
   std::uint32_t restarts_unplanned = 0;        // a process ended and no fault says why
   std::optional<double> supervisor_cpu_share;  // of the fleet's processor time

@@ -22,14 +22,14 @@ namespace giveway::fleetctl {
 // One fault as it went.
 struct FaultCourse {
   std::optional<SteadyTime> began;
-  std::optional<SteadyTime> ended;  // or, of one that takes no time, the moment it began
+  std::optional<SteadyTime> ended;  // or, of one that takes no time, the moment it started
   std::string effect;               // that was seen; empty: none yet
-  // By the first peer, by each mechanism that told of it.
+  // By the first peer, by each mechanism that reported it.
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
-  std::optional<SteadyTime> recovered;  // after its end all that it struck were well again
+  std::optional<SteadyTime> recovered;  // after its end all that it faulted were well again
 };
 
-// Somebody ended who was not to.
+// A process ended that was not to.
 struct UnplannedEnd {
   double time_s = 0;  // since the start signal
   MemberId member;
@@ -43,7 +43,7 @@ struct BrokenInvariant {
 };
 
 struct SoakSeen {
-  bool started = false;      // everyone drove before the first fault
+  bool started = false;      // every vehicle drove before the first fault
   bool interrupted = false;  // by the operator
   SteadyTime started_at{0};
   double lasted_s = 0;               // since the start signal

@@ -147,7 +147,7 @@ void SoakSession::SaveIfDue(SteadyTime now) {
   SoakSeen so_far = seen_;
   so_far.lasted_s = watch_.TimeSeconds(now);
   Gather(&so_far);
-  // Of one that is still open nobody can say yet what it broke.
+  // Of one that is still open it is not known yet what it broke.
   for (const std::size_t i : watch_.Open()) {
     so_far.courses[i] = {.effect = watch_.Courses()[i].effect};
   }

@@ -40,8 +40,8 @@ std::optional<fleetctl::Fault> AsOfStopwatch(Kind kind) {
   }
 }
 
-// The fault that may have to do with what befell the vehicle: the last that began before and had
-// not been over for ten seconds, of those that struck it or everyone if there is one.
+// The fault that may have to do with what befell the vehicle: the last that started before and had
+// not been over for ten seconds, of those that faulted it or all if there is one.
 std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
                                        std::span<const FaultCourse> courses, VehicleId vehicle,
                                        SteadyTime at) {
@@ -129,7 +129,7 @@ class Judging {
                    .target = faults::ToString(fault.target),
                    .observed = !course.effect.empty(),
                    .observed_how = course.effect};
-    // Of other faults peers may hear less of the victim too: not each time, and nothing is
+    // Of other faults peers may hear less of the target too: not each time, and nothing is
     // promised.
     for (const std::optional<SteadyTime>& noticed : course.noticed) {
       if (!noticed || !AsOfStopwatch(fault.kind)) continue;

@@ -1,5 +1,5 @@
-// From what a soak saw to its result: which promise was broken when, by whom and after which fault,
-// and the verdict. Starts and measures nothing. Pure.
+// From what a soak saw to its result: which promise was broken when, by which vehicle and after
+// which fault, and the verdict. Starts and measures nothing. Pure.
 #pragma once
 
 #include <functional>
@@ -19,10 +19,10 @@ struct SoakEvidence {
   Limits limits;  // what the profile set promises
   // The longest time that the machine stood still between two moments of the run.
   std::function<Nanoseconds(SteadyTime, SteadyTime)> longest_pause;
-  bool by_processes = true;  // else nothing is known of whom the middleware told
+  bool by_processes = true;  // else nothing is known of what the middleware reported
 };
 
-// What must tell peers of a fault, and within what time: its victim falls silent for longer. Not
+// What must report a fault to peers, and within what time: its target falls silent for longer. Not
 // the age of beacons, which is of those that are near, and not the lease, which outlasts most
 // faults.
 struct Expected {

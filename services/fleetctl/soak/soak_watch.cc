@@ -111,7 +111,7 @@ void SoakWatch::FoldEvent(const WorldEvent& event) {
   }
 }
 
-// A partition is seen from both of its sides: of the target alone, or of whoever lost it.
+// A partition is seen from both of its sides: of the target alone, or of the peers that lost it.
 bool SoakWatch::Concerns(const faults::Fault& fault, VehicleId vehicle) const {
   return fault.target.what != Target::What::kVehicle || fault.target.vehicle == vehicle ||
          fault.kind == Kind::kPartition || fault.kind == Kind::kFlapping ||
@@ -214,7 +214,7 @@ void SoakWatch::CloseSettled(SteadyTime now) {
   });
 }
 
-// Where it struck one vehicle, that one; else everyone.
+// Where it faulted one vehicle, that one; else all.
 void SoakWatch::SeekRecovery(SteadyTime now) {
   for (const std::size_t i : open_) {
     FaultCourse& course = courses_[i];

@@ -18,7 +18,7 @@
 
 namespace giveway::fleetctl {
 
-// Drives, or stands for a reason that traffic has: ranges are fresh, and nobody it must hear is
+// Drives, or stands for a reason that traffic has: ranges are fresh, and no peer it must hear is
 // missing.
 bool IsWell(const VehicleStatus& status);
 
@@ -37,22 +37,22 @@ class SoakWatch {
   void NoteEnd(std::size_t fault, SteadyTime now);
   // The supervisor saw it happen. The first words stay.
   void NoteEffect(std::size_t fault, std::string effect);
-  // Of a process that is meant to be gone nothing is expected; a new one has everything to tell
-  // anew.
+  // Of a process that is meant to be gone nothing is expected; a new one has everything to report
+  // again.
   void SetAway(VehicleId vehicle, bool away);
 
   bool HasStarted() const { return started_.has_value(); }
   // Seconds since the start signal; 0 before it.
   double TimeSeconds(SteadyTime now) const;
   bool IsWell(VehicleId vehicle, SteadyTime now) const;
-  // Everyone who is not away. False where nobody is left.
+  // Every vehicle that is not away. False where none is left.
   bool AreAllWell(SteadyTime now) const;
   // Who is not, and not away.
   std::vector<VehicleId> Unwell(SteadyTime now) const;
   std::uint32_t Living() const;
   std::span<const FaultCourse> Courses() const { return courses_; }
-  // Those that have begun and of which something may still be learnt, in the order they began. All
-  // that is done every turn is done for these: a schedule of weeks has half a million faults.
+  // Those that have started and of which something may still be learnt, in the order they started.
+  // All that is done every turn is done for these: a schedule of weeks has half a million faults.
   std::span<const std::size_t> Open() const { return open_; }
   double HighestStepP99_us(VehicleId vehicle) const;
   const VehicleStatus* StatusOf(VehicleId vehicle) const;
@@ -78,7 +78,7 @@ class SoakWatch {
   std::span<const faults::Fault> schedule_;
   std::map<VehicleId, View> views_;
   std::vector<FaultCourse> courses_;
-  // As the fault began, by vehicle: what its effect is measured from. Of open ones alone.
+  // As the fault started, by vehicle: what its effect is measured from. Of open ones alone.
   std::vector<std::map<VehicleId, VehicleStatus>> before_;
   std::vector<std::size_t> open_;
   std::optional<SteadyTime> started_;

@@ -55,7 +55,7 @@ void StallMonitor::Note(const Gap& gap) {
 Nanoseconds StallMonitor::LongestPause(SteadyTime from, SteadyTime to) const {
   const std::scoped_lock lock(mutex_);
   Nanoseconds longest = kKept;
-  // Gaps of several threads are a little out of order: begin early enough.
+  // Gaps of several threads are a little out of order: start early enough.
   const auto by_end = [](const Gap& gap, SteadyTime time) { return gap.to < time; };
   auto gap = std::lower_bound(gaps_.begin(), gaps_.end(), from - std::chrono::seconds(1), by_end);
   for (; gap != gaps_.end(); ++gap) {

@@ -30,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kBroken = 1;
-// A fleet takes so many of a fault; then a fresh one goes on with it.
+// A fleet takes so many of a fault; then a fresh one continues with it.
 constexpr std::uint32_t kTrialsAFleet = 20;
 constexpr int kAttempts = 3;  // at cuts that came before discovery was through
 
@@ -193,7 +193,7 @@ int RunStopwatch(const StopwatchOptions& options) {
                  .flags_only = true};
   spec.options.interface = options.interface;
   spec.options.logs_folder = options.logs_folder;
-  spec.options.vehicles = 0;  // that nobody named
+  spec.options.vehicles = 0;  // without an id of the scenario
   Session session(options, spec, limits);
   const StopwatchReport report = session.Run();
   std::fputs((options.json ? StopwatchJson(report) : StopwatchText(report)).c_str(), stdout);

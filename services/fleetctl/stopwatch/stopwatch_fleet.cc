@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// What is told carries its own time: nothing is lost by reading it a little later.
+// A report carries its own time: nothing is lost by reading it a little later.
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(10);
 constexpr Nanoseconds kGrace = std::chrono::seconds(2);
 

@@ -22,10 +22,10 @@ struct Said {
 
 class StopwatchFleet {
  public:
-  // `spec` but for the domain; `impair` is what each hearer is told with --impair. Lives on one
+  // `spec` but for the domain; `impair` is what each hearer is given with --impair. Lives on one
   // thread: see FleetProcesses. Throws StartError, DomainError.
   StopwatchFleet(const FleetSpec& spec, const std::map<VehicleId, std::string>& impair);
-  // Ends whoever is left, in good order if they do it within two seconds.
+  // Ends the processes that are left, gracefully if they do it within two seconds.
   ~StopwatchFleet();
   StopwatchFleet(const StopwatchFleet&) = delete;
   StopwatchFleet& operator=(const StopwatchFleet&) = delete;
@@ -36,7 +36,7 @@ class StopwatchFleet {
   // Since the last ForgetSaid, vehicle by vehicle in its order.
   const std::vector<Said>& Heard() const { return said_; }
   void ForgetSaid() { said_.clear(); }
-  // When a vehicle began to count its blackouts.
+  // When a vehicle started to count its blackouts.
   std::optional<SteadyTime> BlackoutsSince(VehicleId vehicle) const;
 
   void Signal(VehicleId vehicle, int signal_number) {
@@ -45,7 +45,7 @@ class StopwatchFleet {
   bool IsRunning(VehicleId vehicle) const { return processes_.IsRunning(MemberOf(vehicle)); }
   // A new process for a vehicle whose last one has ended.
   void Restart(VehicleId vehicle);
-  // In words, if somebody ended who is not in `struck`.
+  // In words, if a process ended that is not in `struck`.
   std::optional<std::string> Loss(std::span<const VehicleId> struck) const;
 
  private:

@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Nanoseconds kFirstCut = seconds(5);  // after the start signal: discovery takes a second
-constexpr Nanoseconds kAfterward = milliseconds(1500);  // what came late is still told
+constexpr Nanoseconds kAfterward = milliseconds(1500);  // what came late is still reported
 constexpr double kCell_m = 5;                           // between two squares
 constexpr double kSquare_m = 1;
 
@@ -26,7 +26,7 @@ std::vector<Strike> PlanStrikes(std::vector<VehicleId> fleet, std::size_t victim
         dice->Uniform(static_cast<double>(i), static_cast<double>(fleet.size())));
     std::swap(fleet[i], fleet[other]);
     const Nanoseconds exact = FromSeconds(dice->Uniform(0, Seconds(kWaveSpread)));
-    // Whole milliseconds: so a blackout is told to the vehicles.
+    // Whole milliseconds: so a blackout is given to the vehicles.
     strikes.push_back({fleet[i], std::chrono::floor<milliseconds>(exact)});
   }
   std::ranges::sort(strikes, {}, &Strike::after);
@@ -41,7 +41,7 @@ Nanoseconds LongestPromise(const Limits& limits) {
   return longest;
 }
 
-// "3.250s..15s" while `victim` is struck, in each wave.
+// "3.250s..15s" while `victim` is faulted, in each wave.
 std::vector<std::string> WindowsOf(VehicleId victim, std::span<const Wave> waves) {
   std::vector<std::string> windows;
   for (const Wave& wave : waves) {
@@ -97,7 +97,7 @@ std::string BlackoutsOf(VehicleId hearer, Fault fault, std::span<const Wave> wav
 }
 
 std::string StopwatchScenario(std::span<const VehicleId> fleet) {
-  // Open, by a place that nobody takes: a closed fleet's run ends when somebody is gone.
+  // Open, by a place that stays free: a closed fleet's run ends when a vehicle is gone.
   std::string text = fmt::format(
       "name: \"stopwatch\"\nduration_s: 86400\nremove_after_s: 3600\nemission_radius_m: 1000\n"
       "start_with: {}\nspawn {{ start {{ x_m: -50 y_m: -50 heading_deg: 0 }} cruise_m_s: 0.2 }}\n"

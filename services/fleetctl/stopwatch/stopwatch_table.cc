@@ -41,7 +41,7 @@ std::string_view LimitName(Mechanism mechanism) {
     case Mechanism::kLease:
       return "lease of the profile giveway_participant";
     case Mechanism::kGoodBye:
-      return "who is told to stop looks once a beacon period, then says so";
+      return "a vehicle that is asked to stop checks once a beacon period, then says so";
   }
   return "";
 }
@@ -89,7 +89,7 @@ std::vector<Term> Promise(Mechanism mechanism, const Limits& limits) {
     terms.push_back({limits.beacon_period,
                      "a beacon's age counts from the peer's tick after the one it was sent in"});
   }
-  // Measured: half of a fleet of eight struck together, 10 ms for each in the worst case.
+  // Measured: half of a fleet of eight faulted together, 10 ms for each in the worst case.
   constexpr Nanoseconds kDropsOthersFirst = std::chrono::milliseconds(50);
   if (mechanism == Mechanism::kLease) {
     terms.push_back(

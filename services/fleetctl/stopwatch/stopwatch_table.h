@@ -18,13 +18,13 @@ enum class Fault : std::uint8_t {
   kKill,    // kill -9
   kPause,   // SIGSTOP: nothing of the process runs
   kExit,    // SIGTERM: it leaves in good order
-  kHung,    // the control loop stands still, the library's threads go on
+  kHung,    // the control loop stands still, the library's threads continue
   kCut,     // no packet between it and its peers, either way
   kOneWay,  // its packets are lost, it hears its peers
 };
 inline constexpr std::size_t kFaults = 6;
 
-// What tells a vehicle that a peer is gone.
+// What informs a vehicle that a peer is gone.
 enum class Mechanism : std::uint8_t {
   kBeaconAge,   // its own limit on the age of the newest beacon
   kDeadline,    // DEADLINE of the beacon reader
@@ -46,9 +46,9 @@ enum class Duty : std::uint8_t {
   kMay,       // may or may not
 };
 
-// A row a fault, a column a mechanism. After an exit nobody is stale, for who said good-bye is not
-// missed; and the process is silent for a while before it is gone, longer than deadline and
-// liveliness if the end takes its time.
+// A row a fault, a column a mechanism. After an exit no peer is stale, for a vehicle that sent a
+// leave notice is not missed; and the process is silent for a while before it is gone, longer than
+// deadline and liveliness if the end takes its time.
 inline constexpr std::array<std::array<Duty, kMechanisms>, kFaults> kDuties = {{
     //  beacon_age    deadline       liveliness        lease        good_bye
     {Duty::kMust, Duty::kMust, Duty::kMust, Duty::kMust, Duty::kNone},      // kill

@@ -19,9 +19,9 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Nanoseconds kUntilWell = seconds(30);
-constexpr Nanoseconds kLateStill = seconds(1);  // what comes after the promise is told as late
+constexpr Nanoseconds kLateStill = seconds(1);  // what comes after the promise is reported as late
 constexpr Nanoseconds kNoticing = milliseconds(200);  // for a word to be written and read
-constexpr Nanoseconds kEnding = seconds(3);           // of a process that was told to
+constexpr Nanoseconds kEnding = seconds(3);           // of a process that was asked to
 
 // Ends the trials of this fleet; what() says why.
 class Trouble : public std::runtime_error {
@@ -29,7 +29,7 @@ class Trouble : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A victim, and when it was struck: of cuts by each watcher's own clock of blackouts.
+// A target, and when it was faulted: of cuts by each watcher's own clock of blackouts.
 struct Struck {
   VehicleId victim = kNobody;
   std::map<VehicleId, SteadyTime> at;  // by watcher; empty until it is known
@@ -101,7 +101,7 @@ class Conductor {
     }
   }
 
-  // By the clock of whoever heard the start signal last: a tick or two after the first.
+  // By the clock of the vehicle that heard the start signal last: a tick or two after the first.
   SteadyTime BeginOf(Nanoseconds since_start) const {
     SteadyTime latest{0};
     for (const VehicleId vehicle : task_.fleet) {
@@ -173,7 +173,8 @@ class Conductor {
       }
       Turn();
     }
-    throw Trouble(fmt::format("vehicle {} does not hang, though it was told to", Number(victim)));
+    throw Trouble(
+        fmt::format("vehicle {} does not hang, though it was signalled to", Number(victim)));
   }
 
   // The first word of the watcher by that mechanism after the fault.
@@ -231,7 +232,7 @@ class Conductor {
     }
   }
 
-  // Whoever was dropped by its peers, or left, comes back as a new process: see PlanWaves.
+  // A vehicle that was dropped by its peers, or left, comes back as a new process: see PlanWaves.
   void Heal() {
     for (const VehicleId victim : victims_) {
       task_.fault == Fault::kHung ? fleet_.Signal(victim, SIGUSR2) : Revive(victim);
@@ -244,7 +245,8 @@ class Conductor {
     const SteadyTime limit = SteadyNow() + kEnding;
     while (fleet_.IsRunning(victim)) {
       if (SteadyNow() > limit) {
-        throw Trouble(fmt::format("vehicle {} did not end, though it was told to", Number(victim)));
+        throw Trouble(
+            fmt::format("vehicle {} did not end, though it was asked to", Number(victim)));
       }
       Turn();
     }

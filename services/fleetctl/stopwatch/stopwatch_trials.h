@@ -1,5 +1,5 @@
-// Conducts the trials of one fleet: waits until everyone hears everyone, strikes, collects what the
-// peers say, heals, and begins again.
+// Conducts the trials of one fleet: waits until all receive all, strikes, collects what the
+// peers say, heals, and starts again.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,14 @@ struct StopwatchTask {
 
 struct StopwatchResult {
   std::vector<Trial> trials;
-  // Trouble that peers told of one another, or of a victim before it was struck: nobody's fault.
+  // Trouble that peers reported of one another, or of a target before it was faulted: no vehicle's
+  // fault.
   std::uint32_t false_alarms = 0;
-  bool too_soon = false;  // the blackouts began while somebody was not well: nothing was tried
+  bool too_soon = false;  // the blackouts started while a vehicle was not well: nothing was tried
   std::string problem;    // why it ended early; empty: it did not
 };
 
-// `note` is told of every wave how many trials it brought. Throws StartError, DomainError.
+// `note` is given for every wave how many trials it brought. Throws StartError, DomainError.
 StopwatchResult Conduct(const StopwatchTask& task, const FleetSpec& spec, const Limits& limits,
                         const StallMonitor& monitor, const std::function<void(std::size_t)>& note);
 

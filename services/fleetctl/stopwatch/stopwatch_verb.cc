@@ -61,7 +61,7 @@ struct Given {
 
 void AddFlags(CLI::App* verb, Given* given) {
   StopwatchOptions* const options = &given->options;
-  verb->add_option("--vehicles", options->vehicles, "Of each fleet; half of them watch")
+  verb->add_option("--vehicles", options->vehicles, "Of each fleet; half of them observe")
       ->check(CLI::Range(2U, kMostVehicles))
       ->capture_default_str();
   CLI::Option* trials = verb->add_option("--trials", options->trials, "Of each fault")
@@ -75,12 +75,14 @@ void AddFlags(CLI::App* verb, Given* given) {
                    "Fast DDS XML profiles: a file, or a shipped set; without it the default")
       ->envname("GIVEWAY_QOS");
   AddInterfaceFlag(verb, &options->interface);
-  verb->add_option("--seed", options->seed, "Of who is struck when")->capture_default_str();
+  verb->add_option("--seed", options->seed, "Of which vehicle is faulted when")
+      ->capture_default_str();
   verb->add_option("--logs", options->logs_folder, "Keep the log of every process in this folder");
   verb->add_flag("--quick", given->quick,
                  "10 trials of each fault: under 2 minutes with 8 vehicles")
       ->excludes(trials);
-  verb->add_flag("--table", options->table, "Only say what must see what within what time");
+  verb->add_flag("--table", options->table,
+                 "Only print what must notice which fault within what time");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
 }
 

@@ -95,7 +95,7 @@ void PeersHeard::Fold(VehicleId hearer, const Word& word) {
       ++view.writers;
       break;
     case WordKind::kUnmatched:
-      // Of a writer that is gone nothing more is told: the next one begins alive.
+      // Of a writer that is gone nothing more is reported: the next one starts alive.
       view.alive = true;
       if (view.writers > 0) --view.writers;
       break;

@@ -1,5 +1,5 @@
-// What the vehicles of a stopwatch fleet say, and who hears whom by it. Pure: lines of their logs
-// in, values out.
+// What the vehicles of a stopwatch fleet say, and which vehicle hears which by it. Pure: lines of
+// their logs in, values out.
 #pragma once
 
 #include <cstdint>
@@ -40,14 +40,14 @@ struct Word {
 // Of a line of a vehicle's JSON log; nothing where it says something else.
 std::optional<Word> WordOf(std::string_view line);
 
-// What told of a peer's absence, where a word is of that.
+// What reported a peer's absence, where a message is of that.
 std::optional<Mechanism> MechanismOf(WordKind kind);
 
-// Who hears whom, by what they have said so far.
+// Which vehicle hears which, by what they have said so far.
 class PeersHeard {
  public:
   void Fold(VehicleId hearer, const Word& word);
-  // A new life of the vehicle: it has heard nobody yet. What the others think of it stays.
+  // A new life of the vehicle: it has heard no peer yet. What the others think of it stays.
   void Restart(VehicleId hearer);
   // Matched once, alive, and with a fresh beacon.
   bool Hears(VehicleId hearer, VehicleId about) const;

@@ -27,7 +27,7 @@ std::vector<std::string> Lines(std::string_view text) {
   return lines;
 }
 
-// The words of the first line that begins with `name`, without it.
+// The words of the first line that starts with `name`, without it.
 std::vector<std::string> WordsAfter(std::string_view text, std::string_view name) {
   for (const std::string& line : Lines(text)) {
     if (line.starts_with(name)) return Words(std::string_view(line).substr(name.size()));

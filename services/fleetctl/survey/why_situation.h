@@ -1,5 +1,5 @@
-// Where a process of a fleet stands: what it was told, and what the system gives it to talk with.
-// Values only. What could not be read is absent, and its name is in `not_known`.
+// Where a process of a fleet stands: its launch options, and what the system gives it to
+// communicate with. Values only. What could not be read is absent, and its name is in `not_known`.
 #pragma once
 
 #include <cstdint>
@@ -54,7 +54,7 @@ struct ProcessSituation {
   int pid_inside = 0;  // in its own namespace of process ids: what its GUID holds; 0: not known
   Instructions told;
   std::optional<qos::ProfileSet> profiles;  // the set as the file is now
-  bool profiles_changed = false;            // the file was written to after the process began
+  bool profiles_changed = false;            // the file was written to after the process started
 
   std::optional<char> state;  // as /proc says: R, S, D, T, t, Z
   std::optional<std::uint64_t> network_namespace;

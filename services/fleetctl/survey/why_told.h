@@ -1,5 +1,5 @@
-// What a service was told: its command line, else its environment, as services/config/flags.h has
-// it. Pure, but for the scenario, which is a file.
+// The launch options of a service: its command line, else its environment, as
+// services/config/flags.h has it. Pure, but for the scenario, which is a file.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,7 @@ struct Started {
   bool IsWorld() const;
 };
 
-// All but what the scenario and the default of --qos say. `not_known` is told what makes no sense.
+// All but what the scenario and the default of --qos say. `not_known` gets what makes no sense.
 Instructions ReadTold(const Started& started, std::vector<std::string>* not_known);
 // Adds what the scenario says, read from `file`.
 void AddScenario(const std::filesystem::path& file, bool impairment_given, Instructions* told,

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "services/config/impair.h"
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/tune/tune_run.h"
@@ -21,7 +22,7 @@ run by real vehicles in a domain of its own: watched while all are alive, when e
 false one, then up to three are killed (kill -9). All get one trial, the better half more, and so on.
   false alarm   a vehicle stops believing a living peer, by deadline, liveliness or beacon age
   noticed after from a killed vehicle's last beacon to the turn in which a peer acts on its silence
-Both are read from what the vehicles recorded, told again to fresh brains. Bandwidth is what a
+Both are read from what the vehicles recorded, replayed by fresh brains. Bandwidth is what a
 vehicle heard, all packets; CPU is utime + stime of a vehicle's process.
 
 Recommended: of those with fewer false alarms than the base, beyond chance, that notice no later, the
@@ -30,12 +31,12 @@ then CPU. If there is none: the one with the fewest false alarms of all.
 Base and recommended are then run once more, with seeds of their own.
 
 The folder --out gets recommended.xml, evidence.json, report.html, pictures as SVG where gnuplot is
-installed, and the evidence of every trial at once: the same command goes on where it was cut off.
+installed, and the evidence of every trial at once: the same command continues where it was cut off.
 
 Examples
   fleetctl qos tune --impair loss=0.1,delay=20ms,jitter=5ms
   fleetctl qos tune --quick --out try && fleetctl run four_way --qos try/recommended.xml
-  fleetctl qos tune --base mine.xml --impair burst=0.05,burst_length=4 --vehicles 8 --fleets 1
+  fleetctl qos tune --qos mine.xml --impair burst=0.05,burst_length=4 --vehicles 8 --fleets 1
 
 Exit code: 0 better than the base, and verified; 1 not so, or interrupted; 2 could not run.
 )";
@@ -58,13 +59,13 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
   const auto options = std::make_shared<QosTuneOptions>();
   CLI::App* verb = qos->add_subcommand("tune", "Search better beacon QoS on real vehicles");
   verb->footer(kFooter);
-  verb->add_option("--impair", options->impair, "What every vehicle hears through, as of run")
+  verb->add_option("--impair", options->impair, "What every vehicle receives through, as of run")
       ->check(CheckImpairment)
       ->capture_default_str();
   verb->add_option("--vehicles", options->vehicles, "Of each fleet")
       ->check(CLI::Range(2U, 64U))
       ->capture_default_str();
-  verb->add_option("--base", options->base,
+  verb->add_option("--qos,--base", options->base,
                    "What is tuned: a file or the name of a shipped set; without it the default")
       ->check(CheckNotEmpty);
   verb->add_option("--out", options->out, "Folder of the search")
@@ -76,9 +77,8 @@ void AddQosTune(CLI::App* qos, int* exit_code) {
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();
   verb->add_flag("--quick", options->quick, "Fewer candidates and trials: under 3 minutes");
-  verb->add_option("--trial-seconds", options->trial_s,
-                   "Watched while all are alive; 20, with --quick 12")
-      ->check(CheckSeconds);
+  AddTimeFlag(verb, "--trial-duration,--trial-seconds", &options->trial_s,
+              "Observed while all are alive; 20s, with --quick 12s");
   verb->add_option("--candidates", options->candidates, "At most so many, the base among them")
       ->check(CLI::Range(1U, 1000U));
   verb->add_option("--verify-trials", options->verify_trials,

@@ -18,7 +18,7 @@ double VehicleHours(const TrialEvidence& trial) {
 }
 
 // The standard error of a mean of readings of which those of one trial hang together: its peers
-// lose the same victim after the same last beacon. Liang and Zeger's, Biometrika 73 (1986), or that
+// lose the same target after the same last beacon. Liang and Zeger's, Biometrika 73 (1986), or that
 // of independent readings where it is larger: few trials may agree by chance.
 double ErrorOfMean(const std::vector<TrialEvidence>& trials, double mean, double n) {
   double apart = 0;

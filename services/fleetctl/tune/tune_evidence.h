@@ -14,7 +14,7 @@ namespace giveway::fleetctl {
 enum class AlarmCause : std::uint8_t { kDeadline, kLiveliness, kBeaconAge };
 std::string_view Name(AlarmCause cause);
 
-// How often a vehicle stopped believing a peer, by what told it first.
+// How often a vehicle stopped believing a peer, by what reported it first.
 struct AlarmCounts {
   std::uint32_t deadline = 0;
   std::uint32_t liveliness = 0;
@@ -28,7 +28,7 @@ struct AlarmCounts {
 // One peer that noticed one killed vehicle.
 struct DetectionReading {
   double from_kill_ms = 0;
-  double from_last_beacon_ms = 0;  // since the victim last sent one
+  double from_last_beacon_ms = 0;  // since the target last sent one
   AlarmCause cause = AlarmCause::kDeadline;
 };
 
@@ -50,7 +50,7 @@ struct TrialEvidence {
   double cpu_share = 0;                 // of one core, by a vehicle
   double longest_pause_ms = 0;          // between two turns of any vehicle's loop
   std::vector<DetectionReading> detections;
-  std::uint32_t undetected = 0;  // peers that went on believing a killed vehicle
+  std::uint32_t undetected = 0;  // peers that continued believing a killed vehicle
 };
 
 // The figures of one candidate. Rates are per vehicle-hour, over all of a vehicle's peers.
@@ -65,7 +65,7 @@ struct TuneFigures {
   double told_per_hour = 0;  // deadline and liveliness events
   std::uint32_t detections = 0;
   std::uint32_t undetected = 0;
-  double detection_ms = 0;  // mean, from the victim's last beacon
+  double detection_ms = 0;  // mean, from the target's last beacon
   double detection_error_ms =
       0;  // standard error of the mean; the readings of a trial hang together
   double detection_max_ms = 0;

@@ -8,12 +8,12 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Whoever missed a dead vehicle noticed it never.
+// A peer that missed a dead vehicle never noticed it.
 double Detection(const TuneFigures& figures) {
   return figures.detections == 0 || figures.undetected > 0 ? 1e12 : figures.detection_ms;
 }
 
-// In steps of what can be told apart: so that chance alone puts nobody before another.
+// In steps of what can be distinguished: so that chance alone puts none before another.
 long DetectionStep(const TuneFigures& figures) {
   return std::lround(Detection(figures) / kSameDetectionMs);
 }

@@ -15,8 +15,9 @@ namespace {
 constexpr char kWriter[] = "fleet_beacon_writer";
 constexpr char kReader[] = "fleet_beacon_reader";
 
-// Requested deadlines in periods, the most telling first. Losses make silences of whole periods, so
-// a limit between two multiples is one kind of limit; where between matters once beacons are late.
+// Requested deadlines in periods, the most significant first. Losses make silences of whole
+// periods, so a limit between two multiples is one kind of limit; where between matters once
+// beacons are late.
 constexpr std::array<double, 9> kDeadlines = {3.8, 3.3, 2.6, 4.6, 3.5, 5.6, 2.3, 4.3, 1.6};
 constexpr std::size_t kQuickDeadlines = 4;
 // With retransmissions a limit just below a whole number of periods costs less: the turn before

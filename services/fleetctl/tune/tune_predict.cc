@@ -71,10 +71,10 @@ class Model {
   }
 
  private:
-  // Deadline or lease, whichever tells first.
+  // Deadline or lease, whichever is first.
   double Limit() const { return std::min(limits_[0], limits_[1]) - kTimerEarlyMs; }
 
-  // Silences of exactly m lost beacons, over all m, that somebody tells of.
+  // Silences of exactly m lost beacons, over all m, that any mechanism reports.
   double BySilences() const {
     double alarms = 0;
     double longer = SilenceProbability(channel_, 0);
@@ -87,7 +87,7 @@ class Model {
   }
 
   // A vehicle decides on beacons of ticks before its own: while its own scans are lost no newer one
-  // counts, and age tells. Its loop then turns after 1.5, 3, 4, 5 ... ticks, the n-th time with n
+  // counts, and age decides. Its loop then turns after 1.5, 3, 4, 5 ... ticks, the n-th time with n
   // scans lost; `lost` beacons before those make them older by as many ticks.
   double ByOwnLostScans() const {
     const double in_bursts = channel_.scan_burst * channel_.scan_burst_loss;
@@ -97,7 +97,7 @@ class Model {
                             .burst_loss = channel_.scan_burst_loss};
     double alarms = 0;
     for (int lost = 0; lost * tick_ < age_limit_; ++lost) {
-      double unseen = 1;  // that no turn before has told
+      double unseen = 1;  // that no turn before has noticed
       for (int scans = 1; scans <= kMostLost; ++scans) {
         const double reached = SilenceProbability(own, scans);
         const double turn = scans == 1 ? 1.5 : scans + 1;

@@ -5,7 +5,7 @@
 // The model. A beacon is sent every tick T, and half a tick late where its sender's scan was lost
 // (services/vehicle_node/main.cc waits one and a half). Each is lost, and late by delay and jitter,
 // as types/impairment.h says. A silence of m lost beacons lasts (m + 1) T from arrival to arrival:
-// deadline and lease tell of it if it is longer than they are; the age limit, judged once a tick on
+// deadline and lease report it if it is longer than they are; the age limit, judged once a tick on
 // beacons of the tick before, if m T is, and sooner where the hearer's own scans were lost. What is
 // told between two turns of the loop is acted on at the second.
 #pragma once
@@ -50,7 +50,7 @@ struct TuneFleet {
 
 struct Prediction {
   double alarms_per_hour = 0;  // of a vehicle, over all of its peers
-  double detection_ms = 0;     // mean, from the victim's last beacon
+  double detection_ms = 0;     // mean, from the target's last beacon
   double age_mean_ms = 0;      // of beacons at a decision
 };
 

@@ -1,4 +1,4 @@
-// What a vehicle's recording says of QoS: a fresh brain is told again what the vehicle was told,
+// What a vehicle's recording says of QoS: a fresh brain is given again what the vehicle was given,
 // and asked at each step which peers it believes (vehicle/peer_table.h, IsFresh). So an alarm is
 // what the vehicle acted on, at the time it did. Pure but for the stream it reads.
 #pragma once
@@ -18,11 +18,11 @@ namespace giveway::fleetctl {
 
 // All times are of the one steady clock of the machine.
 struct AliveWindow {
-  SteadyTime from{0};  // everybody hears everybody
+  SteadyTime from{0};  // all receive all
   SteadyTime to{0};    // just before the first is killed
 };
 
-// Since when a peer was not believed, at the recording's end, and what told it.
+// Since when a peer was not believed, at the recording's end, and what reported it.
 struct Silenced {
   SteadyTime at{0};
   AlarmCause cause = AlarmCause::kDeadline;
@@ -47,7 +47,7 @@ struct Killing {
   SteadyTime at{0};
 };
 
-// Puts the readings of all vehicles together. A peer that did not believe the victim when it was
+// Puts the readings of all vehicles together. A peer that did not believe the target when it was
 // killed, by a false alarm, says nothing of the detection.
 void FoldReadings(const std::vector<VehicleReading>& readings, const std::vector<Killing>& killings,
                   Nanoseconds tick, TrialEvidence* evidence);

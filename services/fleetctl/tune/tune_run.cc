@@ -170,7 +170,7 @@ std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
   return trials;
 }
 
-// Of the first so many trials: a search that goes on sees what it saw when it was cut off.
+// Of the first so many trials: a search that continues sees what it saw when it was cut off.
 void Tuning::TakeFigures(const TuneSearch& search, std::uint32_t most) {
   std::vector<std::vector<TrialEvidence>> taken;
   for (const TunedCandidate& tuned : result_.candidates) {
@@ -248,7 +248,7 @@ TuneResult Tuning::Run() {
   return result_;
 }
 
-// What `fleetctl qos tune` chose, said where the reader of the file begins.
+// What `fleetctl qos tune` chose, said where the reader of the file starts.
 std::string Headed(const std::string& profile, const TuneResult& result) {
   const TunedCandidate& chosen = result.candidates[result.recommended];
   std::string note = fmt::format(

@@ -1,7 +1,7 @@
 // The folder of a search: the evidence of every trial as a file of its own, written the moment the
-// trial is over, so that a search that was cut off goes on where it stopped.
+// trial is over, so that a search that was cut off continues where it stopped.
 //
-//   FOLDER/plan.json            what is searched; another search may not go on in this folder
+//   FOLDER/plan.json            what is searched; another search may not continue in this folder
 //   FOLDER/profiles/NAME.xml    what was tried
 //   FOLDER/trials/NAME-N.json   what it showed; verify-NAME-N.json: in the fresh runs at the end
 #pragma once

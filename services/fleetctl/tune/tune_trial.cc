@@ -85,7 +85,7 @@ bool TuneTrial::AllHearAll() const {
          std::ranges::all_of(hears_all_, [](const auto& entry) { return entry.second; });
 }
 
-// Nobody but the killed may end before they are told to.
+// None but the killed may end before it is asked to.
 void TuneTrial::CheckAlive() {
   const auto gone = processes_->FirstEndNotAllowed([](const auto& end) { return end.planned; });
   if (!gone) return;
@@ -116,7 +116,7 @@ void TuneTrial::EndAlive(SteadyTime now) {
   Enter(Phase::kKilling, now + planned_.front().after);
 }
 
-// Who dies, and how long after the last one, is the seed's; where in the victim's own tick that
+// Who dies, and how long after the last one, is the seed's; where in the target's own tick that
 // falls is chance.
 void TuneTrial::PlanKillings() {
   std::vector<VehicleId> vehicles;
@@ -145,7 +145,7 @@ void TuneTrial::KillIfDue(SteadyTime now) {
 
 void TuneTrial::Stop(SteadyTime now) {
   stopped_ = now;
-  // All alike: a vehicle that is told to go says what was injected.
+  // All alike: a vehicle that is asked to leave says what was injected.
   processes_->AskToStop();
   Enter(Phase::kStopping, now + kLeaveGrace);
 }

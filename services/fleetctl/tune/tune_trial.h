@@ -93,7 +93,7 @@ class TuneTrial {
   std::string trouble_;
 };
 
-// A place where nobody meets anybody: as many lanes as vehicles, 3 m apart, and nobody out of
+// A place where no vehicles meet: as many lanes as vehicles, 3 m apart, and none out of
 // reach.
 std::string TuneScenarioText(std::uint32_t vehicles);
 

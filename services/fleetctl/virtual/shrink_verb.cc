@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kFooter = R"(
 Takes the flags of `fleetctl virtual` with which the seed failed. Leaves out vehicles, faults, walls
 and what goes wrong on the radio, one after the other, as long as the same invariant breaks. What is
-left of --faults is written beside the scenario, as NAME_SEED.faults.textproto.
+left of --faults is written next to the scenario, as NAME_SEED.faults.textproto.
 
 Example
   fleetctl shrink crossing --vehicles 4 --behaviour lecture_printed --seed 1

@@ -4,11 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <numeric>
 
 #include "services/config/problem.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/virtual/virtual_batch.h"
@@ -87,21 +89,24 @@ class ProgressBar {
 
   void Show(const BatchTotals& so_far) const {
     if (!shown_) return;
-    constexpr std::uint64_t kWidth = 30;
-    const auto done = static_cast<std::size_t>(kWidth * so_far.runs / runs_);
-    fmt::print(stderr, "\r[{}{}] {}/{} runs, {} failing, {:.1f} vehicle-hours ",
-               std::string(done, '#'), std::string(kWidth - done, '.'), so_far.runs, runs_,
-               so_far.failing_seeds.size(), so_far.vehicle_seconds / 3600);
+    const double gone_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const std::string line =
+        fmt::format("{}/{} runs, {} failing, {:.1f} vehicle-hours, {}", so_far.runs, runs_,
+                    so_far.failing_seeds.size(), so_far.vehicle_seconds / 3600,
+                    TimeLeft(so_far.runs, runs_, gone_s));
+    fmt::print(stderr, "\r{}\x1b[K", ProgressLine(so_far.runs, runs_, line, StderrColumns()));
     std::fflush(stderr);
   }
 
  private:
   std::uint64_t runs_;
   bool shown_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 int Print(const VirtualOptions& options, const VirtualReport& report) {
-  const std::string text = options.json ? ToJson(report) + "\n" : ToText(report);
+  const std::string text = options.json ? ToJson(report) + "\n" : ForTerminal(ToText(report));
   std::fputs(text.c_str(), stdout);
   const int code = ExitCode(report.verdict);
   if (std::fflush(stdout) == 0) return code;

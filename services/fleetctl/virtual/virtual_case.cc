@@ -184,7 +184,7 @@ faults::Schedule CaseMaker::ScheduleOf(const Scenario& scenario, std::uint32_t s
 std::string CaseMaker::Remark() const {
   if (!loaded_ || loaded_->impairment.rules.empty()) return left_out_;
   return left_out_ + name_ +
-         ": its `impair` is not carried out, that is for real links; the virtual radio is told by "
+         ": its `impair` is not carried out, that is for real links; the virtual radio is set by "
          "--loss, --burst, --delay, --jitter, --reorder and --duplicate\n";
 }
 

@@ -43,7 +43,7 @@ struct CaseOptions {
   double reorder_percent = 0;
   double duplicate_percent = 0;
   bool loops_back = false;  // everyone hears its own beacons too
-  WholeRange crashes;       // vehicles that die, pause, or start anew, each at a time drawn
+  WholeRange crashes;       // vehicles that die, pause, or start again, each at a time drawn
   WholeRange pauses;
   WholeRange restarts;
   std::vector<sim::ProcessFault> faults;    // on top of those drawn

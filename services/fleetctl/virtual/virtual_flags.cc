@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "services/config/flags.h"
+#include "services/fleetctl/args/duration_flag.h"
 #include "sim_world/virtual/invariants.h"
 
 namespace giveway::fleetctl {
@@ -38,6 +39,14 @@ NumberRange NumbersOf(const std::string& flag, const std::string& text, double l
       flag, fmt::format("{} to {}, a number or LO..HI, not '{}'", least, most, text));
 }
 
+// In percent: a sign behind each number may say so.
+std::string WithoutPercentSigns(std::string text) {
+  const std::size_t dots = text.find("..");
+  if (text.ends_with("%")) text.pop_back();
+  if (dots != std::string::npos && dots > 0 && text[dots - 1] == '%') text.erase(dots - 1, 1);
+  return text;
+}
+
 // CLI11's own range check lets "nan" pass.
 auto Between(double least, double most) {
   return [=](const std::string& text) -> std::string {
@@ -49,11 +58,12 @@ auto Between(double least, double most) {
 
 void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option_function<std::string>(
-      "--loss",
-      [made_by](const std::string& text) {
-        made_by->loss_percent = NumbersOf("--loss", text, 0, 99);
-      },
-      "Percent of beacons lost, or LO..HI");
+          "--loss",
+          [made_by](const std::string& text) {
+            made_by->loss_percent = NumbersOf("--loss", WithoutPercentSigns(text), 0, 99);
+          },
+          "Percent of beacons lost: 5%, or LO..HI%")
+      ->type_name("PERCENT");
   verb->add_flag("--burst", made_by->burst, "The loss comes in bursts of five beacons on average");
   verb->add_option("--delay", made_by->delay_ms, "Milliseconds a beacon is under way")
       ->check(Between(0, 1000));
@@ -63,7 +73,7 @@ void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
       ->check(Between(0, 100));
   verb->add_option("--duplicate", made_by->duplicate_percent, "Percent heard twice")
       ->check(Between(0, 100));
-  verb->add_flag("--loopback", made_by->loops_back, "Everyone hears its own beacons too");
+  verb->add_flag("--loopback", made_by->loops_back, "Every vehicle receives its own beacons too");
 }
 
 const std::vector<SonarTier> kMixedTiers = {SonarTier::kIdeal, SonarTier::kTypical,
@@ -115,7 +125,7 @@ void AddFleetFlag(CLI::App* verb, CaseOptions* made_by) {
             made_by->restarts = {0, 1};
           },
           "stock, or mixed: short for --robots mixed --tier mixed --slip 0..2 --loss 0..20 "
-          "--crashes 0..1 --pauses 0..2 --restarts 0..1; what is given beside it counts")
+          "--crashes 0..1 --pauses 0..2 --restarts 0..1; flags given in addition count")
       ->check(CLI::IsMember({"stock", "mixed"}));
 }
 
@@ -134,7 +144,7 @@ void AddRobotFlags(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option_function<std::string>(
       "--slip",
       [made_by](const std::string& text) {
-        const NumberRange percent = NumbersOf("--slip", text, 0, 50);
+        const NumberRange percent = NumbersOf("--slip", WithoutPercentSigns(text), 0, 50);
         made_by->fleet.least_slip = percent.low / 100;
         made_by->fleet.most_slip = percent.high / 100;
       },
@@ -160,7 +170,7 @@ void AddJudgeFlag(CLI::App* verb, CaseOptions* made_by) {
 void AddFaultFlags(CLI::App* verb, CaseOptions* made_by) {
   AddCountFlag(verb, "--crashes", &made_by->crashes, "Vehicles that die in each run");
   AddCountFlag(verb, "--pauses", &made_by->pauses, "Processes that stand still for a while");
-  AddCountFlag(verb, "--restarts", &made_by->restarts, "Processes that start anew");
+  AddCountFlag(verb, "--restarts", &made_by->restarts, "Processes that restart");
   verb->add_option_function<std::vector<std::string>>(
       "--fault",
       [made_by](const std::vector<std::string>& texts) {
@@ -202,11 +212,14 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
       },
       "Every vehicle drives so: cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
       "lecture_printed, which shows the flaws of the printed scripts: it collides");
-  verb->add_option(
-          "--duration", made_by->duration_s,
-          "Of a scenario: end after so many seconds instead; without it one that lasts until "
-          "it is stopped is looked at for 600")
-      ->check(CLI::Range(1.0, 86400.0));
+  AddTimeFlag(verb, "--duration", &made_by->duration_s,
+              "Of a scenario: end after this time instead, 1s to 24h; without it one that lasts "
+              "until it is stopped is run for 600s")
+      ->check([](const std::string& text) {
+        const double duration_s = ParseDuration_s(text).value_or(0);
+        return duration_s >= 1 && duration_s <= 86400 ? std::string()
+                                                      : "must be a time from 1s to 24h";
+      });
   AddRobotFlags(verb, made_by);
   verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
   AddRadioFlags(verb, made_by);

@@ -32,7 +32,7 @@ void AppendTruths(const sim::VirtualFleet& fleet, std::vector<Track>* tracks) {
   }
 }
 
-// Violations as text under the trace, so that one file tells the story.
+// Violations as text under the trace, so that one file has everything.
 void AppendVerdict(const sim::VirtualOutcome& outcome, std::string* text) {
   for (const sim::Violation& violation : outcome.first) {
     *text +=

@@ -12,7 +12,7 @@ constexpr const char* kFooter = R"(
 SCENARIO is a scenario file, the name of a shipped one, or a generator:
 crossing, roundabout, corridor, swarm, merge, convoy, warehouse,
 door, one_lane, antipodal, parking, shared_goal, mixed_yard.
-A range LO..HI is drawn from anew by every seed.
+Every seed draws its own value of a range LO..HI.
 
 Examples
   fleetctl virtual crossing --seeds 1..200 --vehicles 6 --loss 5

@@ -7,8 +7,8 @@
 namespace giveway::fleetctl {
 
 // Calls `work` with 0 to count - 1, each once, on `jobs` threads; what they share it locks itself.
-// `progress` is called now and then from the caller's thread. False: what is begun is ended, no
-// more is begun. Rethrows what `work` threw last.
+// `progress` is called now and then from the caller's thread. False: what is started is ended, no
+// more is started. Rethrows what `work` threw last.
 void RunOnThreads(std::uint64_t count, std::uint32_t jobs,
                   const std::function<void(std::uint64_t)>& work,
                   const std::function<bool()>& progress);

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/whole_number.h"
@@ -74,7 +75,7 @@ bool MayBeNameless(const Named& named, const std::vector<FleetMember>& members,
 }
 
 // Names those that publish no id, as far as they are heard in the place of the first of them. Two
-// that discovery cannot tell apart, being the same process id of two containers, stay nameless.
+// that discovery cannot distinguish, being the same process id of two containers, stay nameless.
 void NameByEar(const std::vector<FleetMember*>& nameless) {
   std::map<std::uint16_t, std::vector<FleetMember*>> by_process;
   std::optional<ProcessSituation> place;
@@ -125,7 +126,7 @@ void AddNotKnown(const std::optional<ProcessSituation>& process, const Named& na
     report->not_known.push_back(
         foreign.empty()
             ? TextOf(named) + " is no process of a fleet on this machine: judged by what is heard"
-            : fmt::format("{} is foreign ({}): judged by what discovery tells and what is heard",
+            : fmt::format("{} is foreign ({}): judged by what discovery reports and what is heard",
                           TextOf(named), foreign));
     return;
   }
@@ -165,7 +166,7 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   const ProbeResult heard = report.probe.value_or(ProbeResult{});
   AddNotKnown(hearer, options.hearer, heard.hearer_foreign, &report);
   AddNotKnown(speaker, options.speaker, heard.speaker_foreign, &report);
-  const Told told = Tell(options.json ? ToJson(report) : ToText(report));
+  const Told told = Tell(options.json ? ToJson(report) : ForTerminal(ToText(report)));
   return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report);
 }
 

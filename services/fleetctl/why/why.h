@@ -1,5 +1,5 @@
 // The verb `fleetctl why A B`: can A hear B? Finds both among the processes of this machine,
-// foretells, verifies by a probe, prints. Values in; the exit code out.
+// predicts, verifies by a probe, prints. Values in; the exit code out.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace giveway::fleetctl {
 
-// Whom an argument names: a vehicle, the world, or a process.
+// What an argument names: a vehicle, the world, or a process.
 struct Named {
   bool world = false;
   VehicleId id = kNobody;

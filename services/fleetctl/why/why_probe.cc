@@ -25,7 +25,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);
-// A vehicle tells its status five times a second, and may itself be a moment behind the probe.
+// A vehicle publishes its status five times a second, and may itself be a moment behind the probe.
 constexpr double kOwnWordSeconds = 2.5;
 constexpr double kRunTimeMs = 2000;
 constexpr Nanoseconds kNamesTime = std::chrono::seconds(2);
@@ -87,7 +87,7 @@ class Probing {
  public:
   explicit Probing(const ProbeOrder& order)
       : order_(order), observer_(OptionsOf(order.hearer.told)), since_(SteadyNow()) {
-    // Blackouts are counted from the start of the run: the world tells how long ago that was.
+    // Blackouts are counted from the start of the run: the world says how long ago that was.
     while (HasBlackouts() && !run_began_ && SinceMs() < kRunTimeMs) {
       SleepUntil(SteadyNow() + kTurn);
       NoteOwnWord(observer_.Take());
@@ -136,14 +136,14 @@ class Probing {
     });
     return all && (OwnWordFits() || seconds >= kOwnWordSeconds);
   }
-  // Whether discovery has told what a hearer that cannot be asked reads.
+  // Whether discovery has reported what a hearer that cannot be asked reads.
   bool HasFits() const {
     return std::ranges::all_of(order_.topics, [&](const TopicOutlook& topic) {
       const auto found = result_.topics.find(topic.topic);
       return found != result_.topics.end() && (found->second.fits || !found->second.unfit.empty());
     });
   }
-  // By what discovery tells of the two themselves.
+  // By what discovery reports of the two themselves.
   void NoteFit(const std::string& topic) {
     ProbedTopic& probed = result_.topics[topic];
     for (const link::EarProcess& speaker : processes_) {
@@ -175,7 +175,7 @@ class Probing {
     return result_.own_word && (order_.speaker.told.is_world || result_.own_word->taken > 0);
   }
 
-  // In containers everybody is process 1: where both ids are known they must be the same.
+  // In containers every service is process 1: where both ids are known they must be the same.
   static bool MayBe(const ProcessSituation& meant, const link::EarProcess& process) {
     return meant.told.id == kNobody || process.vehicle == kNobody ||
            meant.told.id == process.vehicle;
@@ -325,8 +325,8 @@ std::string NamesHeard(const Instructions& told, std::set<std::uint16_t> wanted)
   return text;
 }
 
-// What `listen` tells in a child process that has taken the place of another; "trouble WHY" where
-// it could not.
+// What `listen` reports from a child process that has taken the place of another; "trouble WHY"
+// where it could not.
 std::string InPlaceOf(const ProcessSituation& process, const std::function<std::string()>& listen) {
   const auto in_its_place = [&] {
     try {

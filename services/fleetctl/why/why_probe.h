@@ -15,9 +15,9 @@ namespace giveway::fleetctl {
 struct ProbedTopic {
   bool matched = false;
   std::uint64_t samples = 0;
-  std::optional<double> first_ms;  // since the probe began
-  // Whether a reader of the hearer's own matches a writer of the speaker's, by what discovery tells
-  // of both, and if not, why; neither where it tells nothing of one of them.
+  std::optional<double> first_ms;  // since the probe started
+  // Whether a reader of the hearer's own matches a writer of the speaker's, by what discovery
+  // reports of both, and if not, why; neither where it reports nothing of one of them.
   bool fits = false;
   std::string unfit;
 };
@@ -25,7 +25,7 @@ struct ProbedTopic {
 // What the hearer's own status says, if one came.
 struct OwnWord {
   std::uint32_t peers_heard = 0;  // near enough, and with a fresh beacon
-  std::uint32_t taken = 0;        // beacons of anybody, since it began; here and below
+  std::uint32_t taken = 0;        // beacons of any vehicle, since it started; here and below
   std::uint32_t accepted = 0;
   std::uint32_t too_far = 0;  // from beyond the emission radius: heard, and passed over
   std::uint32_t rejected = 0;
@@ -37,10 +37,11 @@ struct ProbeResult {
   double listened_ms = 0;
   bool discovered = false;  // a writer of the speaker was found
   bool hearer_discovered = false;
-  // A vehicle without a place in a world has no beacons, and reads none: its writers name nobody.
+  // A vehicle without a place in a world has no beacons, and reads none: its writers name no
+  // vehicle.
   bool joined = false;
   bool hearer_joined = false;
-  std::optional<std::uint16_t> host_id;       // as its participant tells it
+  std::optional<std::uint16_t> host_id;       // as its participant reports it
   std::map<std::string, ProbedTopic> topics;  // by name
   std::optional<OwnWord> own_word;
   // Whose DDS they are, where it is another vendor's than ours.

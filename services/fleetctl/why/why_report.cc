@@ -111,7 +111,7 @@ std::string HostIdText(const WhyReport& report) {
   if (!Probed(report) || !report.probe->host_id || !report.host_id) return {};
   if (*report.probe->host_id == *report.host_id) return {};
   return fmt::format(
-      "host id of {}: {:#06x} by its addresses now, {:#06x} as it tells itself: its addresses "
+      "host id of {}: {:#06x} by its addresses now, {:#06x} as it reports itself: its addresses "
       "have changed since it began",
       report.speaker, *report.host_id, *report.probe->host_id);
 }
@@ -212,7 +212,8 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
   const bool own = IsItselfDeaf(report, topic);
   if (Probed(report)) {
     verdict.verdict = heard && !own ? Verdict::kHears : Verdict::kDoesNot;
-    // Who is elsewhere may stand otherwise than the probe did: discovery tells of its own readers.
+    // Who is elsewhere may stand otherwise than the probe did: discovery reports of its own
+    // readers.
     if (!report.hearer_here) {
       const ProbedTopic probed = ProbedOf(report, topic.topic);
       verdict.verdict = !probed.unfit.empty()  ? Verdict::kDoesNot
@@ -221,7 +222,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
     }
     verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
-    // That could not be foretold.
+    // That could not be predicted.
     if (!heard && report.speaker_without_place && NeedsPlace(topic)) verdict.disagree = false;
   } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
     verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;
@@ -238,7 +239,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
 std::string Contradiction(const WhyReport& report) {
   if (!Probed(report) || !report.probe->own_word || !report.foretold) return {};
   for (const TopicOutlook& topic : report.topics) {
-    if (IsItselfDeaf(report, topic)) return "it cannot, and yet it tells its status";
+    if (IsItselfDeaf(report, topic)) return "it cannot, and yet it publishes its status";
     const bool hears = VerdictOf(report, topic).verdict == Verdict::kHears;
     const double heard_for_ms =
         report.probe->listened_ms - ProbedOf(report, topic.topic).first_ms.value_or(0);

@@ -1,5 +1,5 @@
-// What `fleetctl why` found, put together and printed. Pure: foretold and probed in, verdicts, text
-// and exit code out.
+// What `fleetctl why` found, put together and printed. Pure: predicted and probed in, verdicts,
+// text and exit code out.
 #pragma once
 
 #include <optional>
@@ -22,27 +22,27 @@ struct WhyReport {
   bool speaker_without_place = false;
   std::optional<ProbeResult> probe;  // absent: not asked for
   std::vector<std::string> not_known;
-  std::optional<std::uint16_t> host_id;  // of the speaker, as foretold
+  std::optional<std::uint16_t> host_id;  // of the speaker, as predicted
 };
 
 enum class Verdict : std::uint8_t { kHears, kDoesNot, kNotKnown };
 
 struct TopicVerdict {
   Verdict verdict = Verdict::kNotKnown;
-  bool disagree = false;    // of what was foretold with what was probed
+  bool disagree = false;    // of what was predicted with what was probed
   std::string explanation;  // "predicted: hears; probed: heard 40 samples, the first after 31 ms"
 };
 
-// At most how long the probe listens if nobody says: longer where something should be heard, for
+// At most how long the probe listens by default: longer where something should be heard, for
 // through a channel that loses packets discovery takes its time.
 double ListenSeconds(const std::vector<TopicOutlook>& topics);
 
-// Adds the reason that no file of /proc tells and the probe does: a vehicle that has no place in a
+// Adds the reason that no file of /proc shows and the probe does: a vehicle that has no place in a
 // world yet.
 void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
                   WhyReport* report);
 
-// Adds what discovery tells of endpoints that will not match, where that could not be foretold
+// Adds what discovery reports of endpoints that will not match, where that could not be predicted
 // because one of the two is no process that can be seen.
 void AddUnfit(WhyReport* report);
 

@@ -1,5 +1,5 @@
-// Whether one process can hear another, foretold from where both stand. Pure: two situations in,
-// for each topic an outlook and its causes out. A probe (why_probe.h) then tells whether it is so.
+// Whether one process can hear another, predicted from where both stand. Pure: two situations in,
+// for each topic an outlook and its causes out. A probe (why_probe.h) then shows whether it is so.
 #pragma once
 
 #include <cstdint>

@@ -107,8 +107,8 @@ void CheckPartitions(const ProcessSituation& hearer, const ProcessSituation& spe
         fmt::format("{} reads partition {}, {} writes {}{}", NameOf(hearer), topic.read_in,
                     NameOf(speaker), written, open),
         speaker.told.partition_free
-            ? "The names do not match, no wildcard matches what has none, and no status tells."
-            : "The names do not match, and no status of DDS tells.",
+            ? "The names do not match, no wildcard matches what has none, and no status reports it."
+            : "The names do not match, and no status of DDS reports it.",
         "the same area in the scenarios of both"},
        Weight::kPrevents});
 }

@@ -1,7 +1,7 @@
 #include <memory>
 #include <string>
 
-#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/why/why.h"
@@ -11,10 +11,10 @@ namespace {
 
 constexpr const char* kFooter = R"(
 A and B are running processes of this machine: the id of a vehicle, "world", or pid:NUMBER, in
-whatever network namespace or container. What each was told and what the system gives it to talk with
-foretells whether A hears B; then a reader of our own takes A's place (its domain, profiles, interface,
-impairment and namespaces; other namespaces need root) and listens. One that is not on this machine is
-judged by what can be heard alone.
+whatever network namespace or container. First it predicts, from each process's launch options and
+network environment, whether A receives B's samples; then a reader of its own takes A's place (its
+domain, profiles, interface, impairment and namespaces; other namespaces need root) and listens. A
+process that is not on this machine is judged by what can be received alone.
 
 Examples
   fleetctl why 1 2                  # does vehicle 1 hear the beacons of vehicle 2?
@@ -49,14 +49,14 @@ void AddWhyVerb(CLI::App* fleetctl, int* exit_code) {
       ->required();
   verb->add_option("--domain", options->domain, "Only processes in this DDS domain")
       ->check(CLI::Range(kFirstDomain, kLastDomain));
-  verb->add_option("--seconds", options->seconds,
-                   "The probe listens at most so long [3 where silence is foretold, else 10]")
-      ->check(CheckSeconds);
-  verb->add_flag("!--no-probe", options->probe, "Only foretell");
+  AddTimeFlag(verb, "--duration,--seconds", &options->seconds,
+              "The probe listens at most so long [3s where silence is predicted, else 10s]");
+  verb->add_flag("!--no-probe", options->probe, "Only predict");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->callback([options, exit_code] {
     if (options->hearer == options->speaker) {
-      throw CLI::ValidationError("B", "is A: nobody hears itself; name two processes");
+      throw CLI::ValidationError("B",
+                                 "is A, and a process does not receive itself; name two processes");
     }
     *exit_code = RunWhy(*options);
   });

@@ -104,8 +104,8 @@ inline Vec2 Forward(const Pose& world_from_body) {
   return {heading.cosine, heading.sine};
 }
 
-// A heading and its unit vector, kept because a sine is dear and most headings are what they were:
-// of who stands, or drives straight on.
+// A heading and its unit vector, kept because a sine is expensive and most headings are what they
+// were: of who stands, or drives straight on.
 struct KnownHeading {
   double heading_rad = 0;
   Vec2 forward_world{1, 0};
@@ -119,8 +119,8 @@ struct KnownHeading {
   }
 };
 
-// The heading along a direction, kept because an arctangent is dearer still and the way of who
-// stands leads where it led.
+// The heading along a direction, kept because an arctangent is more expensive still and the way of
+// who stands leads where it led.
 struct KnownBearing {
   Vec2 direction_world{1, 0};
   double heading_rad = 0;

@@ -12,7 +12,7 @@ namespace giveway::bench {
 struct Arrival {
   double comes_m = 0;  // from the start to where another's way first crosses its own
   double comes_s = 0;  // there, when alone
-  // Indices of those in its own lane who stand ahead of it or end farther on.
+  // Indices of those in its own lane who stand ahead of it or end further on.
   std::vector<std::size_t> let_first;
 };
 

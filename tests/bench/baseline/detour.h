@@ -14,7 +14,7 @@ struct Standing {
   double radius_m = 0;  // the way keeps out of it
 };
 
-// From one place to another and straight on for beyond_m; it begins heading where it goes. Not
+// From one place to another and straight on for beyond_m; it starts heading where it goes. Not
 // always the shortest. None if discs overlap so that none was found.
 std::optional<Way> WayRound(Vec2 from_world, Vec2 to_world, std::span<const Standing> discs,
                             double beyond_m);

@@ -1,5 +1,5 @@
 // Wheel speeds that keep a differential drive on a plan: where it should be on its way now, and how
-// fast. Exact on straight ways; where the way begins to bend the wheels lag behind a little.
+// fast. Exact on straight ways; where the way starts to bend the wheels lag behind a little.
 #pragma once
 
 #include "services/types/profile.h"

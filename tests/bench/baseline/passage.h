@@ -22,7 +22,7 @@ struct Pace {
   double level_m_s = 0;
   double unit_m = 0;
 
-  // Units driven in a step that begins at one level and ends at another: speed changes tick by
+  // Units driven in a step that starts at one level and ends at another: speed changes tick by
   // tick, and the world moves by the speed at the end of a tick.
   std::uint32_t Units(std::uint32_t from, std::uint32_t to) const;
   std::uint32_t UnitsAtMost() const { return Units(top, top); }
@@ -47,7 +47,7 @@ struct Passing {
 struct Passage {
   std::vector<std::uint32_t> levels;  // at the end of each step; [0] is the start, at rest
   std::vector<std::uint32_t> units;   // the same for places
-  std::uint32_t arrival_step = 0;     // levels go on until the vehicle stands
+  std::uint32_t arrival_step = 0;     // levels continue until the vehicle stands
 };
 
 // Starts at unit 0 at rest. None if there is no passage in time.

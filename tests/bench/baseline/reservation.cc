@@ -112,7 +112,7 @@ void Reservation::ServeEveryone() {
     std::ranges::stable_sort(waiting, {},
                              [&](std::size_t i) { return members_[i].arrival.comes_s; });
     auto next = std::ranges::find_if(waiting, [&](std::size_t i) { return MayAsk(members_[i]); });
-    // All wait for each other: the first to come begins.
+    // All wait for each other: the first to come starts.
     if (next == waiting.end()) next = waiting.begin();
     if (!Serve(&members_[*next])) {
       next = std::ranges::find_if(waiting, [&](std::size_t i) { return Serve(&members_[i]); });

@@ -15,7 +15,7 @@ struct WayPiece {
 
 class Way {
  public:
-  // On from where the way ends so far, or from where it begins.
+  // On from where the way ends so far, or from where it starts.
   explicit Way(const Pose& world_from_start) : end_(world_from_start) {}
   void Add(double length_m, double bend_per_m);
 

@@ -33,7 +33,7 @@ class BusyWorld {
  public:
   explicit BusyWorld(const Scenario& scenario);
 
-  // Gives every vehicle its command for the next tick: a random speed and turn, drawn anew every
+  // Gives every vehicle its command for the next tick: a random speed and turn, drawn again every
   // second and whenever a contact stopped it.
   void Command();
   // What the benchmarks time: motion, contacts, walls and ultrasonics of one tick.

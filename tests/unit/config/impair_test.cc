@@ -62,6 +62,16 @@ TEST(ImpairmentText, SaysEverythingThereIs) {
   }
 }
 
+TEST(ImpairmentText, AShareMayBeGivenInPercent) {
+  const auto percent = ParseImpairment("loss=10%,burst=2.5%,corrupt=100%");
+  EXPECT_THAT(percent.problems, IsEmpty());
+  EXPECT_EQ(percent.impairment, ParseImpairment("loss=0.1,burst=0.025,corrupt=1").impairment);
+  EXPECT_EQ(ParseImpairment("loss=101%").problems.size(), 1U);
+  EXPECT_EQ(ParseImpairment("loss=%").problems.size(), 1U);
+  EXPECT_EQ(ParseImpairment("burst=0.1,burst_length=8%").problems.size(), 1U);
+  EXPECT_EQ(ParseImpairment("delay=5%").problems.size(), 1U);
+}
+
 TEST(ImpairmentText, HasRulesInTurnAndOneSeed) {
   const Impairment impairment =
       ParseImpairment("from=vehicles,loss=0.1;from=world;from=anyone,to=3,seed=0").impairment;

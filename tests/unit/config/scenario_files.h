@@ -1,4 +1,4 @@
-// Scenario files for the tests of config: a folder that vanishes, and a good text to spoil.
+// Scenario files for the tests of config: a folder that vanishes, and a good text to corrupt.
 #pragma once
 
 #include <ostream>

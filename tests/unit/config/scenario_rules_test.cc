@@ -1,4 +1,4 @@
-// One test a rule of scenario files. Each spoils one good text; the lines are those of it.
+// One test a rule of scenario files. Each corrupts one good text; the lines are those of it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -227,7 +227,7 @@ TEST(ScenarioRules, ATickTheBeaconAgeLimitCannotGuardIsRefused) {
   EXPECT_THAT(ProblemsOf(kGoodScenario + "tick_period_ms: 66"), IsEmpty());
 }
 
-// A vehicle nobody believes is one nobody gives way to.
+// A vehicle nobody believes is one no vehicle gives way to.
 TEST(ScenarioRules, AVehicleWhosePeersWouldNotBelieveItIsRefused) {
   EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 2 profile{max_speed_m_s: 2.4}")),
               IsEmpty());

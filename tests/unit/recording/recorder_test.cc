@@ -177,7 +177,7 @@ TEST(Recorder, AFullDiskIsToldByTheFile) {
   EXPECT_EQ(end->failure, "File too large");
 }
 
-// A disk that is full when the recording begins: the vehicle drives.
+// A disk that is full when the recording starts: the vehicle drives.
 TEST(Recorder, AFullDiskAtTheBeginningLosesEverythingAndStopsNothing) {
   const TempFolder folder;
   const test::FullDisk full(0);
@@ -228,7 +228,7 @@ TEST(Recorder, AFullDiskIsCountedAndNothingElse) {
   EXPECT_EQ(tally.lost, 20U);
 }
 
-// A pipe nobody reads from is the slowest disk there is.
+// A pipe no process reads from is the slowest disk there is.
 TEST(Recorder, ADiskThatHangsDoesNotHoldUpWhoSteps) {
   const TempFolder folder;
   const std::string pipe = folder.Path() + "/pipe";

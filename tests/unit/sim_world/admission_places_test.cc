@@ -57,7 +57,7 @@ class OnePlace {
   WorldEpoch epoch_;
 };
 
-// It drove 3.6 m in four_way, restarted itself and was told that it stood where it had begun.
+// It drove 3.6 m in four_way, restarted itself and was told that it stood where it had started.
 TEST(AdmissionPlaces, EveryAnswerSaysWhereTheBodyIsNow) {
   OnePlace fleet;
   fleet.Join(Ask(1));

@@ -32,7 +32,7 @@ TEST(Admission, WhoFindsNoFreePlaceWaitsAndIsLetInWhenOneComesFree) {
   EXPECT_TRUE(third.waiting);
   EXPECT_EQ(third.reason, "no start place is free");
   for (int second = 0; second < 10; ++second) {
-    door.admission.Take(Ask(3));  // it goes on asking, and is told once
+    door.admission.Take(Ask(3));  // it continues asking, and is told once
     door.Tick(20);
     EXPECT_TRUE(door.answers.empty());
   }
@@ -139,7 +139,7 @@ TEST(Admission, ASilentVehicleOfAnOpenFleetIsRemovedInTimeAndTheRunGoesOn) {
   ASSERT_EQ(door.answers.size(), 1U);
   EXPECT_EQ(door.answers[0].session, Ask(1).session);
   EXPECT_FALSE(door.answers[0].accepted);
-  EXPECT_TRUE(door.answers[0].waiting);  // should it be there after all, it may ask anew
+  EXPECT_TRUE(door.answers[0].waiting);  // should it be there after all, it may ask again
   EXPECT_EQ(door.run.State(), RunState::kRunning);
   EXPECT_EQ(door.Join(Ask(3)).vehicle, VehicleId{1});
 }

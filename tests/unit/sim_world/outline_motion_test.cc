@@ -103,7 +103,7 @@ TEST(OutlineMotion, TheTimeOfContactIsThatOfBisection) {
     if (GapAt(a, b, 0) <= kTouch_m) continue;
     const std::optional<double> contact = FirstContact(a, b, 0, 1);
     if (!contact) continue;
-    // Go on until the shells overlap or part; the moment the gap is zero lies in between.
+    // Continue until the shells overlap or part; the moment the gap is zero lies in between.
     double before_s = *contact;
     double after_s = before_s;
     while (after_s < before_s + 1e-4 && GapAt(a, b, after_s) > 0) after_s += 1e-7;
@@ -119,8 +119,8 @@ TEST(OutlineMotion, TheTimeOfContactIsThatOfBisection) {
   EXPECT_GT(met, 300);
 }
 
-// What touches goes on in every direction there is: shells never sink in by more than a contact is
-// found to, and nothing that opens is held.
+// What touches continues in every direction there is: shells never sink in by more than a contact
+// is found to, and nothing that opens is held.
 TEST(OutlineMotion, TouchingBoxesGoOnWithoutSinkingIn) {
   Random random(46);
   int parted = 0;

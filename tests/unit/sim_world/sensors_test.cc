@@ -285,7 +285,7 @@ TEST(Radar, OfManyTheNearestWinAndTheOrderOfAddingDoesNotShow) {
     Scene scene({});
     for (Owner i = 0; i < 60; ++i) {
       const Owner owner = backwards ? 59 - i : i;
-      // A fan of posts, each farther than the one beside it, none behind another.
+      // A fan of posts, each further than the one beside it, none behind another.
       const double bearing = Radians(-38 + 1.25 * owner);
       const double range = 3 + 0.03 * owner;
       scene.AddDisc({range * Cos(bearing), range * Sin(bearing)}, 0.01, owner);

@@ -108,7 +108,7 @@ double WayToRim(Vec2 apex, Vec2 unit, Vec2 centre, double radius_m) {
     return std::sqrt(SquaredNorm(offset)) - radius_m;
   };
   double low = 0;
-  double high = std::sqrt(SquaredNorm(centre - apex));  // on no ray is the nearest point farther
+  double high = std::sqrt(SquaredNorm(centre - apex));  // on no ray is the nearest point further
   for (int i = 0; i < 45 && gap(high) > 0; ++i) {
     const double third = (high - low) / 3;
     if (gap(low + third) < gap(high - third)) {

@@ -78,7 +78,7 @@ TEST(SonarTypical, NoiseNeverLeavesTheRangeOfTheSensor) {
 // What transducer 3 says of a wall that leans away from the ray to its near end by this angle.
 Echo HeardOfWallAt(double incidence_rad) {
   // Transducer 3 looks along 10 degrees; the ray along its left edge, 25 degrees, meets the wall's
-  // near end and everything else of the wall lies outside the cone or farther away.
+  // near end and everything else of the wall lies outside the cone or further away.
   const Vec2 apex = {0.166, 0.027};
   const double edge = Radians(24.9);
   const Vec2 end = apex + 2.0 * Vec2{Cos(edge), Sin(edge)};

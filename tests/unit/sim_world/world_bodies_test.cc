@@ -41,7 +41,7 @@ TEST(WorldBodies, BoxesPassWhereTheirDiscsWouldNot) {
   EXPECT_NEAR(world.Approaches().Closest()->gap_m, 0.12, kTouch_m);
 }
 
-// Long boxes flank to flank look near by their discs; the two discs farther off are nearer.
+// Long boxes flank to flank look near by their discs; the two discs further off are nearer.
 TEST(WorldBodies, TheFirstRecordIsOfTheNearestShellsNotOfTheNearestDiscs) {
   Scenario scenario = ScenarioOf({BoxAt(1, {}), BoxAt(2, {{0, 1.9}, 0}), VehicleAt(3, {{9, 0}, 0}),
                                   VehicleAt(4, {{9, 1.7}, 0})});
@@ -165,7 +165,7 @@ TEST(WorldBodies, MotionNeverExceedsTheCapsHoweverMuchWheelsSlip) {
   EXPECT_NEAR(fastest_m, 1.0 * kDt_s, 1e-9);  // the caps were reached
 }
 
-// Mostly forward, anew every second, by id and tick alone.
+// Mostly forward, again every second, by id and tick alone.
 WheelSpeeds Whim(std::uint32_t id, int tick) {
   Random random(id, static_cast<std::uint64_t>(tick / 20));
   const double left = random.Uniform(-3, 8);

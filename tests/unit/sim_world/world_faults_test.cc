@@ -402,7 +402,7 @@ TEST(WorldFaults, NoneIsAtWorkBeforeTheStart) {
 }
 
 // A checkpoint within the fault: the restored world drives on with the wheels it was stuck with,
-// whatever they turned like while it waited, and says no second time that the fault has begun.
+// whatever they turned like while it waited, and says no second time that the fault has started.
 TEST(WorldFaults, AreThereAgainInARestoredRun) {
   const FaultSchedule schedule{{FaultAt(Kind::kMotorStuck), FaultAt(Kind::kSonarOff)}, 1};
   SideBySide pair(schedule.faults);

@@ -38,7 +38,7 @@ TEST(World, EncodersAreEnoughForPerfectDeadReckoning) {
 }
 
 // Whoever misses scans knows by the count how far it rolled, errors of the encoders included; a
-// body that is put into the world anew begins to count anew.
+// body that is put into the world again starts to count again.
 TEST(World, EncodersCountWhatTheyTell) {
   Scenario scenario = Facing(0.6);
   scenario.vehicles[0].profile.encoder_noise = 0.1;

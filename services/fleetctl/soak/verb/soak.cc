@@ -18,6 +18,7 @@
 #include "services/faults/unsupported.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
@@ -139,7 +140,7 @@ Prepared Prepare(const SoakOptions& options) {
     CheckFolder((folder / "impair").string());
   }
   if (Records(options)) CheckFolder((folder / "recordings").string());
-  // All begin together, so that everyone's clock of faults is the same.
+  // All start together, so that every vehicle's clock of faults is the same.
   ScenarioEdit edit{.duration_s = 0.0};
   if (!as_shipped.spawns.empty()) edit.start_with = static_cast<std::uint32_t>(vehicles);
   prepared.scenario_file = (folder / "scenario.textproto").string();
@@ -245,7 +246,7 @@ const VehicleOptions& AnyVehicle(const Scenario& scenario) {
 }
 
 int Conclude(const SoakOptions& options, const SoakResult& result) {
-  std::fputs((options.json ? ToJson(result) + "\n" : ToText(result)).c_str(), stdout);
+  std::fputs((options.json ? ToJson(result) + "\n" : ForTerminal(ToText(result))).c_str(), stdout);
   const bool told = std::fflush(stdout) == 0;
   Interrupts::AllowSeconds(kWriting_s);
   const int code = std::max(ExitCode(result.verdict), told ? 0 : 1);
@@ -255,7 +256,7 @@ int Conclude(const SoakOptions& options, const SoakResult& result) {
   });
 }
 
-// As `fleetctl virtual` does: the seed moves everyone, wherever its place comes from.
+// As `fleetctl virtual` does: the seed moves every vehicle, wherever its place comes from.
 Scenario VirtualScenario(const SoakOptions& options, const Prepared& prepared) {
   const Scenario as_written = LoadScenario(prepared.scenario_file, {0, std::nullopt, std::nullopt});
   Scenario scenario =

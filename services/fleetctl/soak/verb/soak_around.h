@@ -13,7 +13,7 @@ namespace giveway::fleetctl {
 inline constexpr double kAroundBefore_s = 60;
 inline constexpr double kAroundAfter_s = 5;
 
-// Those that were on, or began, around `time_s`; with the times they had. Pure.
+// Those that were on, or started, around `time_s`; with the times they had. Pure.
 faults::Schedule Around(const faults::Schedule& schedule, double time_s);
 
 // Reads a report folder, writes FOLDER/around.textproto around its first violation, and prints the

@@ -21,7 +21,7 @@ struct SoakOptions {
   bool record = false;            // every vehicle records into the report folder
   std::uint32_t ring_s = 0;       // each keeps so much of it; 0: all of it, where `record` says so
   bool in_virtual_time = false;   // no processes: see soak_virtual.h
-  std::string resume;             // goes on in this report folder; empty: begins anew
+  std::string resume;             // continues in this report folder; empty: starts again
   std::string around;  // nothing is run: a folder, see soak_around.h; empty: not asked for
   bool json = false;   // the report as one JSON object on stdout and nothing else
 };

@@ -12,17 +12,17 @@ namespace giveway::fleetctl {
 
 // Replaces what was saved before. Why it could not, as on a full disk; empty: it could.
 std::string SaveSoFar(const SoakResult& so_far, const std::string& folder);
-// It has come to its verdict: there is nothing to go on with.
+// It has come to its verdict: there is nothing to continue with.
 void ForgetSoFar(const std::string& folder);
-// Throws InputError where the folder holds no soak that could be gone on with.
+// Throws InputError where the folder holds no soak that could be resumed.
 SoakResult LoadSoFar(const std::string& folder);
 
 // Of the whole list what is left after `from_s`, by the clock of a new fleet, whose own warm-up is
-// `warm_up_s`. What would begin before that is over comes to `lost`, in words. Pure.
+// `warm_up_s`. What would start before that is over comes to `lost`, in words. Pure.
 faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
                         std::vector<std::string>* lost);
 
-// Both as one, whose times are those of the whole; `rest` began at so_far.ran_s. Pure.
+// Both as one, whose times are those of the whole; `rest` started at so_far.ran_s. Pure.
 SoakResult Joined(const SoakResult& so_far, const SoakResult& rest);
 
 }  // namespace giveway::fleetctl

@@ -17,7 +17,7 @@ constexpr const char* kFooter = R"(
 Starts a world and one process a vehicle, waits until all drive, breaks things
 by a seeded schedule, heals everything, and judges: every invariant, every
 fault's effect, how soon peers noticed, that all drive again within 5 s, that no
-process grows. Who ends by itself is started again, and told of. The report
+process grows. A process that ends by itself is restarted and reported. The report
 folder gets report.html, report.json, the logs, the scenario and the list of
 faults as they were run; `fleetctl report` reads it. The first Ctrl-C ends the
 soak with an honest report.
@@ -28,7 +28,7 @@ broken promise of a report, for `fleetctl shrink`.
 
 --virtual runs the same list in virtual time, as far as it goes there, and
 judges it alike, without detection, resources and pauses. What was seen is saved
-every ten seconds: --resume FOLDER goes on after a crash of the machine, with a
+every ten seconds: --resume FOLDER continues after a crash of the machine, with a
 new fleet and the rest of the list, and the verdict says so.
 
 A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
@@ -79,7 +79,7 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
       ->excludes("--record")
       ->excludes("--record-ring")
       ->excludes("--domain");
-  verb->add_option("--resume", options->resume, "Go on in this folder of a soak that died")
+  verb->add_option("--resume", options->resume, "Continue in this folder of a soak that died")
       ->check(CheckNotEmpty)
       ->excludes("--report")
       ->excludes("SCENARIO")

@@ -116,7 +116,7 @@ class VirtualSoak {
     return news;
   }
 
-  // Those of the world say by an event that they began.
+  // Those of the world say by an event that they started.
   void CarryOut(std::span<const FaultEdge> edges) {
     for (const FaultEdge& edge : edges) {
       const faults::Fault& fault = schedule_[edge.fault];

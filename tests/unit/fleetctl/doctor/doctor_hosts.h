@@ -1,4 +1,4 @@
-// A healthy host on which two vehicles may run, to be spoilt one fact at a time.
+// A healthy host on which two vehicles may run, to be corrupted one fact at a time.
 #pragma once
 
 #include <string>

@@ -195,7 +195,7 @@ TEST_F(RingReplayTest, AnImageThatIsNoBrainOrAnotherIsRefused) {
   EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("another vehicle's"));
 }
 
-// Its process died as it had begun another file.
+// Its process died as it had started another file.
 TEST_F(RingReplayTest, AnImageWithoutAStepProvesSomethingBehindTheFileBeforeAlone) {
   second_.resize(2);
   EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("no step"));

@@ -31,7 +31,7 @@ TEST(StopwatchPlan, EveryTrialIsPlannedAndHalfTheFleetWatches) {
   for (const Wave& wave : Plan(Fault::kKill, 10, 8)) {
     std::set<VehicleId> victims;
     for (const Strike& strike : wave.strikes) victims.insert(strike.victim);
-    EXPECT_EQ(victims.size(), wave.strikes.size());  // nobody is struck twice
+    EXPECT_EQ(victims.size(), wave.strikes.size());  // nobody is faulted twice
     EXPECT_LE(victims.size(), 4U);
     EXPECT_TRUE(std::ranges::is_sorted(wave.strikes, {}, &Strike::after));
     strikes += wave.strikes.size();

@@ -123,7 +123,7 @@ TEST_F(MadeProc, ServicesAreFoundByTheirProgramAndNothingElseIs) {
   EXPECT_TRUE(members[1].is_world);
 }
 
-// Three vehicles without --id were told apart by ear alone, and in containers, where all are
+// Three vehicles without --id were distinguished by ear alone, and in containers, where all are
 // process 1, not at all.
 TEST_F(MadeProc, AVehicleIsKnownByTheIdThatTheWorldGaveIt) {
   for (const char* pid : {"51", "52"}) {
@@ -193,7 +193,7 @@ TEST_F(MadeProc, WhatTheSystemGivesItIsReadFactByFact) {
 }
 
 TEST_F(MadeProc, ProfilesWrittenAfterTheStartAreMarked) {
-  // It began 1005 s after 1970, and the file is of today.
+  // It started 1005 s after 1970, and the file is of today.
   EXPECT_TRUE(ReadSituation(folder_, 42)->profiles_changed);
   Write("stat", "btime 99999999999\n");
   EXPECT_FALSE(ReadSituation(folder_, 42)->profiles_changed);

@@ -111,7 +111,7 @@ TEST(TunePredict, ADeadlineIsActedOnAtTheNextTurn) {
   EXPECT_DOUBLE_EQ(detection(190, {}), 200);
   EXPECT_DOUBLE_EQ(detection(230, {}), 250);
   EXPECT_DOUBLE_EQ(detection(190, {.delay_ms = 20}), 250);
-  // Beacons lost before the death begin the silence earlier: by 0.1 / 0.9 of a tick.
+  // Beacons lost before the death start the silence earlier: by 0.1 / 0.9 of a tick.
   EXPECT_NEAR(detection(190, {.loss = 0.1}), 200 - 50.0 / 9, 1e-6);
 }
 

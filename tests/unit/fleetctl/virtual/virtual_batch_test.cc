@@ -96,7 +96,7 @@ TEST(VirtualBatch, AVehicleBehindOneParkedOnItsGoalIsWedged) {
   EXPECT_FALSE(outcome.held);
 }
 
-// Four of these had vehicles that stood for good before one whose process had been paused.
+// Four of these had vehicles that stood permanently before one whose process had been paused.
 TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
   CaseOptions options;
   options.scenario = "crossing";
@@ -106,7 +106,7 @@ TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
   EXPECT_TRUE(totals.failing_seeds.empty()) << totals.failing_seeds.size() << " failed";
 }
 
-// Of ten thousand swarms nine did not hold: four vehicles queued for good behind one that had
+// Of ten thousand swarms nine did not hold: four vehicles queued permanently behind one that had
 // arrived, and five times all but one that still rolled to its goal halted. In 1130, of a later
 // brain, one found no way out between two bodies.
 TEST(VirtualBatch, SwarmsThatBrokeHold) {

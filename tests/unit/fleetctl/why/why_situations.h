@@ -1,4 +1,4 @@
-// Two vehicles that hear each other, to be spoilt one fact at a time.
+// Two vehicles that hear each other, to be corrupted one fact at a time.
 #pragma once
 
 #include <string>

@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# What the command line says of itself: help that fits any terminal, what was probably meant, completion,
+# colours, man pages, and verbs that find the only fleet by themselves.
+source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
+cd "$SCRATCH"
+programs=$(dirname "$FLEETCTL")
+
+# verbs_of VERB...: those its help lists.
+verbs_of() { "$FLEETCTL" "$@" --help | sed -n '/^Verbs:/,/^$/s/^  \([a-z]\+\) .*/\1/p'; }
+# on_terminal COLUMNS COMMAND: its output on a terminal so wide.
+on_terminal() { script -qec "stty cols $1; $2" /dev/null </dev/null | tr -d '\r'; }
+
+mapfile -t verbs < <(verbs_of)
+[[ ${#verbs[@]} -ge 15 ]] || fail "verbs: ${verbs[*]}"
+pages=('')
+for verb in "${verbs[@]}"; do
+  pages+=("$verb")
+  while read -r part; do pages+=("$verb $part"); done < <(verbs_of "$verb")
+done
+[[ ${#pages[@]} -ge 22 ]] || fail "pages: ${pages[*]}"
+for page in "${pages[@]}"; do
+  # shellcheck disable=SC2086  # words of a command line
+  "$FLEETCTL" $page --help >help || fail "$page --help: exit code $?"
+  # shellcheck disable=SC2086
+  "$FLEETCTL" help $page | cmp -s - help || fail "help $page is not $page --help"
+  [[ $(wc -L <help) -le 80 ]] || fail "$page --help: $(wc -L <help) columns"
+  ! grep -nE 'UINT|4294967295|TEXT:' help || fail "$page --help names a type of a program"
+  for columns in 60 120; do
+    wide=$(on_terminal "$columns" "$FLEETCTL $page --help" | wc -L)
+    [[ $wide -le $columns ]] || fail "$page --help: $wide columns on a terminal of $columns"
+  done
+done
+for service in giveway-vehicle giveway-world; do
+  "$programs/$service" --help >help || fail "$service --help: exit code $?"
+  [[ $(wc -L <help) -le 80 ]] || fail "$service --help: $(wc -L <help) columns"
+done
+[[ $("$FLEETCTL" version) == "$("$FLEETCTL" --version)" ]] || fail "version is not --version"
+
+# meant PATTERN ARGUMENTS...: refused, with what was probably meant.
+meant() {
+  local pattern=$1 code=0
+  shift
+  timeout 5 "$@" >out 2>err || code=$?
+  [[ $code -eq 2 ]] || fail "$*: exit code $code"
+  grep -q -- "$pattern" err || fail "$*: $(<err)"
+}
+meant "no verb 'rum'; did you mean 'run'?" "$FLEETCTL" rum
+meant "no verb 'chekc'; did you mean 'check'?" "$FLEETCTL" qos chekc
+meant "no verb 'docter'; did you mean 'doctor'?" "$FLEETCTL" help docter
+meant "has no flag --vehicels; did you mean '--vehicle" "$FLEETCTL" run open_fleet --vehicels 3
+meant "did you mean 'intersection_yield'?" "$FLEETCTL" run intersection_yeild
+meant "did you mean 'radio_storm'?" "$FLEETCTL" faults expand radiostorm --duration 3m --vehicles 2
+meant "did you mean 'lossy_radio'?" "$FLEETCTL" run intersection_yield --qos lossy-radio
+meant "did you mean 'lossy_radio'?" "$FLEETCTL" qos show --qos lossy-radio
+meant "did you mean '--domain'?" "$programs/giveway-vehicle" --domian 3
+
+# A flag's former name does what its name does.
+"$FLEETCTL" plan 4 --cores 8 --memory-gib 8 >positional || fail "plan 4: exit code $?"
+"$FLEETCTL" plan --vehicles 4 --cores 8 --memory-gib 8 | cmp -s - positional || fail "plan --vehicles"
+"$FLEETCTL" virtual crossing --seeds 1..3 --loss 5 --json | jq .state_hash >bare
+"$FLEETCTL" virtual crossing --seeds 1..3 --loss 5% --json | jq .state_hash | cmp -s - bare ||
+  fail "--loss 5% is not --loss 5"
+
+# Completion, in bash itself.
+completed() { # WORD...: what bash offers for the last one
+  bash -c 'source <("$1" completion bash); shift
+           COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _fleetctl "$1"; printf "%s\n" "${COMPREPLY[@]}"' \
+    bash "$FLEETCTL" "$@"
+}
+[[ $(completed "$FLEETCTL" pla) == plan ]] || fail "pla: $(completed "$FLEETCTL" pla)"
+[[ $(completed "$FLEETCTL" qos ch) == check ]] || fail "qos ch: $(completed "$FLEETCTL" qos ch)"
+[[ $(completed "$FLEETCTL" run --lock) == --lockstep ]] || fail "run --lock"
+[[ $(completed "$FLEETCTL" run intersection_y) == intersection_yield ]] || fail "run intersection_y"
+[[ $(completed "$FLEETCTL" run x --qos los) == lossy_radio ]] || fail "--qos los"
+[[ $(completed "$FLEETCTL" run x --log-level w) == warning ]] || fail "--log-level w"
+
+# Colours on a terminal, and none where NO_COLOR is set or nothing is a terminal.
+green=$'\e[32m'
+export TERM=xterm
+on_terminal 80 "$FLEETCTL virtual crossing --seeds 1..2" >out
+grep -qF "$green" out || fail "no colour: $(<out)"
+NO_COLOR=1 on_terminal 80 "$FLEETCTL virtual crossing --seeds 1..2" >out
+grep -qF "$green" out && fail "NO_COLOR is not honoured: $(<out)"
+"$FLEETCTL" virtual crossing --seeds 1..2 >out
+grep -qF $'\e[' out && fail "colour in a pipe: $(<out)"
+
+# The only fleet of a machine needs no domain. Only where nothing else can be in sight: in namespaces.
+if unshare --net --pid --fork --mount-proc true 2>/dev/null; then
+  cat >alone.sh <<'SCRIPT'
+ip link set lo up
+"$1" ls >none 2>none.err && echo "ls of nothing succeeds"
+"$1" top --once 2>none.err && echo "top of nothing succeeds"
+grep -q 'no fleet runs' none.err || echo "top of nothing: $(<none.err)"
+"$1" run open_fleet --vehicles 2 --domain 7 --duration 60 >run.out 2>&1 &
+"$1" top --domain 7 --once --wait 30s >top.out || echo "top --domain: $?"
+"$1" ls >ls.out || echo "ls: $?"
+grep -Eq '^ +7  127.0.0.1 +here +[0-9]+  1-2$' ls.out || echo "ls: $(<ls.out)"
+"$1" ls --json | jq -e '.[0].domain == 7 and (.[0].vehicles | length) == 2' >/dev/null || echo "ls --json"
+"$1" listen fleet/beacon --count 2 >listen.out || echo "listen without a domain: $?"
+"$1" qos show --live 1 >live.out || echo "qos show --live without a domain: $?"
+kill %1; wait
+SCRIPT
+  said=$(unshare --net --pid --fork --mount-proc bash alone.sh "$FLEETCTL" 2>&1 | grep -v Terminated || true)
+  [[ -z $said ]] || fail "$said"
+fi
+
+# Man pages, where help2man is installed.
+if command -v help2man >/dev/null; then
+  bash "$REPOSITORY/services/fleetctl/help/man_pages.sh" "$programs" man || fail "man pages: exit code $?"
+  [[ $(find man -name '*.1' | wc -l) -ge 24 ]] || fail "man pages: $(ls man)"
+  grep -q 'intersection' man/fleetctl-run.1 || fail "fleetctl-run.1 has no example"
+fi
+
+[[ $failures -eq 0 ]]
