@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "services/config/config_dir.h"
 #include "services/config/impair.h"
@@ -46,6 +48,27 @@ int RefuseToRun(const RunOptions& options, const char* reason, const std::except
   return kCouldNotRun;
 }
 
+// For what a run keeps on disk and nobody needs after it.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(bool wanted) {
+    if (!wanted) return;
+    std::string name = std::filesystem::temp_directory_path() / "giveway_run_XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) throw OutputError("cannot make a folder: " + name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code error;
+    if (!path_.empty()) std::filesystem::remove_all(path_, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string File(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 // In lockstep the world waits for every command, and a vehicle answers scans alone.
 void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario) {
   const Impairment impairment = options.fleet.impair.empty()
@@ -74,13 +97,15 @@ int StartAndWatch(const RunOptions& options) {
   if (!options.fleet.record_folder.empty()) CheckFolder(options.fleet.record_folder);
 
   const DomainLock lock(options.domain);
-  const FleetSpec spec{.program_folder = ProgramFolder(),
-                       .scenario_file = ResolveScenario(options.scenario),
-                       .domain = lock.Domain(),
-                       .qos_file = qos_file,
-                       .lock_fd = lock.Fd(),
-                       .hands_on_lines = true,
-                       .options = options.fleet};
+  const ScratchFolder scratch(options.restart);
+  FleetSpec spec{.program_folder = ProgramFolder(),
+                 .scenario_file = ResolveScenario(options.scenario),
+                 .domain = lock.Domain(),
+                 .qos_file = qos_file,
+                 .lock_fd = lock.Fd(),
+                 .hands_on_lines = true,
+                 .options = options.fleet};
+  if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
   RunSession session(options, scenario, spec);
   const Report report = session.Run();
