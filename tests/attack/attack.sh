@@ -49,9 +49,9 @@ listen() { # NAME TOPIC
 drives_on() {
   local end=$(($(date +%s%N) + $1 * 1000000000)) count
   while (($(date +%s%N) < end)); do
-    count=$(tail -n "+$(($2 + 1))" "$SCRATCH/status.json" | jq -r -n '
+    count=$(tail -n "+$(($2 + 1))" "$SCRATCH/status.json" | jq -R 'fromjson?' | jq -n '
       reduce inputs as $status ({}; if $status.forward_m_s > 0.05 and
-          $status.decision.mode == "cooperative" then .[$status.vehicle | tostring] = 1 else . end) |
+          $status.mode == "cooperative" then .[$status.vehicle | tostring] = 1 else . end) |
       length' 2>/dev/null) || count=0
     ((count >= VEHICLES)) && return
     sleep 0.1
@@ -61,7 +61,7 @@ drives_on() {
 
 # heard LINE: the share of each other's beacons, in per cent, that vehicles heard behind that line.
 heard() {
-  tail -n "+$(($1 + 1))" "$SCRATCH/status.json" | jq -n '
+  tail -n "+$(($1 + 1))" "$SCRATCH/status.json" | jq -R 'fromjson?' | jq -n '
     [inputs] | group_by(.vehicle) | map(select(length > 1) |
       {sent: (.[-1].beacons.sent - .[0].beacons.sent),
        taken: (.[-1].beacons.taken - .[0].beacons.taken)}) |
@@ -70,7 +70,7 @@ heard() {
     echo 0
 }
 
-contacts() { grep -c '"contact"' "$SCRATCH/events.json" || true; }
+contacts() { grep -c '"kind":"contact"' "$SCRATCH/events.json" || true; }
 deaths() { grep -c 'died' "$SCRATCH/fleet.log" || true; }
 
 # sizes: the resident memory of each process of the fleet, "PID kB" a line.

@@ -111,17 +111,32 @@ void Fragments(const Target& target, UdpSender* sender) {
   });
 }
 
+// Reliable writers of a process that may have been silent: the builtin ones, and those that the
+// library numbers as they are made, with a key or without.
+std::vector<std::uint32_t> ReliableWriters(const Heard& heard) {
+  std::vector<std::uint32_t> writers{heard.writer, 0x000003c2, 0x000004c2, 0x000200c2};
+  for (std::uint32_t i = 1; i <= 20; ++i) {
+    writers.push_back(i << 8U | 0x02);
+    writers.push_back(i << 8U | 0x03);
+  }
+  return writers;
+}
+
 void Gaps(const Target& target, UdpSender* sender) {
   AsEachWriter(target, sender, [](const Heard& heard, std::uint32_t) {
-    return RtpsPacket(heard.prefix).Gap(heard.writer, 1, kFar, 0, heard.reader).Bytes();
+    RtpsPacket packet(heard.prefix);
+    for (const std::uint32_t writer : ReliableWriters(heard)) packet.Gap(writer, 1, kFar);
+    return packet.Bytes();
   });
 }
 
 void Heartbeats(const Target& target, UdpSender* sender) {
   AsEachWriter(target, sender, [](const Heard& heard, std::uint32_t turn) {
-    return RtpsPacket(heard.prefix)
-        .Heartbeat(heard.writer, kFar, kFar, 1'000'000 + turn, heard.reader)
-        .Bytes();
+    RtpsPacket packet(heard.prefix);
+    for (const std::uint32_t writer : ReliableWriters(heard)) {
+      packet.Heartbeat(writer, kFar, kFar, 1'000'000 + turn);
+    }
+    return packet.Bytes();
   });
 }
 
