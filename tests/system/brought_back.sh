@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
-# fleetctl run --restart: a vehicle that is killed and the world, each start again
-# and drive on; the run does not end, and nobody touches anybody.
+# fleetctl run --restart: a vehicle that is killed, and the world, are started again and drive on; the
+# run does not end, and nobody touches anybody.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 cat >"$SCRATCH/two_lanes.textproto" <<'TEXT'
 name: "two_lanes"
 duration_s: 0
-vehicle { id: 1 start { x_m: -4 y_m: 4 } cruise_m_s: 0.3 waypoint { x_m: 4 y_m: 4 } waypoint { x_m: -4 y_m: 4 } loop: true }
-vehicle { id: 2 start { x_m: -4 y_m: -4 } cruise_m_s: 0.3 waypoint { x_m: 4 y_m: -4 } waypoint { x_m: -4 y_m: -4 } loop: true }
+start_with: 2
+spawn { start { x_m: -4 y_m: 4 heading_deg: 0 } cruise_m_s: 0.3 waypoint { x_m: 4 y_m: 4 } waypoint { x_m: -4 y_m: 4 } loop: true }
+spawn { start { x_m: -4 y_m: -4 heading_deg: 0 } cruise_m_s: 0.3 waypoint { x_m: 4 y_m: -4 } waypoint { x_m: -4 y_m: -4 } loop: true }
+expect { contacts: 0 any_arrived: true any_halted: true }
 TEXT
 "$FLEETCTL" run "$SCRATCH/two_lanes.textproto" --restart --json --logs "$SCRATCH/logs" \
   >"$SCRATCH/report.json" 2>"$SCRATCH/fleet.log" &
@@ -45,6 +47,8 @@ tail -n "+$((lines + 1))" "$SCRATCH/logs/vehicle-1.log" | grep -q 'drives on in 
   fail "the world was not started again: $(cat "$SCRATCH/fleet.log")"
 grep -q 'goes on from the checkpoint' "$SCRATCH/logs/world+.log" || fail "the world began anew"
 sleep 2
+"$FLEETCTL" run intersection_yield --restart >"$SCRATCH/closed.log" 2>&1 && fail "a closed fleet is restarted"
+grep -q 'a death is the end of its run' "$SCRATCH/closed.log" || fail "$(cat "$SCRATCH/closed.log")"
 
 kill -INT "${PID[fleet]}"
 wait "${PID[fleet]}" || true
@@ -54,4 +58,5 @@ unset 'PID[fleet]'
 [[ $(jq .contacts "$SCRATCH/report.json") == 0 ]] || fail "contacts: $(cat "$SCRATCH/report.json")"
 jq -e '.reason == "interrupted"' "$SCRATCH/report.json" >/dev/null ||
   fail "the run ended by itself: $(cat "$SCRATCH/report.json")"
+
 [[ $failures -eq 0 ]]

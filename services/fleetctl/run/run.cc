@@ -80,6 +80,14 @@ void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario)
                      "leave --lockstep out, or give --impair none"}});
 }
 
+// The world of a closed fleet ends the run when one of it dies.
+void RefuseRestartOfClosed(const RunOptions& options, const Scenario& scenario) {
+  if (!options.restart || !scenario.spawns.empty()) return;
+  throw InputError({{options.scenario, 0, "--restart", "",
+                     "the scenario names all of its vehicles: a death is the end of its run",
+                     "leave --restart out, or write spawn { ... } in the scenario"}});
+}
+
 int StartAndWatch(const RunOptions& options) {
   const ScenarioOverrides overrides{options.fleet.seed, options.fleet.behaviour,
                                     options.fleet.duration_s};
@@ -90,6 +98,7 @@ int StartAndWatch(const RunOptions& options) {
                        "leave --vehicles out, or write spawn { ... } in the scenario"}});
   }
   RefuseImpairedLockstep(options, scenario);
+  RefuseRestartOfClosed(options, scenario);
   const std::string qos_file = ResolveQosFile(options.qos_file);
   RequireSoundQos(qos_file, DeploymentOf(scenario));
   if (!options.picture_file.empty()) CheckWritable(options.picture_file);
@@ -104,6 +113,7 @@ int StartAndWatch(const RunOptions& options) {
                  .qos_file = qos_file,
                  .lock_fd = lock.Fd(),
                  .hands_on_lines = true,
+                 .names_newcomers = options.restart,  // who is one of them comes back as itself
                  .options = options.fleet};
   if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());

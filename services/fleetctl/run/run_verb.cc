@@ -78,7 +78,8 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
       ->envname("GIVEWAY_VEHICLES");
   verb->add_flag(
           "--restart", options->restart,
-          "Start a process that dies again: a vehicle by its id, the world from its checkpoint")
+          "Of an open fleet: start a process that dies again, a vehicle by its id, the world from "
+          "its checkpoint")
       ->envname("GIVEWAY_RUN_RESTART");
   verb->add_flag("--lockstep", options->fleet.lockstep,
                  "The world waits for every command of a tick")
