@@ -72,7 +72,7 @@ TEST(PacketFilter, DropsStatisticsThatTheLibraryWouldDieOf) {
   EXPECT_EQ(Alone(FromPeer().Statistics()), PacketDrop::kStatistics) << "nothing else in it";
   EXPECT_EQ(Alone(FromPeer().InfoTs().Add(0x80, 0, PacketBytes(55))), PacketDrop::kStatistics);
   EXPECT_EQ(Alone(FromPeer().InfoTs().Add(0x80, 0, PacketBytes(56), 0)), PacketDrop::kStatistics);
-  EXPECT_EQ(Alone(FromPeer().Statistics().InfoTs()), PacketDrop::kStatistics);
+  EXPECT_EQ(Alone(FromPeer().InfoTs().Statistics().InfoTs()), PacketDrop::kStatistics);
 }
 
 TEST(PacketFilter, CutsOffTheStatisticsThatEndASoundPacket) {
