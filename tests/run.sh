@@ -5,13 +5,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-ALL_STAGES=(format rules deploy unit golden virtual planted model link system manuals tsan debian13 containers)
+ALL_STAGES=(format rules deploy unit golden virtual planted model link system attack manuals tsan debian13 containers)
 MORE_STAGES=(asan fuzz) # which debian13 runs in its container
 
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=480 [manuals]=120 [tsan]=180 [debian13]=480 [containers]=360
+  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [tsan]=180 [debian13]=480 [containers]=360
   [asan]=240 [fuzz]=120)
 
 usage() {
@@ -32,9 +32,10 @@ which debian13 runs in its container. Stages:
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
+  attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
   asan     unit, golden and link under the address and undefined-behaviour sanitizers
-  fuzz     spoilt scenarios, profiles, beacons, scans and recordings in the asan build, a third of a minute each
+  fuzz     spoilt scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
   debian13 asan, fuzz and system tests on Debian 13 with Fast DDS 3.1, and a mixed fleet
   containers  images, composed fleets of two and eight, and what may happen to them; needs root
@@ -293,6 +294,11 @@ stage_system() { prepare release && run_ctest release system 4; }
 stage_manuals() {
   prepare release giveway-vehicle giveway-world fleetctl
   check_lines bash tests/manuals/commands.sh
+}
+
+stage_attack() {
+  prepare release giveway-vehicle giveway-world fleetctl attacker
+  check_lines env GIVEWAY_BIN_DIR="$GIVEWAY_ROOT/build/release/bin" bash tests/attack/attack.sh
 }
 
 stage_asan() {

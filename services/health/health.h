@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "services/types/fleet_facts.h"
+#include "services/types/packet_counters.h"
 #include "services/types/time.h"
 
 namespace giveway {
@@ -53,7 +54,8 @@ struct VehicleHealth {
   std::uint32_t late_scans = 0;  // overwritten by a newer one before the loop came
   std::uint32_t write_failures = 0;
   std::uint32_t ranges_deadline_missed = 0;
-  SteadyTime scanned{0};  // when the last scan came; 0 before the first
+  PacketCounters packets;  // of this process
+  SteadyTime scanned{0};   // when the last scan came; 0 before the first
   Nanoseconds ranges_age_limit{0};
 };
 
@@ -72,6 +74,7 @@ struct WorldHealth {
   std::uint32_t commands_not_finite = 0;
   std::uint32_t joins_refused = 0;  // unread: without a session, or too many of one writer
   std::uint32_t write_failures = 0;
+  PacketCounters packets;  // of this process
 };
 
 // One sentence a reason; none: it is live, it is ready. Who is not live is not ready.

@@ -83,6 +83,17 @@ void AddLog(const ProcessFigures& process, Metrics* metrics) {
                    process.log_lines_dropped);
 }
 
+void AddPackets(const PacketCounters& packets, Metrics* metrics) {
+  metrics->Counter("packets_received", "Packets that the filter handed on to the middleware.",
+                   packets.Of(PacketDrop::kNone));
+  metrics->Begin("packets_dropped_total", "Packets that the filter dropped, by reason.",
+                 MetricType::Counter);
+  for (std::size_t i = 1; i < kPacketDrops; ++i) {
+    const auto reason = static_cast<PacketDrop>(i);
+    metrics->Add({{"reason", std::string(Name(reason))}}, packets.Of(reason));
+  }
+}
+
 void AddBeacons(const VehicleStatus& status, Metrics* metrics) {
   const BeaconCounters& beacons = status.beacons;
   metrics->Counter("beacons_sent", "Beacons sent.", beacons.sent);
@@ -222,6 +233,7 @@ std::string MetricsText(const VehicleHealth& vehicle, const ProcessFigures& proc
   AddBeacons(vehicle.status, &metrics);
   AddTrust(vehicle.status.trust, &metrics);
   AddTiming(vehicle.status.timing, &metrics);
+  AddPackets(vehicle.packets, &metrics);
   AddLog(process, &metrics);
   return metrics.Text() + Text(process);
 }
@@ -251,6 +263,7 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
   metrics.Counter("joins_rejected", "Requests to join that were not looked at.",
                   world.joins_refused);
   metrics.Counter("write_failures", "Samples the middleware did not take.", world.write_failures);
+  AddPackets(world.packets, &metrics);
   AddLog(process, &metrics);
   return metrics.Text() + Text(process);
 }

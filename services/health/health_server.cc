@@ -1,12 +1,9 @@
 #include "services/health/health_server.h"
 
 #include <httplib.h>
-#include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -19,6 +16,7 @@
 #include <utility>
 
 #include "services/config/problem.h"
+#include "services/health/connection_desk.h"
 #include "services/runtime/process.h"
 
 namespace giveway {
@@ -26,118 +24,70 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t kThreads = 2;
-constexpr int kMostWaiting = 4;                // connections; further ones are closed at once
-constexpr std::size_t kLongestRequest = 8192;  // bytes: a probe or a scraper sends some hundred
-constexpr Nanoseconds kRequestTime = std::chrono::seconds(1);  // for a request and its answer
-constexpr Nanoseconds kGoodByeTime = milliseconds(100);
-constexpr Nanoseconds kSlice = milliseconds(20);  // how soon a server that stops is heard of
-constexpr time_t kClientPatience_s = 4;           // longer than others can hold its place
+constexpr time_t kClientPatience_s = 4;  // longer than others can hold its place
 
 constexpr int kNo = 1;
 constexpr int kNoAnswer = 2;
 
-// The library reads a line as long as somebody sends it, and as long as somebody keeps sending.
-// Here a connection has so many bytes and so much time, and ends when the server does.
-class BoundedStream : public httplib::Stream {
+// A request that has come whole, and the socket for its answer, which the system takes whole or not
+// at all: pages are some kilobytes.
+class WholeRequest : public httplib::Stream {
  public:
-  BoundedStream(int socket, const std::atomic<bool>& stops)
-      : socket_(socket), stops_(stops), until_(SteadyNow() + kRequestTime) {}
+  WholeRequest(int socket, const std::string& request) : socket_(socket), request_(request) {}
 
   // Without `override`: which of these its base declares depends on the library's version.
-  virtual bool is_readable() const { return Wait(POLLIN, until_); }
-  virtual bool is_writable() const { return Wait(POLLOUT, until_); }
+  virtual bool is_readable() const { return taken_ < request_.size(); }
+  virtual bool is_writable() const { return true; }
   virtual bool wait_readable() const { return is_readable(); }
-  virtual bool wait_writable() const { return is_writable(); }
+  virtual bool wait_writable() const { return true; }
   virtual time_t duration() const { return 0; }
   virtual ssize_t read(char* to, size_t size) {
-    const std::size_t most = std::min(size, kLongestRequest - taken_);
-    if (most == 0 || !is_readable()) return -1;
-    const ssize_t got = recv(socket_, to, most, 0);
-    taken_ += static_cast<std::size_t>(std::max<ssize_t>(got, 0));
-    return got;
+    const std::size_t most = std::min(size, request_.size() - taken_);
+    if (most == 0) return -1;
+    std::copy_n(request_.begin() + static_cast<std::ptrdiff_t>(taken_), most, to);
+    taken_ += most;
+    return static_cast<ssize_t>(most);
   }
   virtual ssize_t write(const char* from, size_t size) {
-    return is_writable() ? send(socket_, from, size, MSG_NOSIGNAL) : -1;
+    return send(socket_, from, size, MSG_NOSIGNAL);
   }
   virtual void get_remote_ip_and_port(std::string& /*ip*/, int& port) const { port = 0; }
   virtual void get_local_ip_and_port(std::string& /*ip*/, int& port) const { port = 0; }
   virtual socket_t socket() const { return socket_; }
 
-  // Lets the other side take what was said: closing over unread bytes would take it back.
-  void SayGoodBye() {
-    shutdown(socket_, SHUT_WR);
-    std::array<char, 1024> unread;
-    const SteadyTime until = std::min(until_, SteadyNow() + kGoodByeTime);
-    while (Wait(POLLIN, until) && recv(socket_, unread.data(), unread.size(), 0) > 0) {
-    }
-  }
-
  private:
-  bool Wait(short what, SteadyTime until) const {
-    while (!stops_ && SteadyNow() < until) {
-      pollfd one{.fd = socket_, .events = what, .revents = 0};
-      constexpr int kSlice_ms = static_cast<int>(kSlice / milliseconds(1));
-      const int ready = poll(&one, 1, kSlice_ms);
-      if (ready > 0) return true;
-      if (ready < 0 && errno != EINTR) return false;
-    }
-    return false;
-  }
-
   const int socket_;
-  const std::atomic<bool>& stops_;
-  const SteadyTime until_;
+  const std::string& request_;
   std::size_t taken_ = 0;
 };
 
-// True on the thread that accepts, while it hands over a connection nobody has time for.
-thread_local bool turns_away = false;
-
-class BoundedPool : public httplib::TaskQueue {
+// Runs tasks at once, on the thread that accepts: all they do is to hand over a connection.
+class AtOnce : public httplib::TaskQueue {
   // Later versions of the library say whether they took a task.
   using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
 
  public:
   Taken enqueue(std::function<void()> task) override {
-    if (waiting_ >= kMostWaiting) {
-      turns_away = true;
-      task();
-      turns_away = false;
-      return static_cast<Taken>(true);
-    }
-    ++waiting_;
-    return pool_.enqueue([this, task = std::move(task)] {
-      --waiting_;
-      task();
-    });
+    task();
+    return static_cast<Taken>(true);
   }
-  void shutdown() override { pool_.shutdown(); }
-
- private:
-  std::atomic<int> waiting_{0};
-  httplib::ThreadPool pool_{kThreads};
+  void shutdown() override {}
 };
 
-class BoundedServer : public httplib::Server {
+class DeskServer : public httplib::Server {
  public:
   void GiveUp() { stops_ = true; }
   bool GivesUp() const { return stops_; }
 
  private:
   bool process_and_close_socket(socket_t socket) override {
-    if (!turns_away) {
-      BoundedStream stream(socket, stops_);
-      Answer(*this, stream);
-      stream.SayGoodBye();
-    }
-    close(socket);
+    desk_.Take(socket);
     return true;
   }
 
   // A template: later versions of the library want the addresses handed in, 0.11 does not.
   template <typename Server>
-  static void Answer(Server& server, BoundedStream& stream) {
+  static void Answer(Server& server, WholeRequest& stream) {
     bool closed = false;
     if constexpr (requires { server.process_request(stream, true, closed, nullptr); }) {
       server.process_request(stream, true, closed, nullptr);
@@ -147,6 +97,10 @@ class BoundedServer : public httplib::Server {
   }
 
   std::atomic<bool> stops_{false};
+  ConnectionDesk desk_{[this](int socket, const std::string& request) {
+    WholeRequest stream(socket, request);
+    Answer(*this, stream);
+  }};
 };
 
 bool WantsJson(const httplib::Request& request) {
@@ -226,7 +180,7 @@ std::string Reachable(const std::string& address) {
 }  // namespace
 
 struct HealthServer::Impl {
-  BoundedServer server;
+  DeskServer server;
   std::atomic<bool> ended{false};
   std::thread listener;
 
@@ -244,9 +198,9 @@ struct HealthServer::Impl {
 
 HealthServer::HealthServer(const std::string& address, std::uint16_t port, HealthPages pages)
     : impl_(std::make_unique<Impl>()) {
-  BoundedServer& server = impl_->server;
+  DeskServer& server = impl_->server;
   server.set_socket_options(OnlyOneListens);
-  server.new_task_queue = [] { return new BoundedPool; };
+  server.new_task_queue = [] { return new AtOnce; };
   Route(server, pages);
   errno = 0;
   if (!server.bind_to_port(address, port)) {

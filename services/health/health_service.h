@@ -1,5 +1,6 @@
 // The health of one service: its loop says how it is, the server's threads tell who asks. Between
-// the two is a board on which the loop never waits.
+// the two is a board on which the loop never waits. A loop that has begun and says nothing for
+// kWatchdogLimit is ended with its process.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "services/health/health_metrics.h"
 #include "services/health/health_server.h"
 #include "services/runtime/process.h"
+#include "services/runtime/watchdog.h"
 
 namespace giveway {
 
@@ -33,6 +35,9 @@ class HealthService {
     now_.loop.turned = SteadyNow();
     ++now_.loop.turns;
     board_.Publish(now_);
+    const HealthStage stage = now_.loop.stage;
+    const bool watched = stage == HealthStage::kJoining || stage == HealthStage::kUnderWay;
+    watched ? watchdog_.Feed() : watchdog_.Rest();
   }
 
  private:
@@ -52,6 +57,7 @@ class HealthService {
 
   Health now_;
   HealthBoard<Health> board_;
+  Watchdog watchdog_;
   std::optional<HealthServer> server_;  // last: gone before what it reads
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "services/link/fastdds/filtered_transport.h"
 #include "services/link/fastdds/interfaces.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/profiles.h"
@@ -35,10 +36,34 @@ void CheckOptions(const LinkOptions& options) {
   }
 }
 
+bool IsLoopback(const std::string& interface) {
+  const std::vector<std::string> addresses = ResolveInterface(interface);
+  return !addresses.empty() && std::ranges::all_of(addresses, [](const std::string& address) {
+    return address.starts_with("127.");
+  });
+}
+
+bool IsSecured(const dds::DomainParticipantQos& qos) {
+  return std::ranges::any_of(qos.properties().properties(), [](const auto& property) {
+    return property.name() == "dds.sec.auth.plugin";
+  });
+}
+
+FilteredTransportOptions FilterOf(const LinkOptions& options,
+                                  const dds::DomainParticipantQos& qos) {
+  return {.filter = {.largest_sample = LargestSample(),
+                     .fleet_size = options.fleet_size,
+                     .loopback_only = IsLoopback(options.interface),
+                     .secured = IsSecured(qos),
+                     .seed = 0},
+          .joined_interfaces_only = options.interface != "any"};
+}
+
 // UDP, and beside it shared memory if the profile names it: the profile says how, the options say
-// on which interfaces. Impaired if `impairer` is.
-void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options,
+// on which interfaces. Impaired if `impairer` is, and filtered behind that.
+void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options, bool filtered,
                   const std::shared_ptr<Impairer>& impairer) {
+  const FilteredTransportOptions filter = FilterOf(options, qos);
   std::size_t udp_transports = 0;
   std::size_t shared_memories = 0;
   auto& list = qos.transport().user_transports;
@@ -49,6 +74,7 @@ void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options,
       own->interfaceWhiteList = ResolveInterface(options.interface);
       named = own;
       if (impairer != nullptr) named = MakeImpairedTransport(own, impairer);
+      if (filtered) named = MakeFilteredTransport(named, filter);
       ++udp_transports;
     } else if (dynamic_cast<transport::SharedMemTransportDescriptor*>(named.get()) != nullptr) {
       ++shared_memories;
@@ -93,14 +119,14 @@ void SetDiscoveryServers(rtps::DiscoverySettings& discovery,
 }
 
 dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string& name,
-                                  const std::shared_ptr<Impairer>& impairer) {
+                                  bool filtered, const std::shared_ptr<Impairer>& impairer) {
   dds::DomainParticipantQos qos;
   auto* factory = dds::DomainParticipantFactory::get_instance();
   if (!Ok(factory->get_participant_qos_from_profile(kParticipantProfile, qos))) {
     ThrowMissingProfile(kParticipantProfile);
   }
   qos.name(name);
-  SetTransport(qos, options, impairer);
+  SetTransport(qos, options, filtered, impairer);
   auto& discovery = qos.wire_protocol().builtin.discovery_config;
   if (!options.discovery_servers.empty()) {
     SetDiscoveryServers(discovery, options.discovery_servers);
@@ -136,7 +162,7 @@ const Duration kHeartbeatPeriod(0, 100'000'000);
 }  // namespace
 
 dds::DomainParticipantQos ParticipantQos(const LinkOptions& options, const std::string& name) {
-  return MakeQos(options, name, nullptr);
+  return MakeQos(options, name, false, nullptr);
 }
 
 dds::DataWriterQos WriterQos(dds::Publisher& publisher, const std::string& profile,
@@ -177,7 +203,7 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
     listener = naming_.get();
   }
   listener_ = listener;
-  const dds::DomainParticipantQos qos = MakeQos(options, name, impairer_);
+  const dds::DomainParticipantQos qos = MakeQos(options, name, true, impairer_);
   servers_ = ServersOf(qos, options);
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.

@@ -1,5 +1,7 @@
 #include "services/vehicle_node/vehicle_health.h"
 
+#include "services/link/fastdds/packets_of_process.h"
+
 namespace giveway {
 
 void VehicleHealthTeller::Joins(const std::string& waits_for) {
@@ -29,6 +31,7 @@ void VehicleHealthTeller::Turned(const link::Taken& taken,
   now.matched_peers = counters.matched_peers;
   now.write_failures = counters.write_failures;
   now.ranges_deadline_missed = counters.ranges_deadline_missed;
+  now.packets = link::PacketsOfProcess();
   service_.Tell();
 }
 

@@ -22,6 +22,10 @@ void VehicleLog::TellOfLink(std::span<const Refusal> refusals,
   LogNews(refusals, unfit, now, &refusal_log_);
 }
 
+void VehicleLog::TellOfPackets(const PacketCounters& packets, SteadyTime now) {
+  LogDrops(packets, now, &packet_log_);
+}
+
 void VehicleLog::TellOfEvents(std::span<const QosEvent> events, const Vehicle& vehicle) {
   for (const QosEvent& event : events) {
     switch (event.kind) {

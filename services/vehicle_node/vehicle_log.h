@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/runtime/packet_log.h"
 #include "services/runtime/refusal_log.h"
 #include "services/types/refusal.h"
 #include "services/types/vehicle_io.h"
@@ -21,6 +22,8 @@ class VehicleLog {
   // What the link could not read, and endpoints that will never match.
   void TellOfLink(std::span<const Refusal> refusals, const std::vector<std::string>& unfit,
                   SteadyTime now);
+  // What was dropped of the packets that reached this process.
+  void TellOfPackets(const PacketCounters& packets, SteadyTime now);
   // What the middleware says of the peers. Whoever comes or goes is news, the rest is trouble; that
   // a beacon was lost is neither on a radio, and would be said many times a second.
   void TellOfEvents(std::span<const QosEvent> events, const Vehicle& vehicle);
@@ -37,6 +40,7 @@ class VehicleLog {
  private:
   BeaconNews beacon_news_;
   RefusalLog refusal_log_;
+  PacketLog packet_log_;
   bool told_blackouts_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "services/link/fastdds/packets_of_process.h"
 #include "services/runtime/hang_signal.h"
 #include "services/runtime/process.h"
 #include "services/snapshot/brain_state.h"
@@ -110,6 +111,7 @@ void VehicleLoop::Turn(bool leaving) {
   if (inputs.scan) last_scan_ = woke;
   const std::span<const QosEvent> events = inputs.events;
   log_.TellOfLink(taken.refusals, link_.TakeUnfit(woke), woke);
+  log_.TellOfPackets(link::PacketsOfProcess(), woke);
   if (lockstep_ && !leaving && !world_time_.Keep(&inputs, options_.tick_period)) {
     return TellOfEvents(events);
   }

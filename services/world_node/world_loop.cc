@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "services/link/fastdds/packets_of_process.h"
 #include "services/runtime/state_file.h"
 #include "services/world_node/event_line.h"
 #include "sim_world/geometry/ticks.h"
@@ -85,6 +86,7 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
     TellHealth(HealthStage::kUnderWay);
     SayIfAlone();
     LogNews(link_.TakeRefusals(), link_.TakeUnfit(SteadyNow()), SteadyNow(), &refusal_log_);
+    LogDrops(link::PacketsOfProcess(), SteadyNow(), &packet_log_);
     const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
     if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
     if (admin_.Serve() && !stop.IsSet()) {
@@ -353,6 +355,7 @@ void WorldLoop::TellHealth(HealthStage stage) {
   now.commands_not_finite = link.commands_not_finite;
   now.joins_refused = link.joins_refused;
   now.write_failures = link.write_failures;
+  now.packets = link::PacketsOfProcess();
   health_.Tell();
 }
 

@@ -14,6 +14,7 @@
 #include "services/node/service_admin.h"
 #include "services/runtime/fault_reminder.h"
 #include "services/runtime/line_budget.h"
+#include "services/runtime/packet_log.h"
 #include "services/runtime/process.h"
 #include "services/runtime/refusal_log.h"
 #include "services/types/parallel.h"
@@ -103,6 +104,7 @@ class WorldLoop {
   std::map<VehicleId, Hearing> heard_;
   std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
   RefusalLog refusal_log_;
+  PacketLog packet_log_;
   std::size_t speaking_ = 0;  // of those that are in
   std::vector<MotorCommand> commands_;
   LineBudget answer_lines_{8};  // of admission

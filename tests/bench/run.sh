@@ -89,6 +89,8 @@ if wanted link; then
     figure "link_${part}_ratio" \
       "$(microbench 'LinkOverhead/iterations:4000/manual_time' "${part}_ratio")" 1.1
   done
+  # The packet filter, microseconds a packet.
+  figure link_filter_us "$(microbench PacketFilterCost packet_us)" 1
   # An impairment that asks for nothing, microseconds a packet.
   figure link_impaired_idle_us \
     "$(microbench 'ImpairedIdle/iterations:500/manual_time' extra_us)" 2

@@ -1,5 +1,6 @@
-// One sample with a sequence number far ahead, from whoever, deafens a reader to its writer for
-// good. Only a new participant hears again.
+// Packets that an intruder forges, against real participants: to the library one sample with a
+// sequence number far ahead, from whoever, ends a reader's hearing of its writer for good; one
+// statistics submessage ends the process.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <netinet/in.h>
@@ -8,16 +9,17 @@
 
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "services/link/convert/convert.h"
+#include "services/link/fastdds/packets_of_process.h"
 #include "services/link/participant.h"
 #include "services/link/world_link.h"
 #include "tests/link/fleet.h"
+#include "tests/support/rtps_packet.h"
 
 namespace giveway::test {
 namespace {
@@ -60,7 +62,7 @@ RangeScan ScanOf(std::uint32_t tick) {
 }
 
 // An RTPS packet with one DATA of `writer`, to whichever reader listens to it.
-std::vector<std::uint8_t> Forged(const rtps::GUID_t& writer, std::uint64_t sequence) {
+std::vector<std::uint8_t> ForgedScan(const rtps::GUID_t& writer, std::uint64_t sequence) {
   link::TopicOf<wire::RangeScan>::Type type;
   wire::RangeScan sample = link::ToWire(ScanOf(1));
   rtps::SerializedPayload_t payload(link::SerializedSize(type, &sample) + 8);
@@ -100,36 +102,65 @@ void SendToAll(const std::vector<std::uint8_t>& packet, std::uint32_t domain) {
   close(sender);
 }
 
-// Issue 21, number 15.
-TEST(Forged, AScanFarAheadDeafensAVehicleWhichKnowsItAndHearsAgainAsANewParticipant) {
-  const DomainLock domain;
-  const link::LinkOptions options = OptionsIn(domain);
-  Finder finder;
-  const link::Participant finding(options, "finder", finder);
-  link::WorldLink world(options);
-  world.OpenRanges(kFive);
-  auto vehicle = std::make_unique<link::VehicleLink>(options);
-  vehicle->Open(kFive);
-  std::uint32_t tick = 1;
-  const auto hears = [&] {
-    world.SendScan(ScanOf(++tick));
-    return vehicle->Take(SteadyTime{0}).inputs.scan.has_value();
-  };
-  ASSERT_TRUE(Eventually(hears));
-  ASSERT_TRUE(Eventually([&] { return finder.OfTheWorld().size() == 1; }));
-  EXPECT_TRUE(vehicle->WorldSpeaks());
+// A world that speaks to a vehicle, and what an intruder needs to know of it.
+class Forged : public testing::Test {
+ protected:
+  Forged() {
+    world_.OpenRanges(kFive);
+    vehicle_.Open(kFive);
+    EXPECT_TRUE(Eventually([&] { return Hears(); }));
+    EXPECT_TRUE(Eventually([&] { return finder_.OfTheWorld().size() == 1; }));
+  }
 
-  SendToAll(Forged(finder.OfTheWorld()[0], std::uint64_t{1} << 40U), options.domain);
-  Repeat(std::chrono::milliseconds(200), [&] { hears(); });
-  bool heard = false;
-  Repeat(std::chrono::milliseconds(500), [&] { heard = hears() || heard; });
-  EXPECT_FALSE(heard);
-  EXPECT_TRUE(vehicle->WorldSpeaks()) << "what DeafWatch goes by";
+  bool Hears() {
+    world_.SendScan(ScanOf(++tick_));
+    return vehicle_.Take(SteadyTime{0}).inputs.scan.has_value();
+  }
+  rtps::GUID_t Writer() { return finder_.OfTheWorld().at(0); }
+  void Send(const std::vector<std::uint8_t>& packet) { SendToAll(packet, options_.domain); }
 
-  vehicle.reset();
-  vehicle = std::make_unique<link::VehicleLink>(options);
-  vehicle->Open(kFive);
-  EXPECT_TRUE(Eventually(hears));
+  const DomainLock domain_;
+  const link::LinkOptions options_ = OptionsIn(domain_);
+  Finder finder_;
+  const link::Participant finding_{options_, "finder", finder_};
+  link::WorldLink world_{options_};
+  link::VehicleLink vehicle_{options_};
+  std::uint32_t tick_ = 1;
+};
+
+PrefixBytes PrefixOf(const rtps::GUID_t& guid) {
+  PrefixBytes prefix;
+  std::copy_n(guid.guidPrefix.value, prefix.size(), prefix.begin());
+  return prefix;
+}
+
+std::uint64_t Dropped(PacketDrop reason) { return link::PacketsOfProcess().Of(reason); }
+
+// Issue 21, number 15; issue 25.
+TEST_F(Forged, AScanFarAheadIsDroppedAndTheVehicleHearsOn) {
+  const std::uint64_t before = Dropped(PacketDrop::kSequenceJump);
+  Send(ForgedScan(Writer(), std::uint64_t{1} << 40U));
+  ASSERT_TRUE(Eventually([&] { return Dropped(PacketDrop::kSequenceJump) > before; }));
+  vehicle_.Take(SteadyTime{0});
+  EXPECT_TRUE(Eventually([&] { return Hears(); }, std::chrono::seconds(2)));
+}
+
+// The library aborts: the death of this process would be the failure.
+TEST_F(Forged, StatisticsThatAreNotTheLastSubmessageAreDropped) {
+  std::vector<std::uint8_t> packet = RtpsPacket({1, 15, 66}).Statistics().Bytes();
+  packet.resize(84);
+  const std::uint64_t before = Dropped(PacketDrop::kStatistics);
+  Send(packet);
+  ASSERT_TRUE(Eventually([&] { return Dropped(PacketDrop::kStatistics) > before; }));
+  EXPECT_TRUE(Eventually([&] { return Hears(); }, std::chrono::seconds(2)));
+}
+
+// The library would allocate 4 GB.
+TEST_F(Forged, AFragmentOfAHugeSampleIsDropped) {
+  const std::uint64_t before = Dropped(PacketDrop::kSampleTooLarge);
+  Send(RtpsPacket(PrefixOf(Writer())).DataFrag(0x103, 1, 1, 1, 1000, 4'000'000'000, 1000).Bytes());
+  ASSERT_TRUE(Eventually([&] { return Dropped(PacketDrop::kSampleTooLarge) > before; }));
+  EXPECT_TRUE(Eventually([&] { return Hears(); }, std::chrono::seconds(2)));
 }
 
 }  // namespace

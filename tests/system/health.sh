@@ -119,8 +119,28 @@ for _ in $(seq 12); do # half open; more than there are threads and waiting plac
   printf 'GET /li' 1>&"$socket" 2>/dev/null || true
   sockets+=("$socket")
 done
-await_health "behind half-open connections" 6 "$A" live 0 '^live$'
+await_health "behind half-open connections" 1 "$A" live 0 '^live$'
 for socket in "${sockets[@]}"; do exec {socket}>&-; done
+# trickles COUNT: clients that send a byte every 0.2 s of a request that never ends, and come again.
+trickles() {
+  local _
+  for _ in $(seq "$1"); do
+    while exec {socket}<>"/dev/tcp/127.0.0.1/$A"; do
+      while printf x 1>&"$socket"; do sleep 0.2; done
+      exec {socket}>&-
+    done 2>/dev/null &
+    TRICKLERS+=("$!")
+  done
+}
+TRICKLERS=()
+trickles 10
+sleep 0.5
+for _ in $(seq 5); do await_health "beside clients that trickle bytes" 1 "$A" live 0 '^live$'; done
+begun=$(date +%s%N)
+printf 'GET /li' | said_to "$A" >/dev/null # cut off for another, or after its second
+(($(date +%s%N) - begun < 1500000000)) || fail "a request that never ends is waited for"
+kill "${TRICKLERS[@]}" 2>/dev/null || true
+wait "${TRICKLERS[@]}" 2>/dev/null || true
 # A few a busy machine takes by itself; a loop that waits for strangers would come late ten times a
 # half-open connection.
 late=$(($(metric "$A" giveway_vehicle_late_scans_total) - late))
@@ -266,6 +286,16 @@ start_unread d --health-port "$A" --log-level debug
 await_health "d drives" 10 "$A" ready 0 '^ready$'
 await_health "d's log is not read" 1 "$A" live 0 '^live$'
 [[ $(metric "$A" giveway_vehicle_log_lines_dropped_total) =~ ^[0-9]+$ ]] || fail "d: dropped lines"
+# --- A loop that hangs for longer ends with its process, which says where all of its threads are.
+start c3 giveway-vehicle --health-port "$C" --hang-on-signal
+await_health "c3 drives" 10 "$C" ready 0 '^ready$'
+since=$(date +%s%N)
+kill -USR2 "${PID[c3]}"
+ended c3 70 "$since" 6000
+grep -q 'watchdog: the control loop has made no progress' "$SCRATCH/c3.log" || fail "c3 does not say why"
+(($(grep -c '^thread ' "$SCRATCH/c3.log") >= 5)) || fail "c3 does not say where its threads are"
+grep -q 'the loop:$' "$SCRATCH/c3.log" || fail "c3 does not say which thread is the loop"
+
 watched_in_vain
 since=$(date +%s%N)
 stops world3

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "services/config/config_dir.h"
 #include "services/config/impair.h"
@@ -47,6 +49,27 @@ int RefuseToRun(const RunOptions& options, const char* reason, const std::except
   return kCouldNotRun;
 }
 
+// For what a run keeps on disk and nobody needs after it.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(bool wanted) {
+    if (!wanted) return;
+    std::string name = std::filesystem::temp_directory_path() / "giveway_run_XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr) throw OutputError("cannot make a folder: " + name);
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code error;
+    if (!path_.empty()) std::filesystem::remove_all(path_, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string File(const char* name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 // In lockstep the world waits for every command, and a vehicle answers scans alone.
 void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario) {
   const Impairment impairment = options.fleet.impair.empty()
@@ -56,6 +79,14 @@ void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario)
   throw InputError({{options.scenario, 0, "--lockstep", "",
                      "the world would wait for ever for the answer to a scan that is lost",
                      "leave --lockstep out, or give --impair none"}});
+}
+
+// The world of a closed fleet ends the run when one of it dies.
+void RefuseRestartOfClosed(const RunOptions& options, const Scenario& scenario) {
+  if (!options.restart || !scenario.spawns.empty()) return;
+  throw InputError({{options.scenario, 0, "--restart", "",
+                     "the scenario names all of its vehicles: a death is the end of its run",
+                     "leave --restart out, or write spawn { ... } in the scenario"}});
 }
 
 int StartAndWatch(const RunOptions& options) {
@@ -68,6 +99,7 @@ int StartAndWatch(const RunOptions& options) {
                        "leave --vehicles out, or write spawn { ... } in the scenario"}});
   }
   RefuseImpairedLockstep(options, scenario);
+  RefuseRestartOfClosed(options, scenario);
   const std::string qos_file = ResolveQosFile(options.qos_file);
   RequireSoundQos(qos_file, DeploymentOf(scenario));
   if (!options.picture_file.empty()) CheckWritable(options.picture_file);
@@ -75,13 +107,16 @@ int StartAndWatch(const RunOptions& options) {
   if (!options.fleet.record_folder.empty()) CheckFolder(options.fleet.record_folder);
 
   const DomainLock lock(options.domain);
-  const FleetSpec spec{.program_folder = ProgramFolder(),
-                       .scenario_file = ResolveScenario(options.scenario),
-                       .domain = lock.Domain(),
-                       .qos_file = qos_file,
-                       .lock_fd = lock.Fd(),
-                       .hands_on_lines = true,
-                       .options = options.fleet};
+  const ScratchFolder scratch(options.restart);
+  FleetSpec spec{.program_folder = ProgramFolder(),
+                 .scenario_file = ResolveScenario(options.scenario),
+                 .domain = lock.Domain(),
+                 .qos_file = qos_file,
+                 .lock_fd = lock.Fd(),
+                 .hands_on_lines = true,
+                 .names_newcomers = options.restart,  // who is one of them comes back as itself
+                 .options = options.fleet};
+  if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
   RunSession session(options, scenario, spec);
   const Report report = session.Run();

@@ -12,6 +12,18 @@ bool IsGoodEnd(const MemberEnd& end, bool open) {
   return !end.how.by_signal && (is_world || end.how.number == 0);
 }
 
+bool IsToComeBack(const MemberEnd& end, unsigned restarts) {
+  constexpr int kDone = 0;
+  constexpr int kCannotStart = 2;
+  constexpr int kNoSuchProgram = 127;
+  if (end.planned || restarts >= kMostRestarts) return false;
+  if (end.how.by_signal) return true;
+  // The world's 1 is its verdict.
+  if (end.member == kTheWorld && end.how.number == 1) return false;
+  return end.how.number != kDone && end.how.number != kCannotStart &&
+         end.how.number != kNoSuchProgram;
+}
+
 // As runtime/log.cc writes them: "12:00:00.000 error   vehicle 2: ...", or an object.
 bool IsErrorLine(std::string_view line) {
   constexpr std::size_t kTimeChars = 12;

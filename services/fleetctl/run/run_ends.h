@@ -15,6 +15,12 @@ bool MayEndEarly(const MemberEnd& end, bool open, bool any_vehicle);
 // fleet: the world's code carries the verdict.
 bool IsGoodEnd(const MemberEnd& end, bool open);
 
+// Whether a process that ended so is started again where the operator wants that: one that was
+// ended by a signal, or that ended itself to come back. Not one that is done, or could not start,
+// and at most kMostRestarts times.
+inline constexpr unsigned kMostRestarts = 10;
+bool IsToComeBack(const MemberEnd& end, unsigned restarts);
+
 // A line of a log that reports an error.
 bool IsErrorLine(std::string_view line);
 

@@ -14,6 +14,7 @@ struct RunOptions {
   std::optional<std::uint32_t> domain;  // absent: the first free one
   std::string qos_file;                 // empty: the shipped one
   FleetOptions fleet;
+  bool restart = false;      // processes that die are started again
   std::string picture_file;  // empty: none is drawn
   bool json = false;         // one JSON object on stdout and nothing else
 };

@@ -68,6 +68,7 @@ TableView MakeView(const Scenario& scenario, std::uint32_t domain, const FleetWa
 RunSession::RunSession(const RunOptions& options, const Scenario& scenario, const FleetSpec& spec)
     : scenario_(scenario),
       open_(!scenario.spawns.empty()),
+      restarts_(options.restart),
       domain_(spec.domain),
       time_limit_(TimeLimit(scenario, spec.options.lockstep)),
       watch_(scenario, !options.picture_file.empty()),
@@ -105,8 +106,21 @@ std::optional<Overruled> RunSession::Supervise() {
     Turn();
     if (Interrupts::Count() > 0) return Overruled{Verdict::kFailed, kInterrupted};
     if (watch_.HasEnded()) return std::nullopt;
+    if (restarts_) BringBack();
     if (const auto gone = FirstEarlyEnd()) return JudgeEnd(*gone);
     if (SteadyNow() > limit) return Overruled{Verdict::kFailed, "overran"};
+  }
+}
+
+void RunSession::BringBack() {
+  const auto stays_down = [this](const MemberEnd& end) {
+    const auto known = brought_back_.find(end.member);
+    return !IsToComeBack(end, known == brought_back_.end() ? 0 : known->second);
+  };
+  while (const auto gone = processes_.FirstEndNotAllowed(stays_down)) {
+    ShowTrouble(*gone, "died and is started again");
+    ++brought_back_[gone->member];
+    processes_.Restart(gone->member);
   }
 }
 

@@ -2,6 +2,7 @@
 // the run when it is over, when a process died, or when the operator says so, and reports.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -29,6 +30,8 @@ class RunSession {
  private:
   // Waits for the run's end. A value where the verdict is not the world's to give.
   std::optional<Overruled> Supervise();
+  // Starts those again that died, if the operator wants it.
+  void BringBack();
   // A process ended that should not have, unless the end of the run is just on its way to us.
   std::optional<Overruled> JudgeEnd(const MemberEnd& gone);
   std::optional<MemberEnd> FirstEarlyEnd() const;
@@ -47,6 +50,7 @@ class RunSession {
 
   const Scenario& scenario_;
   bool open_;
+  bool restarts_;
   std::uint32_t domain_;
   Nanoseconds time_limit_;
   Interrupts interrupts_;
@@ -57,6 +61,7 @@ class RunSession {
   LiveScreen screen_;
   bool stopping_ = false;
   std::size_t errors_shown_ = 0;
+  std::map<MemberId, unsigned> brought_back_;
 };
 
 }  // namespace giveway::fleetctl

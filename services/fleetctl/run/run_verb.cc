@@ -23,7 +23,7 @@ Examples
   fleetctl run intersection_yield
   fleetctl run intersection_equal --picture equal.svg
   fleetctl run intersection_yield --seed 7 --json | jq .min_separation_m
-  fleetctl run open_fleet --vehicles 4
+  fleetctl run open_fleet --vehicles 4 --restart
   fleetctl run intersection_yield --record tapes && fleetctl replay tapes/*
   fleetctl run intersection_yield --impair loss=0.1,delay=20ms,jitter=5ms
   fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
@@ -76,6 +76,11 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
                    "Of an open fleet: start so many that the scenario does not name")
       ->check(CLI::Range(0U, kMostVehicles))
       ->envname("GIVEWAY_VEHICLES");
+  verb->add_flag(
+          "--restart", options->restart,
+          "Of an open fleet: start a process that dies again, a vehicle by its id, the world from "
+          "its checkpoint")
+      ->envname("GIVEWAY_RUN_RESTART");
   verb->add_flag("--lockstep", options->fleet.lockstep,
                  "The world waits for every command of a tick")
       ->envname("GIVEWAY_LOCKSTEP");

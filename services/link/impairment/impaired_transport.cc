@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "services/link/impairment/delay_line.h"
-#include "services/link/impairment/endless_gap.h"
 
 namespace giveway::link {
 namespace {
@@ -67,7 +66,6 @@ void ImpairedTransport::receive(transport::TransportReceiverInterface* receiver,
   LatePacket packet{{bytes, bytes + size}, receiver, local, remote};
   if (fate.flipped_bit) {
     packet.bytes[*fate.flipped_bit / 8] ^= static_cast<rtps::octet>(1U << (*fate.flipped_bit % 8));
-    if (HasEndlessGap(packet.bytes)) return;
   }
   if (fate.copy_delay) Push(now + *fate.copy_delay, packet);
   if (fate.delay == Nanoseconds{0}) return packet.HandOn();

@@ -22,6 +22,19 @@ TEST(RunEnds, OfAClosedFleetOnlyThePlannedAreNotTheEndOfTheRun) {
   EXPECT_FALSE(MayEndEarly({kTheWorld, kLeft, false}, kClosed, kOthersRun));
 }
 
+TEST(RunEnds, WhatDiesComesBackAndWhatIsDoneOrCannotStartDoesNot) {
+  constexpr ProcessEnd kWatchdog{false, 70};
+  EXPECT_TRUE(IsToComeBack({kVehicle, kKilled, false}, 0));
+  EXPECT_TRUE(IsToComeBack({kVehicle, kWatchdog, false}, 0));
+  EXPECT_TRUE(IsToComeBack({kVehicle, kFailed, false}, 0));
+  EXPECT_TRUE(IsToComeBack({kTheWorld, kKilled, false}, kMostRestarts - 1));
+  EXPECT_FALSE(IsToComeBack({kTheWorld, kKilled, false}, kMostRestarts));
+  EXPECT_FALSE(IsToComeBack({kVehicle, kKilled, true}, 0)) << "as planned";
+  EXPECT_FALSE(IsToComeBack({kVehicle, kLeft, false}, 0));
+  EXPECT_FALSE(IsToComeBack({kVehicle, {false, 2}, false}, 0)) << "it cannot start";
+  EXPECT_FALSE(IsToComeBack({kTheWorld, kFailed, false}, 0)) << "that is its verdict";
+}
+
 TEST(RunEnds, AnOpenFleetGoesOnUntilItsLastVehicleOrTheWorldIsGone) {
   EXPECT_TRUE(MayEndEarly({kVehicle, kKilled, false}, kOpen, kOthersRun));
   EXPECT_FALSE(MayEndEarly({kVehicle, kKilled, false}, kOpen, !kOthersRun));

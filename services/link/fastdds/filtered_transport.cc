@@ -1,0 +1,129 @@
+#include "services/link/fastdds/filtered_transport.h"
+
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <mutex>
+#include <utility>
+
+#include "services/link/fastdds/joined_groups.h"
+#include "services/link/fastdds/packets_of_process.h"
+#include "services/link/fastdds/topics.h"
+
+namespace giveway::link {
+namespace {
+
+using std::chrono::steady_clock;
+
+// Counted on the library's threads, read on the loop's. One for all participants: services have
+// one.
+std::array<std::atomic<std::uint64_t>, kPacketDrops> counted{};
+
+std::uint64_t RandomSeed() {
+  std::uint64_t seed = 0;
+  // Without it strangers could find out where writers are kept; nothing else depends on it.
+  if (getrandom(&seed, sizeof seed, 0) != sizeof seed) {
+    seed = static_cast<std::uint64_t>(steady_clock::now().time_since_epoch().count());
+  }
+  return seed;
+}
+
+std::uint32_t Ipv4Of(const rtps::Locator_t& locator) {
+  constexpr std::size_t kIpv4At = 12;
+  std::uint32_t address = 0;
+  for (std::size_t i = 0; i < 4; ++i) address = address << 8U | locator.address[kIpv4At + i];
+  return address;
+}
+
+struct FilteredDescriptor final : transport::ChainingTransportDescriptor {
+  FilteredDescriptor(std::shared_ptr<transport::TransportDescriptorInterface> below,
+                     const FilteredTransportOptions& of_participant)
+      : ChainingTransportDescriptor(std::move(below)), options(of_participant) {}
+  transport::TransportInterface* create_transport() const override;
+
+  FilteredTransportOptions options;
+};
+
+class FilteredTransport final : public ForwardingTransport {
+ public:
+  explicit FilteredTransport(const FilteredDescriptor& descriptor)
+      : ForwardingTransport(descriptor),
+        descriptor_(descriptor),
+        filter_(descriptor.options.filter) {}
+
+  // The library asks for it at every turn: null ends the process.
+  transport::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+
+  bool OpenInputChannel(const rtps::Locator_t& local,
+                        transport::TransportReceiverInterface* receiver,
+                        std::uint32_t max_message_size) override {
+    const bool opened = ForwardingTransport::OpenInputChannel(local, receiver, max_message_size);
+    if (opened && descriptor_.options.joined_interfaces_only) {
+      HearJoinedInterfacesOnly(static_cast<std::uint16_t>(local.port));
+    }
+    return opened;
+  }
+
+  // On the library's threads, one a port.
+  void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes,
+               std::uint32_t size, const rtps::Locator_t& local,
+               const rtps::Locator_t& remote) override {
+    const PacketVerdict verdict = Judge({bytes, size}, Ipv4Of(remote));
+    counted[static_cast<std::size_t>(verdict.drop)].fetch_add(1, std::memory_order_relaxed);
+    if (verdict.drop != PacketDrop::kNone) return;
+    receiver->OnDataReceived(bytes, static_cast<std::uint32_t>(verdict.bytes), local, remote);
+  }
+
+ private:
+  PacketVerdict Judge(Bytes packet, std::uint32_t source) {
+    const std::scoped_lock lock(mutex_);
+    return filter_.Judge(packet, source, SteadyTime(steady_clock::now().time_since_epoch()));
+  }
+
+  FilteredDescriptor descriptor_;
+  std::mutex mutex_;
+  PacketFilter filter_;  // guarded by mutex_
+};
+
+transport::TransportInterface* FilteredDescriptor::create_transport() const {
+  return new FilteredTransport(*this);  // the library owns it
+}
+
+template <typename... Wire>
+std::uint32_t LargestOf() {
+  return std::max({LargestSize(typename TopicOf<Wire>::Type())...});
+}
+
+}  // namespace
+
+std::shared_ptr<transport::TransportDescriptorInterface> MakeFilteredTransport(
+    std::shared_ptr<transport::TransportDescriptorInterface> below,
+    const FilteredTransportOptions& options) {
+  FilteredTransportOptions seeded = options;
+  seeded.filter.seed = RandomSeed();
+  return std::make_shared<FilteredDescriptor>(std::move(below), seeded);
+}
+
+// Types that fit one datagram are never sent in fragments that a smaller bound would refuse.
+std::uint32_t LargestSample() {
+  constexpr std::uint32_t kDatagram = 65536;
+  constexpr std::uint32_t kPadding = 64;
+  static const std::uint32_t largest = std::max(
+      kDatagram, LargestOf<wire::Beacon, wire::Status, wire::Order, wire::Answer, wire::RangeScan,
+                           wire::LidarScan, wire::Roster, wire::Event, wire::Figures>() +
+                     kPadding);
+  return largest;
+}
+
+PacketCounters PacketsOfProcess() {
+  PacketCounters counters;
+  for (std::size_t i = 0; i < kPacketDrops; ++i) {
+    counters.packets[i] = counted[i].load(std::memory_order_relaxed);
+  }
+  return counters;
+}
+
+}  // namespace giveway::link

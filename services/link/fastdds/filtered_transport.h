@@ -1,0 +1,30 @@
+// The profile set's UDP transport with the packet filter between it and the library: a Fast DDS
+// chaining transport that drops what no sound sender sends, and sockets that hear the groups they
+// joined on the interfaces they joined them on, and no others.
+//
+// Shared memory, where a profile names it, is not filtered: who can write into it runs on this
+// machine as this user.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "services/link/fastdds/fastdds_version.h"
+#include "services/link/packet_filter/packet_filter.h"
+
+namespace giveway::link {
+
+struct FilteredTransportOptions {
+  PacketFilterOptions filter;
+  bool joined_interfaces_only = true;  // of multicasts; false where every interface is meant
+};
+
+// `below` is UDPv4, or a chain of transports that ends in it.
+std::shared_ptr<transport::TransportDescriptorInterface> MakeFilteredTransport(
+    std::shared_ptr<transport::TransportDescriptorInterface> below,
+    const FilteredTransportOptions& options);
+
+// The size in bytes of the largest type that a fleet's topics carry, encapsulation included.
+std::uint32_t LargestSample();
+
+}  // namespace giveway::link

@@ -1,0 +1,59 @@
+// Which of the packets that reach a process its DDS library may see. Fast DDS believes what
+// arrives: one packet can end it, fill its memory, or keep it busy for hours. What a sound sender
+// never sends is dropped here, counted by reason, before the library reads it. Pure: no sockets, no
+// clock, no lock.
+//
+// It takes no part in trust: who may speak, and what a sample says, is judged where samples are
+// taken. A packet that is sound, of a plausible sequence number and a forged GUID passes.
+#pragma once
+
+#include <cstdint>
+
+#include "services/link/packet_filter/rtps_bytes.h"
+#include "services/link/packet_filter/writer_table.h"
+#include "services/types/packet_counters.h"
+#include "services/types/time.h"
+
+namespace giveway::link {
+
+struct PacketFilterOptions {
+  std::uint32_t largest_sample = 65536;  // bytes of the largest type
+  std::uint32_t fleet_size = 2;          // decides how many writers are remembered
+  bool loopback_only = false;            // hears 127.0.0.0/8 and nothing else
+  bool secured = false;                  // DDS-Security is on: its submessages pass
+  std::uint64_t seed = 0;                // from the operating system: strangers must not know it
+};
+
+struct PacketVerdict {
+  PacketDrop drop = PacketDrop::kNone;
+  // Of a packet that is handed on: so many bytes of it. The library's own statistics submessage,
+  // which ends each packet it sends, is left out: reading it can end a process.
+  std::size_t bytes = 0;
+};
+
+class PacketFilter {
+ public:
+  // New participants: so many at once, beside two a vehicle, and so many a second from then on.
+  static constexpr std::uint32_t kStrangersAtOnce = 256;
+  static constexpr std::int64_t kStrangersPerSecond = 16;
+
+  explicit PacketFilter(const PacketFilterOptions& options);
+
+  // `source`: the sender's IPv4 address, first octet highest. Calls come in the order of `now`, or
+  // nearly.
+  PacketVerdict Judge(Bytes packet, std::uint32_t source, SteadyTime now);
+
+ private:
+  PacketVerdict CheckParts(Bytes packet) const;
+  PacketDrop CheckWriters(Bytes packet, SteadyTime now);
+  PacketDrop CheckWriter(const Submessage& submessage, const std::uint8_t* prefix, SteadyTime now);
+  bool IsWelcome(const Submessage& announcement, SteadyTime now);
+  bool TakeToken(SteadyTime now);
+
+  PacketFilterOptions options_;
+  WriterTable writers_;
+  std::int64_t tokens_;  // for new participants
+  SteadyTime token_due_{0};
+};
+
+}  // namespace giveway::link

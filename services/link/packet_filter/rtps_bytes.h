@@ -1,0 +1,99 @@
+// The bytes of an RTPS packet: numbers in either byte order, and the walk from one submessage to
+// the next, just as Fast DDS takes it. Reads nothing beyond the packet. Formats: OMG RTPS 2.3, 9.4.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+namespace giveway::link {
+
+using Bytes = std::span<const std::uint8_t>;
+
+inline constexpr std::size_t kRtpsHeaderBytes = 20;
+inline constexpr std::size_t kSubmessageHeaderBytes = 4;
+
+enum class SubmessageKind : std::uint8_t {
+  kPad = 0x01,
+  kAckNack = 0x06,
+  kHeartbeat = 0x07,
+  kGap = 0x08,
+  kInfoTs = 0x09,
+  kInfoSrc = 0x0c,
+  kInfoReplyIp4 = 0x0d,
+  kInfoDst = 0x0e,
+  kInfoReply = 0x0f,
+  kNackFrag = 0x12,
+  kHeartbeatFrag = 0x13,
+  kData = 0x15,
+  kDataFrag = 0x16,
+  kSecureFirst = 0x30,  // of DDS-Security: body, prefix and postfix of submessages and packets
+  kSecureLast = 0x34,
+  kVendorFirst = 0x80  // from here on each vendor's own
+};
+
+struct Submessage {
+  SubmessageKind kind{};
+  std::uint8_t flags = 0;
+  std::uint16_t stated_length = 0;  // 0: to the end of the packet, unless kPad or kInfoTs
+  Bytes body;
+
+  bool Has(std::uint8_t flag) const { return (flags & flag) != 0; }
+  bool IsLittleEndian() const { return Has(1); }
+
+  std::uint16_t U16(std::size_t at) const {
+    std::uint16_t word;
+    std::memcpy(&word, body.data() + at, sizeof word);
+    return IsLittleEndian() ? word : __builtin_bswap16(word);
+  }
+  std::uint32_t U32(std::size_t at) const {
+    std::uint32_t word;
+    std::memcpy(&word, body.data() + at, sizeof word);
+    return IsLittleEndian() ? word : __builtin_bswap32(word);
+  }
+  // The high half stands first in either byte order.
+  std::int64_t SequenceNumber(std::size_t at) const {
+    return static_cast<std::int64_t>(std::uint64_t{U32(at)} << 32U | U32(at + 4));
+  }
+};
+
+// Takes one submessage after the other off a packet.
+class SubmessageWalk {
+ public:
+  explicit SubmessageWalk(Bytes packet) : packet_(packet) {}
+
+  // False at the end, and where a submessage ends beyond the packet: then IsBroken.
+  bool Next(Submessage* to) {
+    start_ = next_;
+    if (start_ >= packet_.size()) return false;
+    const Bytes rest = packet_.subspan(start_);
+    broken_ = rest.size() < kSubmessageHeaderBytes;
+    if (broken_) return false;
+    to->kind = static_cast<SubmessageKind>(rest[0]);
+    to->flags = rest[1];
+    to->body = rest.subspan(2);
+    to->stated_length = to->U16(0);
+    to->body = rest.subspan(kSubmessageHeaderBytes);
+    broken_ = to->stated_length > to->body.size();
+    if (broken_) return false;
+    const bool to_the_end = to->stated_length == 0 && to->kind != SubmessageKind::kPad &&
+                            to->kind != SubmessageKind::kInfoTs;
+    if (!to_the_end) to->body = to->body.first(to->stated_length);
+    next_ = start_ + kSubmessageHeaderBytes + ((to->body.size() + 3) & ~std::size_t{3});
+    return true;
+  }
+  bool IsBroken() const { return broken_; }
+  // Where the submessage begins that Next took last.
+  std::size_t Start() const { return start_; }
+  // Whether it is the last one.
+  bool IsAtEnd() const { return next_ >= packet_.size(); }
+
+ private:
+  Bytes packet_;
+  std::size_t start_ = 0;
+  std::size_t next_ = kRtpsHeaderBytes;
+  bool broken_ = false;
+};
+
+}  // namespace giveway::link

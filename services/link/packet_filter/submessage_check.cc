@@ -1,0 +1,198 @@
+#include "services/link/packet_filter/submessage_check.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace giveway::link {
+namespace {
+
+constexpr std::uint8_t kInlineQos = 0x02;   // flag of DATA and DATA_FRAG
+constexpr std::uint8_t kWithData = 0x04;    // of DATA
+constexpr std::uint8_t kWithKey = 0x08;     // of DATA
+constexpr std::uint8_t kFragOfKey = 0x04;   // of DATA_FRAG
+constexpr std::uint8_t kInvalidate = 0x02;  // of INFO_TS: there is none
+
+constexpr std::uint16_t kSentinel = 1;
+constexpr std::size_t kParameterHeader = 4;
+
+constexpr std::size_t kToQosAt =
+    2;  // of DATA and DATA_FRAG: octets from behind it to the inline QoS
+constexpr std::size_t kBehindToQos = 4;
+constexpr std::size_t kWriterSeqAt = 12;
+constexpr std::size_t kLocatorBytes = 24;
+constexpr std::uint32_t kMostBits = 256;  // of a set of numbers
+// Beyond it nothing can be added to a sequence number without care.
+constexpr std::int64_t kHighestNumber = std::int64_t{1} << 62U;
+
+bool IsNumber(std::int64_t number) { return number > 0 && number <= kHighestNumber; }
+
+std::size_t Padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
+
+// Where the list ends that begins at `at`: behind its sentinel. Nothing if it does not end here.
+std::optional<std::size_t> EndOfParameters(const Submessage& of, std::size_t at) {
+  while (at + kParameterHeader <= of.body.size()) {
+    const std::uint16_t id = of.U16(at);
+    const std::size_t length = Padded(of.U16(at + 2));
+    at += kParameterHeader;
+    if (id == kSentinel) return at;
+    if (length > of.body.size() - at) return std::nullopt;
+    at += length;
+  }
+  return std::nullopt;
+}
+
+// Where the payload of a DATA or DATA_FRAG begins, whose fields take `fields` octets.
+std::optional<std::size_t> EndOfInlineQos(const Submessage& data, std::size_t fields) {
+  const std::size_t qos = kBehindToQos + data.U16(kToQosAt);
+  if (qos < fields || qos > data.body.size()) return std::nullopt;
+  return data.Has(kInlineQos) ? EndOfParameters(data, qos) : qos;
+}
+
+constexpr std::size_t kDataFields = 20;
+constexpr std::size_t kDataFragFields = 32;
+constexpr std::size_t kEncapsulation = 4;
+
+PacketDrop CheckData(const Submessage& data) {
+  if (data.body.size() < kDataFields) return PacketDrop::kMalformed;
+  const bool has_payload = data.Has(kWithData) || data.Has(kWithKey);
+  if (data.Has(kWithData) && data.Has(kWithKey)) return PacketDrop::kMalformed;
+  if (!IsNumber(data.SequenceNumber(kWriterSeqAt))) return PacketDrop::kMalformed;
+  const auto payload = EndOfInlineQos(data, kDataFields);
+  if (!payload) return PacketDrop::kListTooLong;
+  const bool too_short = has_payload && data.body.size() - *payload < kEncapsulation;
+  return too_short ? PacketDrop::kMalformed : PacketDrop::kNone;
+}
+
+// What a DATA_FRAG says of its place in the sample.
+struct Fragments {
+  std::uint32_t first;   // from 1
+  std::uint16_t count;   // in this submessage
+  std::uint16_t bytes;   // of each but the sample's last
+  std::uint32_t sample;  // bytes
+};
+
+// The bytes that these fragments are of their sample; 0 where they are not of it.
+std::uint64_t BytesOf(const Fragments& fragments) {
+  if (fragments.first == 0 || fragments.count == 0 || fragments.bytes == 0) return 0;
+  const std::uint64_t before = (fragments.first - std::uint64_t{1}) * fragments.bytes;
+  const std::uint64_t wanted = std::uint64_t{fragments.count} * fragments.bytes;
+  if (before >= fragments.sample) return 0;
+  const std::uint64_t left = fragments.sample - before;
+  // All but the last fragment must be whole.
+  return wanted < left + fragments.bytes ? std::min(wanted, left) : 0;
+}
+
+PacketDrop CheckDataFrag(const Submessage& frag, std::uint32_t largest_sample) {
+  if (frag.body.size() < kDataFragFields || frag.Has(kFragOfKey)) return PacketDrop::kMalformed;
+  if (!IsNumber(frag.SequenceNumber(kWriterSeqAt))) return PacketDrop::kMalformed;
+  const Fragments fragments{frag.U32(20), frag.U16(24), frag.U16(26), frag.U32(28)};
+  if (fragments.sample > largest_sample) return PacketDrop::kSampleTooLarge;
+  const auto payload = EndOfInlineQos(frag, kDataFragFields);
+  if (!payload) return PacketDrop::kListTooLong;
+  const std::uint64_t wanted = BytesOf(fragments);
+  const std::size_t there = frag.body.size() - *payload;
+  const bool fits = wanted > 0 && there >= wanted && there <= Padded(wanted);
+  return fits ? PacketDrop::kNone : PacketDrop::kMalformed;
+}
+
+PacketDrop CheckHeartbeat(const Submessage& heartbeat) {
+  if (heartbeat.body.size() < 28) return PacketDrop::kMalformed;
+  const std::int64_t first = heartbeat.SequenceNumber(8);
+  const std::int64_t last = heartbeat.SequenceNumber(16);
+  const bool sound = IsNumber(first) && last >= first - 1 && last <= kHighestNumber;
+  return sound ? PacketDrop::kNone : PacketDrop::kMalformed;
+}
+
+// The bits of a set of numbers whose count stands at `at`, and `behind` more octets. `behind` may
+// be less than what a later version of the protocol appends.
+PacketDrop CheckBits(const Submessage& of, std::size_t at, std::size_t behind) {
+  const std::uint32_t bits = of.U32(at);
+  if (bits > kMostBits) return PacketDrop::kListTooLong;
+  const std::size_t end = at + 4 + 4 * ((bits + 31) / 32) + behind;
+  return end <= of.body.size() ? PacketDrop::kNone : PacketDrop::kListTooLong;
+}
+
+PacketDrop CheckGap(const Submessage& gap) {
+  if (gap.body.size() < 28) return PacketDrop::kMalformed;
+  const std::int64_t start = gap.SequenceNumber(8);
+  const std::int64_t base = gap.SequenceNumber(16);
+  if (!IsNumber(start) || !IsNumber(base) || base < start) return PacketDrop::kMalformed;
+  if (base - start > kLongestGap) return PacketDrop::kRangeTooLong;
+  return CheckBits(gap, 24, 0);
+}
+
+PacketDrop CheckAckNack(const Submessage& acknack) {
+  if (acknack.body.size() < 24) return PacketDrop::kMalformed;
+  const std::int64_t base = acknack.SequenceNumber(8);
+  if (base < 0 || base > kHighestNumber) return PacketDrop::kMalformed;
+  return CheckBits(acknack, 16, 4);
+}
+
+PacketDrop CheckNackFrag(const Submessage& nack) {
+  if (nack.body.size() < 28) return PacketDrop::kMalformed;
+  if (!IsNumber(nack.SequenceNumber(8))) return PacketDrop::kMalformed;
+  return CheckBits(nack, 20, 4);
+}
+
+PacketDrop CheckInfoReply(const Submessage& reply) {
+  if (reply.body.size() < 4) return PacketDrop::kMalformed;
+  const std::size_t room = (reply.body.size() - 4) / kLocatorBytes;
+  return reply.U32(0) <= room ? PacketDrop::kNone : PacketDrop::kListTooLong;
+}
+
+PacketDrop AtLeast(const Submessage& submessage, std::size_t bytes) {
+  return submessage.body.size() >= bytes ? PacketDrop::kNone : PacketDrop::kMalformed;
+}
+
+}  // namespace
+
+PacketDrop CheckSubmessage(const Submessage& submessage, std::uint32_t largest_sample) {
+  switch (submessage.kind) {
+    case SubmessageKind::kData:
+      return CheckData(submessage);
+    case SubmessageKind::kDataFrag:
+      return CheckDataFrag(submessage, largest_sample);
+    case SubmessageKind::kHeartbeat:
+      return CheckHeartbeat(submessage);
+    case SubmessageKind::kGap:
+      return CheckGap(submessage);
+    case SubmessageKind::kAckNack:
+      return CheckAckNack(submessage);
+    case SubmessageKind::kNackFrag:
+      return CheckNackFrag(submessage);
+    case SubmessageKind::kHeartbeatFrag:
+      return AtLeast(submessage, 24);
+    case SubmessageKind::kInfoTs:
+      return AtLeast(submessage, submessage.Has(kInvalidate) ? 0 : 8);
+    case SubmessageKind::kInfoDst:
+      return AtLeast(submessage, 12);
+    case SubmessageKind::kInfoSrc:
+      return AtLeast(submessage, 20);
+    case SubmessageKind::kInfoReply:
+      return CheckInfoReply(submessage);
+    case SubmessageKind::kInfoReplyIp4:
+      return AtLeast(submessage, 8);
+    case SubmessageKind::kPad:
+      return PacketDrop::kNone;
+    default:
+      return PacketDrop::kUnknownKind;
+  }
+}
+
+std::size_t PayloadOfData(const Submessage& data) {
+  return EndOfInlineQos(data, kDataFields).value_or(data.body.size());
+}
+
+Bytes FindParameter(const Submessage& submessage, std::size_t list, std::uint16_t id) {
+  while (list + kParameterHeader <= submessage.body.size()) {
+    const std::uint16_t found = submessage.U16(list);
+    const std::size_t length = submessage.U16(list + 2);
+    list += kParameterHeader;
+    if (found == kSentinel || length > submessage.body.size() - list) break;
+    if (found == id) return submessage.body.subspan(list, length);
+    list += Padded(length);
+  }
+  return {};
+}
+
+}  // namespace giveway::link

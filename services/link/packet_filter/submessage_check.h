@@ -1,0 +1,26 @@
+// Whether one submessage is sound by itself: its fields fit each other and end where it ends. Knows
+// nothing of what came before; see writer_table.h for that.
+#pragma once
+
+#include <cstdint>
+
+#include "services/link/packet_filter/rtps_bytes.h"
+#include "services/types/packet_counters.h"
+
+namespace giveway::link {
+
+// Sequence numbers a GAP may span at most. The library steps through them one by one under the
+// locks that all receiving threads need: CVE-2025-64438. These take it 10 ms.
+inline constexpr std::int64_t kLongestGap = 100'000;
+
+// kNone if it is sound. `largest_sample` in bytes, encapsulation included.
+PacketDrop CheckSubmessage(const Submessage& submessage, std::uint32_t largest_sample);
+
+// Where in a DATA, checked before, its payload begins: behind the inline QoS.
+std::size_t PayloadOfData(const Submessage& data);
+
+// What a checked parameter list holds under an id; empty if it has none. `list` begins with the
+// first parameter.
+Bytes FindParameter(const Submessage& submessage, std::size_t list, std::uint16_t id);
+
+}  // namespace giveway::link

@@ -1,0 +1,254 @@
+#include "tests/attack/attacks.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <random>
+
+#include "tests/support/rtps_packet.h"
+
+namespace giveway::attack {
+namespace {
+
+using test::PacketBytes;
+using test::PrefixBytes;
+using test::RtpsPacket;
+
+constexpr std::int64_t kFar = 4'000'000'000;
+constexpr std::uint32_t kParticipants = 12;  // tried, of a domain
+constexpr std::size_t kHeader = 20;
+
+in_addr Group() { return AddressOf("239.255.0.1"); }
+
+bool IsOver(std::chrono::steady_clock::time_point begun, const Target& target) {
+  return std::chrono::steady_clock::now() - begun > target.time;
+}
+
+// To the group, and to every port that a participant of the domain may have.
+void SendToAll(const PacketBytes& packet, const Target& target, UdpSender* sender) {
+  sender->Send(packet, Group(), MulticastPort(target.domain));
+  for (std::uint32_t i = 0; i < kParticipants; ++i) {
+    for (const bool user : {false, true}) {
+      sender->Send(packet, target.address, UnicastPort(target.domain, i, user));
+    }
+  }
+}
+
+// A submessage of a captured packet that names a writer.
+struct Heard {
+  const Packet* packet = nullptr;
+  std::size_t at = 0;  // of its header
+  std::uint8_t kind = 0;
+  PrefixBytes prefix{};
+  std::uint32_t writer = 0;
+  std::uint32_t reader = 0;
+};
+
+std::uint32_t EntityAt(const PacketBytes& bytes, std::size_t at) {
+  return std::uint32_t{bytes[at]} << 24U | std::uint32_t{bytes[at + 1]} << 16U |
+         std::uint32_t{bytes[at + 2]} << 8U | bytes[at + 3];
+}
+
+// The DATA and HEARTBEAT of a packet; Fast DDS writes them little-endian here.
+void FindHeard(const Packet& packet, std::vector<Heard>* found) {
+  const PacketBytes& bytes = packet.bytes;
+  for (std::size_t at = kHeader; at + 4 <= bytes.size();) {
+    const bool little = (bytes[at + 1] & 1U) != 0;
+    const std::size_t length =
+        little ? bytes[at + 2] + 256U * bytes[at + 3] : bytes[at + 3] + 256U * bytes[at + 2];
+    if (at + 4 + length > bytes.size()) return;
+    const std::uint8_t kind = bytes[at];
+    const std::size_t reader_at = at + 4 + (kind == 0x15 ? 4 : 0);
+    if (little && (kind == 0x15 || kind == 0x07) && length >= 20) {
+      Heard heard{
+          &packet, at, kind, {}, EntityAt(bytes, reader_at + 4), EntityAt(bytes, reader_at)};
+      std::copy_n(bytes.begin() + 8, heard.prefix.size(), heard.prefix.begin());
+      found->push_back(heard);
+    }
+    at += 4 + length;
+  }
+}
+
+// One of each writer and destination.
+std::vector<Heard> WritersOf(const Target& target) {
+  std::vector<Heard> all;
+  for (const Packet& packet : target.captured) FindHeard(packet, &all);
+  const auto key = [](const Heard& heard) {
+    return std::tuple(heard.prefix, heard.writer, heard.packet->to.s_addr, heard.packet->port);
+  };
+  std::ranges::sort(all, {}, key);
+  all.erase(std::unique(all.begin(), all.end(),
+                        [&](const Heard& a, const Heard& b) { return key(a) == key(b); }),
+            all.end());
+  return all;
+}
+
+// Forges of every writer heard, again and again.
+void AsEachWriter(const Target& target, UdpSender* sender,
+                  const std::function<PacketBytes(const Heard&, std::uint32_t turn)>& forge) {
+  const auto begun = std::chrono::steady_clock::now();
+  const std::vector<Heard> writers = WritersOf(target);
+  for (std::uint32_t turn = 1; !writers.empty() && !IsOver(begun, target); ++turn) {
+    for (const Heard& heard : writers) {
+      sender->Send(forge(heard, turn), heard.packet->to, heard.packet->port);
+    }
+  }
+}
+
+// 84 bytes: a statistics submessage that is not the last one.
+void Statistics(const Target& target, UdpSender* sender) {
+  const auto begun = std::chrono::steady_clock::now();
+  PacketBytes packet = RtpsPacket({1, 15, 66}).Statistics().Bytes();
+  packet.resize(84);
+  while (!IsOver(begun, target)) SendToAll(packet, target, sender);
+}
+
+void Fragments(const Target& target, UdpSender* sender) {
+  AsEachWriter(target, sender, [](const Heard& heard, std::uint32_t turn) {
+    return RtpsPacket(heard.prefix)
+        .DataFrag(heard.writer, 1000 + turn, 1, 1, 1000, 4'000'000'000, 1000, heard.reader)
+        .Bytes();
+  });
+}
+
+// Reliable writers of a process that may have been silent: the builtin ones, and those that the
+// library numbers as they are made, with a key or without.
+std::vector<std::uint32_t> ReliableWriters(const Heard& heard) {
+  std::vector<std::uint32_t> writers{heard.writer, 0x000003c2, 0x000004c2, 0x000200c2};
+  for (std::uint32_t i = 1; i <= 20; ++i) {
+    writers.push_back(i << 8U | 0x02);
+    writers.push_back(i << 8U | 0x03);
+  }
+  return writers;
+}
+
+void Gaps(const Target& target, UdpSender* sender) {
+  AsEachWriter(target, sender, [](const Heard& heard, std::uint32_t) {
+    RtpsPacket packet(heard.prefix);
+    for (const std::uint32_t writer : ReliableWriters(heard)) packet.Gap(writer, 1, kFar);
+    return packet.Bytes();
+  });
+}
+
+void Heartbeats(const Target& target, UdpSender* sender) {
+  AsEachWriter(target, sender, [](const Heard& heard, std::uint32_t turn) {
+    RtpsPacket packet(heard.prefix);
+    for (const std::uint32_t writer : ReliableWriters(heard)) {
+      packet.Heartbeat(writer, kFar, kFar, 1'000'000 + turn);
+    }
+    return packet.Bytes();
+  });
+}
+
+// What was just said, 2^40 numbers ahead.
+void Jumps(const Target& target, UdpSender* sender) {
+  AsEachWriter(target, sender, [](const Heard& heard, std::uint32_t turn) {
+    PacketBytes copy = heard.packet->bytes;
+    if (heard.kind != 0x15) return copy;
+    const std::size_t number = heard.at + 4 + 12;  // its high half
+    copy[number + 1] = 1;                          // 2^8 of 2^32
+    copy[number + 4] = static_cast<std::uint8_t>(copy[number + 4] + turn);
+    return copy;
+  });
+}
+
+// What was said before, again.
+void Replay(const Target& target, UdpSender* sender) {
+  const auto begun = std::chrono::steady_clock::now();
+  while (!target.captured.empty() && !IsOver(begun, target)) {
+    for (const Packet& packet : target.captured) sender->Send(packet.bytes, packet.to, packet.port);
+  }
+}
+
+// 5 000 participants that are not there.
+void Strangers(const Target& target, UdpSender* sender) {
+  std::mt19937_64 random(target.seed);
+  for (int i = 0; i < 5000; ++i) {
+    PrefixBytes prefix{1, 15};
+    for (std::size_t byte = 2; byte < prefix.size(); ++byte) {
+      prefix[byte] = static_cast<std::uint8_t>(random());
+    }
+    sender->Send(RtpsPacket(prefix).Announcement(prefix, 1).Bytes(), Group(),
+                 MulticastPort(target.domain));
+  }
+}
+
+void SpoilNumber(PacketBytes* packet, std::size_t at, std::mt19937_64* random) {
+  constexpr std::uint8_t kExtremes[] = {0, 1, 0x7f, 0x80, 0xff};
+  const std::size_t size = std::size_t{1} << ((*random)() % 4);
+  for (std::size_t i = 0; i < size && at + i < packet->size(); ++i) {
+    (*packet)[at + i] = kExtremes[(*random)() % std::size(kExtremes)];
+  }
+}
+
+// A captured packet with a few places changed: its bits, its numbers, its end, its kinds.
+PacketBytes Spoilt(PacketBytes packet, const Target& target, std::mt19937_64* random) {
+  const auto place = [&](std::size_t from) {
+    return from + (*random)() % std::max<std::size_t>(packet.size() - from, 1);
+  };
+  const int changes = 1 + static_cast<int>((*random)() % 4);
+  for (int i = 0; i < changes && packet.size() > kHeader; ++i) {
+    switch ((*random)() % 6) {
+      case 0:
+        packet[place(0)] ^= static_cast<std::uint8_t>(1U << ((*random)() % 8));
+        break;
+      case 1:
+        packet[place(kHeader)] = static_cast<std::uint8_t>((*random)());
+        break;
+      case 2:
+        SpoilNumber(&packet, place(kHeader), random);
+        break;
+      case 3:
+        packet.resize(place(kHeader));
+        break;
+      case 4:
+        packet[kHeader] = static_cast<std::uint8_t>((*random)() % 0x38);
+        break;
+      default: {  // the rest of another one behind it
+        const PacketBytes& other = target.captured[(*random)() % target.captured.size()].bytes;
+        packet.insert(packet.end(), other.begin() + kHeader, other.end());
+      }
+    }
+  }
+  return packet;
+}
+
+void Fuzz(const Target& target, UdpSender* sender) {
+  const auto begun = std::chrono::steady_clock::now();
+  std::mt19937_64 random(target.seed);
+  while (!target.captured.empty() && !IsOver(begun, target)) {
+    const Packet& model = target.captured[random() % target.captured.size()];
+    sender->Send(Spoilt(model.bytes, target, &random), model.to, model.port);
+  }
+}
+
+// Bytes of no meaning to every port.
+void Flood(const Target& target, UdpSender* sender) {
+  const auto begun = std::chrono::steady_clock::now();
+  std::mt19937_64 random(target.seed);
+  PacketBytes noise(200);
+  while (!IsOver(begun, target)) {
+    for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random());
+    SendToAll(noise, target, sender);
+  }
+}
+
+}  // namespace
+
+std::uint16_t MulticastPort(std::uint32_t domain) {
+  return static_cast<std::uint16_t>(7400 + 250 * domain);
+}
+
+std::uint16_t UnicastPort(std::uint32_t domain, std::uint32_t participant, bool user) {
+  return static_cast<std::uint16_t>(7410 + 250 * domain + 2 * participant + (user ? 1 : 0));
+}
+
+const std::map<std::string, Attack>& Attacks() {
+  static const std::map<std::string, Attack> kAttacks{
+      {"flood", Flood},   {"fragments", Fragments},   {"fuzz", Fuzz},
+      {"gaps", Gaps},     {"heartbeats", Heartbeats}, {"jumps", Jumps},
+      {"replay", Replay}, {"statistics", Statistics}, {"strangers", Strangers}};
+  return kAttacks;
+}
+
+}  // namespace giveway::attack

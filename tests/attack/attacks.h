@@ -1,0 +1,34 @@
+// What is sent at a fleet: one function an attack. Each goes by what was captured of the fleet, as
+// an intruder would who needs no credentials.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/attack/capture.h"
+#include "tests/attack/udp_sender.h"
+
+namespace giveway::attack {
+
+struct Target {
+  std::uint32_t domain = 0;
+  in_addr address{};             // of one participant's ports
+  std::vector<Packet> captured;  // of the fleet; may be empty
+  std::chrono::milliseconds time{3000};
+  std::uint64_t seed = 1;
+};
+
+using Attack = std::function<void(const Target&, UdpSender*)>;
+
+// By name, as on the command line.
+const std::map<std::string, Attack>& Attacks();
+
+// The ports of a domain: RTPS 2.3, 9.6.1.1.
+std::uint16_t MulticastPort(std::uint32_t domain);
+std::uint16_t UnicastPort(std::uint32_t domain, std::uint32_t participant, bool user);
+
+}  // namespace giveway::attack

@@ -1,0 +1,321 @@
+// What the packet filter hands on and what it drops: submessages by themselves first, then numbers
+// and announcements by what came before.
+#include "services/link/packet_filter/packet_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "services/link/packet_filter/submessage_check.h"
+#include "tests/support/rtps_packet.h"
+
+namespace giveway::link {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::PacketBytes;
+using test::RtpsPacket;
+
+constexpr std::uint32_t kHere = 0x7f000001;
+constexpr std::uint32_t kElsewhere = 0x0a000001;
+constexpr std::int64_t kFar = 4'000'000'000;
+constexpr SteadyTime kStart = seconds(1000);
+constexpr test::PrefixBytes kPeer = {1, 15, 7};
+const PacketBytes kPayload = {0, 1, 0, 0, 1, 2, 3, 4};
+
+RtpsPacket FromPeer(bool little = true) { return RtpsPacket(kPeer, test::kEProsima, little); }
+
+PacketDrop Alone(const PacketBytes& packet, const PacketFilterOptions& options = {}) {
+  return PacketFilter(options).Judge(packet, kHere, kStart).drop;
+}
+PacketDrop Alone(const RtpsPacket& packet) { return Alone(packet.Bytes()); }
+
+PacketBytes FromAnotherVendor() {
+  return RtpsPacket(kPeer, test::kCyclone).Add(0x81, 0, PacketBytes(8)).InfoTs().Bytes();
+}
+
+TEST(PacketFilter, HandsOnWhatFastDdsSends) {
+  for (const bool little : {true, false}) {
+    EXPECT_EQ(Alone(FromPeer(little).InfoTs().Data(test::kUserWriter, 1, kPayload)),
+              PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).InfoDst(kPeer).Heartbeat(test::kUserWriter, 1, 0, 1)),
+              PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).Gap(test::kUserWriter, 3, 5, 40)), PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).AckNack(test::kUserWriter, 0, 0, 0)), PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).AckNack(test::kUserWriter, 9, 256, 8)), PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).Announcement(kPeer, 1)), PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).DataFrag(test::kUserWriter, 1, 1, 1, 1000, 2184, 1000)),
+              PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).DataFrag(test::kUserWriter, 1, 3, 1, 1000, 2184, 184)),
+              PacketDrop::kNone);
+  }
+}
+
+TEST(PacketFilter, HandsOnAnotherVendorsOwnKindsWhichTheLibraryDoesNotRead) {
+  EXPECT_EQ(Alone(FromAnotherVendor()), PacketDrop::kNone);
+}
+
+TEST(PacketFilter, DropsWhatIsNoRtps) {
+  EXPECT_EQ(Alone(PacketBytes{}), PacketDrop::kNotRtps);
+  EXPECT_EQ(Alone(PacketBytes(20, 'x')), PacketDrop::kNotRtps);
+  PacketBytes packet = FromPeer().InfoTs().Bytes();
+  packet[4] = 3;  // its major version
+  EXPECT_EQ(Alone(packet), PacketDrop::kNotRtps);
+}
+
+// Issue 25: one multicast of 84 bytes ended the world and every vehicle.
+TEST(PacketFilter, DropsStatisticsThatTheLibraryWouldDieOf) {
+  PacketBytes packet = FromPeer().Statistics().Bytes();
+  packet.resize(84);
+  EXPECT_EQ(Alone(packet), PacketDrop::kStatistics);
+  EXPECT_EQ(Alone(FromPeer().Statistics()), PacketDrop::kStatistics) << "nothing else in it";
+  EXPECT_EQ(Alone(FromPeer().InfoTs().Add(0x80, 0, PacketBytes(55))), PacketDrop::kStatistics);
+  EXPECT_EQ(Alone(FromPeer().InfoTs().Add(0x80, 0, PacketBytes(56), 0)), PacketDrop::kStatistics);
+  EXPECT_EQ(Alone(FromPeer().InfoTs().Statistics().InfoTs()), PacketDrop::kStatistics);
+}
+
+TEST(PacketFilter, CutsOffTheStatisticsThatEndASoundPacket) {
+  const PacketBytes without = FromPeer().InfoTs().Data(test::kUserWriter, 1, kPayload).Bytes();
+  const PacketBytes with =
+      FromPeer().InfoTs().Data(test::kUserWriter, 1, kPayload).Statistics().Bytes();
+  const PacketVerdict verdict = PacketFilter({}).Judge(with, kHere, kStart);
+  EXPECT_EQ(verdict.drop, PacketDrop::kNone);
+  EXPECT_EQ(verdict.bytes, without.size());
+}
+
+TEST(PacketFilter, DropsKindsThatNobodySends) {
+  for (const int kind : {0x00, 0x02, 0x0a, 0x14, 0x17, 0x30, 0x34, 0x7f, 0x81, 0xff}) {
+    EXPECT_EQ(Alone(FromPeer().Add(static_cast<std::uint8_t>(kind), 0, PacketBytes(32))),
+              PacketDrop::kUnknownKind)
+        << kind;
+  }
+}
+
+TEST(PacketFilter, HandsOnSecureKindsWhereSecurityIsOn) {
+  for (std::uint8_t kind = 0x30; kind <= 0x34; ++kind) {
+    const PacketBytes packet = FromPeer().Add(kind, 0, PacketBytes(32)).Bytes();
+    EXPECT_EQ(Alone(packet, {.secured = true}), PacketDrop::kNone);
+  }
+}
+
+TEST(PacketFilter, DropsListsThatEndBeyondWhatHoldsThem) {
+  EXPECT_EQ(Alone(FromPeer().AckNack(test::kUserWriter, 1, 64, 1)), PacketDrop::kListTooLong);
+  EXPECT_EQ(Alone(FromPeer().AckNack(test::kUserWriter, 1, 257, 9)), PacketDrop::kListTooLong);
+  EXPECT_EQ(Alone(FromPeer().Gap(test::kUserWriter, 1, 2, 257)), PacketDrop::kListTooLong);
+  EXPECT_EQ(Alone(FromPeer().Add(0x0f, 0, PacketBytes(24, 0xff))), PacketDrop::kListTooLong);
+  EXPECT_EQ(Alone(FromPeer().Add(0x01, 0, PacketBytes(4), 8)), PacketDrop::kListTooLong);
+  PacketBytes qos_without_end(28);
+  qos_without_end[2] = 16;  // octets to the inline QoS
+  qos_without_end[19] = 0;  // the number's low half, little-endian
+  qos_without_end[16] = 1;
+  qos_without_end[20] = 0x70;
+  qos_without_end[22] = 0xf0;
+  EXPECT_EQ(Alone(FromPeer().Add(0x15, 0x02, qos_without_end)), PacketDrop::kListTooLong);
+}
+
+TEST(PacketFilter, DropsSubmessagesThatContradictThemselves) {
+  EXPECT_EQ(Alone(FromPeer().Data(test::kUserWriter, 0, kPayload)), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Data(test::kUserWriter, -1, kPayload)), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Data(test::kUserWriter, 1, PacketBytes(3))), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Heartbeat(test::kUserWriter, 0, 5, 1)), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Heartbeat(test::kUserWriter, 7, 5, 1)), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Gap(test::kUserWriter, 5, 4)), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Add(0x0e, 0, PacketBytes(8))), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Add(0x09, 0, PacketBytes(4))), PacketDrop::kMalformed);
+}
+
+// Issue 25: +3.9 GB, never freed.
+TEST(PacketFilter, DropsFragmentsOfWhatNoTypeIsAsLargeAs) {
+  EXPECT_EQ(Alone(FromPeer().DataFrag(test::kUserWriter, 1, 1, 1, 1000, 4'000'000'000, 1000)),
+            PacketDrop::kSampleTooLarge);
+  EXPECT_EQ(Alone(FromPeer().DataFrag(test::kUserWriter, 1, 1, 1, 1000, 65537, 1000)),
+            PacketDrop::kSampleTooLarge);
+}
+
+// CVE-2025-62799, CVE-2026-22590: the library copies by what is stated.
+TEST(PacketFilter, DropsFragmentsThatAreNotOfTheirSample) {
+  const auto fragment = [](std::uint32_t first, std::uint16_t count, std::uint16_t size,
+                           std::size_t payload) {
+    return Alone(FromPeer().DataFrag(test::kUserWriter, 1, first, count, size, 2184, payload));
+  };
+  EXPECT_EQ(fragment(1, 2, 1000, 2000), PacketDrop::kNone);
+  EXPECT_EQ(fragment(1, 3, 1000, 2184), PacketDrop::kNone);
+  EXPECT_EQ(fragment(0, 1, 1000, 1000), PacketDrop::kMalformed);
+  EXPECT_EQ(fragment(4, 1, 1000, 1000), PacketDrop::kMalformed);
+  EXPECT_EQ(fragment(3, 2, 1000, 184), PacketDrop::kMalformed);
+  EXPECT_EQ(fragment(1, 1, 1000, 996), PacketDrop::kMalformed);
+  EXPECT_EQ(fragment(3, 1, 1000, 1000), PacketDrop::kMalformed);
+  EXPECT_EQ(fragment(1, 1, 0, 0), PacketDrop::kMalformed);
+}
+
+// CVE-2025-64438.
+TEST(PacketFilter, DropsGapsOfMoreSamplesThanAnyWriterKeeps) {
+  for (const bool little : {true, false}) {
+    EXPECT_EQ(Alone(FromPeer(little).Gap(test::kUserWriter, 1, 1 + kLongestGap)),
+              PacketDrop::kNone);
+    EXPECT_EQ(Alone(FromPeer(little).Gap(test::kUserWriter, 1, 2 + kLongestGap)),
+              PacketDrop::kRangeTooLong);
+    EXPECT_EQ(Alone(FromPeer(little).Gap(test::kUserWriter, 1, kFar)), PacketDrop::kRangeTooLong);
+  }
+  PacketBytes unstated = FromPeer().InfoTs().Gap(test::kUserWriter, 1, kFar).Bytes();
+  unstated[20 + 12 + 2] = 0;  // its length
+  EXPECT_EQ(Alone(unstated), PacketDrop::kRangeTooLong);
+}
+
+TEST(PacketFilter, ReadsNothingBehindTheEndOfAPacket) {
+  const PacketBytes whole =
+      FromPeer().InfoTs().Announcement(kPeer, 1).Gap(test::kUserWriter, 1, 9, 40).Bytes();
+  for (std::size_t size = 0; size <= whole.size(); ++size) {
+    const PacketBytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    Alone(cut);  // under a sanitizer
+  }
+}
+
+TEST(PacketFilter, OnLoopbackHearsLoopback) {
+  PacketFilter filter({.loopback_only = true});
+  const PacketBytes packet = FromPeer().InfoTs().Bytes();
+  EXPECT_EQ(filter.Judge(packet, kHere, kStart).drop, PacketDrop::kNone);
+  EXPECT_EQ(filter.Judge(packet, kElsewhere, kStart).drop, PacketDrop::kForeignSource);
+  EXPECT_EQ(PacketFilter({}).Judge(packet, kElsewhere, kStart).drop, PacketDrop::kNone);
+}
+
+// A writer at 20 Hz, as one receiver hears it.
+class Received20Hz {
+ public:
+  PacketDrop Data(std::int64_t number) {
+    return filter_.Judge(FromPeer().Data(test::kUserWriter, number, kPayload).Bytes(), kHere, now_)
+        .drop;
+  }
+  PacketDrop Heartbeat(std::int64_t first, std::int64_t last) {
+    return filter_
+        .Judge(FromPeer().Heartbeat(test::kUserWriter, first, last, 1).Bytes(), kHere, now_)
+        .drop;
+  }
+  void Wait(Nanoseconds time) { now_ += time; }
+
+ private:
+  PacketFilter filter_{{}};
+  SteadyTime now_ = kStart;
+};
+
+// Issue 25: one copy of a scan with a number 2^40 ahead, and the vehicle halts for good.
+TEST(PacketFilter, DropsNumbersThatTheWritersRateDoesNotAllow) {
+  Received20Hz receiver;
+  EXPECT_EQ(receiver.Data(100), PacketDrop::kNone);
+  receiver.Wait(milliseconds(50));
+  EXPECT_EQ(receiver.Data(101 + (std::int64_t{1} << 40U)), PacketDrop::kSequenceJump);
+  EXPECT_EQ(receiver.Data(100 + WriterTable::kSlack + 20), PacketDrop::kSequenceJump);
+  EXPECT_EQ(receiver.Heartbeat(kFar, kFar), PacketDrop::kSequenceJump);
+  EXPECT_EQ(receiver.Data(101), PacketDrop::kNone) << "and the writer is heard on";
+}
+
+TEST(PacketFilter, HandsOnWhatComesAgainOrAfterALoss) {
+  Received20Hz receiver;
+  EXPECT_EQ(receiver.Data(100), PacketDrop::kNone);
+  EXPECT_EQ(receiver.Data(100), PacketDrop::kNone);
+  EXPECT_EQ(receiver.Data(3), PacketDrop::kNone) << "sent again, or a restart";
+  EXPECT_EQ(receiver.Data(100 + WriterTable::kSlack), PacketDrop::kNone);
+  receiver.Wait(seconds(60));
+  EXPECT_EQ(receiver.Data(100 + WriterTable::kSlack + 60 * 20), PacketDrop::kNone) << "a blackout";
+}
+
+TEST(PacketFilter, HandsOnTheFirstThatIsHeardOfAnOldWriter) {
+  EXPECT_EQ(Received20Hz().Data(WriterTable::kMostAtFirst), PacketDrop::kNone);
+  EXPECT_EQ(Received20Hz().Heartbeat(WriterTable::kMostAtFirst - 9, WriterTable::kMostAtFirst),
+            PacketDrop::kNone);
+  EXPECT_EQ(Received20Hz().Heartbeat(kFar, kFar), PacketDrop::kSequenceJump);
+}
+
+TEST(PacketFilter, BelievesAJumpThatTheWriterKeepsTo) {
+  Received20Hz receiver;
+  EXPECT_EQ(receiver.Data(100), PacketDrop::kNone);
+  int dropped = 0;
+  for (std::int64_t number = 900'000; receiver.Data(number) != PacketDrop::kNone; ++number) {
+    ASSERT_LT(++dropped, 20);
+    receiver.Wait(milliseconds(50));
+  }
+  EXPECT_GE(dropped, 10) << "half a second";
+}
+
+TEST(PacketFilter, BelievesNoJumpWhileTheWriterIsHeardOnItsFormerLine) {
+  Received20Hz receiver;
+  for (std::int64_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(receiver.Data(100 + i), PacketDrop::kNone);
+    receiver.Wait(milliseconds(25));
+    EXPECT_EQ(receiver.Data(900'000 + i), PacketDrop::kSequenceJump);
+    receiver.Wait(milliseconds(25));
+  }
+}
+
+// The world writes every body's pose, of a large fleet in one burst that overflows a socket.
+TEST(PacketFilter, AllowsAFastWriterLargerSteps) {
+  Received20Hz receiver;
+  std::int64_t number = 1;
+  for (int tick = 0; tick < 40; ++tick) {
+    for (int body = 0; body < 200; ++body) ASSERT_EQ(receiver.Data(++number), PacketDrop::kNone);
+    receiver.Wait(milliseconds(50));
+  }
+  EXPECT_EQ(receiver.Data(number + 600), PacketDrop::kNone);
+  EXPECT_EQ(receiver.Data(number + 600 + 10'000), PacketDrop::kSequenceJump);
+}
+
+test::PrefixBytes Stranger(std::uint32_t number) {
+  return {9, 9, static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number), 1};
+}
+
+// Issue 25: 5 000 forged announcements, +25 MB in each process.
+TEST(PacketFilter, LetsStrangersInNoFasterThanAFleetGrows) {
+  PacketFilter filter({.fleet_size = 2});
+  SteadyTime now = kStart;
+  const auto announce = [&](const test::PrefixBytes& from) {
+    return filter.Judge(RtpsPacket(from).Announcement(from, 1).Bytes(), kHere, now).drop;
+  };
+  EXPECT_EQ(announce(kPeer), PacketDrop::kNone);
+  int let_in = 0;
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    now += milliseconds(1);
+    const PacketDrop drop = announce(Stranger(i));
+    let_in += drop == PacketDrop::kNone ? 1 : 0;
+    EXPECT_TRUE(drop == PacketDrop::kNone || drop == PacketDrop::kTooManyStrangers);
+    EXPECT_TRUE(i % 100 != 0 || announce(kPeer) == PacketDrop::kNone) << "who is in stays in";
+  }
+  EXPECT_LE(let_in, 256 + 2 * 2 + 5 * 16 + 1);
+  EXPECT_GE(let_in, 256);
+  now += seconds(1);
+  EXPECT_EQ(announce(Stranger(6000)), PacketDrop::kNone) << "and afterwards it may grow again";
+}
+
+TEST(PacketFilter, NamesParticipantsByWhatTheyAnnounceNotByWhoSendsIt) {
+  PacketFilter filter({.fleet_size = 0});
+  int let_in = 0;
+  for (std::uint32_t i = 0; i < 1000; ++i) {
+    const PacketBytes packet = RtpsPacket(kPeer).Announcement(Stranger(i), i + 1).Bytes();
+    let_in += filter.Judge(packet, kHere, kStart).drop == PacketDrop::kNone ? 1 : 0;
+  }
+  EXPECT_EQ(let_in, 256);
+}
+
+WriterGuid Guid(std::uint32_t number) {
+  return {static_cast<std::uint8_t>(number), static_cast<std::uint8_t>(number >> 8U),
+          static_cast<std::uint8_t>(number >> 16U), 5};
+}
+
+TEST(WriterTable, ForgetsStrangersBeforeTheFleet) {
+  WriterTable table(64, 4711);
+  SteadyTime now = kStart;
+  for (std::uint32_t round = 0; round < WriterTable::kKnown + 1; ++round) {
+    for (std::uint32_t own = 0; own < 16; ++own) table.IsPlausible(Guid(own), 1 + round, now);
+    now += milliseconds(50);
+  }
+  for (std::uint32_t stranger = 1000; stranger < 100'000; ++stranger) {
+    table.IsPlausible(Guid(stranger), 1, now += milliseconds(1));
+  }
+  for (std::uint32_t own = 0; own < 16; ++own) {
+    EXPECT_FALSE(table.IsPlausible(Guid(own), std::int64_t{1} << 20U, kStart + seconds(2)))
+        << "of a writer that it forgot any first number is plausible: " << own;
+  }
+}
+
+}  // namespace
+}  // namespace giveway::link
