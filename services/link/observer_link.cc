@@ -25,10 +25,11 @@ void Append(Reader<Wire>& reader, std::vector<Ours>& list) {
 struct ObserverLink::Impl {
   explicit Impl(const LinkOptions& options)
       : participant(options, "giveway-observer", names),
-        status_reader(participant.MakeReader<wire::Status>("v*")),
+        status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
         beacons(
             participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth, &beacon_events,
-                                                 dds::StatusMask::requested_deadline_missed()),
+                                                 dds::StatusMask::requested_deadline_missed(),
+                                                 &beacon_ids),
             names, participant.Prefix()),
         truth_reader(participant.MakeReader<wire::Truth>(kWorldPartition)),
         event_reader(
@@ -52,6 +53,8 @@ struct ObserverLink::Impl {
 
   WriterNames names;  // the library calls these two until the participant is gone
   ReaderEvents beacon_events{&RemoveDeparted<wire::Beacon>};  // only to remove; its news go unread
+  KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, 1};
+  FirstComerFilter status_owners{"status"};
   Participant participant;
   Reader<wire::Status> status_reader;
   BeaconInbox beacons;

@@ -1,7 +1,9 @@
 // An operator's side: gives orders to vehicles, one by one, and hears their answers.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
@@ -11,10 +13,15 @@ namespace giveway::link {
 
 class OperatorLink {
  public:
-  explicit OperatorLink(const LinkOptions& options);  // Throws LinkError.
+  // `key`: orders are sealed with it, and only answers sealed with it come out of Take; empty:
+  // without. Throws LinkError.
+  explicit OperatorLink(const LinkOptions& options, std::string key = {});
   ~OperatorLink();
   OperatorLink(const OperatorLink&) = delete;
   OperatorLink& operator=(const OperatorLink&) = delete;
+
+  // For the next order: the time in nanoseconds since 1970, above all that it gave before.
+  static std::uint64_t NextNumber();
 
   // The vehicles whose beacons are announced in the domain now, in order. Some may take no orders.
   std::vector<VehicleId> Announced();

@@ -3,6 +3,12 @@
 #include "services/runtime/process.h"
 
 namespace giveway {
+namespace {
+
+// Its writer of ranges and that of the roster are found at different moments.
+constexpr Nanoseconds kBodyPatience = std::chrono::seconds(2);
+
+}  // namespace
 
 void LogRefusal(const RosterEntry& entry) {
   LogError("the world refused this vehicle: " + entry.reason);
@@ -28,7 +34,22 @@ PlaceNews VehiclePlace::Follow(const RosterEntry& entry) {
   return elsewhere ? PlaceNews::kElsewhere : PlaceNews::kEntry;
 }
 
-void VehiclePlace::KeepAsking() {
+// As the same session: the world may know it still.
+void VehiclePlace::LookForBody(bool lacks_body) {
+  if (!lacks_body || asking_ || RunHasEnded()) {
+    without_body_since_.reset();
+    return;
+  }
+  const SteadyTime now = clock_.Now();
+  if (!without_body_since_) without_body_since_ = now;
+  if (now - *without_body_since_ < kBodyPatience) return;
+  LogWarning("has no body in the world: asks for its place again");
+  asking_.emplace(&link_, &clock_, entry_.vehicle, entry_.session);
+  without_body_since_.reset();
+}
+
+void VehiclePlace::KeepAsking(bool lacks_body) {
+  LookForBody(lacks_body);
   if (stays_ && RunHasEnded() && !asking_) {
     LogInfo("the run has ended: waits for the next world");
     // As the same session: that world may know it from the request that is kept for later worlds.

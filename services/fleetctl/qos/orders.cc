@@ -25,10 +25,6 @@ bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) 
   return true;
 }
 
-std::uint64_t RandomNumber() {
-  return static_cast<std::uint64_t>(RandomNonZero()) << 32U | RandomNonZero();
-}
-
 }  // namespace
 
 std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
@@ -46,7 +42,7 @@ std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
 
 std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience,
                                         bool insist) {
-  order.number = RandomNumber();
+  order.number = link::OperatorLink::NextNumber();
   std::optional<AdminAnswer> last;
   if (!link_.Send(order)) return last;
   WaitUntil(patience, insist ? 2 : 1, [&] {

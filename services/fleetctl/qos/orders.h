@@ -17,7 +17,8 @@ namespace giveway::fleetctl {
 // kNobody stands for the world.
 class Orders {
  public:
-  explicit Orders(const link::LinkOptions& options) : link_(options) {}
+  // `key`: orders are sealed with it, and only answers sealed with it believed; empty: without.
+  Orders(const link::LinkOptions& options, const std::string& key) : link_(options, key) {}
 
   // Waits until each is reached; those that are not within `patience` come back.
   std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles,

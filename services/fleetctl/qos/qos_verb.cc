@@ -84,6 +84,7 @@ void AddShow(CLI::App* qos, int* exit_code) {
   auto* vehicle = verb->add_option("--live", live->vehicle,
                                    "What this vehicle runs with, held against the file")
                       ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
+  AddAdminKeyFlag(verb, &live->admin_key);
   verb->add_option("--domain", live->domain, "DDS domain of the fleet that --live looks into")
       ->check(CLI::Range(1U, 99U))
       ->envname("GIVEWAY_DOMAIN");

@@ -16,6 +16,7 @@
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/run_key.h"
 #include "services/fleetctl/run/run_session.h"
 #include "services/report/report.h"
 
@@ -74,13 +75,15 @@ int StartAndWatch(const RunOptions& options) {
   if (!options.fleet.record_folder.empty()) CheckFolder(options.fleet.record_folder);
 
   const DomainLock lock(options.domain);
-  const FleetSpec spec{.program_folder = ProgramFolder(),
-                       .scenario_file = ResolveScenario(options.scenario),
-                       .domain = lock.Domain(),
-                       .qos_file = qos_file,
-                       .lock_fd = lock.Fd(),
-                       .hands_on_lines = true,
-                       .options = options.fleet};
+  const RunKey key(options.fleet.admin_key, lock.Domain());
+  FleetSpec spec{.program_folder = ProgramFolder(),
+                 .scenario_file = ResolveScenario(options.scenario),
+                 .domain = lock.Domain(),
+                 .qos_file = qos_file,
+                 .lock_fd = lock.Fd(),
+                 .hands_on_lines = true,
+                 .options = options.fleet};
+  spec.options.admin_key = key.File();
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
   RunSession session(options, scenario, spec);
   const Report report = session.Run();

@@ -70,6 +70,7 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
       ->check(CLI::Range(kFirstDomain, kLastDomain));
   AddInterfaceFlag(verb, &options->interface);
+  AddAdminKeyFlag(verb, &options->admin_key);
   verb->add_flag("--record", options->record, "Every vehicle records into the report folder");
   verb->add_option("--record-ring", options->ring_s,
                    "Every vehicle keeps its last seconds recorded: 60")

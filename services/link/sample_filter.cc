@@ -1,0 +1,195 @@
+#include "services/link/sample_filter.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "services/link/inbox/participant_of.h"
+
+namespace giveway::link {
+namespace {
+
+constexpr std::size_t kMostKept = 4;  // refusals between two looks; the counter has all
+constexpr std::size_t kEncapsulation = 4;
+constexpr std::string_view kExpression = "filter ";
+
+std::uint64_t HashOf(const SessionId& session) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const std::uint32_t number : session) hash = (hash ^ number) * 0x100000001b3ULL;
+  return hash;
+}
+
+// Forgets the oldest beyond the bound.
+template <typename Map>
+void Bound(Map* map, std::deque<std::uint64_t>* oldest, std::size_t most) {
+  for (; oldest->size() > most; oldest->pop_front()) map->erase(oldest->front());
+}
+
+}  // namespace
+
+bool KeyReader::Has(std::size_t numbers) const {
+  return payload_.data != nullptr && payload_.length >= kEncapsulation + 4 * numbers;
+}
+
+std::uint32_t KeyReader::Number32(std::size_t i) const {
+  const bool little = (payload_.data[1] & 1U) != 0;
+  std::uint32_t number = 0;
+  for (std::size_t byte = 0; byte < 4; ++byte) {
+    const std::size_t at = little ? 3 - byte : byte;
+    number = number << 8U | payload_.data[kEncapsulation + 4 * i + at];
+  }
+  return number;
+}
+
+std::optional<VehicleId> KeyReader::Vehicle() const {
+  if (!Has(1)) return std::nullopt;
+  return VehicleId{Number32(0)};
+}
+
+std::optional<SessionId> KeyReader::Session() const {
+  if (!Has(4)) return std::nullopt;
+  return SessionId{Number32(0), Number32(1), Number32(2), Number32(3)};
+}
+
+bool SampleFilter::Passes(const rtps::GUID_t& writer, const rtps::SerializedPayload_t& payload) {
+  const std::scoped_lock lock(mutex_);
+  const KeyReader key(payload);
+  const char* const why = WhyNot(writer, key);
+  if (why == nullptr) return true;
+  if (*why == '\0') return false;
+  refused_.fetch_add(1, std::memory_order_relaxed);
+  if (kept_.size() < kMostKept) {
+    kept_.push_back({.sample = sample_,
+                     .vehicle = by_vehicle_ ? key.Vehicle().value_or(kNobody) : kNobody,
+                     .writer = Identity(writer),
+                     .counter = "strangers",
+                     .field = "writer",
+                     .why = why});
+  }
+  return false;
+}
+
+void SampleFilter::TakeRefusals(std::vector<Refusal>* refusals) {
+  const std::scoped_lock lock(mutex_);
+  for (Refusal& refusal : kept_) refusals->push_back(std::move(refusal));
+  kept_.clear();
+}
+
+const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+  std::uint64_t named = 0;
+  if (key_ == Key::kVehicle) {
+    const auto vehicle = key.Vehicle();
+    if (!vehicle) return nullptr;
+    named = Number(*vehicle);
+  } else {
+    const auto session = key.Session();
+    if (!session) return nullptr;
+    named = HashOf(*session);
+  }
+  const std::uint64_t source = of_ == Of::kWriter ? Identity(writer) : ParticipantOf(writer);
+  const auto [entry, is_new] = keys_.try_emplace(source);
+  if (is_new) oldest_.push_back(source);
+  std::vector<std::uint64_t>& known = entry->second;
+  if (std::ranges::find(known, named) != known.end()) return nullptr;
+  if (known.size() >= most_) return "it names more ids than one participant may";
+  known.push_back(named);
+  Bound(&keys_, &oldest_, kMostSources);
+  return nullptr;
+}
+
+void OwnerFilter::SetOwner(VehicleId vehicle, std::uint64_t participant) {
+  const std::scoped_lock lock(Mutex());
+  if (participant == 0) {
+    owners_.erase(vehicle);
+  } else {
+    owners_[vehicle] = participant;
+  }
+}
+
+std::uint64_t OwnerFilter::OwnerOf(VehicleId vehicle) {
+  const std::scoped_lock lock(Mutex());
+  const auto owner = owners_.find(vehicle);
+  return owner == owners_.end() ? 0 : owner->second;
+}
+
+const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+  const auto vehicle = key.Vehicle();
+  if (!vehicle) return nullptr;
+  const auto owner = owners_.find(*vehicle);
+  if (owner != owners_.end()) {
+    return owner->second == ParticipantOf(writer) ? nullptr
+                                                  : "another participant joined with this id";
+  }
+  return IsItsFirst(writer, *vehicle) ? nullptr : "it speaks for more ids than one";
+}
+
+bool OwnerFilter::IsItsFirst(const rtps::GUID_t& writer, VehicleId vehicle) {
+  const auto [entry, is_new] = unowned_.try_emplace(Identity(writer), vehicle);
+  const bool first = entry->second == vehicle;
+  if (is_new) oldest_.push_back(Identity(writer));
+  Bound(&unowned_, &oldest_, KeyQuota::kMostSources);
+  return first;
+}
+
+const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+  const auto vehicle = key.Vehicle();
+  if (!vehicle) return nullptr;
+  const auto [named, is_new] = named_.try_emplace(Identity(writer), *vehicle);
+  if (named->second != *vehicle) return "it speaks for more ids than one";
+  const auto now = std::chrono::steady_clock::now();
+  Speaker& speaker = speakers_[*vehicle];
+  const std::uint64_t participant = ParticipantOf(writer);
+  const bool free = speaker.participant == 0 || now - speaker.heard > kSilence;
+  if (is_new) {
+    oldest_.push_back(named->first);
+    for (; oldest_.size() > KeyQuota::kMostSources; oldest_.pop_front()) {
+      const auto oldest = named_.find(oldest_.front());
+      if (oldest->second != *vehicle) speakers_.erase(oldest->second);
+      named_.erase(oldest);
+    }
+  }
+  if (!free && speaker.participant != participant) return "another participant speaks for this id";
+  speaker = {participant, now};
+  return nullptr;
+}
+
+void SessionFilter::Follow(const SessionId& session) {
+  const std::scoped_lock lock(Mutex());
+  session_ = session;
+}
+
+// Entries of other sessions are no fault of anybody: they are not counted.
+const char* SessionFilter::WhyNot(const rtps::GUID_t&, const KeyReader& key) {
+  const auto session = key.Session();
+  return !session || *session == session_ ? nullptr : "";
+}
+
+const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
+  const std::uint64_t world = world_.load(std::memory_order_relaxed);
+  return world == 0 || world == ParticipantOf(writer) ? nullptr : "its writer is not the world's";
+}
+
+std::string FilterFactory::Add(SampleFilter* filter) {
+  filters_.emplace_back(filter);
+  return std::string(kExpression) + std::to_string(filters_.size() - 1);
+}
+
+// Each once, for its reader. A writer of the same participant would ask for the same again, to leave
+// out what the reader refuses anyhow: it is not given one.
+ReturnCode FilterFactory::create_content_filter(const char*, const char*,
+                                                const dds::TopicDataType*, const char* expression,
+                                                const ParameterSeq&, dds::IContentFilter*& filter) {
+  const std::string_view text = expression == nullptr ? "" : expression;
+  std::size_t number = filters_.size();
+  if (text.starts_with(kExpression)) {
+    std::from_chars(text.data() + kExpression.size(), text.data() + text.size(), number);
+  }
+  if (number >= filters_.size() || filters_[number].given) return ReturnCode{1};
+  filters_[number].given = true;
+  filter = &filters_[number];
+  return ReturnCode{};
+}
+
+}  // namespace giveway::link
