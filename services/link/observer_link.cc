@@ -53,7 +53,7 @@ struct ObserverLink::Impl {
 
   WriterNames names;  // the library calls these two until the participant is gone
   ReaderEvents beacon_events{&RemoveDeparted<wire::Beacon>};  // only to remove; its news go unread
-  KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, 1};
+  KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   FirstComerFilter status_owners{"status"};
   Participant participant;
   Reader<wire::Status> status_reader;

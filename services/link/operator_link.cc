@@ -33,7 +33,7 @@ struct OperatorLink::Impl {
 
   const std::string key;
   ParticipantNames names;  // the library calls it until the participant is gone
-  KeyQuota strangers{"answer", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, 1};
+  KeyQuota strangers{"answer", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   Participant participant;
   Reader<wire::Answer> answers;
   std::map<VehicleId, Writer<wire::Order>> writers;

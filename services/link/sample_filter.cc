@@ -13,18 +13,13 @@ namespace {
 
 constexpr std::size_t kMostKept = 4;  // refusals between two looks; the counter has all
 constexpr std::size_t kEncapsulation = 4;
+constexpr const char* kTooMany = "it names more ids than one may";
 constexpr std::string_view kExpression = "filter ";
 
 std::uint64_t HashOf(const SessionId& session) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   for (const std::uint32_t number : session) hash = (hash ^ number) * 0x100000001b3ULL;
   return hash;
-}
-
-// Forgets the oldest beyond the bound.
-template <typename Map>
-void Bound(Map* map, std::deque<std::uint64_t>* oldest, std::size_t most) {
-  for (; oldest->size() > most; oldest->pop_front()) map->erase(oldest->front());
 }
 
 }  // namespace
@@ -77,6 +72,18 @@ void SampleFilter::TakeRefusals(std::vector<Refusal>* refusals) {
   kept_.clear();
 }
 
+bool KeysBySource::Admits(std::uint64_t source, std::uint64_t key) {
+  const auto [entry, is_new] = keys_.try_emplace(source);
+  std::vector<std::uint64_t>& known = entry->second;
+  const bool admits = std::ranges::find(known, key) != known.end() || known.size() < most_;
+  if (admits && (known.empty() || std::ranges::find(known, key) == known.end())) {
+    known.push_back(key);
+  }
+  if (is_new) oldest_.push_back(source);
+  for (; oldest_.size() > kMostSources; oldest_.pop_front()) keys_.erase(oldest_.front());
+  return admits;
+}
+
 const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
   std::uint64_t named = 0;
   if (key_ == Key::kVehicle) {
@@ -89,14 +96,7 @@ const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
     named = HashOf(*session);
   }
   const std::uint64_t source = of_ == Of::kWriter ? Identity(writer) : ParticipantOf(writer);
-  const auto [entry, is_new] = keys_.try_emplace(source);
-  if (is_new) oldest_.push_back(source);
-  std::vector<std::uint64_t>& known = entry->second;
-  if (std::ranges::find(known, named) != known.end()) return nullptr;
-  if (known.size() >= most_) return "it names more ids than one participant may";
-  known.push_back(named);
-  Bound(&keys_, &oldest_, kMostSources);
-  return nullptr;
+  return known_.Admits(source, named) ? nullptr : kTooMany;
 }
 
 void OwnerFilter::SetOwner(VehicleId vehicle, std::uint64_t participant) {
@@ -122,36 +122,22 @@ const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key
     return owner->second == ParticipantOf(writer) ? nullptr
                                                   : "another participant joined with this id";
   }
-  return IsItsFirst(writer, *vehicle) ? nullptr : "it speaks for more ids than one";
-}
-
-bool OwnerFilter::IsItsFirst(const rtps::GUID_t& writer, VehicleId vehicle) {
-  const auto [entry, is_new] = unowned_.try_emplace(Identity(writer), vehicle);
-  const bool first = entry->second == vehicle;
-  if (is_new) oldest_.push_back(Identity(writer));
-  Bound(&unowned_, &oldest_, KeyQuota::kMostSources);
-  return first;
+  return unowned_.Admits(Identity(writer), Number(*vehicle)) ? nullptr : kTooMany;
 }
 
 const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
   const auto vehicle = key.Vehicle();
   if (!vehicle) return nullptr;
-  const auto [named, is_new] = named_.try_emplace(Identity(writer), *vehicle);
-  if (named->second != *vehicle) return "it speaks for more ids than one";
+  if (!named_.Admits(Identity(writer), Number(*vehicle))) return kTooMany;
   const auto now = std::chrono::steady_clock::now();
-  Speaker& speaker = speakers_[*vehicle];
   const std::uint64_t participant = ParticipantOf(writer);
-  const bool free = speaker.participant == 0 || now - speaker.heard > kSilence;
-  if (is_new) {
-    oldest_.push_back(named->first);
-    for (; oldest_.size() > KeyQuota::kMostSources; oldest_.pop_front()) {
-      const auto oldest = named_.find(oldest_.front());
-      if (oldest->second != *vehicle) speakers_.erase(oldest->second);
-      named_.erase(oldest);
-    }
+  const auto [speaker, is_new] = speakers_.try_emplace(*vehicle, Speaker{participant, now});
+  if (speaker->second.participant != participant && now - speaker->second.heard <= kSilence) {
+    return "another participant speaks for this id";
   }
-  if (!free && speaker.participant != participant) return "another participant speaks for this id";
-  speaker = {participant, now};
+  speaker->second = {participant, now};
+  if (is_new) oldest_.push_back(*vehicle);
+  for (; oldest_.size() > kMostSpeakers; oldest_.pop_front()) speakers_.erase(oldest_.front());
   return nullptr;
 }
 

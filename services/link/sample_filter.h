@@ -66,6 +66,24 @@ class SampleFilter {
   std::atomic<std::uint32_t> refused_{0};
 };
 
+// The first few keys that each source names, and no more: of writers, or participants. Bounded.
+class KeysBySource {
+ public:
+  static constexpr std::size_t kMostSources = 4096;  // beyond, the oldest are forgotten
+
+  explicit KeysBySource(std::size_t most) : most_(most) {}
+  // False of one key too many.
+  bool Admits(std::uint64_t source, std::uint64_t key);
+
+ private:
+  const std::size_t most_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> keys_;  // by source
+  std::deque<std::uint64_t> oldest_;                                    // of keys_
+};
+
+// A writer speaks for one vehicle. A few ids more are let through, to be refused by name.
+inline constexpr std::size_t kMostIdsOfWriter = 4;
+
 // So many keys of each participant, the first that it names: one that names a hundred thousand makes
 // no more instances than any other.
 class KeyQuota final : public SampleFilter {
@@ -73,21 +91,17 @@ class KeyQuota final : public SampleFilter {
   enum class Key : std::uint8_t { kVehicle, kSession };
   enum class Of : std::uint8_t { kWriter, kParticipant };
   KeyQuota(const char* sample, Key key, Of of, std::size_t most)
-      : SampleFilter(sample, key == Key::kVehicle), key_(key), of_(of), most_(most) {}
-
-  static constexpr std::size_t kMostSources = 4096;  // beyond, the oldest are forgotten
+      : SampleFilter(sample, key == Key::kVehicle), key_(key), of_(of), known_(most) {}
 
  private:
   const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
 
   const Key key_;
   const Of of_;
-  const std::size_t most_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> keys_;  // by source
-  std::deque<std::uint64_t> oldest_;                                    // of keys_
+  KeysBySource known_;
 };
 
-// Only what the owner of a vehicle's id says for it; for an id without owner each writer for one.
+// Only what the owner of a vehicle's id says for it; for ids without owner each writer for a few.
 class OwnerFilter final : public SampleFilter {
  public:
   explicit OwnerFilter(const char* sample) : SampleFilter(sample) {}
@@ -98,11 +112,9 @@ class OwnerFilter final : public SampleFilter {
 
  private:
   const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
-  bool IsItsFirst(const rtps::GUID_t& writer, VehicleId vehicle);
 
   std::unordered_map<VehicleId, std::uint64_t> owners_;
-  std::unordered_map<std::uint64_t, VehicleId> unowned_;  // the first that a writer spoke for
-  std::deque<std::uint64_t> oldest_;                      // of unowned_
+  KeysBySource unowned_{kMostIdsOfWriter};
 };
 
 // Of those who speak for a vehicle the first, until it has been silent for a second.
@@ -118,9 +130,11 @@ class FirstComerFilter final : public SampleFilter {
     std::uint64_t participant = 0;
     std::chrono::steady_clock::time_point heard;
   };
+  static constexpr std::size_t kMostSpeakers = 4096;  // beyond, the oldest are forgotten
+
+  KeysBySource named_{kMostIdsOfWriter};
   std::unordered_map<VehicleId, Speaker> speakers_;
-  std::unordered_map<std::uint64_t, VehicleId> named_;  // by writer
-  std::deque<std::uint64_t> oldest_;                    // of named_
+  std::deque<VehicleId> oldest_;  // of speakers_
 };
 
 // Only entries of one session.

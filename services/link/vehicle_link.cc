@@ -97,10 +97,10 @@ struct Filters {
   std::array<SampleFilter*, 5> All() { return {&roster, &beacons, &scans, &signals, &orders}; }
 
   SessionFilter roster{"roster entry"};
-  KeyQuota beacons{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, 1};
+  KeyQuota beacons{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   WorldFilter scans;
   WorldFilter signals;
-  KeyQuota orders{"order", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, 1};
+  KeyQuota orders{"order", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
 };
 
 // Everything that is named after the vehicle.

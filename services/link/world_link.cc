@@ -76,7 +76,7 @@ struct WorldLink::Impl {
   KeyQuota join_quota{"join", KeyQuota::Key::kSession, KeyQuota::Of::kParticipant,
                       kMostSessions};
   OwnerFilter command_owners{"motor command"};
-  KeyQuota order_ids{"order", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, 1};
+  KeyQuota order_ids{"order", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   Participant participant;
   JoinInbox joins;
   AnchoredReader<wire::MotorCommand> command_reader;

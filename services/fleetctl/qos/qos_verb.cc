@@ -1,6 +1,7 @@
 #include <limits>
 #include <memory>
 
+#include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/qos/qos_check.h"
 #include "services/fleetctl/qos/qos_live.h"

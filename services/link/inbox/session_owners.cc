@@ -10,22 +10,23 @@ SessionOwners::Verdict SessionOwners::MayAsk(const JoinRequest& request, std::ui
                                              std::uint64_t writer, SteadyTime now,
                                              const std::function<bool(std::uint64_t)>& left) {
   const auto known = sessions_.find(request.session);
-  if (known != sessions_.end()) {
-    Owner& owner = known->second;
-    if (owner.participant != participant) {
-      const Nanoseconds patience = HasPlace(request.session) ? kSilence : kSilenceOfAWaiting;
-      if (!left(owner.writer) && now - owner.heard <= patience) return Verdict::kOfAnother;
-      --counts_[owner.participant];
-      ++counts_[participant];
-    }
-    owner = {participant, writer, now};
-    return Verdict::kYes;
+  if (known != sessions_.end() && known->second.participant != participant) {
+    const Nanoseconds patience = HasPlace(request.session) ? kSilence : kSilenceOfAWaiting;
+    const Owner& owner = known->second;
+    if (!left(owner.writer) && now - owner.heard <= patience) return Verdict::kOfAnother;
   }
+  const bool counts = known != sessions_.end() && !known->second.over &&
+                      known->second.participant == participant;
   const auto count = counts_.find(participant);
-  if (count != counts_.end() && count->second >= kMostOfOne) return Verdict::kTooMany;
-  ++counts_[participant];
-  sessions_.emplace(request.session, Owner{participant, writer, now});
-  oldest_.push_back(request.session);
+  if (!counts && count != counts_.end() && count->second >= kMostOfOne) return Verdict::kTooMany;
+  if (known != sessions_.end()) {
+    Count(known->second, -1);
+  } else {
+    oldest_.push_back(request.session);
+  }
+  const Owner owner{participant, writer, now};
+  Count(owner, 1);
+  sessions_.insert_or_assign(request.session, owner);
   BoundSessions();
   return Verdict::kYes;
 }
@@ -34,10 +35,13 @@ SessionOwners::Verdict SessionOwners::MayLeave(const JoinRequest& request,
                                                std::uint64_t participant) {
   const auto known = sessions_.find(request.session);
   const bool is_owner = known != sessions_.end() && known->second.participant == participant;
-  const bool knows = request.secret != SessionId{} &&
-                     auth::SessionOf(request.secret) == request.session;
+  const bool knows =
+      request.secret != SessionId{} && auth::SessionOf(request.secret) == request.session;
   if (!is_owner && !knows) return Verdict::kOfAnother;
-  Remove(request.session);
+  if (known != sessions_.end()) {
+    Count(known->second, -1);
+    known->second.over = true;
+  }
   return Verdict::kYes;
 }
 
@@ -77,11 +81,17 @@ void SessionOwners::Forget(const std::function<bool(std::uint64_t)>& left) {
   }
 }
 
+void SessionOwners::Count(const Owner& owner, int change) {
+  if (owner.over) return;
+  const auto count = counts_.try_emplace(owner.participant, 0).first;
+  count->second = static_cast<std::size_t>(static_cast<int>(count->second) + change);
+  if (count->second == 0) counts_.erase(count);
+}
+
 void SessionOwners::Remove(const SessionId& session) {
   const auto known = sessions_.find(session);
   if (known == sessions_.end()) return;
-  const auto count = counts_.find(known->second.participant);
-  if (--count->second == 0) counts_.erase(count);
+  Count(known->second, -1);
   sessions_.erase(known);
   std::erase(oldest_, session);
 }

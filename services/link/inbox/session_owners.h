@@ -52,14 +52,16 @@ class SessionOwners {
     std::uint64_t participant = 0;
     std::uint64_t writer = 0;  // of its requests
     SteadyTime heard{0};
+    bool over = false;  // it left; it may say so again
   };
+  void Count(const Owner& owner, int change);
   void Remove(const SessionId& session);
   void BoundSessions();
   bool HasPlace(const SessionId& session) const;
 
   std::map<SessionId, Owner> sessions_;
   std::deque<SessionId> oldest_;  // of sessions_
-  std::unordered_map<std::uint64_t, std::size_t> counts_;  // of sessions_, by participant
+  std::unordered_map<std::uint64_t, std::size_t> counts_;  // of sessions_ that are not over, by participant
   std::unordered_map<VehicleId, SessionId> vehicles_;
 };
 

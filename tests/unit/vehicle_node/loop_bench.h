@@ -93,6 +93,7 @@ class ScriptedLink final : public link::DriveLink {
   }
   std::string InterfaceChange() const override { return interface_change_; }
   bool WorldSpeaks() const override { return world_speaks_; }
+  bool LacksBody() const override { return lacks_body_; }
   link::VehicleLinkCounters Counters() const override { return {}; }
   link::EffectiveBeaconQos BeaconQos() const override { return {}; }
   std::optional<SteadyTime> BlackoutsSince() const override { return std::nullopt; }

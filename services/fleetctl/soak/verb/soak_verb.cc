@@ -4,6 +4,7 @@
 
 #include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/soak/soak_phases.h"
