@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 #include <thread>
 
 #include "services/fleetctl/process/exit_codes.h"
@@ -72,6 +73,15 @@ int SayNoAnswer(VehicleId vehicle) {
       interrupted ? "interrupted before vehicle %u answered\n" : "vehicle %u does not answer\n",
       Number(vehicle));
   return interrupted ? 1 : kCouldNotRun;
+}
+
+int SayRefused(const AdminAnswer& answer) {
+  const std::string who = answer.vehicle == kNobody
+                              ? "the world"
+                              : "vehicle " + std::to_string(Number(answer.vehicle));
+  std::fprintf(stderr, "%s refuses orders of this fleetctl: %s; see --admin-key\n", who.c_str(),
+               answer.reason.c_str());
+  return kCouldNotRun;
 }
 
 int SayNobodyReached(std::uint32_t domain) {

@@ -39,6 +39,8 @@ class Orders {
 // operator did not wait. The exit code.
 int SayNotReached(VehicleId vehicle, std::uint32_t domain);
 int SayNoAnswer(VehicleId vehicle);
+// That it does not even say what it runs with, and why: most often the key is another.
+int SayRefused(const AdminAnswer& answer);
 int SayNobodyReached(std::uint32_t domain);
 
 // An order that asks what the vehicle runs with.

@@ -93,6 +93,10 @@ std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::strin
     *exit_code = SayNoAnswer(vehicle);
     return std::nullopt;
   }
+  if (answer->state == AnswerState::kRefused) {
+    *exit_code = SayRefused(*answer);
+    return std::nullopt;
+  }
   return LiveQos{answer->profiles.name, "", LiveEndpoints(*answer)};
 }
 
