@@ -1,5 +1,7 @@
 #include "services/link/participant_names.h"
 
+#include <algorithm>
+
 #include "services/link/fastdds/topics.h"
 #include "services/link/inbox/participant_of.h"
 
@@ -29,6 +31,13 @@ bool ParticipantNames::Owns(VehicleId vehicle, const rtps::GUID_t& endpoint) con
     if (first == nullptr || speaker.found < first->found) first = &speaker;
   }
   return first != nullptr && first->participant == ParticipantOf(endpoint);
+}
+
+bool ParticipantNames::IsWorld(std::uint64_t participant) const {
+  const std::scoped_lock lock(mutex_);
+  return std::ranges::any_of(speakers_, [participant](const auto& speaker) {
+    return speaker.second.vehicle == kNobody && speaker.second.participant == participant;
+  });
 }
 
 }  // namespace giveway::link

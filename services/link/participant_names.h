@@ -23,6 +23,8 @@ class ParticipantNames final : public DiscoveryListener {
   // Whether `endpoint` is of the participant that has spoken longest for the vehicle, of those that
   // are there; kNobody is the world. Of a vehicle that is a writer of beacons.
   bool Owns(VehicleId vehicle, const rtps::GUID_t& endpoint) const;
+  // Whether the participant is there and speaks as a world.
+  bool IsWorld(std::uint64_t participant) const;
 
  private:
   static constexpr std::size_t kMostWriters = 16'384;

@@ -141,6 +141,16 @@ const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader
   return nullptr;
 }
 
+const char* FirstWorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::uint64_t participant = ParticipantOf(writer);
+  const bool other = world_ != 0 && world_ != participant;
+  if (other && now - heard_ <= kSilence && is_there_(world_)) return "another world is there";
+  world_ = participant;
+  heard_ = now;
+  return nullptr;
+}
+
 void SessionFilter::Follow(const SessionId& session) {
   const std::scoped_lock lock(Mutex());
   session_ = session;

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -135,6 +136,23 @@ class FirstComerFilter final : public SampleFilter {
   KeysBySource named_{kMostIdsOfWriter};
   std::unordered_map<VehicleId, Speaker> speakers_;
   std::deque<VehicleId> oldest_;  // of speakers_
+};
+
+// Of participants that speak as the world the first, until it has left or is silent: for observers,
+// whom a world tells each tick where everybody is. For all readers of what a world says.
+class FirstWorldFilter final : public SampleFilter {
+ public:
+  using IsThere = std::function<bool(std::uint64_t participant)>;
+  FirstWorldFilter(const char* sample, IsThere is_there)
+      : SampleFilter(sample, false), is_there_(std::move(is_there)) {}
+  static constexpr std::chrono::milliseconds kSilence{500};
+
+ private:
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+
+  const IsThere is_there_;
+  std::uint64_t world_ = 0;
+  std::chrono::steady_clock::time_point heard_;
 };
 
 // Only entries of one session.

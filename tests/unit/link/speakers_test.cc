@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Verdict = SessionOwners::Verdict;
 
-constexpr SteadyTime kNow = seconds(100);
+constexpr SteadyTime kBegun = seconds(100);
 constexpr VehicleId kSeven{7};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -29,7 +29,7 @@ JoinRequest Ask(std::uint32_t session) { return {.session = {session, 0, 0, 1}};
 // Participant p asks by the writer 100 + p.
 class Sessions : public ::testing::Test {
  protected:
-  Verdict AskBy(std::uint64_t participant, std::uint32_t session, SteadyTime now = kNow) {
+  Verdict AskBy(std::uint64_t participant, std::uint32_t session, SteadyTime now = kBegun) {
     return owners_.MayAsk(Ask(session), participant, 100 + participant, now,
                           [this](std::uint64_t writer) { return writer == left_; });
   }
@@ -44,7 +44,7 @@ TEST_F(Sessions, ASessionIsOfTheParticipantThatAskedFirstWhileItIsHeard) {
   owners_.Accept(kSeven, Ask(5).session);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 1U);
   for (int i = 1; i <= 40; ++i) {
-    const SteadyTime now = kNow + i * milliseconds(50);
+    const SteadyTime now = kBegun + i * milliseconds(50);
     owners_.Heard(kSeven, now);
     EXPECT_EQ(AskBy(2, 5, now), Verdict::kOfAnother) << i;
   }
@@ -53,18 +53,18 @@ TEST_F(Sessions, ASessionIsOfTheParticipantThatAskedFirstWhileItIsHeard) {
 TEST_F(Sessions, ASessionGoesToAnotherParticipantOnceItsOwnHasLeftOrIsSilent) {
   AskBy(1, 5);
   owners_.Accept(kSeven, Ask(5).session);
-  EXPECT_EQ(AskBy(2, 5, kNow + SessionOwners::kSilence), Verdict::kOfAnother);
-  EXPECT_EQ(AskBy(2, 5, kNow + SessionOwners::kSilence + milliseconds(1)), Verdict::kYes);
+  EXPECT_EQ(AskBy(2, 5, kBegun + SessionOwners::kSilence), Verdict::kOfAnother);
+  EXPECT_EQ(AskBy(2, 5, kBegun + SessionOwners::kSilence + milliseconds(1)), Verdict::kYes);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 2U);
   left_ = 102;
-  EXPECT_EQ(AskBy(3, 5, kNow + seconds(1)), Verdict::kYes);
+  EXPECT_EQ(AskBy(3, 5, kBegun + seconds(1)), Verdict::kYes);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 3U);
 }
 
 TEST_F(Sessions, OnlyTheOwnerLeavesOrWhoKnowsTheSecret) {
   const SessionId secret{1, 2, 3, 4};
   JoinRequest request{.session = auth::SessionOf(secret)};
-  owners_.MayAsk(request, 1, 101, kNow, [](std::uint64_t) { return false; });
+  owners_.MayAsk(request, 1, 101, kBegun, [](std::uint64_t) { return false; });
   request.leaving = true;
   EXPECT_EQ(owners_.MayLeave(request, 2), Verdict::kOfAnother);
   request.secret = {4, 3, 2, 1};
@@ -108,36 +108,36 @@ TEST_F(Sessions, AreBoundedAndTheOldestWithoutAPlaceGoFirst) {
 TEST(TickGate, RefusesTicksThatNoTimeHasPassedFor) {
   TickGate gate(milliseconds(50));
   const WorldEpoch epoch{1};
-  EXPECT_TRUE(gate.Passes(epoch, Tick{1000}, kNow));
-  EXPECT_FALSE(gate.Passes(epoch, Tick{0x8000'0000}, kNow));
-  EXPECT_TRUE(gate.Passes(epoch, Tick{1001}, kNow + milliseconds(50)));
-  EXPECT_FALSE(gate.Passes(epoch, Tick{1001 + TickGate::kAhead + 1}, kNow + milliseconds(50)));
-  EXPECT_TRUE(gate.Passes(epoch, Tick{1020 + TickGate::kAhead}, kNow + milliseconds(1000)));
-  EXPECT_TRUE(gate.Passes(epoch, Tick{900}, kNow + milliseconds(1000))) << "late is not ahead";
-  EXPECT_TRUE(gate.Passes(WorldEpoch{2}, Tick{5}, kNow + milliseconds(1050)));
-  EXPECT_FALSE(gate.Passes(WorldEpoch{2}, Tick{500}, kNow + milliseconds(1100)));
+  EXPECT_TRUE(gate.Passes(epoch, Tick{1000}, kBegun));
+  EXPECT_FALSE(gate.Passes(epoch, Tick{0x8000'0000}, kBegun));
+  EXPECT_TRUE(gate.Passes(epoch, Tick{1001}, kBegun + milliseconds(50)));
+  EXPECT_FALSE(gate.Passes(epoch, Tick{1001 + TickGate::kAhead + 1}, kBegun + milliseconds(50)));
+  EXPECT_TRUE(gate.Passes(epoch, Tick{1020 + TickGate::kAhead}, kBegun + milliseconds(1000)));
+  EXPECT_TRUE(gate.Passes(epoch, Tick{900}, kBegun + milliseconds(1000))) << "late is not ahead";
+  EXPECT_TRUE(gate.Passes(WorldEpoch{2}, Tick{5}, kBegun + milliseconds(1050)));
+  EXPECT_FALSE(gate.Passes(WorldEpoch{2}, Tick{500}, kBegun + milliseconds(1100)));
 }
 
 TEST(TickGate, BelievesTheNextAfterALongTimeWithoutOne) {
   TickGate gate(milliseconds(50));
-  gate.Passes(WorldEpoch{1}, Tick{1}, kNow);
-  const SteadyTime later = kNow + TickGate::kForgets;
+  gate.Passes(WorldEpoch{1}, Tick{1}, kBegun);
+  const SteadyTime later = kBegun + TickGate::kForgets;
   EXPECT_FALSE(gate.Passes(WorldEpoch{1}, Tick{1'000'000}, later));
   EXPECT_TRUE(gate.Passes(WorldEpoch{1}, Tick{1'000'000}, later + milliseconds(1)));
 }
 
 TEST(WorldBinding, IsFollowedOnlyWhenItLeftOrIsSilent) {
   WorldBinding world;
-  EXPECT_TRUE(world.MayBeFollowed(kNow, false)) << "there is none";
-  world.Bind(1, 11, kNow);
+  EXPECT_TRUE(world.MayBeFollowed(kBegun, false)) << "there is none";
+  world.Bind(1, 11, kBegun);
   EXPECT_TRUE(world.IsWorld(1));
-  EXPECT_FALSE(world.MayBeFollowed(kNow + WorldBinding::kSilenceToAWaiting, false));
-  EXPECT_TRUE(world.MayBeFollowed(kNow, true));
-  world.ExpectScans(kNow);
-  EXPECT_FALSE(world.MayBeFollowed(kNow + WorldBinding::kSilence, false));
-  EXPECT_TRUE(world.MayBeFollowed(kNow + WorldBinding::kSilence + milliseconds(1), false));
-  world.Heard(kNow + seconds(9));
-  EXPECT_FALSE(world.MayBeFollowed(kNow + seconds(10), false));
+  EXPECT_FALSE(world.MayBeFollowed(kBegun + WorldBinding::kSilenceToAWaiting, false));
+  EXPECT_TRUE(world.MayBeFollowed(kBegun, true));
+  world.ExpectScans(kBegun);
+  EXPECT_FALSE(world.MayBeFollowed(kBegun + WorldBinding::kSilence, false));
+  EXPECT_TRUE(world.MayBeFollowed(kBegun + WorldBinding::kSilence + milliseconds(1), false));
+  world.Heard(kBegun + seconds(9));
+  EXPECT_FALSE(world.MayBeFollowed(kBegun + seconds(10), false));
 }
 
 RosterEntry Sound() {
