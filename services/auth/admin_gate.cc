@@ -9,7 +9,8 @@ std::string AdminGate::WhyNot(const AdminOrder& order) {
   if (!key_) return "it takes no orders: it was started without --admin-key and --admin";
   if (!IsSealed(*key_, order)) return "the order is not sealed with the key of this fleet";
   if (order.number <= floor_ || used_.contains(order.number)) {
-    return "the number of the order is not above those before: it was given before, or the clock of "
+    return "the number of the order is not above those before: it was given before, or the clock "
+           "of "
            "the operator is behind that of this service";
   }
   used_.insert(order.number);

@@ -26,15 +26,14 @@ struct ObserverLink::Impl {
   explicit Impl(const LinkOptions& options)
       : participant(options, "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
-        beacons(
-            participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth, &beacon_events,
-                                                 dds::StatusMask::requested_deadline_missed(),
-                                                 &beacon_ids),
-            names.Writers(), participant.Prefix()),
+        beacons(participant.MakeReader<wire::Beacon>(
+                    options.area + "/*", kBeaconDepth, &beacon_events,
+                    dds::StatusMask::requested_deadline_missed(), &beacon_ids),
+                names.Writers(), participant.Prefix()),
         truth_reader(participant.MakeReader<wire::Truth>(kWorldPartition, &worlds)),
-        event_reader(
-            participant.MakeReader<wire::Event>(kWorldPartition, EventDepth(options.fleet_size),
-                                                nullptr, dds::StatusMask::none(), &worlds)),
+        event_reader(participant.MakeReader<wire::Event>(kWorldPartition,
+                                                         EventDepth(options.fleet_size), nullptr,
+                                                         dds::StatusMask::none(), &worlds)),
         roster_reader(participant.MakeReader<wire::Roster>(kWorldPartition, &worlds)),
         signal_reader(participant.MakeReader<wire::SignalState>(kWorldPartition, &worlds)),
         figures_reader(participant.MakeReader<wire::Figures>(kWorldPartition, &worlds)) {}

@@ -82,8 +82,8 @@ std::vector<AdminAnswer> OperatorLink::Take() {
   impl_->names.Writers().Update();
   std::vector<AdminAnswer> taken;
   impl_->answers.TakeEach([&](const wire::Answer& sample, const dds::SampleInfo& info) {
-    // As with a status: who speaks for another vehicle than its partition's, or than it drives as, is
-    // not believed.
+    // As with a status: who speaks for another vehicle than its partition's, or than it drives as,
+    // is not believed.
     const rtps::GUID_t& guid = info.sample_identity.writer_guid();
     const WriterEntry* const writer = impl_->names.Writers().Find(guid);
     AdminAnswer answer;

@@ -101,7 +101,7 @@ class Participant {
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;
   std::map<const dds::DataReader*, std::string> read_topics_;  // of those with a filter
-  std::vector<FoundEndpoint> found_;  // taken, and to be judged
+  std::vector<FoundEndpoint> found_;                           // taken, and to be judged
   UnfitEndpoints unfit_;
 };
 

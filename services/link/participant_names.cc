@@ -15,9 +15,8 @@ void ParticipantNames::OnWriter(Change change, const rtps::GUID_t& writer,
     if (change == Change::kGone) {
       speakers_.erase(Identity(writer));
     } else if ((of_world || !BeaconArea(partitions).empty()) && speakers_.size() < kMostWriters) {
-      speakers_.try_emplace(Identity(writer),
-                            Speaker{of_world ? kNobody : NamedVehicle(partitions),
-                                    ParticipantOf(writer), ++found_});
+      speakers_.try_emplace(Identity(writer), Speaker{of_world ? kNobody : NamedVehicle(partitions),
+                                                      ParticipantOf(writer), ++found_});
     }
   }
   writers_.OnWriter(change, writer, partitions);

@@ -172,11 +172,11 @@ std::string FilterFactory::Add(SampleFilter* filter) {
   return std::string(kExpression) + std::to_string(filters_.size() - 1);
 }
 
-// Each once, for its reader. A writer of the same participant would ask for the same again, to leave
-// out what the reader refuses anyhow: it is not given one.
-ReturnCode FilterFactory::create_content_filter(const char*, const char*,
-                                                const dds::TopicDataType*, const char* expression,
-                                                const ParameterSeq&, dds::IContentFilter*& filter) {
+// Each once, for its reader. A writer of the same participant would ask for the same again, to
+// leave out what the reader refuses anyhow: it is not given one.
+ReturnCode FilterFactory::create_content_filter(const char*, const char*, const dds::TopicDataType*,
+                                                const char* expression, const ParameterSeq&,
+                                                dds::IContentFilter*& filter) {
   const std::string_view text = expression == nullptr ? "" : expression;
   std::size_t number = filters_.size();
   if (text.starts_with(kExpression)) {

@@ -85,8 +85,8 @@ class KeysBySource {
 // A writer speaks for one vehicle. A few ids more are let through, to be refused by name.
 inline constexpr std::size_t kMostIdsOfWriter = 4;
 
-// So many keys of each participant, the first that it names: one that names a hundred thousand makes
-// no more instances than any other.
+// So many keys of each participant, the first that it names: one that names a hundred thousand
+// makes no more instances than any other.
 class KeyQuota final : public SampleFilter {
  public:
   enum class Key : std::uint8_t { kVehicle, kSession };

@@ -55,10 +55,10 @@ const Ours* NewestOf(OptionalInbox<Wire, Ours>& inbox, const WriterNames& names,
 struct FittedSensors {
   FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant,
                 const WorldEar& world, SampleFilter* filter)
-      : radar(MakeInboxIf<wire::RadarScan, RadarScan>(profile.radar, participant, id, world,
-                                                      filter)),
-        lidar(MakeInboxIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id, world,
-                                                      filter)),
+      : radar(
+            MakeInboxIf<wire::RadarScan, RadarScan>(profile.radar, participant, id, world, filter)),
+        lidar(
+            MakeInboxIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id, world, filter)),
         camera(MakeInboxIf<wire::CameraScan, CameraScan>(profile.camera, participant, id, world,
                                                          filter)) {}
 
@@ -110,9 +110,9 @@ struct OwnEndpoints {
                ReaderEvents& events, WorldBinding& binding, Filters& filters)
       : beacon_writer(
             participant.MakeWriter<wire::Beacon>(options.area + '/' + VehiclePartition(id))),
-        beacon_reader(participant.MakeReader<wire::Beacon>(
-            options.area + "/*", Participant::kProfileDepth, &events, ReaderEvents::Mask(),
-            &filters.beacons)),
+        beacon_reader(participant.MakeReader<wire::Beacon>(options.area + "/*",
+                                                           Participant::kProfileDepth, &events,
+                                                           ReaderEvents::Mask(), &filters.beacons)),
         command_writer(participant.MakeWriter<wire::MotorCommand>(VehiclePartition(id))),
         status_writer(participant.MakeWriter<wire::Status>(VehiclePartition(id))),
         beacons(beacon_reader, names, participant.Prefix()),

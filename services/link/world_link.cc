@@ -37,8 +37,7 @@ struct WorldLink::Impl {
         joins(participant.MakeReader<wire::Join>("fleet", &join_quota)),
         command_reader(participant.MakeReader<wire::MotorCommand>(
             "v*", Participant::kProfileDepth, &events,
-            dds::StatusMask::subscription_matched()
-                << dds::StatusMask::requested_deadline_missed(),
+            dds::StatusMask::subscription_matched() << dds::StatusMask::requested_deadline_missed(),
             &command_owners)),
         roster(participant.MakeWriter<wire::Roster>(kWorldPartition)),
         signal_writer(participant.MakeWriter<wire::SignalState>(kWorldPartition)),
@@ -73,8 +72,7 @@ struct WorldLink::Impl {
 
   WriterNames names;  // the library calls these two until the participant is gone, so they are
   ReaderEvents events{&RemoveDeparted<wire::MotorCommand>};  // declared before it
-  KeyQuota join_quota{"join", KeyQuota::Key::kSession, KeyQuota::Of::kParticipant,
-                      kMostSessions};
+  KeyQuota join_quota{"join", KeyQuota::Key::kSession, KeyQuota::Of::kParticipant, kMostSessions};
   OwnerFilter command_owners{"motor command"};
   KeyQuota order_ids{"order", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   Participant participant;

@@ -16,8 +16,8 @@ namespace giveway {
 // has another scenario.
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry);
 
-// Why the vehicle `own` cannot be where the entry says: the scenario has no such place, or it is far
-// from all the scenario has; empty if it can.
+// Why the vehicle `own` cannot be where the entry says: the scenario has no such place, or it is
+// far from all the scenario has; empty if it can.
 std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, VehicleId own);
 
 // Asks, as `session` if the process had one before, and waits for the last word; a refusal is

@@ -18,8 +18,9 @@ PlaceNews VehiclePlace::Follow(const RosterEntry& entry) {
   const bool of_ended_run = asking_ && RunHasEnded() && entry.epoch == entry_.epoch;
   if (of_ended_run || (asking_ && !asking_->IsFinal(entry))) return PlaceNews::kNone;
   if (!entry.accepted && entry.waiting) {
-    // Its place is gone; its id stays if it can, since everything it says is named after it. So does
-    // its session: a world keeps what a process claims, and hears only so many of its sessions.
+    // Its place is gone; its id stays if it can, since everything it says is named after it. So
+    // does its session: a world keeps what a process claims, and hears only so many of its
+    // sessions.
     LogWarning("lost its place: " + entry.reason);
     asking_.emplace(&link_, &clock_, entry_.vehicle, entry_.session);
     return PlaceNews::kNone;

@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/../system/members.sh"
 unset GIVEWAY_QOS GIVEWAY_ADMIN GIVEWAY_ADMIN_KEY
 take_domain
-cd "$SCRATCH"
+cd "$SCRATCH" || exit 2
 printf '%s\n' 0123456789abcdef0123456789abcdef >right.key
 printf '%s\n' fedcba9876543210fedcba9876543210 >wrong.key
 printf 'short\n' >short.key
@@ -42,6 +42,8 @@ grep -q 'not sealed with the key' "$SCRATCH/a.log" || fail "a did not say why it
 code=0
 timeout 10 "$(dirname "$FLEETCTL")/giveway-vehicle" --scenario intersection_yield --domain "$DOMAIN" \
   --admin-key missing.key 2>err || code=$?
-[[ $code -eq 2 ]] && grep -q 'admin key missing.key' err || fail "a missing key: $code $(cat err)"
+if [[ $code -ne 2 ]] || ! grep -q 'admin key missing.key' err; then
+  fail "a missing key: exit code $code: $(cat err)"
+fi
 no_contact
 [[ $failures -eq 0 ]]

@@ -1,11 +1,11 @@
 // What a stranger says in another's name: the participant that may say it is known, and another is
 // not believed, takes no memory and no honest sample's place.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <unistd.h>
 
 #include "services/link/convert/convert.h"
 #include "services/link/observer_link.h"
@@ -140,8 +140,7 @@ TEST_F(Strangers, ATickThatNoTimeHasPassedForIsRefusedOfTheWorldItself) {
     return vehicle_.Counters().implausible == 1;
   }));
   world_.SendScan(ScanOf(++tick_));
-  EXPECT_TRUE(
-      Eventually([&] { return vehicle_.Take(SteadyTime{0}).inputs.scan.has_value(); }));
+  EXPECT_TRUE(Eventually([&] { return vehicle_.Take(SteadyTime{0}).inputs.scan.has_value(); }));
 }
 
 TEST_F(Strangers, AreNotHeardAsTheStatusOfAVehicleThatSpeaks) {

@@ -21,9 +21,10 @@ void AddObserverFlags(CLI::App* verb, ObserverOptions* options) {
 }
 
 void AddAdminKeyFlag(CLI::App* verb, std::string* file) {
-  verb->add_option("--admin-key", *file,
-                   "Orders are sealed with the key in this file; without it, with that of the fleet "
-                   "that fleetctl run started here")
+  verb->add_option(
+          "--admin-key", *file,
+          "Orders are sealed with the key in this file; without it, with that of the fleet "
+          "that fleetctl run started here")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_ADMIN_KEY");
 }

@@ -24,8 +24,8 @@ class RunKey {
   bool is_own_ = false;
 };
 
-// The key to give orders with: of the file `given`, else of the fleet that was started on the domain
-// here, else empty. Throws auth::KeyError.
+// The key to give orders with: of the file `given`, else of the fleet that was started on the
+// domain here, else empty. Throws auth::KeyError.
 std::string KeyToOrderWith(const std::string& given, std::uint32_t domain);
 
 }  // namespace giveway::fleetctl

@@ -76,9 +76,8 @@ int SayNoAnswer(VehicleId vehicle) {
 }
 
 int SayRefused(const AdminAnswer& answer) {
-  const std::string who = answer.vehicle == kNobody
-                              ? "the world"
-                              : "vehicle " + std::to_string(Number(answer.vehicle));
+  const std::string who =
+      answer.vehicle == kNobody ? "the world" : "vehicle " + std::to_string(Number(answer.vehicle));
   std::fprintf(stderr, "%s refuses orders of this fleetctl: %s; see --admin-key\n", who.c_str(),
                answer.reason.c_str());
   return kCouldNotRun;

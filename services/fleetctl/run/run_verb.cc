@@ -93,9 +93,10 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
           "it the default")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
-  verb->add_option("--admin-key", options->fleet.admin_key,
-                   "Orders (qos apply) are sealed with the key in this file; without it, one is made "
-                   "that this user's fleetctl finds, for as long as the run lasts")
+  verb->add_option(
+          "--admin-key", options->fleet.admin_key,
+          "Orders (qos apply) are sealed with the key in this file; without it, one is made "
+          "that this user's fleetctl finds, for as long as the run lasts")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_ADMIN_KEY");
   verb->add_option("--impair", options->fleet.impair,

@@ -37,7 +37,10 @@ std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
 
 RingKeeper::RingKeeper(const link::LinkOptions& options, const std::string& key,
                        std::span<const VehicleId> fleet, fs::path folder, Nanoseconds ring)
-    : link_(options, key), fleet_(fleet.begin(), fleet.end()), folder_(std::move(folder)), ring_(ring) {
+    : link_(options, key),
+      fleet_(fleet.begin(), fleet.end()),
+      folder_(std::move(folder)),
+      ring_(ring) {
   for (const VehicleId vehicle : fleet_) link_.Seek(vehicle);
 }
 

@@ -1,6 +1,6 @@
 // What the world says about one session. Only one world is believed at a time, the first, until it
-// has ended: world_binding.h. What another one says meanwhile is kept, and counts once it may be the
-// world.
+// has ended: world_binding.h. What another one says meanwhile is kept, and counts once it may be
+// the world.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
-// Whether what a world senses for a vehicle, or a vehicle asks of its wheels, can be believed: every
-// number finite and in a range that anything on wheels keeps to, an epoch and a tick, and nothing
-// that was measured later than it was sent. Pure.
+// Whether what a world senses for a vehicle, or a vehicle asks of its wheels, can be believed:
+// every number finite and in a range that anything on wheels keeps to, an epoch and a tick, and
+// nothing that was measured later than it was sent. Pure.
 #pragma once
 
 #include <optional>

@@ -15,8 +15,8 @@ SessionOwners::Verdict SessionOwners::MayAsk(const JoinRequest& request, std::ui
     const Owner& owner = known->second;
     if (!left(owner.writer) && now - owner.heard <= patience) return Verdict::kOfAnother;
   }
-  const bool counts = known != sessions_.end() && !known->second.over &&
-                      known->second.participant == participant;
+  const bool counts =
+      known != sessions_.end() && !known->second.over && known->second.participant == participant;
   const auto count = counts_.find(participant);
   if (!counts && count != counts_.end() && count->second >= kMostOfOne) return Verdict::kTooMany;
   if (known != sessions_.end()) {

@@ -27,8 +27,8 @@ class SessionOwners {
 
   enum class Verdict : std::uint8_t { kYes, kTooMany, kOfAnother };
 
-  // Whether a participant may ask for a place, or leave, by this request. `left`: whether the writer
-  // of this identity has. One that may is the session's owner from now on.
+  // Whether a participant may ask for a place, or leave, by this request. `left`: whether the
+  // writer of this identity has. One that may is the session's owner from now on.
   Verdict MayAsk(const JoinRequest& request, std::uint64_t participant, std::uint64_t writer,
                  SteadyTime now, const std::function<bool(std::uint64_t writer)>& left);
   Verdict MayLeave(const JoinRequest& request, std::uint64_t participant);
@@ -61,7 +61,8 @@ class SessionOwners {
 
   std::map<SessionId, Owner> sessions_;
   std::deque<SessionId> oldest_;  // of sessions_
-  std::unordered_map<std::uint64_t, std::size_t> counts_;  // of sessions_ that are not over, by participant
+  std::unordered_map<std::uint64_t, std::size_t>
+      counts_;  // of sessions_ that are not over, by participant
   std::unordered_map<VehicleId, SessionId> vehicles_;
 };
 

@@ -28,7 +28,7 @@ class SignalInbox {
   // clock that worlds are watched by.
   std::span<const SignalState> Take(SteadyTime now);
 
-  std::uint32_t Unreadable() const { return unreadable_; }  // see FromWire, or without an id
+  std::uint32_t Unreadable() const { return unreadable_; }    // see FromWire, or without an id
   std::uint32_t Strangers() const { return strangers_; }      // not of the world
   std::uint32_t Implausible() const { return implausible_; }  // see sample_check.h, tick_gate.h
   // Edges: once a head until it is heard again.

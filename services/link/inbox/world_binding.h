@@ -1,7 +1,7 @@
-// Which participant is the world: the first that gave this vehicle a place, for as long as it lives.
-// Another one that speaks as the world meanwhile is not believed. It has ended when its writer of
-// the roster has left, or when it has been silent for longer than a world that lives can be. Knows
-// no DDS, has no clock.
+// Which participant is the world: the first that gave this vehicle a place, for as long as it
+// lives. Another one that speaks as the world meanwhile is not believed. It has ended when its
+// writer of the roster has left, or when it has been silent for longer than a world that lives can
+// be. Knows no DDS, has no clock.
 #pragma once
 
 #include <atomic>

@@ -27,9 +27,8 @@ void SpeakAsWorld(const Orders& orders, const std::function<void(RosterEntry*)>&
 }
 
 void RosterOfAnotherId(const Orders& orders) {
-  SpeakAsWorld(orders, [&](RosterEntry* entry) {
-    entry->vehicle = VehicleId{Number(orders.victim) + 1};
-  });
+  SpeakAsWorld(orders,
+               [&](RosterEntry* entry) { entry->vehicle = VehicleId{Number(orders.victim) + 1}; });
 }
 
 void RosterNan(const Orders& orders) {
@@ -61,8 +60,8 @@ void Leave(const Orders& orders) {
   intruder.AwaitReader(joins);
   intruder.Repeat(milliseconds(50), [&](std::uint32_t) {
     for (const auto& [vehicle, entry] : intruder.Entries()) {
-      joins.Write(link::ToWire(
-          JoinRequest{.session = entry.session, .wanted = vehicle, .leaving = true}));
+      joins.Write(
+          link::ToWire(JoinRequest{.session = entry.session, .wanted = vehicle, .leaving = true}));
     }
   });
 }
@@ -114,8 +113,8 @@ AdminOrder Elsewhere(const Orders& orders) {
       "</metatrafficUnicastLocatorList></RemoteServer></discoveryServersList>";
   AdminOrder order{.vehicle = orders.victim, .number = 1, .kind = OrderKind::kApply};
   order.profiles.name = "elsewhere.xml";
-  order.profiles.text = std::regex_replace(OptionsOf(orders).qos.text,
-                                           std::regex("<discovery_config>"), client);
+  order.profiles.text =
+      std::regex_replace(OptionsOf(orders).qos.text, std::regex("<discovery_config>"), client);
   return order;
 }
 
@@ -143,8 +142,8 @@ void ReplayOrders(const Orders& orders) {
   std::fflush(stdout);
   intruder.Repeat(milliseconds(20), [&](std::uint32_t i) {
     heard.TakeEach([&](const wire::Order& order, const link::dds::SampleInfo& info) {
-      const bool own = info.sample_identity.writer_guid().guidPrefix ==
-                       intruder.Participant().Prefix();
+      const bool own =
+          info.sample_identity.writer_guid().guidPrefix == intruder.Participant().Prefix();
       if (!own) kept.push_back(order);
     });
     if (i % 10 != 0) return;
@@ -202,14 +201,19 @@ void SybilJoins(const Orders& orders) {
 }  // namespace
 
 const std::map<std::string, Attack>& Attacks() {
-  static const std::map<std::string, Attack> attacks = {
-      {"roster-id", RosterOfAnotherId}, {"roster-nan", RosterNan},
-      {"roster-far", RosterFarOff},     {"roster-ended", RosterEnded},
-      {"roster-refused", RosterRefused}, {"leave", Leave},
-      {"command", Command},             {"scan-ahead", ScanFarAhead},
-      {"scan-ended", ScanEnded},        {"order", OrderElsewhere},
-      {"replay", ReplayOrders},         {"ids", ManyIds},
-      {"sybil", SybilJoins}};
+  static const std::map<std::string, Attack> attacks = {{"roster-id", RosterOfAnotherId},
+                                                        {"roster-nan", RosterNan},
+                                                        {"roster-far", RosterFarOff},
+                                                        {"roster-ended", RosterEnded},
+                                                        {"roster-refused", RosterRefused},
+                                                        {"leave", Leave},
+                                                        {"command", Command},
+                                                        {"scan-ahead", ScanFarAhead},
+                                                        {"scan-ended", ScanEnded},
+                                                        {"order", OrderElsewhere},
+                                                        {"replay", ReplayOrders},
+                                                        {"ids", ManyIds},
+                                                        {"sybil", SybilJoins}};
   return attacks;
 }
 
