@@ -2,11 +2,16 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstddef>
 #include <cstring>
 #include <string>
 #include <string_view>
 
 #include "services/link/inbox/participant_of.h"
+
+#if __has_include(<fastrtps/config.h>)
+#include <fastdds/rtps/common/CacheChange.h>
+#endif
 
 namespace giveway::link {
 namespace {
@@ -166,6 +171,26 @@ const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
   const std::uint64_t world = world_.load(std::memory_order_relaxed);
   return world == 0 || world == ParticipantOf(writer) ? nullptr : "its writer is not the world's";
 }
+
+#if __has_include(<fastrtps/config.h>)
+// What 2.9.1 passes for the sample's identity is that of the sample it answers. But it asks about
+// the payload within a change, which has the writer.
+rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
+                      const dds::IContentFilter::FilterSampleInfo&) {
+  static const std::ptrdiff_t payload_at = [] {
+    const rtps::CacheChange_t change;
+    return reinterpret_cast<const char*>(&change.serializedPayload) -
+           reinterpret_cast<const char*>(&change);
+  }();
+  const char* const change = reinterpret_cast<const char*>(&payload) - payload_at;
+  return reinterpret_cast<const rtps::CacheChange_t*>(change)->writerGUID;
+}
+#else
+rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload&,
+                      const dds::IContentFilter::FilterSampleInfo& info) {
+  return info.sample_identity.writer_guid();
+}
+#endif
 
 std::string FilterFactory::Add(SampleFilter* filter) {
   filters_.emplace_back(filter);

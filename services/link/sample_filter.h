@@ -184,6 +184,10 @@ class WorldFilter final : public SampleFilter {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
 
+// Who wrote what a filter is asked about.
+rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
+                      const dds::IContentFilter::FilterSampleInfo& info);
+
 // Hands the filters of a participant's readers to the library. Its name is the participant's own:
 // writers elsewhere know no such filter, and send all.
 class FilterFactory final : public dds::IContentFilterFactory {
@@ -204,7 +208,7 @@ class FilterFactory final : public dds::IContentFilterFactory {
     explicit Asked(SampleFilter* asked) : filter(asked) {}
     bool evaluate(const SerializedPayload& payload, const FilterSampleInfo& info,
                   const GUID_t&) const override {
-      return filter->Passes(info.sample_identity.writer_guid(), payload);
+      return filter->Passes(WriterOf(payload, info), payload);
     }
     SampleFilter* filter;
     bool given = false;
