@@ -97,7 +97,7 @@ judge() {
 # attack NAME WHAT [MILLISECONDS]
 attack() {
   local code=0
-  timeout 30 "$ATTACKER" "$1" "$domain" "$qos" 1 "${3:-1500}" >attack.out 2>&1 || code=$?
+  timeout 60 "$ATTACKER" "$1" "$domain" "$qos" 1 "${3:-800}" >attack.out 2>&1 || code=$?
   if [[ $code -ne 0 ]]; then
     row FAILED "$2: the intruder could not: $(cat attack.out)"
     failures=$((failures + 1))
@@ -136,7 +136,7 @@ attack order "an order with the discovery server of the intruder"
 said vehicle-1 'refused an order' "an order without a seal"
 
 # An order of the operator, said again and again by another.
-"$ATTACKER" replay "$domain" "$qos" 1 4000 >replay.out 2>&1 &
+"$ATTACKER" replay "$domain" "$qos" 1 3000 >replay.out 2>&1 &
 replay=$!
 for _ in $(seq 100); do
   grep -qs listens replay.out && break
@@ -161,7 +161,7 @@ runs=$(grep -c 'runs with the QoS of deadline.xml' logs/vehicle-1.log || true)
 }
 
 before=$(memory_kb)
-attack ids "100 000 ids of one writer, of beacons and commands"
+attack ids "100 000 ids of one process, of beacons and commands"
 attack sybil "30 000 joins of ten participants"
 after=$(memory_kb)
 if ((after - before > 16 * 1024)); then
