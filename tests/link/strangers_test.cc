@@ -120,7 +120,7 @@ TEST_F(Strangers, SendNoScanAndEvictNone) {
   const auto take = [&] { return vehicle_.Take(SteadyTime{0}).inputs.scan; };
   ASSERT_TRUE(Eventually([&] {
     stranger.SendScan(ScanOf(0x8000'0000));
-    if (const auto scan = take()) EXPECT_LT(scan->tick, Tick{0x8000'0000});
+    EXPECT_LT(take().value_or(RangeScan{}).tick, Tick{0x8000'0000});
     return vehicle_.Counters().strangers > 0;
   }));
   world_.SendScan(ScanOf(++tick_));

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "services/auth/admin_key.h"
+#include "services/fleetctl/process/domain_lock.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -58,7 +59,8 @@ RunKey::~RunKey() {
 std::string KeyToOrderWith(const std::string& given, std::uint32_t domain) {
   if (!given.empty()) return auth::ReadAdminKey(given);
   const std::string file = KeyFileOf(domain);
-  if (!IsPrivate(KeyFolder()) || ::access(file.c_str(), R_OK) != 0) return {};
+  // One whose fleet is gone was left by a fleetctl that was killed.
+  if (!IsTaken(domain) || !IsPrivate(KeyFolder()) || ::access(file.c_str(), R_OK) != 0) return {};
   return auth::ReadAdminKey(file);
 }
 

@@ -16,6 +16,7 @@ std::optional<RosterEntry> RosterInbox::NewestAfter(Mark& mark, const WriterName
     Receive(sample, info.sample_identity.writer_guid(), now);
   });
   FollowWorlds(names, now);
+  CountOthers();
   if (std::exchange(mark, entries_) == entries_) return std::nullopt;
   return newest_;
 }
@@ -46,11 +47,15 @@ void RosterInbox::Keep(Candidate candidate) {
   if (same != candidates_.end()) candidates_.erase(same);
   if (candidates_.size() == kMostCandidates) candidates_.erase(candidates_.begin());
   candidates_.push_back(std::move(candidate));
-  if (world_.Participant() == 0) return;
-  ++from_other_worlds_;
-  const Candidate& other = candidates_.back();
-  Refuse(other.entry, other.writer, "old_world_entries", "writer",
-         "another world is there and is the one that is believed, until it ends");
+}
+
+void RosterInbox::CountOthers() {
+  for (Candidate& other : candidates_) {
+    if (!std::exchange(other.is_new, false)) continue;
+    ++from_other_worlds_;
+    Refuse(other.entry, other.writer, "old_world_entries", "writer",
+           "another world is there and is the one that is believed, until it ends");
+  }
 }
 
 // Of several that may be the world the one found last: a world that was started again.

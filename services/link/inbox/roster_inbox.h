@@ -46,6 +46,7 @@ class RosterInbox {
     std::uint64_t participant = 0;
     std::uint64_t writer = 0;
     RosterEntry entry;
+    bool is_new = true;  // since the last look
   };
   static constexpr std::size_t kMostCandidates = 4;
   static constexpr std::size_t kMostRefusals = 4;
@@ -55,6 +56,7 @@ class RosterInbox {
   void Refuse(const RosterEntry& entry, std::uint64_t writer, const char* counter,
               const char* field, std::string why);
   void FollowWorlds(const WriterNames& names, SteadyTime now);
+  void CountOthers();
 
   Reader<wire::Roster> reader_;
   WorldBinding& world_;
