@@ -21,9 +21,11 @@ struct OperatorLink::Impl {
         participant(options, "giveway-operator", names),
         answers(participant.MakeReader<wire::Answer>("v*", &strangers)) {}
 
-  // A refusal may come from a service that has another key: it says so and changes nothing.
-  bool IsBelieved(const AdminAnswer& answer) const {
-    return key.empty() || answer.state == AnswerState::kRefused || auth::IsSealed(key, answer);
+  // A refusal changes nothing, and may come from a service that cannot seal it.
+  bool IsBelieved(AdminAnswer* answer) const {
+    if (key.empty() || auth::IsSealed(key, *answer)) return true;
+    answer->seal = {};
+    return answer->state == AnswerState::kRefused;
   }
   Writer<wire::Order>& To(VehicleId vehicle) {
     const auto found = writers.find(vehicle);
@@ -89,7 +91,7 @@ std::vector<AdminAnswer> OperatorLink::Take() {
     AdminAnswer answer;
     if (writer != nullptr && writer->vehicle == VehicleId{sample.vehicle()} &&
         impl_->names.Owns(writer->vehicle, guid) && FromWire(sample, answer) &&
-        impl_->IsBelieved(answer)) {
+        impl_->IsBelieved(&answer)) {
       taken.push_back(std::move(answer));
     }
   });

@@ -13,8 +13,8 @@ namespace giveway::link {
 
 class OperatorLink {
  public:
-  // `key`: orders are sealed with it, and only answers sealed with it come out of Take; empty:
-  // without. Throws LinkError.
+  // `key`: orders are sealed with it, and only answers sealed with it, and refusals, come out of
+  // Take; empty: without. Throws LinkError.
   explicit OperatorLink(const LinkOptions& options, std::string key = {});
   ~OperatorLink();
   OperatorLink(const OperatorLink&) = delete;
@@ -31,7 +31,8 @@ class OperatorLink {
   bool Reaches(VehicleId vehicle) const;
   // False if the library refused the order. It was sought, and is reached.
   bool Send(const AdminOrder& order);
-  // Everything that came since the last call.
+  // Everything that came since the last call. With a key, a refusal may come without a seal: of a
+  // service that has another key, or finds the order's number used. Its seal is then 0.
   std::vector<AdminAnswer> Take();
 
  private:

@@ -13,6 +13,9 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
+// A refusal without a seal is of another key, or of a clock that is behind; or the order was said
+// again by an intruder, and what the service answered to the operator is on its way.
+constexpr auto kUnsealedPatience = std::chrono::seconds(1);
 
 // Calls done() again and again. Whether it was true before `patience` was over, or the operator's
 // after so many Ctrl-C.
@@ -45,15 +48,25 @@ std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseco
                                         bool insist) {
   order.number = link::OperatorLink::NextNumber();
   std::optional<AdminAnswer> last;
+  std::optional<AdminAnswer> unsealed;
+  SteadyTime unsealed_counts{0};
+  bool restarts = false;
   if (!link_.Send(order)) return last;
   WaitUntil(patience, insist ? 2 : 1, [&] {
     for (AdminAnswer& answer : link_.Take()) {
-      const bool ours = answer.vehicle == order.vehicle && answer.order == order.number;
-      if (ours && answer.state != AnswerState::kRestarting) last = std::move(answer);
+      if (answer.vehicle != order.vehicle || answer.order != order.number) continue;
+      if (answer.state == AnswerState::kRestarting) {
+        restarts = true;
+      } else if (!has_key_ || answer.seal != Seal{}) {
+        last = std::move(answer);
+      } else if (!unsealed) {
+        unsealed = std::move(answer);
+        unsealed_counts = SteadyNow() + kUnsealedPatience;
+      }
     }
-    return last.has_value();
+    return last || (unsealed && !restarts && SteadyNow() > unsealed_counts);
   });
-  return last;
+  return last ? last : unsealed;
 }
 
 int SayNotReached(VehicleId vehicle, std::uint32_t domain) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "services/link/operator_link.h"
@@ -18,7 +19,8 @@ namespace giveway::fleetctl {
 class Orders {
  public:
   // `key`: orders are sealed with it, and only answers sealed with it believed; empty: without.
-  Orders(const link::LinkOptions& options, const std::string& key) : link_(options, key) {}
+  Orders(const link::LinkOptions& options, const std::string& key)
+      : link_(options, key), has_key_(!key.empty()) {}
 
   // Waits until each is reached; those that are not within `patience` come back.
   std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles,
@@ -32,6 +34,7 @@ class Orders {
 
  private:
   link::OperatorLink link_;
+  const bool has_key_;
   std::set<VehicleId> sought_;
 };
 
