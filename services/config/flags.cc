@@ -81,6 +81,10 @@ class CommandLine {
         "cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
         "lecture_printed, which shows the flaws of the printed scripts: it collides");
     Add("--duration", "SECONDS", "end after this time instead of the scenario's");
+    Add("--admin-key", "FILE",
+        "takes orders (fleetctl qos apply) sealed with the key in this file:\n"
+        "openssl rand -hex 32 > FILE makes one. Without it no order is taken");
+    AddSwitch("--admin", "takes orders without a key, of anybody who reaches it");
     AddSwitch("--lockstep", "the world waits for every command of a tick");
     Add("--health-port", "0..65535", "serves /livez, /readyz, /metrics; 0, the default: nowhere");
     Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
@@ -268,6 +272,8 @@ ServiceFlags Read(Service service, FlagValues* values) {
   if (behaviour) flags.behaviour = BehaviourNamed(*behaviour);
   flags.duration_s = values->Number("--duration", {0, 86400, "s", true});
   flags.lockstep = values->Switch("--lockstep");
+  flags.admin = values->Switch("--admin");
+  if (values->Text("--admin-key")) flags.admin_key = values->TextOr("", "--admin-key");
   flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);
   flags.log_level =
       values->OneOf("--log-level", {"debug", "info", "warning", "error"}).value_or(flags.log_level);

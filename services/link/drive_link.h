@@ -19,7 +19,8 @@ namespace giveway::link {
 struct Taken {
   Inputs inputs;
   std::uint32_t scans_skipped = 0;  // scans overwritten by a newer one in the same drain
-  // The first few beacons that are broken, misnamed or unreadable, with what is wrong with them.
+  // The first few samples that are broken, misnamed, unreadable, out of range or a stranger's, with
+  // what is wrong with them.
   std::span<const Refusal> refusals;
 };
 
@@ -28,11 +29,13 @@ struct VehicleLinkCounters {
   // Beacons that arrived and were overwritten in the reader before a drain: gaps in the writers'
   // own sequence numbers less what the library's sample-lost status says never arrived.
   std::uint32_t beacons_superseded = 0;
-  std::uint32_t unbound_samples = 0;        // writer's partition not yet known: dropped
-  std::uint32_t unreadable_samples = 0;     // arrived, but say what cannot be told: dropped
-  std::uint32_t wrong_name_scans = 0;       // of a sensor, whose id is not this vehicle's
-  std::uint32_t old_world_entries = 0;      // roster of a world after another had taken over
-  std::uint32_t events_dropped = 0;         // the event queue was full
+  std::uint32_t unbound_samples = 0;     // writer's partition not yet known: dropped
+  std::uint32_t unreadable_samples = 0;  // arrived, but say what cannot be told: dropped
+  std::uint32_t wrong_name_scans = 0;    // of a sensor, whose id is not this vehicle's
+  std::uint32_t old_world_entries = 0;   // roster of a world while another one is believed
+  std::uint32_t strangers = 0;           // of a participant that may not say that: dropped
+  std::uint32_t implausible = 0;         // of the world, out of range or of ticks to come: dropped
+  std::uint32_t events_dropped = 0;      // the event queue was full
   std::uint32_t deadline_watches_lost = 0;  // the library stopped watching a reader's deadlines
   std::uint32_t write_failures = 0;
   std::uint32_t matched_peers = 0;   // beacon writers matched now, own excluded
@@ -82,6 +85,9 @@ class DriveLink {
   // Whether the writer of this vehicle's ranges is matched and alive, whatever comes of its
   // samples.
   virtual bool WorldSpeaks() const = 0;
+  // Whether the world is there and has no writer of this vehicle's ranges: it took the body away,
+  // or never had it.
+  virtual bool LacksBody() const = 0;
 
   virtual VehicleLinkCounters Counters() const = 0;
   virtual EffectiveBeaconQos BeaconQos() const = 0;

@@ -2,9 +2,9 @@
 
 #include "services/link/convert/convert.h"
 #include "services/link/fastdds/reader_events.h"
-#include "services/link/fastdds/writer_names.h"
 #include "services/link/inbox/beacon_inbox.h"
 #include "services/link/participant.h"
+#include "services/link/participant_names.h"
 
 namespace giveway::link {
 namespace {
@@ -25,21 +25,22 @@ void Append(Reader<Wire>& reader, std::vector<Ours>& list) {
 struct ObserverLink::Impl {
   explicit Impl(const LinkOptions& options)
       : participant(options, "giveway-observer", names),
-        status_reader(participant.MakeReader<wire::Status>("v*")),
-        beacons(
-            participant.MakeReader<wire::Beacon>(options.area + "/*", kBeaconDepth, &beacon_events,
-                                                 dds::StatusMask::requested_deadline_missed()),
-            names, participant.Prefix()),
-        truth_reader(participant.MakeReader<wire::Truth>(kWorldPartition)),
-        event_reader(
-            participant.MakeReader<wire::Event>(kWorldPartition, EventDepth(options.fleet_size))),
-        roster_reader(participant.MakeReader<wire::Roster>(kWorldPartition)),
-        signal_reader(participant.MakeReader<wire::SignalState>(kWorldPartition)),
-        figures_reader(participant.MakeReader<wire::Figures>(kWorldPartition)) {}
+        status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
+        beacons(participant.MakeReader<wire::Beacon>(
+                    options.area + "/*", kBeaconDepth, &beacon_events,
+                    dds::StatusMask::requested_deadline_missed(), &beacon_ids),
+                names.Writers(), participant.Prefix()),
+        truth_reader(participant.MakeReader<wire::Truth>(kWorldPartition, &worlds)),
+        event_reader(participant.MakeReader<wire::Event>(kWorldPartition,
+                                                         EventDepth(options.fleet_size), nullptr,
+                                                         dds::StatusMask::none(), &worlds)),
+        roster_reader(participant.MakeReader<wire::Roster>(kWorldPartition, &worlds)),
+        signal_reader(participant.MakeReader<wire::SignalState>(kWorldPartition, &worlds)),
+        figures_reader(participant.MakeReader<wire::Figures>(kWorldPartition, &worlds)) {}
 
   void TakeStatuses(Observed& observed) {
     status_reader.TakeEach([&](const wire::Status& sample, const dds::SampleInfo& info) {
-      const WriterEntry* const entry = names.Find(info.sample_identity.writer_guid());
+      const WriterEntry* const entry = names.Writers().Find(info.sample_identity.writer_guid());
       VehicleStatus status;
       if (entry == nullptr || entry->vehicle == kNobody ||
           entry->vehicle != VehicleId{sample.vehicle()}) {
@@ -50,8 +51,12 @@ struct ObserverLink::Impl {
     });
   }
 
-  WriterNames names;  // the library calls these two until the participant is gone
+  ParticipantNames names;  // the library calls these two until the participant is gone
   ReaderEvents beacon_events{&RemoveDeparted<wire::Beacon>};  // only to remove; its news go unread
+  KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
+  FirstComerFilter status_owners{"status"};
+  FirstWorldFilter worlds{"sample of a world",
+                          [this](std::uint64_t one) { return names.IsWorld(one); }};
   Participant participant;
   Reader<wire::Status> status_reader;
   BeaconInbox beacons;
@@ -66,7 +71,7 @@ ObserverLink::ObserverLink(const LinkOptions& options) : impl_(std::make_unique<
 ObserverLink::~ObserverLink() = default;
 
 Observed ObserverLink::Take() {
-  impl_->names.Update();
+  impl_->names.Writers().Update();
   Observed observed;
   impl_->TakeStatuses(observed);
   impl_->beacons.Drain(SteadyTime{0}, observed.beacons);

@@ -1,7 +1,9 @@
 // An operator's side: gives orders to vehicles, one by one, and hears their answers.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "services/link/fastdds/link_options.h"
@@ -11,10 +13,15 @@ namespace giveway::link {
 
 class OperatorLink {
  public:
-  explicit OperatorLink(const LinkOptions& options);  // Throws LinkError.
+  // `key`: orders are sealed with it, and only answers sealed with it, and refusals, come out of
+  // Take; empty: without. Throws LinkError.
+  explicit OperatorLink(const LinkOptions& options, std::string key = {});
   ~OperatorLink();
   OperatorLink(const OperatorLink&) = delete;
   OperatorLink& operator=(const OperatorLink&) = delete;
+
+  // For the next order: the time in nanoseconds since 1970, above all that it gave before.
+  static std::uint64_t NextNumber();
 
   // The vehicles whose beacons are announced in the domain now, in order. Some may take no orders.
   std::vector<VehicleId> Announced();
@@ -24,7 +31,8 @@ class OperatorLink {
   bool Reaches(VehicleId vehicle) const;
   // False if the library refused the order. It was sought, and is reached.
   bool Send(const AdminOrder& order);
-  // Everything that came since the last call.
+  // Everything that came since the last call. With a key, a refusal may come without a seal: of a
+  // service that has another key, or finds the order's number used. Its seal is then 0.
   std::vector<AdminAnswer> Take();
 
  private:

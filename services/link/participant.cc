@@ -247,7 +247,12 @@ std::vector<std::string> Participant::TakeUnfit(SteadyTime now) {
   if (!unfit_.IsDue(now)) return {};
   std::vector<FoundEndpoint> own;
   for (const auto& [profile, writer] : writers_) own.push_back(Described(*writer));
-  for (const auto& [profile, reader] : readers_) own.push_back(Described(*reader));
+  for (const auto& [profile, reader] : readers_) {
+    FoundEndpoint described = Described(*reader);
+    const auto topic = read_topics_.find(reader);
+    if (topic != read_topics_.end()) described.topic = topic->second;
+    own.push_back(std::move(described));
+  }
   return unfit_.Judge(own, now);
 }
 
@@ -283,19 +288,34 @@ void Participant::Delete(dds::DataWriter& writer) {
   participant_->delete_publisher(publisher);
 }
 
+dds::TopicDescription& Participant::Filtered(dds::Topic& topic, SampleFilter* filter) {
+  const std::string filter_class = "giveway " + PrefixText();
+  if (participant_->lookup_content_filter_factory(filter_class.c_str()) == nullptr &&
+      !Ok(participant_->register_content_filter_factory(filter_class.c_str(), &filters_))) {
+    ThrowNotMade("filter of samples");
+  }
+  const std::string expression = filters_.Add(filter);
+  auto* filtered = participant_->create_contentfilteredtopic(
+      topic.get_name() + " " + expression, &topic, expression, {}, filter_class.c_str());
+  if (filtered == nullptr) ThrowNotMade("filter of " + topic.get_name());
+  return *filtered;
+}
+
 dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& profile,
                                          const std::string& partition, std::int32_t depth,
                                          dds::DataReaderListener* listener,
-                                         const dds::StatusMask& mask) {
+                                         const dds::StatusMask& mask, SampleFilter* filter) {
   dds::SubscriberQos subscriber_qos;
   subscriber_qos.partition().push_back(partition.c_str());
   auto* subscriber =
       participant_->create_subscriber(subscriber_qos, nullptr, dds::StatusMask::none());
   if (subscriber == nullptr) ThrowNotMade("subscriber for partition " + partition);
+  dds::TopicDescription& read = filter == nullptr ? topic : Filtered(topic, filter);
   auto* reader =
-      subscriber->create_datareader(&topic, ReaderQos(*subscriber, profile, depth), listener, mask);
+      subscriber->create_datareader(&read, ReaderQos(*subscriber, profile, depth), listener, mask);
   if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
   readers_.emplace_back(profile, reader);
+  if (filter != nullptr) read_topics_.emplace(reader, topic.get_name());
   return *reader;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "services/link/fastdds/link_options.h"
 #include "services/link/fastdds/topics.h"
 #include "services/link/inbox/unfit_endpoints.h"
+#include "services/link/sample_filter.h"
 #include "services/types/admin.h"
 #include "services/types/ids.h"
 
@@ -35,13 +37,18 @@ class Participant {
   Writer<Wire> MakeWriter(const std::string& partition, std::int32_t depth = kProfileDepth) {
     return Writer<Wire>(MakeWriter(MakeTopic<Wire>(), TopicOf<Wire>::kWriter, partition, depth));
   }
-  // `listener`, if any, hears the statuses of `mask` and must outlive this.
+  // `listener`, if any, hears the statuses of `mask`; it and `filter` must outlive this.
   template <typename Wire>
   Reader<Wire> MakeReader(const std::string& partition, std::int32_t depth = kProfileDepth,
                           dds::DataReaderListener* listener = nullptr,
-                          const dds::StatusMask& mask = dds::StatusMask::none()) {
-    return Reader<Wire>(
-        MakeReader(MakeTopic<Wire>(), TopicOf<Wire>::kReader, partition, depth, listener, mask));
+                          const dds::StatusMask& mask = dds::StatusMask::none(),
+                          SampleFilter* filter = nullptr) {
+    return Reader<Wire>(MakeReader(MakeTopic<Wire>(), TopicOf<Wire>::kReader, partition, depth,
+                                   listener, mask, filter));
+  }
+  template <typename Wire>
+  Reader<Wire> MakeReader(const std::string& partition, SampleFilter* filter) {
+    return MakeReader<Wire>(partition, kProfileDepth, nullptr, dds::StatusMask::none(), filter);
   }
   // From now on every topic is another one, that no endpoint of the fleet has.
   void StandApart() { topic_prefix_ = "qos-trial/"; }
@@ -80,8 +87,11 @@ class Participant {
                               const std::string& partition, std::int32_t depth);
   dds::DataReader& MakeReader(dds::Topic& topic, const std::string& profile,
                               const std::string& partition, std::int32_t depth,
-                              dds::DataReaderListener* listener, const dds::StatusMask& mask);
+                              dds::DataReaderListener* listener, const dds::StatusMask& mask,
+                              SampleFilter* filter);
+  dds::TopicDescription& Filtered(dds::Topic& topic, SampleFilter* filter);
 
+  FilterFactory filters_;  // the library asks it until the participant is gone
   std::shared_ptr<Impairer> impairer_;
   std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
   DiscoveryListener* listener_ = nullptr;      // the one that the library tells
@@ -90,7 +100,8 @@ class Participant {
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;
-  std::vector<FoundEndpoint> found_;  // taken, and to be judged
+  std::map<const dds::DataReader*, std::string> read_topics_;  // of those with a filter
+  std::vector<FoundEndpoint> found_;                           // taken, and to be judged
   UnfitEndpoints unfit_;
 };
 

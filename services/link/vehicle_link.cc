@@ -1,5 +1,6 @@
 #include "services/link/vehicle_link.h"
 
+#include <array>
 #include <chrono>
 
 #include "services/link/convert/convert.h"
@@ -13,8 +14,10 @@
 #include "services/link/inbox/roster_inbox.h"
 #include "services/link/inbox/scan_inbox.h"
 #include "services/link/inbox/signal_inbox.h"
+#include "services/link/link_clock.h"
 #include "services/link/participant.h"
 #include "services/link/resolved_values.h"
+#include "services/link/sample_filter.h"
 #include "services/types/check.h"
 
 namespace giveway::link {
@@ -28,36 +31,48 @@ constexpr Nanoseconds kLeaveTimeout = std::chrono::milliseconds(300);
 template <typename Wire, typename Ours>
 using OptionalInbox = std::optional<ScanInbox<Wire, Ours>>;
 
+// What is heard of a world: whose word counts, and how fast its ticks can come.
+struct WorldEar {
+  WorldBinding& binding;
+  Nanoseconds tick_period;
+};
+
 template <typename Wire, typename Ours>
-OptionalInbox<Wire, Ours> MakeInboxIf(bool fitted, Participant& participant, VehicleId id) {
+OptionalInbox<Wire, Ours> MakeInboxIf(bool fitted, Participant& participant, VehicleId id,
+                                      const WorldEar& world, SampleFilter* filter) {
   if (!fitted) return std::nullopt;
-  return ScanInbox<Wire, Ours>(participant.MakeReader<Wire>(VehiclePartition(id)), id);
+  return ScanInbox<Wire, Ours>(participant.MakeReader<Wire>(VehiclePartition(id), filter), id,
+                               world.binding, "scan", world.tick_period);
 }
 
 // Null if the sensor is not fitted, or says nothing new.
 template <typename Wire, typename Ours>
-const Ours* NewestOf(OptionalInbox<Wire, Ours>& inbox, const WriterNames& names) {
-  return inbox.has_value() ? inbox->Take(names) : nullptr;
+const Ours* NewestOf(OptionalInbox<Wire, Ours>& inbox, const WriterNames& names, SteadyTime now) {
+  return inbox.has_value() ? inbox->Take(names, now) : nullptr;
 }
 
 // The sensors beside the ultrasonics.
 struct FittedSensors {
-  FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant)
-      : radar(MakeInboxIf<wire::RadarScan, RadarScan>(profile.radar, participant, id)),
-        lidar(MakeInboxIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id)),
-        camera(MakeInboxIf<wire::CameraScan, CameraScan>(profile.camera, participant, id)) {}
+  FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant,
+                const WorldEar& world, SampleFilter* filter)
+      : radar(
+            MakeInboxIf<wire::RadarScan, RadarScan>(profile.radar, participant, id, world, filter)),
+        lidar(
+            MakeInboxIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id, world, filter)),
+        camera(MakeInboxIf<wire::CameraScan, CameraScan>(profile.camera, participant, id, world,
+                                                         filter)) {}
 
-  void Take(const WriterNames& names, Inputs& inputs) {
-    inputs.radar = NewestOf(radar, names);
-    inputs.lidar = NewestOf(lidar, names);
-    inputs.camera = NewestOf(camera, names);
+  void Take(const WriterNames& names, SteadyTime now, Inputs& inputs) {
+    inputs.radar = NewestOf(radar, names, now);
+    inputs.lidar = NewestOf(lidar, names, now);
+    inputs.camera = NewestOf(camera, names, now);
   }
-  // Calls visit(counters) of each.
+  // Calls visit(inbox) of each.
   template <typename Visit>
-  void ForEachCounters(Visit&& visit) const {
-    if (radar) visit(radar->Counters());
-    if (lidar) visit(lidar->Counters());
-    if (camera) visit(camera->Counters());
+  void ForEach(Visit&& visit) {
+    if (radar) visit(*radar);
+    if (lidar) visit(*lidar);
+    if (camera) visit(*camera);
   }
 
   OptionalInbox<wire::RadarScan, RadarScan> radar;
@@ -65,22 +80,51 @@ struct FittedSensors {
   OptionalInbox<wire::CameraScan, CameraScan> camera;
 };
 
+// What the readers of a vehicle take no notice of. The library asks them until the participant is
+// gone.
+struct Filters {
+  explicit Filters(const WorldBinding& world)
+      : scans("scan", world.Participant()), signals("signal", world.Participant()) {}
+
+  void TakeRefusals(std::vector<Refusal>* refusals) {
+    for (SampleFilter* filter : All()) filter->TakeRefusals(refusals);
+  }
+  std::uint32_t Refused() {
+    std::uint32_t refused = 0;
+    for (SampleFilter* filter : All()) refused += filter->Refused();
+    return refused;
+  }
+  std::array<SampleFilter*, 5> All() { return {&roster, &beacons, &scans, &signals, &orders}; }
+
+  SessionFilter roster{"roster entry"};
+  KeyQuota beacons{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
+  WorldFilter scans;
+  WorldFilter signals;
+  KeyQuota orders{"order", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
+};
+
 // Everything that is named after the vehicle.
 struct OwnEndpoints {
-  OwnEndpoints(const LinkOptions& options, VehicleId id, const VehicleProfile& profile,
-               Participant& participant, WriterNames& names, ReaderEvents& events)
+  OwnEndpoints(const LinkOptions& options, const ServiceOptions& service, VehicleId id,
+               const VehicleProfile& profile, Participant& participant, WriterNames& names,
+               ReaderEvents& events, WorldBinding& binding, Filters& filters)
       : beacon_writer(
             participant.MakeWriter<wire::Beacon>(options.area + '/' + VehiclePartition(id))),
-        beacon_reader(participant.MakeReader<wire::Beacon>(
-            options.area + "/*", Participant::kProfileDepth, &events, ReaderEvents::Mask())),
+        beacon_reader(participant.MakeReader<wire::Beacon>(options.area + "/*",
+                                                           Participant::kProfileDepth, &events,
+                                                           ReaderEvents::Mask(), &filters.beacons)),
         command_writer(participant.MakeWriter<wire::MotorCommand>(VehiclePartition(id))),
         status_writer(participant.MakeWriter<wire::Status>(VehiclePartition(id))),
-        order_reader(participant.MakeReader<wire::Order>(VehiclePartition(id))),
-        answer_writer(participant.MakeWriter<wire::Answer>(VehiclePartition(id))),
         beacons(beacon_reader, names, participant.Prefix()),
-        ranges(participant.MakeReader<wire::RangeScan>(VehiclePartition(id)), id),
-        sensors(id, profile, participant),
+        ranges(participant.MakeReader<wire::RangeScan>(VehiclePartition(id), &filters.scans), id,
+               binding, "scan", service.tick_period),
+        sensors(id, profile, participant, {binding, service.tick_period}, &filters.scans),
         scan_wait(ranges.Entity()) {
+    if (service.takes_orders) {
+      order_reader.emplace(
+          participant.MakeReader<wire::Order>(VehiclePartition(id), &filters.orders));
+      answer_writer.emplace(participant.MakeWriter<wire::Answer>(VehiclePartition(id)));
+    }
     if (options.partition_free) open_beacon_writer = participant.MakeWriter<wire::Beacon>("");
   }
 
@@ -98,12 +142,19 @@ struct OwnEndpoints {
       counters.unbound_samples += scans.unbound;
       counters.unreadable_samples += scans.unreadable;
       counters.wrong_name_scans += scans.wrong_name;
+      counters.strangers += scans.strangers;
+      counters.implausible += scans.implausible;
     };
     add(ranges.Counters());
-    sensors.ForEachCounters([&](const ScanCounters& scans) {
-      add(scans);
-      counters.sensors_deadline_missed += scans.deadline_missed;
+    sensors.ForEach([&](const auto& inbox) {
+      add(inbox.Counters());
+      counters.sensors_deadline_missed += inbox.Counters().deadline_missed;
     });
+  }
+  void TakeRefusals(std::vector<Refusal>* refusals) {
+    refusals->insert(refusals->end(), beacons.Refused().begin(), beacons.Refused().end());
+    ranges.TakeRefusals(refusals);
+    sensors.ForEach([&](auto& inbox) { inbox.TakeRefusals(refusals); });
   }
 
   Writer<wire::Beacon> beacon_writer;
@@ -111,8 +162,8 @@ struct OwnEndpoints {
   Reader<wire::Beacon> beacon_reader;
   Writer<wire::MotorCommand> command_writer;
   Writer<wire::Status> status_writer;
-  Reader<wire::Order> order_reader;
-  Writer<wire::Answer> answer_writer;
+  std::optional<Reader<wire::Order>> order_reader;
+  std::optional<Writer<wire::Answer>> answer_writer;
   BeaconInbox beacons;
   ScanInbox<wire::RangeScan, RangeScan> ranges;
   FittedSensors sensors;
@@ -122,11 +173,12 @@ struct OwnEndpoints {
 }  // namespace
 
 struct VehicleLink::Impl {
-  explicit Impl(const LinkOptions& link_options)
+  Impl(const LinkOptions& link_options, const ServiceOptions& service_options)
       : options(link_options),
+        service(service_options),
         participant(options, "giveway-vehicle", names),
         join_writer(participant.MakeWriter<wire::Join>("fleet")),
-        roster(participant.MakeReader<wire::Roster>(kWorldPartition)),
+        roster(participant.MakeReader<wire::Roster>(kWorldPartition, &filters.roster), world),
         peers(names, participant.Prefix(), options.area) {
     taken_beacons.reserve(kExpectedBeacons);
     qos_events.reserve(kExpectedBeacons);
@@ -139,7 +191,10 @@ struct VehicleLink::Impl {
   void SendJoin(const JoinRequest& request) {
     joined = request;
     roster.Follow(request.session);
-    CountWrite(join_writer.Write(ToWire(request)));
+    filters.roster.Follow(request.session);
+    JoinRequest said = request;
+    if (!request.leaving) said.secret = {};  // it is told once, when it ends the session
+    CountWrite(join_writer.Write(ToWire(said)));
   }
   void OpenSignals();
   // What the world says of the run's state; the impairment's blackouts are counted from its start.
@@ -151,6 +206,9 @@ struct VehicleLink::Impl {
   void CountWrite(bool written) { counters.write_failures += written ? 0 : 1; }
 
   LinkOptions options;
+  ServiceOptions service;
+  WorldBinding world;
+  Filters filters{world};  // the library asks them until the participant is gone
   InterfaceWatch interfaces{options.interface};  // before the participant binds to them
   WriterNames names;  // the library calls these three until the participant is gone, so they are
   ReaderEvents events{&RemoveDeparted<wire::Beacon>};  // declared before it
@@ -167,25 +225,26 @@ struct VehicleLink::Impl {
   std::optional<SignalInbox> signals;
   std::vector<ReceivedBeacon> taken_beacons;
   std::vector<QosEvent> qos_events;
+  std::vector<Refusal> refusals;
   VehicleLinkCounters counters;
 };
 
-VehicleLink::VehicleLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+VehicleLink::VehicleLink(const LinkOptions& options, const ServiceOptions& service)
+    : impl_(std::make_unique<Impl>(options, service)) {}
 VehicleLink::~VehicleLink() = default;
 
 // An endpoint that every world discovers: not made where no signal is.
 void VehicleLink::Impl::OpenSignals() {
   auto reader = participant.MakeReader<wire::SignalState>(
       kWorldPartition, Participant::kProfileDepth, &signal_events.emplace(),
-      dds::StatusMask::requested_deadline_missed());
-  signals.emplace(reader, *signal_events);
+      dds::StatusMask::requested_deadline_missed(), &filters.signals);
+  signals.emplace(reader, *signal_events, world, service.tick_period);
 }
 
 std::optional<RosterEntry> VehicleLink::Impl::NewestEntry(RosterInbox::Mark& told) {
-  auto entry = roster.NewestAfter(told, names);
+  auto entry = roster.NewestAfter(told, names, LinkNow());
   if (entry && entry->run_state == RunState::kRunning && participant.ImpairerOrNull() != nullptr) {
-    participant.ImpairerOrNull()->Start(
-        SteadyTime(std::chrono::steady_clock::now().time_since_epoch()));
+    participant.ImpairerOrNull()->Start(LinkNow());
   }
   return entry;
 }
@@ -210,6 +269,13 @@ bool VehicleLink::WorldSpeaks() const {
   return Ok(reader.get_liveliness_changed_status(liveliness)) && liveliness.alive_count > 0;
 }
 
+bool VehicleLink::LacksBody() const {
+  if (!impl_->own || !impl_->roster.WorldIsThere(impl_->names)) return false;
+  dds::SubscriptionMatchedStatus matched;
+  return Ok(impl_->own->ranges.Entity().get_subscription_matched_status(matched)) &&
+         matched.current_count == 0;
+}
+
 void VehicleLink::SendJoin(const JoinRequest& request) { impl_->SendJoin(request); }
 
 void VehicleLink::FlushJoin(Nanoseconds timeout) { impl_->join_writer.WaitUntilHeard(timeout); }
@@ -221,9 +287,12 @@ std::optional<RosterEntry> VehicleLink::TakeRoster(const SessionId& session) {
 }
 
 void VehicleLink::SendLeave(const SessionId& session) {
+  const std::optional<JoinRequest>& joined = impl_->joined;
+  const bool knows = joined && joined->session == session;
   impl_->SendJoin({.session = session,
-                   .wanted = impl_->joined ? impl_->joined->wanted : kNobody,
-                   .leaving = true});
+                   .wanted = joined ? joined->wanted : kNobody,
+                   .leaving = true,
+                   .secret = knows ? joined->secret : SessionId{}});
   impl_->heard_by = std::chrono::steady_clock::now() + kLeaveTimeout;
 }
 
@@ -231,12 +300,19 @@ void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals
   Impl& link = *impl_;
   GIVEWAY_CHECK(!link.own.has_value(), "VehicleLink opened twice");
   GIVEWAY_CHECK(id != kNobody);
-  link.own.emplace(link.options, id, profile, link.participant, link.names, link.events);
+  link.own.emplace(link.options, link.service, id, profile, link.participant, link.names,
+                   link.events, link.world, link.filters);
+  link.roster.NameOwn(id);
+  link.world.ExpectScans(LinkNow());
   if (signals) link.OpenSignals();
   if (Impairer* const impairer = link.participant.ImpairerOrNull()) impairer->NameHearer(id);
   link.told_to_step = link.told_to_join;
   // A world that starts anew must not give another id to a vehicle that already drives as this one.
-  if (link.joined && link.joined->wanted != id) link.SendJoin({link.joined->session, id});
+  if (link.joined && link.joined->wanted != id) {
+    JoinRequest request = *link.joined;
+    request.wanted = id;
+    link.SendJoin(request);
+  }
 }
 
 std::vector<std::string> VehicleLink::TakeUnfit(SteadyTime now) {
@@ -259,10 +335,11 @@ Taken VehicleLink::Take(SteadyTime now) {
   Taken taken;
   taken.inputs.now = now;
   const std::uint32_t skipped = own.ranges.Counters().skipped;
-  if (const RangeScan* scan = own.ranges.Take(link.names)) taken.inputs.scan = *scan;
+  const SteadyTime real_now = LinkNow();  // worlds are watched by it, whatever `now` is
+  if (const RangeScan* scan = own.ranges.Take(link.names, real_now)) taken.inputs.scan = *scan;
   taken.scans_skipped = own.ranges.Counters().skipped - skipped;
-  own.sensors.Take(link.names, taken.inputs);
-  if (link.signals) taken.inputs.signals = link.signals->Take();
+  own.sensors.Take(link.names, real_now, taken.inputs);
+  if (link.signals) taken.inputs.signals = link.signals->Take(real_now);
   taken.inputs.roster = link.NewestEntry(link.told_to_step);
   own.beacons.Drain(now, link.taken_beacons, &link.qos_events);
   for (const ReceivedBeacon& received : link.taken_beacons) {
@@ -271,7 +348,11 @@ Taken VehicleLink::Take(SteadyTime now) {
   link.peers.Watch(now, own.BeaconDeadline(), link.qos_events);
   taken.inputs.beacons = link.taken_beacons;
   taken.inputs.events = link.qos_events;
-  taken.refusals = own.beacons.Refused();
+  link.refusals.clear();
+  own.TakeRefusals(&link.refusals);
+  link.roster.TakeRefusals(&link.refusals);
+  link.filters.TakeRefusals(&link.refusals);
+  taken.refusals = link.refusals;
   return taken;
 }
 
@@ -294,7 +375,9 @@ void VehicleLink::FlushStatus(Nanoseconds timeout) {
 
 std::vector<AdminOrder> VehicleLink::TakeOrders() {
   std::vector<AdminOrder> orders;
-  impl_->Own().order_reader.TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
+  auto& reader = impl_->Own().order_reader;
+  if (!reader) return orders;
+  reader->TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
     AdminOrder order;
     if (FromWire(sample, order)) orders.push_back(std::move(order));
   });
@@ -302,11 +385,13 @@ std::vector<AdminOrder> VehicleLink::TakeOrders() {
 }
 
 void VehicleLink::SendAnswer(const AdminAnswer& answer) {
-  impl_->CountWrite(impl_->Own().answer_writer.Write(ToWire(answer)));
+  auto& writer = impl_->Own().answer_writer;
+  if (writer) impl_->CountWrite(writer->Write(ToWire(answer)));
 }
 
 void VehicleLink::FlushAnswer(Nanoseconds timeout) {
-  impl_->Own().answer_writer.WaitUntilHeard(timeout);
+  auto& writer = impl_->Own().answer_writer;
+  if (writer) writer->WaitUntilHeard(timeout);
 }
 
 std::vector<LiveValue> VehicleLink::LiveQos() const { return impl_->participant.LiveQos(); }
@@ -321,9 +406,13 @@ VehicleLinkCounters VehicleLink::Counters() const {
   counters.deadline_watches_lost = DeadlineWatchesLost();
   counters.matched_peers = impl_->peers.MatchedWriters();
   counters.unreadable_samples = impl_->roster.Unreadable();
-  counters.old_world_entries = impl_->roster.FromOldWorlds();
+  counters.old_world_entries = impl_->roster.FromOtherWorlds();
+  counters.strangers = impl_->filters.Refused();
+  counters.implausible = impl_->roster.Implausible();
   if (impl_->signals) {
     counters.unreadable_samples += impl_->signals->Unreadable();
+    counters.strangers += impl_->signals->Strangers();
+    counters.implausible += impl_->signals->Implausible();
     counters.signals_deadline_missed = impl_->signals->DeadlineMissed();
   }
   if (impl_->own) impl_->own->AddTo(counters);

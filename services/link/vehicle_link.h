@@ -11,6 +11,7 @@
 #include "services/link/admin_link.h"
 #include "services/link/drive_link.h"
 #include "services/link/fastdds/link_options.h"
+#include "services/link/service_options.h"
 #include "services/types/admin.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/impairment.h"
@@ -22,7 +23,7 @@ namespace giveway::link {
 class VehicleLink final : public AdminLink, public DriveLink {
  public:
   // Makes the participant and the joining endpoints. Throws LinkError.
-  explicit VehicleLink(const LinkOptions& options);
+  explicit VehicleLink(const LinkOptions& options, const ServiceOptions& service = {});
   ~VehicleLink();
   VehicleLink(const VehicleLink&) = delete;
   VehicleLink& operator=(const VehicleLink&) = delete;
@@ -54,6 +55,7 @@ class VehicleLink final : public AdminLink, public DriveLink {
   void FlushStatus(Nanoseconds timeout) override;
   std::string InterfaceChange() const override;
   bool WorldSpeaks() const override;
+  bool LacksBody() const override;
   VehicleLinkCounters Counters() const override;
   EffectiveBeaconQos BeaconQos() const override;
   std::optional<SteadyTime> BlackoutsSince() const override;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -11,7 +11,10 @@
 #include "services/link/fastdds/reader_events.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/inbox/join_inbox.h"
+#include "services/link/inbox/participant_of.h"
 #include "services/link/inbox/peer_events.h"
+#include "services/link/inbox/sample_check.h"
+#include "services/link/link_clock.h"
 #include "services/link/participant.h"
 #include "services/link/resolved_values.h"
 #include "services/link/roster_outbox.h"
@@ -23,32 +26,33 @@ namespace {
 
 constexpr std::uint32_t kForgetEvery = 32;  // turns; of vehicles that are gone
 
+// Of one participant: more than it may ask for, see session_owners.h, for some of them are over.
+constexpr std::size_t kMostSessions = 32;
 constexpr std::size_t kMostRefusals = 8;  // kept for the log; the counters have all
-
-bool IsFinite(const MotorCommand& command) {
-  return std::isfinite(command.target.left_rad_s) && std::isfinite(command.target.right_rad_s);
-}
 
 }  // namespace
 
 struct WorldLink::Impl {
-  explicit Impl(const LinkOptions& options)
+  Impl(const LinkOptions& options, const ServiceOptions& service)
       : participant(options, "giveway-world", names),
-        joins(participant.MakeReader<wire::Join>("fleet")),
+        joins(participant.MakeReader<wire::Join>("fleet", &join_quota)),
         command_reader(participant.MakeReader<wire::MotorCommand>(
             "v*", Participant::kProfileDepth, &events,
-            dds::StatusMask::subscription_matched()
-                << dds::StatusMask::requested_deadline_missed())),
+            dds::StatusMask::subscription_matched() << dds::StatusMask::requested_deadline_missed(),
+            &command_owners)),
         roster(participant.MakeWriter<wire::Roster>(kWorldPartition)),
         signal_writer(participant.MakeWriter<wire::SignalState>(kWorldPartition)),
         truth_writer(participant.MakeWriter<wire::Truth>(kWorldPartition)),
         event_writer(
             participant.MakeWriter<wire::Event>(kWorldPartition, EventDepth(options.fleet_size))),
         figures_writer(participant.MakeWriter<wire::Figures>(kWorldPartition)),
-        order_reader(participant.MakeReader<wire::Order>(VehiclePartition(kNobody))),
-        answer_writer(participant.MakeWriter<wire::Answer>(VehiclePartition(kNobody))),
         vehicles(names, participant.Prefix(), ""),
-        command_wait(command_reader.Entity()) {}
+        command_wait(command_reader.Entity()) {
+    if (!service.takes_orders) return;
+    order_reader.emplace(
+        participant.MakeReader<wire::Order>(VehiclePartition(kNobody), &order_ids));
+    answer_writer.emplace(participant.MakeWriter<wire::Answer>(VehiclePartition(kNobody)));
+  }
 
   void FollowDiscovery() {
     const auto queued = events.Take();  // before the names, see VehicleLink::Take
@@ -58,6 +62,8 @@ struct WorldLink::Impl {
   }
   void Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info);
   void ForgetDeparted();
+  // Whose commands count for the vehicle from now on.
+  void FollowOwner(VehicleId vehicle);
   template <typename Scan>
   void Send(const Scan& scan);
   void NoteRefusal(Refusal refusal) {
@@ -67,6 +73,9 @@ struct WorldLink::Impl {
 
   WriterNames names;  // the library calls these two until the participant is gone, so they are
   ReaderEvents events{&RemoveDeparted<wire::MotorCommand>};  // declared before it
+  KeyQuota join_quota{"join", KeyQuota::Key::kSession, KeyQuota::Of::kParticipant, kMostSessions};
+  OwnerFilter command_owners{"motor command"};
+  KeyQuota order_ids{"order", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   Participant participant;
   JoinInbox joins;
   AnchoredReader<wire::MotorCommand> command_reader;
@@ -75,8 +84,8 @@ struct WorldLink::Impl {
   Writer<wire::Truth> truth_writer;
   Writer<wire::Event> event_writer;
   Writer<wire::Figures> figures_writer;
-  Reader<wire::Order> order_reader;
-  Writer<wire::Answer> answer_writer;
+  std::optional<Reader<wire::Order>> order_reader;
+  std::optional<Writer<wire::Answer>> answer_writer;
   std::unordered_map<VehicleId, VehicleWriters> writers;
   PeerEvents vehicles;  // by their command writers
   DataWait command_wait;
@@ -85,6 +94,7 @@ struct WorldLink::Impl {
   std::vector<Refusal> refusals;
   WorldLinkCounters counters;
   std::uint32_t turns = 0;
+  std::uint32_t strangers = 0;  // commands
 };
 
 void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info) {
@@ -105,9 +115,12 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
                  .why = "vehicle is " + std::to_string(sample.vehicle()) +
                         ", and its writer's partition names " + wanted + ": must be v" +
                         std::to_string(sample.vehicle())});
-  } else if (!FromWire(sample, command) || !IsFinite(command)) {
+  } else if (const std::uint64_t owner = joins.Owners().OwnerOf(entry->vehicle);
+             owner != 0 && owner != ParticipantOf(info.sample_identity.writer_guid())) {
+    ++strangers;  // the library lets what is marked as filtered already pass its filter
+  } else if (const bool read = FromWire(sample, command); !read || FaultOf(command)) {
     ++counters.commands_not_finite;
-    const FieldFault fault = FaultOf(sample);
+    const FieldFault fault = read ? *FaultOf(command) : FaultOf(sample);
     NoteRefusal({.sample = "motor command",
                  .vehicle = entry->vehicle,
                  .writer = entry->identity,
@@ -116,10 +129,16 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
                  .why = Describe(fault)});
   } else {
     commands.push_back(command);
+    joins.Owners().Heard(command.vehicle, LinkNow());
   }
 }
 
-WorldLink::WorldLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+void WorldLink::Impl::FollowOwner(VehicleId vehicle) {
+  command_owners.SetOwner(vehicle, joins.Owners().OwnerOf(vehicle));
+}
+
+WorldLink::WorldLink(const LinkOptions& options, const ServiceOptions& service)
+    : impl_(std::make_unique<Impl>(options, service)) {}
 WorldLink::~WorldLink() = default;
 
 std::string WorldLink::ParticipantText() const { return impl_->participant.PrefixText(); }
@@ -141,6 +160,8 @@ void WorldLink::OpenVehicle(VehicleId vehicle, const VehicleProfile& profile) {
 void WorldLink::CloseVehicle(VehicleId vehicle) {
   impl_->writers.erase(vehicle);
   impl_->roster.Retire(vehicle);
+  impl_->joins.Owners().Close(vehicle);
+  impl_->FollowOwner(vehicle);
 }
 
 void WorldLink::ForgetVehicle(VehicleId vehicle) {
@@ -157,8 +178,16 @@ bool WorldLink::IsMatched(VehicleId vehicle) const {
 }
 
 std::vector<JoinRequest> WorldLink::TakeJoins() {
-  impl_->FollowDiscovery();
-  return impl_->joins.Take(impl_->names, impl_->refusals);
+  Impl& link = *impl_;
+  link.FollowDiscovery();
+  auto joins = link.joins.Take(link.names, LinkNow(), link.refusals);
+  // A session may have come from another participant.
+  for (const JoinRequest& request : joins) {
+    for (const VehicleId vehicle : link.joins.Owners().VehiclesOf(request.session)) {
+      link.FollowOwner(vehicle);
+    }
+  }
+  return joins;
 }
 
 // Of a reader with a deadline its listener removes them, which alone knows when it may.
@@ -180,7 +209,12 @@ std::span<const MotorCommand> WorldLink::TakeCommands() {
   return impl_->commands;
 }
 
-std::vector<Refusal> WorldLink::TakeRefusals() { return std::exchange(impl_->refusals, {}); }
+std::vector<Refusal> WorldLink::TakeRefusals() {
+  std::vector<Refusal> refusals = std::exchange(impl_->refusals, {});
+  impl_->command_owners.TakeRefusals(&refusals);
+  impl_->join_quota.TakeRefusals(&refusals);
+  return refusals;
+}
 
 std::vector<std::string> WorldLink::TakeUnfit(SteadyTime now) {
   return impl_->participant.TakeUnfit(now);
@@ -189,6 +223,10 @@ std::vector<std::string> WorldLink::TakeUnfit(SteadyTime now) {
 bool WorldLink::WaitForCommands(Nanoseconds timeout) { return impl_->command_wait.Wait(timeout); }
 
 void WorldLink::SendRoster(const RosterEntry& entry) {
+  if (entry.accepted) {
+    impl_->joins.Owners().Accept(entry.vehicle, entry.session);
+    impl_->FollowOwner(entry.vehicle);
+  }
   impl_->CountWrite(impl_->roster.Send(entry));
 }
 
@@ -215,7 +253,8 @@ void WorldLink::SendFigures(const RunFigures& figures) {
 
 std::vector<AdminOrder> WorldLink::TakeOrders() {
   std::vector<AdminOrder> orders;
-  impl_->order_reader.TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
+  if (!impl_->order_reader) return orders;
+  impl_->order_reader->TakeEach([&](const wire::Order& sample, const dds::SampleInfo&) {
     AdminOrder order;
     if (FromWire(sample, order)) orders.push_back(std::move(order));
   });
@@ -223,10 +262,12 @@ std::vector<AdminOrder> WorldLink::TakeOrders() {
 }
 
 void WorldLink::SendAnswer(const AdminAnswer& answer) {
-  impl_->CountWrite(impl_->answer_writer.Write(ToWire(answer)));
+  if (impl_->answer_writer) impl_->CountWrite(impl_->answer_writer->Write(ToWire(answer)));
 }
 
-void WorldLink::FlushAnswer(Nanoseconds timeout) { impl_->answer_writer.WaitUntilHeard(timeout); }
+void WorldLink::FlushAnswer(Nanoseconds timeout) {
+  if (impl_->answer_writer) impl_->answer_writer->WaitUntilHeard(timeout);
+}
 
 std::vector<LiveValue> WorldLink::LiveQos() const { return impl_->participant.LiveQos(); }
 
@@ -245,7 +286,8 @@ void WorldLink::Flush(Nanoseconds timeout) {
 
 WorldLinkCounters WorldLink::Counters() const {
   WorldLinkCounters counters = impl_->counters;
-  counters.joins_refused = impl_->joins.Refused();
+  counters.joins_refused = impl_->joins.Refused() + impl_->join_quota.Refused();
+  counters.commands_strangers = impl_->command_owners.Refused() + impl_->strangers;
   return counters;
 }
 

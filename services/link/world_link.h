@@ -9,6 +9,7 @@
 
 #include "services/link/admin_link.h"
 #include "services/link/fastdds/link_options.h"
+#include "services/link/service_options.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
@@ -23,14 +24,16 @@ struct WorldLinkCounters {
   std::uint32_t commands_taken = 0;
   std::uint32_t commands_wrong_name = 0;  // id is not the one of the writer's partition
   std::uint32_t commands_unbound = 0;     // writer's partition not yet known
-  std::uint32_t commands_not_finite = 0;  // or with an enumerator unknown here
-  std::uint32_t joins_refused = 0;        // without a session, or too many of one process
+  std::uint32_t commands_not_finite = 0;  // or out of range, or with an enumerator unknown here
+  std::uint32_t commands_strangers = 0;   // not of the participant that joined as the vehicle
+  std::uint32_t joins_refused = 0;        // without a session, of another's, or too many
   std::uint32_t write_failures = 0;
 };
 
 class WorldLink final : public AdminLink {
  public:
-  explicit WorldLink(const LinkOptions& options);  // Throws LinkError.
+  // Throws LinkError.
+  explicit WorldLink(const LinkOptions& options, const ServiceOptions& service = {});
   ~WorldLink();
   WorldLink(const WorldLink&) = delete;
   WorldLink& operator=(const WorldLink&) = delete;
@@ -53,9 +56,10 @@ class WorldLink final : public AdminLink {
   bool IsMatched(VehicleId vehicle) const;
 
   // The newest request of each session, those that leave first: whoever comes may want their ids.
+  // Of a session only the participant that has it is heard, see session_owners.h.
   std::vector<JoinRequest> TakeJoins();
   // Everything that came since the last call, each vehicle's in order of arrival; the span holds
-  // until the next call.
+  // until the next call. For a vehicle that was accepted only its owner commands.
   std::span<const MotorCommand> TakeCommands();
   // The first few requests and commands refused since the last call, with what is wrong with them.
   std::vector<Refusal> TakeRefusals();

@@ -15,6 +15,7 @@ namespace giveway {
 namespace {
 
 // A participant takes a tenth of a second; a busy machine more.
+constexpr std::size_t kMostReason = 250;  // the wire has 255, and the seal is of what it carries
 constexpr Nanoseconds kTrialPatience = std::chrono::seconds(8);
 
 // Why these profiles would not do; empty if they would. An operator has looked already: this is for
@@ -44,11 +45,13 @@ std::vector<qos::Change> ChangesBetween(const QosProfiles& from, const QosProfil
 }  // namespace
 
 ServiceAdmin::ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options,
-                           VehicleId vehicle, bool lockstep, std::function<bool()> keep)
+                           VehicleId vehicle, bool lockstep, auth::AdminGate gate,
+                           std::function<bool()> keep)
     : link_(*link),
       options_(options),
       vehicle_(vehicle),
       lockstep_(lockstep),
+      gate_(std::move(gate)),
       keep_(std::move(keep)),
       in_use_{NameOf(options.qos.name), options.qos.text} {}
 
@@ -61,7 +64,7 @@ bool ServiceAdmin::Serve() {
   if (trial_) return FinishTrial();
   if (pending_) return false;  // it is about to restart
   for (const AdminOrder& order : link_.TakeOrders()) {
-    if (order.vehicle != vehicle_) continue;
+    if (order.vehicle != vehicle_ || !MayServe(order)) continue;
     if (order.kind == OrderKind::kTell) {
       Answer(order.number, AnswerState::kInEffect);
     } else if (order.kind == OrderKind::kKeepRing) {
@@ -71,6 +74,22 @@ bool ServiceAdmin::Serve() {
     } else if (Apply(order)) {
       return true;
     }
+  }
+  return false;
+}
+
+// It is answered too: an operator with the wrong key, or a clock that is behind, must know.
+bool ServiceAdmin::MayServe(const AdminOrder& order) {
+  const std::string why = gate_.WhyNot(order);
+  if (why.empty()) return true;
+  if (refusal_lines_.Take(SteadyNow())) LogWarning("refused an order: " + why);
+  if (refusal_answers_.Take(SteadyNow())) {
+    link_.SendAnswer({.vehicle = vehicle_,
+                      .order = order.number,
+                      .state = AnswerState::kRefused,
+                      .reason = why,
+                      .interface = "",
+                      .profiles = {}});
   }
   return false;
 }
@@ -150,12 +169,13 @@ void ServiceAdmin::Answer(std::uint64_t order, AnswerState state, const std::str
   AdminAnswer answer{.vehicle = vehicle_,
                      .order = order,
                      .state = state,
-                     .reason = reason,
+                     .reason = reason.substr(0, kMostReason),
                      .fleet_size = options_.fleet_size,
                      .interface = options_.interface,
                      .profiles = in_use_,
                      .live = {}};
   if (state == AnswerState::kInEffect) answer.live = link_.LiveQos();
+  gate_.Seal(&answer);
   link_.SendAnswer(answer);
 }
 

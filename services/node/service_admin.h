@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "services/auth/admin_gate.h"
 #include "services/link/admin_link.h"
 #include "services/link/fastdds/link_options.h"
 #include "services/qos/changes.h"
+#include "services/runtime/line_budget.h"
 #include "services/runtime/program_trial.h"
 #include "services/runtime/restart.h"
 #include "services/types/admin.h"
@@ -24,9 +26,10 @@ class ServiceAdmin {
  public:
   // The link was made with `options`; `vehicle` is kNobody for a world. In lockstep nothing that
   // comes from outside the world may change a run, so orders to apply are refused.
-  // `keep` has the recording's ring kept: false where there is none, or it is kept often enough.
+  // `gate` says which orders are carried out at all. `keep` has the recording's ring kept: false
+  // where there is none, or it is kept often enough.
   ServiceAdmin(link::AdminLink* link, const link::LinkOptions& options, VehicleId vehicle,
-               bool lockstep, std::function<bool()> keep = {});
+               bool lockstep, auth::AdminGate gate, std::function<bool()> keep = {});
 
   // Answers the order that made this process restart: it is in effect now; or not, where
   // `rolled_back` says why the process came back with what it had.
@@ -42,6 +45,8 @@ class ServiceAdmin {
 
  private:
   bool IsTaken() const { return pending_ && !trial_; }
+  // False where it may not be carried out, which is logged now and then.
+  bool MayServe(const AdminOrder& order);
   // True if it takes a restart.
   bool Apply(const AdminOrder& order);
   bool FinishTrial();
@@ -55,6 +60,9 @@ class ServiceAdmin {
   const link::LinkOptions& options_;
   const VehicleId vehicle_;
   const bool lockstep_;
+  auth::AdminGate gate_;
+  LineBudget refusal_lines_{2};
+  LineBudget refusal_answers_{8};  // an intruder may ask as often as it likes
   const std::function<bool()> keep_;
   QosProfiles in_use_;
   std::optional<AdminOrder> pending_;

@@ -1,6 +1,7 @@
 // What an operator asks of a running vehicle, and what it answers.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -25,11 +26,15 @@ struct QosProfiles {
   friend bool operator==(const QosProfiles&, const QosProfiles&) = default;
 };
 
+// Of an order or an answer, by the operators' key: services/auth. All 0 without one.
+using Seal = std::array<std::uint8_t, 32>;
+
 struct AdminOrder {
   VehicleId vehicle = kNobody;
   std::uint64_t number = 0;  // the operator's; the answer repeats it
   OrderKind kind = OrderKind::kTell;
   QosProfiles profiles;  // of kApply
+  Seal seal{};
 };
 
 enum class AnswerState : std::uint8_t {
@@ -56,6 +61,7 @@ struct AdminAnswer {
   std::string interface;         // as the vehicle was told
   QosProfiles profiles;          // what it runs with, or restarts with
   std::vector<LiveValue> live;   // of kInEffect
+  Seal seal{};
 };
 
 }  // namespace giveway

@@ -19,13 +19,14 @@
 
 namespace giveway {
 
-// 128 random bits: names one try to join, whatever id is asked for.
+// 128 bits as good as random: names one try to join, whatever id is asked for. Public.
 using SessionId = std::array<std::uint32_t, 4>;
 
 struct JoinRequest {
   SessionId session{};
   VehicleId wanted = kNobody;  // kNobody asks for any free id
   bool leaving = false;        // gives the id back and takes the body away
+  SessionId secret{};          // that the session is made of (services/auth); 0: none
 };
 
 struct RosterEntry {

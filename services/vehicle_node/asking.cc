@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "services/auth/digest.h"
 #include "services/runtime/process.h"
 
 namespace giveway {
@@ -19,7 +20,8 @@ Asking::Asking(link::DriveLink* link, const Clock* clock, VehicleId wanted,
   if (session) {
     request_.session = *session;
   } else {
-    for (std::uint32_t& word : request_.session) word = RandomNonZero();
+    for (std::uint32_t& number : request_.secret) number = RandomNonZero();
+    request_.session = auth::SessionOf(request_.secret);
   }
   Ask();
 }

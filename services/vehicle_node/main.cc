@@ -2,9 +2,11 @@
 // loop is in vehicle_loop.h.
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "services/config/scenario_file.h"
 #include "services/link/fastdds/library_release.h"
+#include "services/node/admin_access.h"
 #include "services/node/server_wait.h"
 #include "services/node/service_main.h"
 #include "services/runtime/hang_signal.h"
@@ -25,7 +27,8 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   }
   options.impairment = ImpairmentOf(flags, scenario);
   if (!AwaitServers(options, stop, [&](const std::string& why) { health.Joins(why); })) return {};
-  link::VehicleLink link(options);
+  auth::AdminGate gate = AdminGateOf(flags);
+  link::VehicleLink link(options, ServiceOptionsOf(gate, scenario));
   PublishIdentity({kNobody, link.ParticipantText()});
   SteadyClock clock;
   const Resumed resumed = flags.resume.value_or(Resumed{});
@@ -37,7 +40,7 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   SetLogVehicle(entry->vehicle);
   if (flags.id == 0) LogInfo("is vehicle " + std::to_string(Number(entry->vehicle)));
   link.Open(entry->vehicle, OptionsOf(scenario, *entry).profile, !scenario.signals.empty());
-  ServiceAdmin admin(&link, options, entry->vehicle, flags.lockstep,
+  ServiceAdmin admin(&link, options, entry->vehicle, flags.lockstep, std::move(gate),
                      [&recorder] { return recorder && recorder->Keep(); });
   // With shared memory the library touches some of it only when samples go.
   const auto on_first_scan = [&] {

@@ -12,6 +12,28 @@ namespace {
 constexpr Nanoseconds kPoll = std::chrono::milliseconds(20);
 constexpr Nanoseconds kReminder = std::chrono::seconds(5);
 
+// A vehicle may have been pushed, or have gone round something, but not by so much.
+constexpr double kBeyond_m = 50;
+
+// Whether a place lies within the rectangle round all starts and routes, or little beyond it.
+bool IsNear(const Scenario& scenario, Vec2 place_world) {
+  Vec2 low = scenario.crossing_world;
+  Vec2 high = low;
+  const auto cover = [&](Vec2 point) {
+    low = {std::min(low.x, point.x), std::min(low.y, point.y)};
+    high = {std::max(high.x, point.x), std::max(high.y, point.y)};
+  };
+  for (const auto* places : {&scenario.vehicles, &scenario.spawns}) {
+    for (const VehicleOptions& options : *places) {
+      cover(options.start_world.position_world);
+      if (options.goal.set) cover(options.goal.at_world);
+      for (std::size_t i = 0; i < options.route.count; ++i) cover(options.route.waypoints_world[i]);
+    }
+  }
+  return place_world.x >= low.x - kBeyond_m && place_world.x <= high.x + kBeyond_m &&
+         place_world.y >= low.y - kBeyond_m && place_world.y <= high.y + kBeyond_m;
+}
+
 }  // namespace
 
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
@@ -29,6 +51,18 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
   options.id = entry.vehicle;
   options.start_world = entry.start_world;
   return options;
+}
+
+std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, VehicleId own) {
+  if (!entry.accepted) return {};
+  if (entry.vehicle != own) return "vehicle is " + std::to_string(Number(entry.vehicle));
+  const bool known = entry.spawn == 0
+                         ? std::ranges::find(scenario.vehicles, own, &VehicleOptions::id) !=
+                               scenario.vehicles.end()
+                         : entry.spawn <= scenario.spawns.size();
+  if (!known) return "the scenario has no such place: spawn " + std::to_string(entry.spawn);
+  if (IsNear(scenario, entry.start_world.position_world)) return {};
+  return "start_world is far from all places of the scenario";
 }
 
 std::optional<RosterEntry> Join(link::VehicleLink* link, Clock* clock, const StopSignal& stop,

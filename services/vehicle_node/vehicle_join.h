@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "services/link/vehicle_link.h"
 #include "services/runtime/clock.h"
@@ -14,6 +15,10 @@ namespace giveway {
 // By what the vehicle of this entry drives, from where it was put. Throws LinkError where the world
 // has another scenario.
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry);
+
+// Why the vehicle `own` cannot be where the entry says: the scenario has no such place, or it is
+// far from all the scenario has; empty if it can.
+std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, VehicleId own);
 
 // Asks, as `session` if the process had one before, and waits for the last word; a refusal is
 // logged. Empty if asked to stop meanwhile.

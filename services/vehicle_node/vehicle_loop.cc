@@ -131,13 +131,23 @@ void VehicleLoop::Turn(bool leaving) {
 
 void VehicleLoop::KeepPlace(const link::Taken& taken, SteadyTime woke) {
   if (taken.inputs.roster) Follow(*taken.inputs.roster);
-  place_.KeepAsking();
+  place_.KeepAsking(!lockstep_ && link_.LacksBody());
   health_.Turned(taken, link_.Counters(), place_.Entry(), woke);
   if (const std::string* reason = place_.WaitsFor()) health_.Joins(*reason);
 }
 
 // A world that was restarted, or that gives the vehicle another place, says where it stands now.
 void VehicleLoop::Follow(const RosterEntry& entry) {
+  const std::string why = WhyNoPlace(scenario_, entry, Id());
+  if (!why.empty()) {
+    const Refusal refusal{.sample = "roster entry",
+                          .vehicle = entry.vehicle,
+                          .counter = "not followed",
+                          .field = "start_world",
+                          .why = why};
+    log_.TellOfLink({&refusal, 1}, {}, clock_.Now());
+    return;
+  }
   const PlaceNews news = place_.Follow(entry);
   if (news == PlaceNews::kNone) return;
   news_ = entry;

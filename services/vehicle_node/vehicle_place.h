@@ -37,16 +37,20 @@ class VehiclePlace {
 
   // The world's newest word.
   PlaceNews Follow(const RosterEntry& entry);
-  // Once a turn: who stays asks the next world when the run is over, and asks until it is heard.
-  void KeepAsking();
+  // Once a turn: who stays asks the next world when the run is over, and asks until it is heard. So
+  // does who has had no body for a while: `lacks_body`, see DriveLink.
+  void KeepAsking(bool lacks_body);
 
  private:
+  void LookForBody(bool lacks_body);
+
   link::DriveLink& link_;
   const Clock& clock_;
   RosterEntry entry_;
   const bool stays_;
   std::optional<Asking> asking_;  // for another place
   bool is_refused_ = false;
+  std::optional<SteadyTime> without_body_since_;
 };
 
 }  // namespace giveway

@@ -68,6 +68,8 @@ std::string Describe(const link::VehicleLinkCounters& counters) {
                           {"unreadable_samples", counters.unreadable_samples},
                           {"wrong_name_scans", counters.wrong_name_scans},
                           {"old_world_entries", counters.old_world_entries},
+                          {"strangers", counters.strangers},
+                          {"implausible", counters.implausible},
                           {"events_dropped", counters.events_dropped},
                           {"deadline_watches_lost", counters.deadline_watches_lost},
                           {"write_failures", counters.write_failures}});

@@ -6,9 +6,11 @@
 // With a checkpoint file it goes on, after a crash, from where it was. This file only wires; the
 // loop is in world_loop.h.
 #include <functional>
+#include <utility>
 
 #include "services/config/scenario_file.h"
 #include "services/link/fastdds/library_release.h"
+#include "services/node/admin_access.h"
 #include "services/node/server_wait.h"
 #include "services/node/service_main.h"
 #include "services/node/service_run.h"
@@ -33,9 +35,10 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario,
     health.Tell();
   };
   if (!AwaitServers(link_options, stop, tell)) return {};
-  link::WorldLink link(link_options);
+  auth::AdminGate gate = AdminGateOf(flags);
+  link::WorldLink link(link_options, ServiceOptionsOf(gate, scenario));
   PublishIdentity({kNobody, link.ParticipantText()});
-  ServiceAdmin admin(&link, link_options, kNobody, flags.lockstep);
+  ServiceAdmin admin(&link, link_options, kNobody, flags.lockstep, std::move(gate));
   options.on_back = [&] {
     settled();
     if (flags.resume) admin.AnswerResumed(flags.resume->order, flags.rolled_back);

@@ -160,28 +160,42 @@ void WorldLoop::Close() {
 void WorldLoop::TakeCommands() {
   const auto commands = link_.TakeCommands();
   const SteadyTime now = SteadyNow();
-  commands_.insert(commands_.end(), commands.begin(), commands.end());
+  for (const MotorCommand& command : commands) Heed(command);
   for (const MotorCommand& command : commands_) {
-    if (command.epoch != epoch_) {
-      TellOfOldWorld(command);
-      continue;
-    }
-    heard_[command.vehicle] = {command.tick, command.matched_peers, true};
-    reactions_.Applied(command, now);
+    if (command.epoch == epoch_) reactions_.Applied(command, now);
   }
 }
 
-// The run refuses and counts it; the log says why, if it goes on.
-void WorldLoop::TellOfOldWorld(const MotorCommand& command) {
-  const FieldFault fault{"world_epoch", double(Number(command.epoch)), double(Number(epoch_)),
-                         double(Number(epoch_))};
+// Of an old world the run refuses and counts it.
+void WorldLoop::Heed(const MotorCommand& command) {
+  if (!MayCommand(command)) return;
+  commands_.push_back(command);
+  if (command.epoch == epoch_) {
+    heard_[command.vehicle] = {command.tick, command.matched_peers, true};
+    return;
+  }
+  const double epoch = Number(epoch_);
+  TellOfRefused(command, {"world_epoch", double(Number(command.epoch)), epoch, epoch}, true);
+}
+
+// Whoever was given no place has no wheels here, and nobody answers a scan that is to come.
+bool WorldLoop::MayCommand(const MotorCommand& command) {
+  if (!fleet_->admission.Told().contains(command.vehicle)) return command.epoch != epoch_;
+  const Tick now = fleet_->run.Now();
+  if (command.epoch != epoch_ || command.tick <= now) return true;
+  TellOfRefused(command, {"tick", double(Number(command.tick)), 0, double(Number(now))}, false);
+  return false;
+}
+
+// The log says why, if it goes on.
+void WorldLoop::TellOfRefused(const MotorCommand& command, const FieldFault& fault, bool passing) {
   const Refusal refusal{.sample = "motor command",
                         .vehicle = command.vehicle,
                         .writer = Number(command.vehicle),
                         .counter = "not obeyed",
                         .field = fault.field,
                         .why = Describe(fault),
-                        .passing = true};
+                        .passing = passing};
   LogNews({&refusal, 1}, {}, SteadyNow(), &refusal_log_);
 }
 
@@ -279,10 +293,7 @@ void WorldLoop::AwaitAnswers() {
   const SteadyTime give_up = SteadyNow() + kLockstepPatience;
   while (Unanswered() && SteadyNow() < give_up) {
     if (!link_.WaitForCommands(give_up - SteadyNow())) break;
-    for (const MotorCommand& command : link_.TakeCommands()) {
-      heard_[command.vehicle] = {command.tick, command.matched_peers, true};
-      commands_.push_back(command);
-    }
+    for (const MotorCommand& command : link_.TakeCommands()) Heed(command);
   }
   for (auto& [vehicle, hearing] : heard_) {
     hearing.waited_for = hearing.answered == fleet_->run.Now();

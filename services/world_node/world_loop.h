@@ -88,7 +88,9 @@ class WorldLoop {
   bool TellTheEnd(Nanoseconds patience);
   void TellHealth(HealthStage stage);
   void SayIfAlone();
-  void TellOfOldWorld(const MotorCommand& command);
+  bool MayCommand(const MotorCommand& command);
+  void Heed(const MotorCommand& command);
+  void TellOfRefused(const MotorCommand& command, const FieldFault& fault, bool passing);
 
   const Scenario& scenario_;
   link::WorldLink& link_;

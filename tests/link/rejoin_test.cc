@@ -3,8 +3,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
+#include <functional>
 
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
@@ -119,58 +121,71 @@ TEST(Rejoining, TheEntryThatLetAVehicleInIsNotToldAgainAndALaterOneOnce) {
   EXPECT_TRUE(vehicle.TakeRoster(kSession).has_value()) << "each of the two ways is told by itself";
 }
 
-TEST(Rejoining, AWorldThatWasFollowedByAnotherIsNoLongerListenedTo) {
-  const DomainLock domain;
-  link::VehicleLink vehicle(OptionsIn(domain));
-  link::WorldLink old_world(OptionsIn(domain));
-  JoinAsSeven(vehicle, old_world);
-  link::WorldLink new_world(OptionsIn(domain));
-  ASSERT_TRUE(AwaitJoin(new_world).has_value());
-  new_world.SendRoster(Accepted(kSession, kSeven, 2));
-  const auto hear = [&](std::uint32_t epoch) {
-    return Eventually([&] {
-      const auto told = vehicle.Take(SteadyTime{0}).inputs.roster;
-      return told && told->epoch == WorldEpoch{epoch};
-    });
-  };
-  ASSERT_TRUE(hear(2));
-  old_world.SendRoster(Accepted(kSession, kSeven, 1));
-  EXPECT_TRUE(Eventually([&] {
-    EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.roster);
-    return vehicle.Counters().old_world_entries > 0;
-  }));
-  new_world.SendRoster(Accepted(kSession, kSeven, 3));
-  EXPECT_TRUE(hear(3));
+// What the vehicle is told meanwhile.
+std::optional<RosterEntry> ToldWithin(milliseconds duration, link::VehicleLink& vehicle,
+                                      const std::function<void()>& meanwhile) {
+  std::optional<RosterEntry> told;
+  Repeat(duration, [&] {
+    meanwhile();
+    if (const auto entry = vehicle.Take(SteadyTime{0}).inputs.roster) told = entry;
+  });
+  return told;
 }
 
-TEST(Rejoining, LastWordsOfAWorldAndTheFirstOfTheNextInOneDrainEndWithTheNext) {
+TEST(Rejoining, ASecondWorldIsNotBelievedWhileTheFirstLivesAndIsOnceThatHasLeft) {
   const DomainLock domain;
   link::VehicleLink vehicle(OptionsIn(domain));
-  auto old_world = std::make_unique<link::WorldLink>(OptionsIn(domain));
-  JoinAsSeven(vehicle, *old_world);
-  link::WorldLink new_world(OptionsIn(domain));
-  ASSERT_TRUE(AwaitJoin(new_world).has_value());
-  // That the world heard the vehicle does not mean the reverse. The writer of ranges is told of
-  // after that of the roster: whoever hears the one knows the other.
-  new_world.OpenVehicle(kSeven, VehicleProfile{});
+  auto first = std::make_unique<link::WorldLink>(OptionsIn(domain));
+  JoinAsSeven(vehicle, *first);
+  link::WorldLink second(OptionsIn(domain));
+  ASSERT_TRUE(AwaitJoin(second).has_value());
+  second.SendRoster(Accepted(kSession, kSeven, 2));
+  const auto speak = [&] { first->SendScan(ScanOf(1)); };
+  EXPECT_FALSE(ToldWithin(milliseconds(2500), vehicle, speak).has_value());
+  EXPECT_EQ(vehicle.Counters().old_world_entries, 1U);
+  first.reset();
+  std::optional<RosterEntry> told;
   ASSERT_TRUE(Eventually([&] {
-    new_world.SendScan(ScanOf(2));
-    return vehicle.Take(SteadyTime{0}).inputs.scan.has_value();
+    told = vehicle.Take(SteadyTime{0}).inputs.roster;
+    return told.has_value();
   }));
-  for (int i = 0; i < 3; ++i) {
-    // The new one speaks first: in order of arrival the old one would have the last word.
-    new_world.SendRoster(Accepted(kSession, kSeven, 2));
-    new_world.Flush(seconds(5));
-    old_world->SendRoster(Accepted(kSession, kSeven, 1));
-    old_world->Flush(seconds(5));
-    const auto told = vehicle.Take(SteadyTime{0}).inputs.roster;
-    ASSERT_TRUE(told.has_value());
-    EXPECT_EQ(told->epoch, WorldEpoch{2}) << i;
-  }
-  old_world->SendRoster(Accepted(kSession, kSeven, 1));
-  old_world->Flush(seconds(5));
-  old_world.reset();
-  EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.roster);
+  EXPECT_EQ(told->epoch, WorldEpoch{2});
+}
+
+TEST(Rejoining, AWorldThatFellSilentIsFollowedByTheNextAndNoLongerBelieved) {
+  const DomainLock domain;
+  link::VehicleLink vehicle(OptionsIn(domain));
+  link::WorldLink first(OptionsIn(domain));
+  JoinAsSeven(vehicle, first);
+  link::WorldLink second(OptionsIn(domain));
+  ASSERT_TRUE(AwaitJoin(second).has_value());
+  second.OpenVehicle(kSeven, VehicleProfile{});
+  second.SendRoster(Accepted(kSession, kSeven, 2));
+  const auto told = ToldWithin(milliseconds(2500), vehicle, [] {});
+  ASSERT_TRUE(told.has_value());
+  EXPECT_EQ(told->epoch, WorldEpoch{2});
+  first.SendRoster(Accepted(kSession, kSeven, 3));
+  const auto speak = [&] { second.SendScan(ScanOf(2)); };
+  EXPECT_FALSE(ToldWithin(milliseconds(1500), vehicle, speak).has_value());
+}
+
+TEST(Rejoining, AnEntryThatCannotBeBelievedIsRefusedByFieldAndChangesNothing) {
+  const DomainLock domain;
+  link::VehicleLink vehicle(OptionsIn(domain));
+  link::WorldLink world(OptionsIn(domain));
+  JoinAsSeven(vehicle, world);
+  RosterEntry broken = Accepted(kSession, kSeven, 2);
+  broken.start_world.position_world.x = std::nan("");
+  world.SendRoster(broken);
+  world.SendRoster(Accepted(kSession, VehicleId{8}, 3));
+  std::vector<std::string> fields;
+  EXPECT_TRUE(Eventually([&] {
+    const link::Taken taken = vehicle.Take(SteadyTime{0});
+    EXPECT_FALSE(taken.inputs.roster.has_value());
+    for (const Refusal& refusal : taken.refusals) fields.emplace_back(refusal.field);
+    return vehicle.Counters().implausible == 2;
+  }));
+  EXPECT_THAT(fields, ::testing::ElementsAre("start_world.x_m", "vehicle"));
 }
 
 TEST(Leaving, ReachesTheWorldThoughTheLinkClosesAtOnce) {

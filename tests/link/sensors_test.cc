@@ -33,6 +33,7 @@ template <typename Scan>
 Scan ScanAt(std::uint32_t tick) {
   Scan scan;
   scan.vehicle = kSeven;
+  scan.epoch = WorldEpoch{1};
   scan.tick = Tick{tick};
   return scan;
 }
@@ -40,6 +41,7 @@ Scan ScanAt(std::uint32_t tick) {
 SignalState SignalAt(std::uint32_t id, std::uint32_t tick) {
   SignalState state;
   state.id = SignalId{id};
+  state.epoch = WorldEpoch{1};
   state.tick = Tick{tick};
   state.phase = SignalPhase::kGreen;
   return state;

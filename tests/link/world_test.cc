@@ -32,6 +32,7 @@ RosterEntry Accepted(const SessionId& session, VehicleId vehicle) {
   entry.session = session;
   entry.vehicle = vehicle;
   entry.accepted = true;
+  entry.epoch = WorldEpoch{1};
   return entry;
 }
 

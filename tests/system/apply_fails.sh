@@ -16,6 +16,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
 take_domain
+export GIVEWAY_ADMIN_KEY=$SCRATCH/admin.key # of the services and of fleetctl
+printf "a key for one test\n" >"$GIVEWAY_ADMIN_KEY"
 QOS=$REPOSITORY/config/qos
 
 # says NAME CONDITION: true of the JSON object of the last order.

@@ -20,4 +20,13 @@ void AddObserverFlags(CLI::App* verb, ObserverOptions* options) {
       ->envname("GIVEWAY_QOS");
 }
 
+void AddAdminKeyFlag(CLI::App* verb, std::string* file) {
+  verb->add_option(
+          "--admin-key", *file,
+          "Orders are sealed with the key in this file; without it, with that of the fleet "
+          "that fleetctl run started here")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_ADMIN_KEY");
+}
+
 }  // namespace giveway::fleetctl

@@ -8,5 +8,7 @@
 namespace giveway::fleetctl {
 
 void AddObserverFlags(CLI::App* verb, ObserverOptions* options);
+// Of the verbs that give orders.
+void AddAdminKeyFlag(CLI::App* verb, std::string* file);
 
 }  // namespace giveway::fleetctl

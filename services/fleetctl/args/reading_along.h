@@ -16,7 +16,8 @@ struct ObserverOptions {
   std::string interface = "127.0.0.1";
   std::vector<DiscoveryServer> discovery_servers;  // none: as the QoS file says
   std::string area = "main";
-  std::string qos_file;  // empty: the shipped one
+  std::string qos_file;   // empty: the shipped one
+  std::string admin_key;  // of verbs that give orders; a file, see process/run_key.h
 };
 
 // Throws LinkError where the profile set is unsound.

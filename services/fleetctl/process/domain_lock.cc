@@ -52,6 +52,13 @@ bool IsSpokenIn(std::uint32_t domain) {
   return false;
 }
 
+bool IsTaken(std::uint32_t domain) {
+  const std::string name = "giveway-domain-" + std::to_string(domain) + ".lock";
+  const FileDescriptor lock(
+      ::open((std::filesystem::path(P_tmpdir) / name).c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  return lock.IsOpen() && ::flock(lock.Get(), LOCK_SH | LOCK_NB) != 0;
+}
+
 DomainLock::DomainLock(std::optional<std::uint32_t> wanted)
     : DomainLock(wanted, P_tmpdir, IsSpokenIn) {}
 

@@ -26,6 +26,9 @@ class DomainError : public std::runtime_error {
 // True if a participant in this network namespace listens on the domain's ports.
 bool IsSpokenIn(std::uint32_t domain);
 
+// True if a run of this machine has the domain.
+bool IsTaken(std::uint32_t domain);
+
 class DomainLock {
  public:
   // Takes `wanted`, or the first free domain. Throws DomainError.

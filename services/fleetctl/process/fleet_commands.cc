@@ -26,6 +26,7 @@ Words SharedFlags(const FleetSpec& spec) {
   if (options.behaviour) Append(&flags, {"--behaviour", std::string(Name(*options.behaviour))});
   if (options.duration_s) Append(&flags, {"--duration", fmt::format("{}", *options.duration_s)});
   if (options.lockstep) flags.emplace_back("--lockstep");
+  if (!options.admin_key.empty()) Append(&flags, {"--admin-key", options.admin_key});
   return flags;
 }
 

@@ -47,6 +47,7 @@ struct FleetOptions {
   std::string logs_folder;    // empty: no logs are kept
   std::string record_folder;  // empty: vehicles record nothing
   std::string record_ring;    // seconds; empty: recordings are whole
+  std::string admin_key;      // a file: orders are to be sealed with it; empty: none are taken
   std::string record_split;   // a size, see config/byte_size.h; empty: a recording is one file
 };
 

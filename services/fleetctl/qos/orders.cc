@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string>
 #include <thread>
 
 #include "services/fleetctl/process/exit_codes.h"
@@ -12,6 +13,9 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
+// A refusal without a seal is of another key, or of a clock that is behind; or the order was said
+// again by an intruder, and what the service answered to the operator is on its way.
+constexpr auto kUnsealedPatience = std::chrono::seconds(1);
 
 // Calls done() again and again. Whether it was true before `patience` was over, or the operator's
 // after so many Ctrl-C.
@@ -23,10 +27,6 @@ bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) 
     std::this_thread::sleep_for(kPoll);
   }
   return true;
-}
-
-std::uint64_t RandomNumber() {
-  return static_cast<std::uint64_t>(RandomNonZero()) << 32U | RandomNonZero();
 }
 
 }  // namespace
@@ -46,17 +46,27 @@ std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
 
 std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience,
                                         bool insist) {
-  order.number = RandomNumber();
+  order.number = link::OperatorLink::NextNumber();
   std::optional<AdminAnswer> last;
+  std::optional<AdminAnswer> unsealed;
+  SteadyTime unsealed_counts{0};
+  bool restarts = false;
   if (!link_.Send(order)) return last;
   WaitUntil(patience, insist ? 2 : 1, [&] {
     for (AdminAnswer& answer : link_.Take()) {
-      const bool ours = answer.vehicle == order.vehicle && answer.order == order.number;
-      if (ours && answer.state != AnswerState::kRestarting) last = std::move(answer);
+      if (answer.vehicle != order.vehicle || answer.order != order.number) continue;
+      if (answer.state == AnswerState::kRestarting) {
+        restarts = true;
+      } else if (!has_key_ || answer.seal != Seal{}) {
+        last = std::move(answer);
+      } else if (!unsealed) {
+        unsealed = std::move(answer);
+        unsealed_counts = SteadyNow() + kUnsealedPatience;
+      }
     }
-    return last.has_value();
+    return last || (unsealed && !restarts && SteadyNow() > unsealed_counts);
   });
-  return last;
+  return last ? last : unsealed;
 }
 
 int SayNotReached(VehicleId vehicle, std::uint32_t domain) {
@@ -76,6 +86,14 @@ int SayNoAnswer(VehicleId vehicle) {
       interrupted ? "interrupted before vehicle %u answered\n" : "vehicle %u does not answer\n",
       Number(vehicle));
   return interrupted ? 1 : kCouldNotRun;
+}
+
+int SayRefused(const AdminAnswer& answer) {
+  const std::string who =
+      answer.vehicle == kNobody ? "the world" : "vehicle " + std::to_string(Number(answer.vehicle));
+  std::fprintf(stderr, "%s refuses orders of this fleetctl: %s; see --admin-key\n", who.c_str(),
+               answer.reason.c_str());
+  return kCouldNotRun;
 }
 
 int SayNobodyReached(std::uint32_t domain) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "services/link/operator_link.h"
@@ -17,7 +18,9 @@ namespace giveway::fleetctl {
 // kNobody stands for the world.
 class Orders {
  public:
-  explicit Orders(const link::LinkOptions& options) : link_(options) {}
+  // `key`: orders are sealed with it, and only answers sealed with it believed; empty: without.
+  Orders(const link::LinkOptions& options, const std::string& key)
+      : link_(options, key), has_key_(!key.empty()) {}
 
   // Waits until each is reached; those that are not within `patience` come back.
   std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles,
@@ -31,6 +34,7 @@ class Orders {
 
  private:
   link::OperatorLink link_;
+  const bool has_key_;
   std::set<VehicleId> sought_;
 };
 
@@ -38,6 +42,8 @@ class Orders {
 // operator did not wait. The exit code.
 int SayNotReached(VehicleId vehicle, std::uint32_t domain);
 int SayNoAnswer(VehicleId vehicle);
+// That it does not even say what it runs with, and why: most often the key is another.
+int SayRefused(const AdminAnswer& answer);
 int SayNobodyReached(std::uint32_t domain);
 
 // An order that asks what the vehicle runs with.

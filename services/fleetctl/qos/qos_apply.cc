@@ -13,6 +13,7 @@
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/run_key.h"
 #include "services/fleetctl/qos/canary_watch.h"
 #include "services/fleetctl/qos/orders.h"
 #include "services/fleetctl/qos/qos_apart.h"
@@ -69,8 +70,9 @@ struct Undo {
 
 class Applying {
  public:
-  Applying(const QosApplyOptions& options, const link::LinkOptions& link, QosProfiles wanted)
-      : options_(options), link_(link), orders_(link), wanted_(std::move(wanted)) {
+  Applying(const QosApplyOptions& options, const link::LinkOptions& link, const std::string& key,
+           QosProfiles wanted)
+      : options_(options), link_(link), orders_(link, key), wanted_(std::move(wanted)) {
     report_.profile = wanted_.name;
   }
 
@@ -307,7 +309,8 @@ int RunQosApply(const QosApplyOptions& options) {
   // Where the rules find errors the report lists them, and the library is not asked.
   if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
   const Interrupts interrupts;
-  Applying applying(options, link, std::move(wanted));
+  const std::string key = KeyToOrderWith(options.where.admin_key, options.where.domain);
+  Applying applying(options, link, key, std::move(wanted));
   if (const int code = applying.Ask(); code != 0) return code;
   const ApplyReport report = applying.Run();
   const std::string last = options.json ? ToJson(report) : LineOf(report);

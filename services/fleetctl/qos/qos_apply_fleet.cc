@@ -67,13 +67,18 @@ int AskFleet(const QosApplyOptions& options, Orders* orders, FleetAnswers* fleet
   for (const VehicleId process : fleet->targets) {
     auto answer = orders->Give(TellOrder(process), kTellPatience);
     if (!answer) return SayNoAnswer(process);
+    if (answer->state == AnswerState::kRefused) return SayRefused(*answer);
     fleet->told.emplace(process, std::move(*answer));
   }
   // A process that keeps what it has must continue hearing the others. Who does not answer is left
   // out.
   for (const VehicleId process : Everyone(orders, kQuietOfTheRest, false, fleet)) {
     if (fleet->told.contains(process)) continue;
-    if (auto answer = orders->Give(TellOrder(process), kTellPatience)) {
+    auto answer = orders->Give(TellOrder(process), kTellPatience);
+    if (!answer) continue;
+    if (answer->state == AnswerState::kRefused) {
+      fleet->deaf.push_back(process);
+    } else {
       fleet->told.emplace(process, std::move(*answer));
     }
   }

@@ -68,6 +68,7 @@ void AddQosApply(CLI::App* qos, int* exit_code) {
       ->required()
       ->check(CheckNotEmpty);
   AddObserverFlags(verb, &options->where);
+  AddAdminKeyFlag(verb, &options->where.admin_key);
   const auto targets = std::make_shared<std::vector<std::string>>();
   verb->add_option("--to", *targets, "Vehicle ids; all: every vehicle, and the world")
       ->required()

@@ -12,6 +12,7 @@
 #include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/run_key.h"
 #include "services/fleetctl/qos/orders.h"
 #include "services/fleetctl/qos/qos_effective.h"
 #include "services/fleetctl/qos/qos_foreign.h"
@@ -74,7 +75,7 @@ std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::strin
   const link::LinkOptions link_options = LinkOptionsOf(options, file);
   SayOtherFleets(options.domain, options.set.interface);
   const Interrupts interrupts;
-  Orders orders(link_options);
+  Orders orders(link_options, KeyToOrderWith(options.admin_key, options.domain));
   const VehicleId vehicle{options.vehicle};
   bool reached = orders.Seek({vehicle}, kOwnPatience).empty();
   if (!reached) {
@@ -90,6 +91,10 @@ std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::strin
   const auto answer = orders.Give(TellOrder(vehicle), kAnswerPatience);
   if (!answer) {
     *exit_code = SayNoAnswer(vehicle);
+    return std::nullopt;
+  }
+  if (answer->state == AnswerState::kRefused) {
+    *exit_code = SayRefused(*answer);
     return std::nullopt;
   }
   return LiveQos{answer->profiles.name, "", LiveEndpoints(*answer)};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "services/fleetctl/qos/qos_show.h"
 
@@ -12,6 +13,7 @@ struct QosLiveOptions {
   QosShowOptions set;  // the file it should run with
   std::uint32_t vehicle = 0;
   std::uint32_t domain = 0;
+  std::string admin_key;  // a file; empty: that of a fleet started here, if there is one
 };
 
 // 0 as in the file, 1 otherwise, 2 not heard or could not run.

@@ -1,6 +1,7 @@
 #include <limits>
 #include <memory>
 
+#include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/qos/qos_check.h"
 #include "services/fleetctl/qos/qos_live.h"
@@ -85,6 +86,7 @@ void AddShow(CLI::App* qos, int* exit_code) {
   auto* vehicle = verb->add_option("--live", live->vehicle,
                                    "What this vehicle runs with, held against the file")
                       ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));
+  AddAdminKeyFlag(verb, &live->admin_key);
   verb->add_option("--domain", live->domain,
                    "DDS domain of the fleet that --live examines, where several run")
       ->check(CLI::Range(1U, 99U))

@@ -19,6 +19,7 @@
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/run_key.h"
 #include "services/fleetctl/run/run_session.h"
 #include "services/report/report.h"
 
@@ -108,6 +109,7 @@ int StartAndWatch(const RunOptions& options) {
 
   const DomainLock lock(options.domain);
   const ScratchFolder scratch(options.restart);
+  const RunKey key(options.fleet.admin_key, lock.Domain());
   FleetSpec spec{.program_folder = ProgramFolder(),
                  .scenario_file = ResolveScenario(options.scenario),
                  .domain = lock.Domain(),
@@ -117,6 +119,7 @@ int StartAndWatch(const RunOptions& options) {
                  .names_newcomers = options.restart,  // who is one of them comes back as itself
                  .options = options.fleet};
   if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
+  spec.options.admin_key = key.File();
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
   RunSession session(options, scenario, spec);
   const Report report = session.Run();

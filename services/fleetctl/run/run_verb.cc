@@ -100,6 +100,13 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
   verb->add_option(
+          "--admin-key", options->fleet.admin_key,
+          "Orders (qos apply) are sealed with the key in this file; without it, one is made "
+          "that this user's fleetctl finds, for as long as the run lasts")
+      ->type_name("FILE")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_ADMIN_KEY");
+  verb->add_option(
           "--impair", options->fleet.impair,
           "Impair what every vehicle receives, instead of the scenario: "
           "loss=10%,delay=20ms, or none; services/link/impairment/README.md lists the keys")

@@ -339,6 +339,9 @@ void ProcessFaults::GiveOrder(const faults::Fault& fault, MemberId member) {
   if (!tools_.interface.empty()) {
     order.words.insert(order.words.end(), {"--interface", tools_.interface});
   }
+  if (!tools_.admin_key.empty()) {
+    order.words.insert(order.words.end(), {"--admin-key", tools_.admin_key});
+  }
   orders_[&fault] = std::make_unique<ChildProcess>(order);
 }
 

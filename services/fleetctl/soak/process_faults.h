@@ -25,6 +25,7 @@ struct FaultTools {
   std::string fleetctl;                 // the program, for orders
   std::uint32_t domain = 0;
   std::string interface;
+  std::string admin_key;  // the file of the key that the fleet's orders are sealed with
   // What a vehicle that is started so many seconds after the start signal is given with --impair:
   // its clock of the rules starts when it joins. Empty: nothing is impaired any more.
   std::function<std::string(VehicleId, double)> impairment_since;

@@ -35,9 +35,12 @@ std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
 
 }  // namespace
 
-RingKeeper::RingKeeper(const link::LinkOptions& options, std::span<const VehicleId> fleet,
-                       fs::path folder, Nanoseconds ring)
-    : link_(options), fleet_(fleet.begin(), fleet.end()), folder_(std::move(folder)), ring_(ring) {
+RingKeeper::RingKeeper(const link::LinkOptions& options, const std::string& key,
+                       std::span<const VehicleId> fleet, fs::path folder, Nanoseconds ring)
+    : link_(options, key),
+      fleet_(fleet.begin(), fleet.end()),
+      folder_(std::move(folder)),
+      ring_(ring) {
   for (const VehicleId vehicle : fleet_) link_.Seek(vehicle);
 }
 
@@ -51,8 +54,10 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
   }
   for (const VehicleId vehicle : fleet_) {
     if (!link_.Reaches(vehicle)) continue;
-    const AdminOrder order{
-        .vehicle = vehicle, .number = kept_.size() + 1, .kind = OrderKind::kKeepRing};
+    const AdminOrder order{.vehicle = vehicle,
+                           .number = link::OperatorLink::NextNumber(),
+                           .kind = OrderKind::kKeepRing};
+    orders_.emplace(order.number, kept_.size());
     if (link_.Send(order)) ++kept.ordered;
   }
   kept_.push_back(kept);
@@ -60,8 +65,10 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
 
 void RingKeeper::Turn(SteadyTime now) {
   for (const AdminAnswer& answer : link_.Take()) {
-    const bool ours = answer.order > 0 && answer.order <= kept_.size();
-    if (ours && answer.state == AnswerState::kInEffect) ++kept_[answer.order - 1].kept;
+    const auto order = orders_.find(answer.order);
+    if (order == orders_.end()) continue;
+    if (answer.state == AnswerState::kInEffect) ++kept_[order->second].kept;
+    orders_.erase(order);
   }
   if (now < next_prune_) return;
   next_prune_ = now + kPruneEvery;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <span>
 #include <string>
@@ -23,8 +24,9 @@ class RingKeeper {
   static constexpr std::size_t kMostUnkept = 6;
 
   // `folder`: where they record, `ring`: how much of it each keeps. Throws LinkError.
-  RingKeeper(const link::LinkOptions& options, std::span<const VehicleId> fleet,
-             std::filesystem::path folder, Nanoseconds ring);
+  // `key`: orders are sealed with it.
+  RingKeeper(const link::LinkOptions& options, const std::string& key,
+             std::span<const VehicleId> fleet, std::filesystem::path folder, Nanoseconds ring);
 
   // Orders it from all that are reached. Not again within a ring's length, which is in the files
   // anyhow, and kMostOrders times at most.
@@ -41,6 +43,7 @@ class RingKeeper {
   std::filesystem::path folder_;
   Nanoseconds ring_;
   std::vector<KeptRings> kept_;
+  std::map<std::uint64_t, std::size_t> orders_;  // which of kept_ each is for, by number
   std::set<std::string> kept_files_;
   SteadyTime ordered_{0};
   SteadyTime next_prune_{0};

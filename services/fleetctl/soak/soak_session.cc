@@ -7,6 +7,7 @@
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/run_key.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -94,8 +95,8 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       turned_(SteadyNow()) {
   const std::string& ring_s = spec.options.record_ring;
   if (ring_s.empty()) return;
-  rings_.emplace(ObserverOf(spec, scenario), fleet_, spec.options.record_folder,
-                 seconds(std::stoul(ring_s)));
+  rings_.emplace(ObserverOf(spec, scenario), KeyToOrderWith(spec.options.admin_key, spec.domain),
+                 fleet_, spec.options.record_folder, seconds(std::stoul(ring_s)));
 }
 
 SoakSeen SoakSession::Run(const Saved& save) {

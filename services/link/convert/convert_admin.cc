@@ -52,6 +52,7 @@ wire::Order ToWire(const AdminOrder& order) {
   sent.kind(ToWireEnum<wire::OrderKind>(order.kind));
   sent.name(CutText(order.profiles.name));
   sent.profiles(CutText(order.profiles.text, QosProfiles::kMostBytes));
+  sent.seal(order.seal);
   return sent;
 }
 
@@ -59,6 +60,7 @@ bool FromWire(const wire::Order& sample, AdminOrder& order) {
   order.vehicle = VehicleId{sample.vehicle()};
   order.number = sample.number();
   order.profiles = {sample.name().c_str(), sample.profiles().c_str()};
+  order.seal = sample.seal();
   return FromWireEnum(sample.kind(), giveway::OrderKind::kKeepRing, order.kind);
 }
 
@@ -73,6 +75,7 @@ wire::Answer ToWire(const AdminAnswer& answer) {
   sent.name(CutText(answer.profiles.name));
   sent.profiles(CutText(answer.profiles.text, QosProfiles::kMostBytes));
   sent.live(LinesOf(answer.live));
+  sent.seal(answer.seal);
   return sent;
 }
 
@@ -83,6 +86,7 @@ bool FromWire(const wire::Answer& sample, AdminAnswer& answer) {
   answer.fleet_size = sample.fleet_size();
   answer.interface = sample.network_interface().c_str();
   answer.profiles = {sample.name().c_str(), sample.profiles().c_str()};
+  answer.seal = sample.seal();
   const bool state_known =
       FromWireEnum(sample.state(), giveway::AnswerState::kRefused, answer.state);
   return FromLines(sample.live().c_str(), answer.live) && state_known;

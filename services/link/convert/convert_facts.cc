@@ -241,6 +241,7 @@ wire::Join ToWire(const JoinRequest& request) {
   sent.session(request.session);
   sent.wanted(Number(request.wanted));
   sent.leaving(request.leaving);
+  sent.secret(request.secret);
   return sent;
 }
 
@@ -248,6 +249,7 @@ bool FromWire(const wire::Join& sample, JoinRequest& request) {
   request.session = sample.session();
   request.wanted = VehicleId{sample.wanted()};
   request.leaving = sample.leaving();
+  request.secret = sample.secret();
   return true;
 }
 

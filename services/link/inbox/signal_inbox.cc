@@ -3,24 +3,36 @@
 #include <algorithm>
 
 #include "services/link/convert/convert.h"
+#include "services/link/inbox/participant_of.h"
+#include "services/link/inbox/sample_check.h"
 
 namespace giveway::link {
 
-SignalInbox::SignalInbox(Reader<wire::SignalState> reader, ReaderEvents& events)
-    : reader_(reader), events_(events) {}
+SignalInbox::SignalInbox(Reader<wire::SignalState> reader, ReaderEvents& events,
+                         const WorldBinding& world, Nanoseconds least_period)
+    : reader_(reader), events_(events), world_(world), gate_(least_period) {}
 
-std::span<const SignalState> SignalInbox::Take() {
+std::span<const SignalState> SignalInbox::Take(SteadyTime now) {
   CountMisses();  // before the samples: a miss is told before the sample that ends it
   taken_.clear();
-  reader_.TakeEach([&](const wire::SignalState& sample, const dds::SampleInfo&) {
-    SignalState state;
-    if (FromWire(sample, state) && state.id != kNoSignal) {
-      Keep(state);
-    } else {
-      ++unreadable_;
-    }
+  reader_.TakeEach([&](const wire::SignalState& sample, const dds::SampleInfo& info) {
+    Receive(sample, info.sample_identity.writer_guid(), now);
   });
   return taken_;
+}
+
+void SignalInbox::Receive(const wire::SignalState& sample, const rtps::GUID_t& writer,
+                          SteadyTime now) {
+  SignalState state;
+  if (world_.Participant() != 0 && !world_.IsWorld(ParticipantOf(writer))) {
+    ++strangers_;
+  } else if (!FromWire(sample, state) || state.id == kNoSignal) {
+    ++unreadable_;
+  } else if (FaultOf(state) || !gate_.Passes(state.epoch, state.tick, now)) {
+    ++implausible_;
+  } else {
+    Keep(state);
+  }
 }
 
 void SignalInbox::Keep(const SignalState& state) {

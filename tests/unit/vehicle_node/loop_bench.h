@@ -54,6 +54,7 @@ class ScriptedLink final : public link::DriveLink {
   const std::vector<Nanoseconds>& Waits() const { return waits_; }
   std::uint32_t Turns() const { return turn_; }
   void SayThatWorldSpeaks() { world_speaks_ = true; }
+  void SayThatItLacksBody() { lacks_body_ = true; }
   void ChangeInterface(const std::string& change) { interface_change_ = change; }
 
   bool WaitForScan(Nanoseconds timeout) override {
@@ -93,6 +94,7 @@ class ScriptedLink final : public link::DriveLink {
   }
   std::string InterfaceChange() const override { return interface_change_; }
   bool WorldSpeaks() const override { return world_speaks_; }
+  bool LacksBody() const override { return lacks_body_; }
   link::VehicleLinkCounters Counters() const override { return {}; }
   link::EffectiveBeaconQos BeaconQos() const override { return {}; }
   std::optional<SteadyTime> BlackoutsSince() const override { return std::nullopt; }
@@ -112,6 +114,7 @@ class ScriptedLink final : public link::DriveLink {
   VehicleStatus last_status_;
   std::string interface_change_;
   bool world_speaks_ = false;
+  bool lacks_body_ = false;
 };
 
 // The world's word on vehicle 1, which it gave its place.

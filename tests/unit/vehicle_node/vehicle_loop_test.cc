@@ -89,13 +89,45 @@ TEST(VehicleLoop, EndsAsRefusedWhereTheWorldRefusesIt) {
   EXPECT_EQ(bench.Link().Turns(), 4U);
 }
 
-TEST(VehicleLoop, ThatLostItsPlaceAsksForAnotherUnderItsIdAsSomebodyNew) {
+TEST(VehicleLoop, ThatLostItsPlaceAsksForAnotherUnderItsIdInItsSession) {
   LoopBench bench(ScansAnd(4, Answer(true, "silent for too long")));
   bench.StopAt(6);
   bench.Drive();
   ASSERT_EQ(bench.Link().Joins().size(), 1U);
   EXPECT_EQ(bench.Link().Joins().front().wanted, VehicleId{1});
-  EXPECT_NE(bench.Link().Joins().front().session, kSession);
+  EXPECT_EQ(bench.Link().Joins().front().session, kSession);
+}
+
+// Issue 25: a leave in its name took its body away, and it halted for good.
+TEST(VehicleLoop, ThatHasNoBodyInAWorldThatIsThereAsksForItsPlaceAgain) {
+  LoopBench bench([](std::uint32_t turn) { return turn < 4 ? ScanOnly(turn) : Arrival{}; });
+  bench.Link().SayThatItLacksBody();
+  bench.StopAt(100);
+  bench.Drive();
+  ASSERT_FALSE(bench.Link().Joins().empty());
+  EXPECT_EQ(bench.Link().Joins().front().wanted, VehicleId{1});
+  EXPECT_EQ(bench.Link().Joins().front().session, kSession);
+}
+
+TEST(VehicleLoop, WithABodyAsksForNothing) {
+  LoopBench bench([](std::uint32_t turn) { return turn < 4 ? ScanOnly(turn) : Arrival{}; });
+  bench.StopAt(100);
+  bench.Drive();
+  EXPECT_TRUE(bench.Link().Joins().empty());
+}
+
+// Issue 25: the vehicle aborted.
+TEST(VehicleLoop, AnEntryWithAnotherIdOrAPlaceThatCannotBeIsNotFollowed) {
+  std::vector<RosterEntry> lies(3, Entry(RunState::kRunning, WorldEpoch{77}));
+  lies[0].vehicle = VehicleId{2};
+  lies[1].start_world.position_world.x += 100;
+  lies[2].spawn = 9;
+  for (const RosterEntry& lie : lies) {
+    LoopBench bench(ScansAnd(4, lie));
+    bench.StopAt(8);
+    EXPECT_EQ(bench.Drive(), DriveEnd::kOver);
+    EXPECT_EQ(bench.Link().Sent().back().command.epoch, kEpoch);
+  }
 }
 
 TEST(VehicleLoop, ToldToStopSaysGoodByeThreeTimesAndLeaves) {

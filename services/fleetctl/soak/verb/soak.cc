@@ -23,6 +23,7 @@
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/process/run_key.h"
 #include "services/fleetctl/soak/soak_draw.h"
 #include "services/fleetctl/soak/soak_json.h"
 #include "services/fleetctl/soak/soak_page.h"
@@ -152,7 +153,8 @@ Prepared Prepare(const SoakOptions& options) {
   return prepared;
 }
 
-FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const DomainLock& lock) {
+FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const DomainLock& lock,
+                 const RunKey& key) {
   const fs::path folder(options.report_folder);
   FleetSpec spec{.program_folder = ProgramFolder(),
                  .scenario_file = prepared.scenario_file,
@@ -164,6 +166,7 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
                  .stagger = std::chrono::milliseconds(100)};
   spec.options.seed = options.seed;
   spec.options.interface = options.interface;
+  spec.options.admin_key = key.File();
   spec.options.vehicles = prepared.newcomers;
   spec.options.logs_folder = (folder / "logs").string();
   if (Records(options)) spec.options.record_folder = (folder / "recordings").string();
@@ -189,6 +192,7 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
   tools.fleetctl = (spec.program_folder / "fleetctl").string();
   tools.domain = spec.domain;
   tools.interface = spec.options.interface;
+  tools.admin_key = spec.options.admin_key;
   const fs::path folder = fs::path(options.report_folder) / "impair";
   tools.impairment_since = [&prepared, folder](VehicleId vehicle, double since_s) {
     const auto impaired = faults::ImpairmentOf(prepared.schedule, prepared.fleet, since_s);
@@ -281,7 +285,8 @@ int SoakVirtually(const SoakOptions& options) {
 int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const SoakResult* whole) {
   const Interrupts interrupts;
   const DomainLock lock(options.domain);
-  const FleetSpec spec = SpecOf(options, prepared, lock);
+  const RunKey key(options.admin_key, lock.Domain());
+  const FleetSpec spec = SpecOf(options, prepared, lock, key);
   const SoakResult blank = BlankResult(options, prepared, lock.Domain());
   const Limits limits = ReadLimits(prepared.qos_file, options.interface, blank.vehicles + 1,
                                    AnyVehicle(prepared.scenario));

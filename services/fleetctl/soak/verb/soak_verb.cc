@@ -4,6 +4,7 @@
 
 #include "services/fleetctl/args/duration_flag.h"
 #include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
 #include "services/fleetctl/soak/soak_phases.h"
@@ -70,6 +71,7 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("--domain", options->domain, "DDS domain; without it the first free one")
       ->check(CLI::Range(kFirstDomain, kLastDomain));
   AddInterfaceFlag(verb, &options->interface);
+  AddAdminKeyFlag(verb, &options->admin_key);
   verb->add_flag("--record", options->record, "Every vehicle records into the report folder");
   verb->add_option("--record-ring", options->ring_s,
                    "Every vehicle keeps its last seconds recorded: 60")

@@ -1,0 +1,216 @@
+#include "services/link/sample_filter.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "services/link/inbox/participant_of.h"
+
+#if __has_include(<fastrtps/config.h>)
+#include <fastdds/rtps/common/CacheChange.h>
+#endif
+
+namespace giveway::link {
+namespace {
+
+constexpr std::size_t kMostKept = 4;  // refusals between two looks; the counter has all
+constexpr std::size_t kEncapsulation = 4;
+constexpr const char* kTooMany = "it names more ids than one may";
+constexpr std::string_view kExpression = "filter ";
+
+std::uint64_t HashOf(const SessionId& session) {
+  std::uint64_t hash = 0xcbf29ce484222325ULL;
+  for (const std::uint32_t number : session) hash = (hash ^ number) * 0x100000001b3ULL;
+  return hash;
+}
+
+}  // namespace
+
+bool KeyReader::Has(std::size_t numbers) const {
+  return payload_.data != nullptr && payload_.length >= kEncapsulation + 4 * numbers;
+}
+
+std::uint32_t KeyReader::Number32(std::size_t i) const {
+  const bool little = (payload_.data[1] & 1U) != 0;
+  std::uint32_t number = 0;
+  for (std::size_t byte = 0; byte < 4; ++byte) {
+    const std::size_t at = little ? 3 - byte : byte;
+    number = number << 8U | payload_.data[kEncapsulation + 4 * i + at];
+  }
+  return number;
+}
+
+std::optional<VehicleId> KeyReader::Vehicle() const {
+  if (!Has(1)) return std::nullopt;
+  return VehicleId{Number32(0)};
+}
+
+std::optional<SessionId> KeyReader::Session() const {
+  if (!Has(4)) return std::nullopt;
+  return SessionId{Number32(0), Number32(1), Number32(2), Number32(3)};
+}
+
+bool SampleFilter::Passes(const rtps::GUID_t& writer, const rtps::SerializedPayload_t& payload) {
+  const std::scoped_lock lock(mutex_);
+  const KeyReader key(payload);
+  const char* const why = WhyNot(writer, key);
+  if (why == nullptr) return true;
+  if (*why == '\0') return false;
+  refused_.fetch_add(1, std::memory_order_relaxed);
+  if (kept_.size() < kMostKept) {
+    kept_.push_back({.sample = sample_,
+                     .vehicle = by_vehicle_ ? key.Vehicle().value_or(kNobody) : kNobody,
+                     .writer = Identity(writer),
+                     .counter = "strangers",
+                     .field = "writer",
+                     .why = why});
+  }
+  return false;
+}
+
+void SampleFilter::TakeRefusals(std::vector<Refusal>* refusals) {
+  const std::scoped_lock lock(mutex_);
+  for (Refusal& refusal : kept_) refusals->push_back(std::move(refusal));
+  kept_.clear();
+}
+
+bool KeysBySource::Admits(std::uint64_t source, std::uint64_t key) {
+  const auto [entry, is_new] = keys_.try_emplace(source);
+  std::vector<std::uint64_t>& known = entry->second;
+  const bool admits = std::ranges::find(known, key) != known.end() || known.size() < most_;
+  if (admits && (known.empty() || std::ranges::find(known, key) == known.end())) {
+    known.push_back(key);
+  }
+  if (is_new) oldest_.push_back(source);
+  for (; oldest_.size() > kMostSources; oldest_.pop_front()) keys_.erase(oldest_.front());
+  return admits;
+}
+
+const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+  std::uint64_t named = 0;
+  if (key_ == Key::kVehicle) {
+    const auto vehicle = key.Vehicle();
+    if (!vehicle) return nullptr;
+    named = Number(*vehicle);
+  } else {
+    const auto session = key.Session();
+    if (!session) return nullptr;
+    named = HashOf(*session);
+  }
+  const std::uint64_t source = of_ == Of::kWriter ? Identity(writer) : ParticipantOf(writer);
+  return known_.Admits(source, named) ? nullptr : kTooMany;
+}
+
+void OwnerFilter::SetOwner(VehicleId vehicle, std::uint64_t participant) {
+  const std::scoped_lock lock(Mutex());
+  if (participant == 0) {
+    owners_.erase(vehicle);
+  } else {
+    owners_[vehicle] = participant;
+  }
+}
+
+std::uint64_t OwnerFilter::OwnerOf(VehicleId vehicle) {
+  const std::scoped_lock lock(Mutex());
+  const auto owner = owners_.find(vehicle);
+  return owner == owners_.end() ? 0 : owner->second;
+}
+
+const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+  const auto vehicle = key.Vehicle();
+  if (!vehicle) return nullptr;
+  const auto owner = owners_.find(*vehicle);
+  if (owner != owners_.end()) {
+    return owner->second == ParticipantOf(writer) ? nullptr
+                                                  : "another participant joined with this id";
+  }
+  return unowned_.Admits(Identity(writer), Number(*vehicle)) ? nullptr : kTooMany;
+}
+
+const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+  const auto vehicle = key.Vehicle();
+  if (!vehicle) return nullptr;
+  if (!named_.Admits(Identity(writer), Number(*vehicle))) return kTooMany;
+  const auto now = std::chrono::steady_clock::now();
+  const std::uint64_t participant = ParticipantOf(writer);
+  const auto [speaker, is_new] = speakers_.try_emplace(*vehicle, Speaker{participant, now});
+  if (speaker->second.participant != participant && now - speaker->second.heard <= kSilence) {
+    return "another participant speaks for this id";
+  }
+  speaker->second = {participant, now};
+  if (is_new) oldest_.push_back(*vehicle);
+  for (; oldest_.size() > kMostSpeakers; oldest_.pop_front()) speakers_.erase(oldest_.front());
+  return nullptr;
+}
+
+const char* FirstWorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::uint64_t participant = ParticipantOf(writer);
+  const bool other = world_ != 0 && world_ != participant;
+  if (other && now - heard_ <= kSilence && is_there_(world_)) return "another world is there";
+  world_ = participant;
+  heard_ = now;
+  return nullptr;
+}
+
+void SessionFilter::Follow(const SessionId& session) {
+  const std::scoped_lock lock(Mutex());
+  session_ = session;
+}
+
+// Entries of other sessions are no fault of anybody: they are not counted.
+const char* SessionFilter::WhyNot(const rtps::GUID_t&, const KeyReader& key) {
+  const auto session = key.Session();
+  return !session || *session == session_ ? nullptr : "";
+}
+
+const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
+  const std::uint64_t world = world_.load(std::memory_order_relaxed);
+  return world == 0 || world == ParticipantOf(writer) ? nullptr : "its writer is not the world's";
+}
+
+#if __has_include(<fastrtps/config.h>)
+// What 2.9.1 passes for the sample's identity is that of the sample it answers. But it asks about
+// the payload within a change, which has the writer.
+rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
+                      const dds::IContentFilter::FilterSampleInfo&) {
+  static const std::ptrdiff_t payload_at = [] {
+    const rtps::CacheChange_t change;
+    return reinterpret_cast<const char*>(&change.serializedPayload) -
+           reinterpret_cast<const char*>(&change);
+  }();
+  const char* const change = reinterpret_cast<const char*>(&payload) - payload_at;
+  return reinterpret_cast<const rtps::CacheChange_t*>(change)->writerGUID;
+}
+#else
+rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload&,
+                      const dds::IContentFilter::FilterSampleInfo& info) {
+  return info.sample_identity.writer_guid();
+}
+#endif
+
+std::string FilterFactory::Add(SampleFilter* filter) {
+  filters_.emplace_back(filter);
+  return std::string(kExpression) + std::to_string(filters_.size() - 1);
+}
+
+// Each once, for its reader. A writer of the same participant would ask for the same again, to
+// leave out what the reader refuses anyhow: it is not given one.
+ReturnCode FilterFactory::create_content_filter(const char*, const char*, const dds::TopicDataType*,
+                                                const char* expression, const ParameterSeq&,
+                                                dds::IContentFilter*& filter) {
+  const std::string_view text = expression == nullptr ? "" : expression;
+  std::size_t number = filters_.size();
+  if (text.starts_with(kExpression)) {
+    std::from_chars(text.data() + kExpression.size(), text.data() + text.size(), number);
+  }
+  if (number >= filters_.size() || filters_[number].given) return ReturnCode{1};
+  filters_[number].given = true;
+  filter = &filters_[number];
+  return ReturnCode{};
+}
+
+}  // namespace giveway::link

@@ -1,0 +1,222 @@
+// What a reader takes no notice of, before the library keeps it: a sample of a stranger then takes
+// neither memory nor the place of an honest one in a history. The library asks a filter on its own
+// threads, for each sample; what is refused is counted, and the last few refused are kept for the
+// log.
+//
+// A key stands first in every wire type: the vehicle's id, or the 128 bits of a session.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "services/link/fastdds/fastdds_version.h"
+#include "services/types/fleet_facts.h"
+#include "services/types/refusal.h"
+
+namespace giveway::link {
+
+// The numbers a sample begins with; nothing if it is too short, or has only a hash of its key.
+class KeyReader {
+ public:
+  explicit KeyReader(const rtps::SerializedPayload_t& payload) : payload_(payload) {}
+  std::optional<VehicleId> Vehicle() const;
+  std::optional<SessionId> Session() const;
+
+ private:
+  bool Has(std::size_t numbers) const;
+  std::uint32_t Number32(std::size_t i) const;
+
+  const rtps::SerializedPayload_t& payload_;
+};
+
+class SampleFilter {
+ public:
+  // `sample` is how the log calls it: "motor command"; `by_vehicle`: its key is a vehicle's id.
+  explicit SampleFilter(const char* sample, bool by_vehicle = true)
+      : sample_(sample), by_vehicle_(by_vehicle) {}
+  virtual ~SampleFilter() = default;
+  SampleFilter(const SampleFilter&) = delete;
+  SampleFilter& operator=(const SampleFilter&) = delete;
+
+  // On the library's threads.
+  bool Passes(const rtps::GUID_t& writer, const rtps::SerializedPayload_t& payload);
+
+  std::uint32_t Refused() const { return refused_.load(std::memory_order_relaxed); }
+  // The first few since the last call.
+  void TakeRefusals(std::vector<Refusal>* refusals);
+
+ protected:
+  // Why it does not pass, empty where that is nothing to be said of, or null. One call at a time.
+  virtual const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) = 0;
+  std::mutex& Mutex() { return mutex_; }  // held during WhyNot
+
+ private:
+  const char* const sample_;
+  const bool by_vehicle_;
+  std::mutex mutex_;
+  std::vector<Refusal> kept_;  // guarded by mutex_
+  std::atomic<std::uint32_t> refused_{0};
+};
+
+// The first few keys that each source names, and no more: of writers, or participants. Bounded.
+class KeysBySource {
+ public:
+  static constexpr std::size_t kMostSources = 4096;  // beyond, the oldest are forgotten
+
+  explicit KeysBySource(std::size_t most) : most_(most) {}
+  // False of one key too many.
+  bool Admits(std::uint64_t source, std::uint64_t key);
+
+ private:
+  const std::size_t most_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint64_t>> keys_;  // by source
+  std::deque<std::uint64_t> oldest_;                                    // of keys_
+};
+
+// A writer speaks for one vehicle. A few ids more are let through, to be refused by name.
+inline constexpr std::size_t kMostIdsOfWriter = 4;
+
+// So many keys of each participant, the first that it names: one that names a hundred thousand
+// makes no more instances than any other.
+class KeyQuota final : public SampleFilter {
+ public:
+  enum class Key : std::uint8_t { kVehicle, kSession };
+  enum class Of : std::uint8_t { kWriter, kParticipant };
+  KeyQuota(const char* sample, Key key, Of of, std::size_t most)
+      : SampleFilter(sample, key == Key::kVehicle), key_(key), of_(of), known_(most) {}
+
+ private:
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+
+  const Key key_;
+  const Of of_;
+  KeysBySource known_;
+};
+
+// Only what the owner of a vehicle's id says for it; for ids without owner each writer for a few.
+class OwnerFilter final : public SampleFilter {
+ public:
+  explicit OwnerFilter(const char* sample) : SampleFilter(sample) {}
+
+  // From now on `participant` speaks for the vehicle; 0: nobody in particular.
+  void SetOwner(VehicleId vehicle, std::uint64_t participant);
+  std::uint64_t OwnerOf(VehicleId vehicle);
+
+ private:
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+
+  std::unordered_map<VehicleId, std::uint64_t> owners_;
+  KeysBySource unowned_{kMostIdsOfWriter};
+};
+
+// Of those who speak for a vehicle the first, until it has been silent for a second.
+class FirstComerFilter final : public SampleFilter {
+ public:
+  explicit FirstComerFilter(const char* sample) : SampleFilter(sample) {}
+  static constexpr std::chrono::milliseconds kSilence{1000};
+
+ private:
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+
+  struct Speaker {
+    std::uint64_t participant = 0;
+    std::chrono::steady_clock::time_point heard;
+  };
+  static constexpr std::size_t kMostSpeakers = 4096;  // beyond, the oldest are forgotten
+
+  KeysBySource named_{kMostIdsOfWriter};
+  std::unordered_map<VehicleId, Speaker> speakers_;
+  std::deque<VehicleId> oldest_;  // of speakers_
+};
+
+// Of participants that speak as the world the first, until it has left or is silent: for observers,
+// whom a world tells each tick where everybody is. For all readers of what a world says.
+class FirstWorldFilter final : public SampleFilter {
+ public:
+  using IsThere = std::function<bool(std::uint64_t participant)>;
+  FirstWorldFilter(const char* sample, IsThere is_there)
+      : SampleFilter(sample, false), is_there_(std::move(is_there)) {}
+  static constexpr std::chrono::milliseconds kSilence{500};
+
+ private:
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+
+  const IsThere is_there_;
+  std::uint64_t world_ = 0;
+  std::chrono::steady_clock::time_point heard_;
+};
+
+// Only entries of one session.
+class SessionFilter final : public SampleFilter {
+ public:
+  explicit SessionFilter(const char* sample) : SampleFilter(sample, false) {}
+  void Follow(const SessionId& session);
+
+ private:
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+
+  SessionId session_{};
+};
+
+// Only what the world says, once it is known which participant that is.
+class WorldFilter final : public SampleFilter {
+ public:
+  // `world`: the participant, 0 while there is none. It outlives this.
+  WorldFilter(const char* sample, const std::atomic<std::uint64_t>& world)
+      : SampleFilter(sample, false), world_(world) {}
+
+ private:
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+
+  const std::atomic<std::uint64_t>& world_;
+};
+
+// The library's own bases have no virtual destructor, and are never destroyed by them.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
+
+// Who wrote what a filter is asked about.
+rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
+                      const dds::IContentFilter::FilterSampleInfo& info);
+
+// Hands the filters of a participant's readers to the library. Its name is the participant's own:
+// writers elsewhere know no such filter, and send all.
+class FilterFactory final : public dds::IContentFilterFactory {
+ public:
+  // The expression that stands for the filter.
+  std::string Add(SampleFilter* filter);
+
+  ReturnCode create_content_filter(const char* filter_class, const char* type,
+                                   const dds::TopicDataType* support, const char* expression,
+                                   const ParameterSeq& parameters,
+                                   dds::IContentFilter*& filter) override;
+  ReturnCode delete_content_filter(const char*, dds::IContentFilter*) override {
+    return ReturnCode{};
+  }
+
+ private:
+  struct Asked final : dds::IContentFilter {
+    explicit Asked(SampleFilter* asked) : filter(asked) {}
+    bool evaluate(const SerializedPayload& payload, const FilterSampleInfo& info,
+                  const GUID_t&) const override {
+      return filter->Passes(WriterOf(payload, info), payload);
+    }
+    SampleFilter* filter;
+    bool given = false;
+  };
+
+  std::deque<Asked> filters_;  // at stable addresses
+};
+
+#pragma GCC diagnostic pop
+
+}  // namespace giveway::link

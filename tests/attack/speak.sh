@@ -1,0 +1,183 @@
+#!/usr/bin/env bash
+# What a process without credentials may say to a fleet that drives, and what comes of it: each row
+# of the table is one attack on the same fleet of four, on loopback. After each of them every process
+# of the fleet is there, every vehicle drives, and nothing of what the intruder wanted has happened.
+# Prints a line a row, "ok" or "FAILED".
+source "$(dirname "${BASH_SOURCE[0]}")/../system/fleet.sh"
+unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN GIVEWAY_ADMIN GIVEWAY_ADMIN_KEY
+ATTACKER=${GIVEWAY_SPEAK_ATTACKER:-$REPOSITORY/build/release/tests/attack/speak/speak_attacker}
+[[ -x $ATTACKER ]] || {
+  echo "no $ATTACKER; build its target: speak_attacker" >&2
+  exit 2
+}
+cd "$SCRATCH"
+qos=$REPOSITORY/config/qos/default.xml
+
+# Four on rounds of their own, in earshot of each other and never near.
+{
+  printf 'name: "rounds"\nduration_s: 600\nemission_radius_m: 100\n'
+  for id in 1 2 3 4; do
+    x=$((id * 6))
+    printf 'vehicle { id: %d start { x_m: %d y_m: 0 heading_deg: 0 } cruise_m_s: 0.3\n' "$id" "$x"
+    for corner in "$((x + 2)) 0" "$((x + 2)) 2" "$x 2" "$x 0"; do
+      printf '  waypoint { x_m: %d y_m: %d }\n' "${corner% *}" "${corner#* }"
+    done
+    printf '  loop: true }\n'
+  done
+  printf 'expect { contacts: 0 }\n'
+} >rounds.textproto
+
+"$FLEETCTL" run rounds.textproto --json --logs logs >run.json 2>run.err &
+fleet=$!
+listener=
+end_all() {
+  [[ -z $listener ]] || kill -INT "$listener" 2>/dev/null || true
+  kill -INT "$fleet" 2>/dev/null || true
+  wait "$fleet" 2>/dev/null || true
+  rm -rf "$SCRATCH"
+}
+trap end_all EXIT
+for _ in $(seq 200); do
+  domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' run.err)
+  [[ -n $domain ]] && grep -qs 'started with 4' logs/world.log && break
+  sleep 0.1
+done
+[[ -n ${domain:-} ]] || {
+  echo "FAILED: no fleet: $(cat run.err)"
+  exit 1
+}
+"$FLEETCTL" listen world/truth --json --domain "$domain" >truth 2>listen.err &
+listener=$!
+mapfile -t pids < <(processes_on "$domain")
+
+# Whether every body moved, and is there, in a little more than a second.
+all_moved() {
+  local from
+  from=$(wc -l <truth)
+  sleep 1.2
+  tail -n "+$((from + 1))" truth | head -n -1 | jq -se 'group_by(.vehicle) | length == 4 and
+    all((all(.present)) and ((map(.world_from_body.x_m) | max - min) +
+                             (map(.world_from_body.y_m) | max - min) > 0.05))' >/dev/null 2>&1
+}
+# Within five seconds of the end of an attack.
+all_drive() {
+  local _
+  for _ in 1 2 3 4; do all_moved && return; done
+  return 1
+}
+memory_kb() {
+  local pid most=0 now
+  for pid in "${pids[@]}"; do
+    now=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\).*/\1/p' "/proc/$pid/status" 2>/dev/null || echo 0)
+    ((now <= most)) || most=$now
+  done
+  echo "$most"
+}
+row() { printf '%-7s %s\n' "$1" "$2"; }
+
+# judge WHAT: no process ended or was made anew, and all drive.
+judge() {
+  local what=$1 pid why=
+  for pid in "${pids[@]}"; do
+    [[ -d /proc/$pid ]] || why+=" process $pid is gone;"
+  done
+  grep -hqs 'the run has ended\|the world refused\|drives on in world\|restarts itself' \
+    logs/vehicle-*.log && why+=" a vehicle says: $(grep -h \
+      'the run has ended\|the world refused\|drives on in world\|restarts itself' logs/vehicle-*.log |
+      tail -n 1);"
+  [[ -n $why ]] || all_drive || why+=" not all drive;"
+  if [[ -z $why ]]; then
+    row ok "$what"
+  else
+    row FAILED "$what:$why"
+    failures=$((failures + 1))
+  fi
+}
+
+# attack NAME WHAT [MILLISECONDS]
+attack() {
+  local code=0
+  timeout 60 "$ATTACKER" "$1" "$domain" "$qos" 1 "${3:-800}" >attack.out 2>&1 || code=$?
+  if [[ $code -ne 0 ]]; then
+    row FAILED "$2: the intruder could not: $(cat attack.out)"
+    failures=$((failures + 1))
+    return
+  fi
+  judge "$2"
+}
+
+# said LOG PATTERN WHAT: the refusal is in the log.
+said() {
+  grep -qs "$2" "logs/$1.log" && return
+  row FAILED "$3: $1 did not say it refused"
+  failures=$((failures + 1))
+}
+
+all_drive || {
+  row FAILED "the fleet does not drive before any attack"
+  exit 1
+}
+attack roster-id "a roster entry with a new epoch and another id of the scenario"
+said vehicle-1 'vehicle is 2, must be 1' "a roster entry with another id"
+attack roster-nan "a roster entry with a place that is no number"
+said vehicle-1 'start_world.x_m is nan' "a roster entry that is no number"
+attack roster-far "a roster entry 100 m off"
+said vehicle-1 'another world is there' "a roster entry of another world"
+attack roster-ended "a roster entry that says the run has ended"
+attack roster-refused "a roster entry that refuses"
+attack leave "a leave with every session of the roster"
+said world "another participant's" "a leave in another's session"
+attack command "motor commands at 200 Hz under another's id, of now and of ticks to come"
+said world 'another participant joined with this id' "commands under another's id"
+attack scan-ahead "a scan with tick +2^31"
+attack scan-ended "scans that say the run has ended"
+said vehicle-1 "is not the world's" "a stranger's scans"
+attack order "an order with the discovery server of the intruder"
+said vehicle-1 'refused an order' "an order without a seal"
+
+# An order of the operator, said again and again by another.
+"$ATTACKER" replay "$domain" "$qos" 1 3000 >replay.out 2>&1 &
+replay=$!
+for _ in $(seq 100); do
+  grep -qs listens replay.out && break
+  sleep 0.05
+done
+sleep 1
+sed '/profile_name="fleet_beacon_reader"/,/<\/data_/ s/<nanosec>150000000/<nanosec>180000000/' \
+  "$qos" >deadline.xml
+"$FLEETCTL" qos apply deadline.xml --to 1 --domain "$domain" >apply.out 2>&1 ||
+  { row FAILED "the operator's own order: $(tail -n 3 apply.out)" && failures=$((failures + 1)); }
+wait "$replay" || true
+grep -qs 'replayed [1-9]' replay.out || {
+  row FAILED "no order was there to be replayed: $(cat replay.out)"
+  failures=$((failures + 1))
+}
+said vehicle-1 'not above those before' "a replayed order"
+judge "an operator's order, replayed"
+runs=$(grep -c 'runs with the QoS of deadline.xml' logs/vehicle-1.log || true)
+[[ $runs -eq 1 ]] || {
+  row FAILED "the replayed order was carried out: $runs times in all"
+  failures=$((failures + 1))
+}
+
+before=$(memory_kb)
+attack ids "100 000 ids of one process, of beacons and commands"
+attack sybil "30 000 joins of ten participants"
+after=$(memory_kb)
+if ((after - before > 16 * 1024)); then
+  row FAILED "memory: the largest process took $((after - before)) kB more"
+  failures=$((failures + 1))
+else
+  row ok "memory: the largest process took $((after - before)) kB more"
+fi
+
+kill -INT "$fleet"
+wait "$fleet" || true
+contacts=$(jq .contacts run.json 2>/dev/null || echo none)
+if [[ $contacts == 0 ]]; then
+  row ok "no contact in the whole of it"
+else
+  row FAILED "contacts: $contacts"
+  failures=$((failures + 1))
+fi
+[[ $failures -eq 0 ]]

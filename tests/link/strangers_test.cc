@@ -1,0 +1,244 @@
+// What a stranger says in another's name: the participant that may say it is known, and another is
+// not believed, takes no memory and no honest sample's place.
+#include <gmock/gmock.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+
+#include "services/link/convert/convert.h"
+#include "services/link/observer_link.h"
+#include "services/link/operator_link.h"
+#include "services/link/participant.h"
+#include "services/link/world_link.h"
+#include "tests/link/fleet.h"
+
+namespace giveway::test {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+constexpr VehicleId kSeven{7};
+constexpr SessionId kSession{1, 2, 3, 4};
+
+RosterEntry Accepted(const SessionId& session, VehicleId vehicle) {
+  RosterEntry entry;
+  entry.session = session;
+  entry.vehicle = vehicle;
+  entry.accepted = true;
+  entry.epoch = WorldEpoch{1};
+  return entry;
+}
+
+RangeScan ScanOf(std::uint32_t tick) {
+  RangeScan scan;
+  scan.vehicle = kSeven;
+  scan.epoch = WorldEpoch{1};
+  scan.tick = Tick{tick};
+  return scan;
+}
+
+class Unnamed final : public link::DiscoveryListener {
+ public:
+  void OnWriter(Change, const link::rtps::GUID_t&, const std::vector<std::string>&) override {}
+};
+
+// A world and vehicle 7, which joined it.
+class Strangers : public ::testing::Test {
+ protected:
+  Strangers() : world_(OptionsIn(domain_)), vehicle_(OptionsIn(domain_)) {}
+  void SetUp() override {
+    vehicle_.SendJoin({kSession, kSeven});
+    ASSERT_TRUE(Eventually([&] { return !world_.TakeJoins().empty(); }));
+    world_.OpenRanges(kSeven);
+    world_.SendRoster(Accepted(kSession, kSeven));
+    ASSERT_TRUE(Eventually([&] { return vehicle_.TakeRoster(kSession).has_value(); }));
+    vehicle_.Open(kSeven);
+    ASSERT_TRUE(Eventually([&] {
+      world_.SendScan(ScanOf(++tick_));
+      return vehicle_.Take(SteadyTime{0}).inputs.scan.has_value() && world_.IsMatched(kSeven);
+    }));
+  }
+
+  DomainLock domain_;
+  link::WorldLink world_;
+  link::VehicleLink vehicle_;
+  std::uint32_t tick_ = 0;
+};
+
+TEST_F(Strangers, DoNotLeaveForAnother) {
+  link::VehicleLink stranger(OptionsIn(domain_));
+  stranger.SendLeave(kSession);
+  std::vector<Refusal> refusals;
+  ASSERT_TRUE(Eventually([&] {
+    EXPECT_TRUE(world_.TakeJoins().empty());
+    for (const Refusal& refusal : world_.TakeRefusals()) refusals.push_back(refusal);
+    return !refusals.empty();
+  }));
+  EXPECT_EQ(refusals[0].why, "session is another participant's, which is there");
+  vehicle_.SendLeave(kSession);
+  EXPECT_TRUE(Eventually([&] {
+    const auto joins = world_.TakeJoins();
+    return joins.size() == 1 && joins[0].leaving;
+  }));
+}
+
+TEST_F(Strangers, DoNotTakeASessionWhoseOwnerSpeaks) {
+  link::VehicleLink stranger(OptionsIn(domain_));
+  stranger.SendJoin({kSession, kSeven});
+  ASSERT_TRUE(Eventually([&] {
+    vehicle_.Send(BeaconFrom(kSeven, ++tick_));
+    world_.TakeCommands();
+    EXPECT_TRUE(world_.TakeJoins().empty());
+    return world_.Counters().joins_refused > 0;
+  }));
+}
+
+TEST_F(Strangers, CommandNobodysWheelsAndEvictNoCommand) {
+  Beaconing stranger(OptionsIn(domain_), kSeven);
+  ASSERT_TRUE(Eventually([&] {
+    stranger.Send();
+    world_.TakeCommands();
+    return world_.Counters().commands_strangers > 0;
+  }));
+  for (std::uint32_t i = 0; i < 200; ++i) stranger.Send();
+  vehicle_.Send(BeaconFrom(kSeven, 100'000));
+  for (std::uint32_t i = 0; i < 200; ++i) stranger.Send();
+  std::vector<Tick> ticks;
+  ASSERT_TRUE(Eventually([&] {
+    for (const MotorCommand& command : world_.TakeCommands()) ticks.push_back(command.tick);
+    return !ticks.empty();
+  }));
+  EXPECT_THAT(ticks, ::testing::Each(Tick{100'000}));
+}
+
+TEST_F(Strangers, SendNoScanAndEvictNone) {
+  link::WorldLink stranger(OptionsIn(domain_));
+  stranger.OpenRanges(kSeven);
+  const auto take = [&] { return vehicle_.Take(SteadyTime{0}).inputs.scan; };
+  ASSERT_TRUE(Eventually([&] {
+    stranger.SendScan(ScanOf(0x8000'0000));
+    EXPECT_LT(take().value_or(RangeScan{}).tick, Tick{0x8000'0000});
+    return vehicle_.Counters().strangers > 0;
+  }));
+  world_.SendScan(ScanOf(++tick_));
+  for (std::uint32_t i = 0; i < 100; ++i) stranger.SendScan(ScanOf(0x8000'0000));
+  std::optional<RangeScan> scan;
+  ASSERT_TRUE(Eventually([&] {
+    scan = take();
+    return scan.has_value();
+  }));
+  EXPECT_EQ(scan->tick, Tick{tick_});
+}
+
+TEST_F(Strangers, ATickThatNoTimeHasPassedForIsRefusedOfTheWorldItself) {
+  world_.SendScan(ScanOf(0x8000'0000));
+  EXPECT_TRUE(Eventually([&] {
+    EXPECT_FALSE(vehicle_.Take(SteadyTime{0}).inputs.scan.has_value());
+    return vehicle_.Counters().implausible == 1;
+  }));
+  world_.SendScan(ScanOf(++tick_));
+  EXPECT_TRUE(Eventually([&] { return vehicle_.Take(SteadyTime{0}).inputs.scan.has_value(); }));
+}
+
+TEST_F(Strangers, AreNotHeardAsTheStatusOfAVehicleThatSpeaks) {
+  link::ObserverLink observer(OptionsIn(domain_));
+  VehicleStatus status;
+  status.vehicle = kSeven;
+  status.peers_heard = 1;
+  ASSERT_TRUE(Eventually([&] {
+    vehicle_.SendStatus(status);
+    return !observer.Take().statuses.empty();
+  }));
+  link::VehicleLink stranger(OptionsIn(domain_));
+  stranger.Open(kSeven);
+  VehicleStatus lie = status;
+  lie.peers_heard = 99;
+  Repeat(milliseconds(2500), [&] {
+    vehicle_.SendStatus(status);
+    stranger.SendStatus(lie);
+    for (const VehicleStatus& one : observer.Take().statuses) EXPECT_EQ(one.peers_heard, 1U);
+  });
+}
+
+TEST_F(Strangers, DoNotAnswerForAVehicle) {
+  ASSERT_TRUE(Eventually([&] { return world_.IsMatched(kSeven); }));
+  link::OperatorLink chief(OptionsIn(domain_));
+  ASSERT_TRUE(Eventually([&] { return chief.Announced() == std::vector{kSeven}; }));
+  link::VehicleLink stranger(OptionsIn(domain_));
+  stranger.Open(kSeven);
+  chief.Seek(kSeven);
+  const auto answer = [](std::uint64_t order) {
+    return AdminAnswer{.vehicle = kSeven, .order = order, .interface = "", .profiles = {"x", "x"}};
+  };
+  stranger.SendAnswer(answer(1));
+  Repeat(milliseconds(1500), [&] { EXPECT_TRUE(chief.Take().empty()); });
+  vehicle_.SendAnswer(answer(2));
+  std::vector<AdminAnswer> got;
+  ASSERT_TRUE(Eventually([&] {
+    got = chief.Take();
+    return !got.empty();
+  }));
+  EXPECT_EQ(got[0].order, 2U);
+}
+
+TEST(Admin, AVehicleThatTakesNoOrdersCannotBeReached) {
+  const DomainLock domain;
+  link::VehicleLink deaf(OptionsIn(domain), {.takes_orders = false});
+  deaf.Open(kSeven);
+  Beaconing other(OptionsIn(domain), VehicleId{8});
+  link::OperatorLink chief(OptionsIn(domain));
+  chief.Seek(kSeven);
+  chief.Seek(VehicleId{8});
+  ASSERT_TRUE(Eventually([&] { return chief.Reaches(VehicleId{8}); }));
+  Repeat(milliseconds(1500), [&] { EXPECT_FALSE(chief.Reaches(kSeven)); });
+  EXPECT_TRUE(deaf.TakeOrders().empty());
+}
+
+long MemoryKb() {
+  std::ifstream file("/proc/self/statm");
+  long total = 0;
+  long resident = 0;
+  file >> total >> resident;
+  return resident * (sysconf(_SC_PAGESIZE) / 1024);
+}
+
+// Issue 25: 26 to 60 MB, and a fifth of a processor after the writer was gone.
+TEST_F(Strangers, AWriterThatNamesAHundredThousandIdsTakesNoMemory) {
+  Unnamed listener;
+  link::Participant flood(OptionsIn(domain_), "flood", listener);
+  auto beacons = flood.MakeWriter<wire::Beacon>("main/v9");
+  auto commands = flood.MakeWriter<wire::MotorCommand>("v9");
+  ASSERT_TRUE(Eventually([&] { return beacons.HasReader() && commands.HasReader(); }));
+  const auto name = [&](std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t id = from; id < to; ++id) {
+      Beacon beacon;
+      beacon.vehicle = VehicleId{id};
+      beacons.Write(link::ToWire(beacon));
+      MotorCommand command;
+      command.vehicle = VehicleId{id};
+      commands.Write(link::ToWire(command));
+      // The writer's own instances are no matter here.
+      beacons.Retire(link::ToWire(beacon));
+      commands.Retire(link::ToWire(command));
+      if (id % 32 != 0) continue;
+      vehicle_.Take(SteadyTime{0});
+      world_.TakeCommands();
+    }
+  };
+  name(1000, 5000);
+  const long before = MemoryKb();
+  name(5000, 45'000);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  constexpr long kMostKb = 32 * 1024;
+#else
+  constexpr long kMostKb = 4096;
+#endif
+  EXPECT_LT(MemoryKb() - before, kMostKb);
+  EXPECT_GT(vehicle_.Counters().strangers, 10'000U);
+}
+
+}  // namespace
+}  // namespace giveway::test
