@@ -1,0 +1,97 @@
+#include "services/vehicle/situation/heard_places.h"
+
+#include <algorithm>
+
+#include "services/types/math/math.h"
+#include "services/vehicle/situation/echoes.h"
+
+namespace giveway {
+namespace {
+
+// A reading's noise is allowed for by so many standard deviations.
+constexpr double kRangeSigmas = 2;
+// What is heard this near to a peer's shell is the peer.
+constexpr double kRoundPeer_m = 0.15;
+// Peers farther away are in nobody's arc.
+constexpr double kNearPeer_m = 3;
+// The middle of the body itself is surely not the place of anything else.
+constexpr double kShare = 0.8;
+
+double InnerRadius(const VehicleProfile& profile) {
+  if (profile.shape == BodyShape::kDisc) return profile.body_radius_m;
+  return std::min(profile.box_half_m.x, profile.box_half_m.y);
+}
+
+struct KnownBodies {
+  std::array<KnownBody, 16> of;
+  std::size_t count = 0;
+};
+
+// Peers that say where they are.
+KnownBodies KnownNear(const Situation& s) {
+  KnownBodies known;
+  for (const PeerView& view : s.peers) {
+    if (!view.believed || view.distance_m > kNearPeer_m || known.count == known.of.size()) continue;
+    known.of[known.count++] = {
+        InBody(s, view.position_world),
+        view.peer->beacon.body_radius_m + kRoundPeer_m + kSigmas * view.sigma_m};
+  }
+  return known;
+}
+
+HeardCone ConeOf(std::size_t sensor, const Situation& s, const ObstacleGrid& grid) {
+  const SensorView& view = s.ranges[sensor];
+  const double before_s = view.kind == Echo::kEcho && view.missed ? 0 : view.echo_before_s;
+  const double age_s = Seconds(TicksBetween(view.tick, s.tick) * s.options.tick_period) + before_s;
+  const bool echo = view.kind == Echo::kEcho && !view.missed;
+  const bool explained = (s.explained >> sensor & 1U) != 0;
+  return {.apex_body = s.options.profile.sonar[sensor].position_body,
+          .axis_body = s.cones.of[sensor].axis_body,
+          .half_sine = s.cones.half_sine,
+          .echo = echo,
+          .range_m = view.range_m,
+          .unsure_m = kRangeSigmas * s.options.sonar_noise * view.range_m,
+          .enters = !explained,
+          .moves = !s.turns && MovesByItself(sensor, s),
+          .grid_from_body = grid.Before({s.speed_m_s, s.turn_rad_s}, age_s)};
+}
+
+}  // namespace
+
+bool Remembers(const VehicleOptions& options) {
+  return options.behaviour == Behaviour::kCooperative && HasImperfectSonar(options);
+}
+
+void RememberEchoes(const Situation& s, ObstacleGrid* grid) {
+  if (!s.new_tick) return;
+  const KnownBodies known = KnownNear(s);
+  for (const std::size_t i : BitsOf(s.cones.enabled)) {
+    const SensorView& view = s.ranges[i];
+    if (view.kind == Echo::kNoData || !grid->IsNew(i, view.tick)) continue;
+    grid->Hear(ConeOf(i, s, *grid), {known.of.data(), known.count});
+  }
+  grid->StandsOn(kShare * InnerRadius(s.options.profile));
+  grid->Fade(Seconds(s.options.tick_period));
+}
+
+void ListPlaces(const ObstacleGrid& grid, HeardPlaces* places) {
+  constexpr double kNear_m = 1.8;
+  places->count = 0;
+  if (!grid.IsActive()) return;
+  grid.Held([&](Vec2 place_body) {
+    if (SquaredNorm(place_body) > kNear_m * kNear_m) return;
+    if (places->count < places->of.size()) places->of[places->count++] = place_body;
+  });
+}
+
+std::optional<double> FreeOfPlaces(Vec2 direction_body, const Situation& s) {
+  std::optional<double> nearest_m;
+  for (const Vec2 place : s.places) {
+    const Vec2 ahead = {Dot(direction_body, place), Cross(direction_body, place)};
+    const auto free_m = FreeBeforeDisc(ahead, s.options.profile.body_radius_m);
+    if (free_m && (!nearest_m || *free_m < *nearest_m)) nearest_m = free_m;
+  }
+  return nearest_m;
+}
+
+}  // namespace giveway
