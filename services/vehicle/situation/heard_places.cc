@@ -14,6 +14,8 @@ constexpr double kRangeSigmas = 2;
 constexpr double kRoundPeer_m = 0.15;
 // Peers farther away are in nobody's arc.
 constexpr double kNearPeer_m = 3;
+// A place is wider than what was heard there, on both sides of it: less margin does beside it.
+constexpr double kNarrower_m = 0.03;
 // The middle of the body itself is surely not the place of anything else.
 constexpr double kShare = 0.8;
 
@@ -85,11 +87,13 @@ void ListPlaces(const ObstacleGrid& grid, HeardPlaces* places) {
 }
 
 std::optional<double> FreeOfPlaces(Vec2 direction_body, const Situation& s) {
+  const double body_m = s.options.profile.body_radius_m;
   std::optional<double> nearest_m;
   for (const Vec2 place : s.places) {
     const Vec2 ahead = {Dot(direction_body, place), Cross(direction_body, place)};
-    const auto free_m = FreeBeforeDisc(ahead, s.options.profile.body_radius_m);
-    if (free_m && (!nearest_m || *free_m < *nearest_m)) nearest_m = free_m;
+    const auto free_m = FreeBeforeDisc(ahead, body_m - kNarrower_m);
+    if (!free_m || (*free_m <= 0 && Magnitude(ahead.y) >= body_m)) continue;
+    if (!nearest_m || *free_m < *nearest_m) nearest_m = free_m;
   }
   return nearest_m;
 }
