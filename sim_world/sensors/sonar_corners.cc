@@ -23,9 +23,11 @@ class Listener {
         transducers_(transducers),
         range_m_(range_m) {}
 
-  // Of a corner that is heard up to `reach(off)`; `answers(apex_world)`: from there.
+  // Of a corner that is heard up to `reach(off)`, and from nowhere beyond near_m of the axle
+  // centre; `answers(apex_world)`: from there.
   template <typename Reach, typename Answers>
-  void Hear(Vec2 at_world, const Reach& reach, const Answers& answers) {
+  void Hear(Vec2 at_world, double near_m, const Reach& reach, const Answers& answers) {
+    if (SquaredNorm(at_world - ear_.position_world) > near_m * near_m) return;
     const Vec2 at = ear_.ToBody(at_world);
     for (std::uint32_t left = transducers_; left != 0; left &= left - 1) {
       const auto i = static_cast<std::size_t>(std::countr_zero(left));
@@ -34,8 +36,8 @@ class Listener {
       const double along_m = Dot(cone.axis, to);
       const double squared_m2 = SquaredNorm(to);
       if (along_m <= 0 || along_m * along_m < cone.cos_half * cone.cos_half * squared_m2) continue;
+      if (squared_m2 >= range_m_->of[i] * range_m_->of[i]) continue;
       const double distance_m = Sqrt(squared_m2);
-      if (distance_m >= range_m_->of[i]) continue;
       const double across_m = Cross(cone.axis, to);
       const double off = across_m * across_m / (squared_m2 * cone.sin_half * cone.sin_half);
       if (distance_m > reach(off)) continue;
@@ -84,22 +86,23 @@ void HearCorners(const Scene& scene, const SonarRing& ring, const Pose& world_fr
   const auto edge_reach = [&](double off) { return EdgeReachOff(edge_reach_m, off); };
   const auto anywhere = [](Vec2) { return true; };
   scene.Corners().EdgesNear(centre_world, near_m, [&](const SceneCorner& corner) {
-    listener.Hear(corner.at_world, edge_reach, [&](Vec2 apex) { return corner.Answers(apex); });
+    listener.Hear(corner.at_world, near_m, edge_reach,
+                  [&](Vec2 apex) { return corner.Answers(apex); });
   });
   scene.LeavesNear(centre_world, near_m, [&](const SceneSegment& leaf) {
     if (leaf.owner == self) return;
-    listener.Hear(leaf.from_world, edge_reach, anywhere);
-    listener.Hear(leaf.to_world, edge_reach, anywhere);
+    listener.Hear(leaf.from_world, near_m, edge_reach, anywhere);
+    listener.Hear(leaf.to_world, near_m, edge_reach, anywhere);
   });
   scene.BoxesNear(centre_world, near_m, [&](const SceneBox& box) {
     if (box.owner == self) return;
-    for (const Vec2 corner : box.corners_world) listener.Hear(corner, edge_reach, anywhere);
+    for (const Vec2 corner : box.corners_world) listener.Hear(corner, near_m, edge_reach, anywhere);
   });
   const double max_m = ring.MaxRange();
   scene.Corners().ReflectorsNear(
       centre_world, ring.ApexReach() + max_m, [&](const SceneCorner& corner) {
         listener.Hear(
-            corner.at_world, [max_m](double) { return max_m; },
+            corner.at_world, ring.ApexReach() + max_m, [max_m](double) { return max_m; },
             [&](Vec2 apex) { return corner.Answers(apex); });
       });
 }
