@@ -62,6 +62,27 @@ Look LookOf(const HeardCone& heard) {
   return {heard.grid_from_body.position_world + turned(heard.apex_body), turned(heard.axis_body)};
 }
 
+// How many cells a cone of that length reaches to either side of its apex's.
+struct Bounds {
+  std::uint32_t left, right, down, up;
+};
+
+Bounds BoundsOf(Vec2 axis, double half_sine, double far_m) {
+  // Between the rims and the axis an arc bulges by less than a hundredth: a cell is left for that.
+  const Vec2 along = far_m * Sqrt(1 - half_sine * half_sine) * axis;
+  const Vec2 across = far_m * half_sine * Left(axis);
+  const auto cells = [](double a, double b, double c) {
+    return static_cast<std::uint32_t>(std::max({0.0, a, b, c}) / ObstacleGrid::kCell_m) + 2;
+  };
+  const Vec2 left = along + across;
+  const Vec2 right = along - across;
+  const Vec2 nose = far_m * axis;
+  return {.left = cells(-left.x, -right.x, -nose.x),
+          .right = cells(left.x, right.x, nose.x),
+          .down = cells(-left.y, -right.y, -nose.y),
+          .up = cells(left.y, right.y, nose.y)};
+}
+
 bool IsKnown(Vec2 point_body, std::span<const KnownBody> known) {
   return std::ranges::any_of(known, [&](const KnownBody& body) {
     return SquaredNorm(point_body - body.centre_body) < body.radius_m * body.radius_m;
@@ -164,13 +185,13 @@ void ObstacleGrid::Hear(const HeardCone& heard, std::span<const KnownBody> known
   const Vec2 now = grid_from_body_.position_world;
   const Vec2 forward = Forward(grid_from_body_);
   const Vec2 apex = {Wrapped(look.apex.x), Wrapped(look.apex.y)};
-  const auto reach = static_cast<std::uint32_t>(far_m / kCell_m) + 1;
   const std::uint8_t most = heard.moves ? kFirm - 1 : kSurest;
   const double rim = heard.half_sine * heard.half_sine;
-  for (std::uint32_t i = 0; i <= 2 * reach; ++i) {
-    const std::uint32_t row = (CellOf(apex.y) + kSide + i - reach) % kSide;
-    for (std::uint32_t j = 0; j <= 2 * reach; ++j) {
-      const std::uint32_t column = (CellOf(apex.x) + kSide + j - reach) % kSide;
+  const Bounds bounds = BoundsOf(look.axis, heard.half_sine, far_m);
+  for (std::uint32_t i = 0; i <= bounds.up + bounds.down; ++i) {
+    const std::uint32_t row = (CellOf(apex.y) + kSide + i - bounds.down) % kSide;
+    for (std::uint32_t j = 0; j <= bounds.left + bounds.right; ++j) {
+      const std::uint32_t column = (CellOf(apex.x) + kSide + j - bounds.left) % kSide;
       const Vec2 to = OffsetOf(column, row, apex);
       const double squared_m2 = SquaredNorm(to);
       if (Dot(look.axis, to) <= 0 || squared_m2 > far_m * far_m) continue;
