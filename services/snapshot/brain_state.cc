@@ -1,5 +1,6 @@
 #include "services/snapshot/brain_state.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -187,9 +188,12 @@ bool IsSound(const HeldScan<Scan>& held) {
 }
 
 bool IsSound(const ObstacleGrid& grid) {
-  const Pose& pose = StateFields::PlaceOf(grid);
+  const Vec2 at = StateFields::PlaceOf(grid);
   const auto is_in = [](double at_m) { return at_m >= 0 && at_m < ObstacleGrid::kWide_m; };
-  return is_in(pose.position_world.x) && is_in(pose.position_world.y);
+  const auto rows = StateFields::RowsOf(grid);
+  const bool has_columns = std::all_of(
+      rows.begin(), rows.end(), [](std::uint64_t row) { return row >> ObstacleGrid::kSide == 0; });
+  return is_in(at.x) && is_in(at.y) && has_columns;
 }
 
 // What a number is used as a place by.

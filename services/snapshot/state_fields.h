@@ -103,22 +103,18 @@ struct StateFields {
   }
   // The cells row by row: which hold something, and what. Into an empty grid.
   static void Of(auto& fields, Is<ObstacleGrid> auto& grid) {
-    auto& [cells, grid_from_body, unsure, faded, fired, active] = grid;
-    fields(grid_from_body, unsure, faded, fired, active);
+    auto& [cells, some, at, heading, unsure, faded, fired, active] = grid;
+    fields(some, at, heading, unsure, faded, fired, active);
     constexpr std::uint32_t kSide = ObstacleGrid::kSide;
     for (std::uint32_t row = 0; row < kSide; ++row) {
-      std::uint64_t held = 0;
       for (std::uint32_t column = 0; column < kSide; ++column) {
-        held |= std::uint64_t{cells[row * kSide + column] != 0} << column;
-      }
-      fields(held);
-      for (std::uint32_t column = 0; column < kSide; ++column) {
-        if ((held >> column & 1U) != 0) fields(cells[row * kSide + column]);
+        if ((some[row] >> column & 1U) != 0) fields(cells[row * kSide + column]);
       }
     }
   }
   // What a cell is looked up by.
-  static const Pose& PlaceOf(const ObstacleGrid& grid) { return grid.grid_from_body_; }
+  static Vec2 PlaceOf(const ObstacleGrid& grid) { return grid.at_grid_; }
+  static std::span<const std::uint64_t> RowsOf(const ObstacleGrid& grid) { return grid.some_; }
   // As many heads as there are.
   static void Of(auto& fields, Is<SignalTable> auto& table) {
     auto& [heads, count] = table;

@@ -217,7 +217,7 @@ void Vehicle::LookAround(Situation* s) {
     ListenForMovers(s);
     if (Remembers(options_)) {
       RememberEchoes(*s, &state_->grid);
-      ListPlaces(state_->grid, &places_);
+      ListPlaces(state_->grid, *s, &places_);
       s->places = places_.All();
     }
     Detour(s);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/types/math/math.h"
+#include "services/vehicle/estimation/bits.h"
 
 namespace giveway {
 namespace {
@@ -45,42 +46,53 @@ double OffsetAlong(std::uint32_t cell, double from_m) {
   return offset_m;
 }
 
+std::uint8_t LessBy(std::uint8_t cell, std::uint8_t loss) {
+  return cell > loss ? static_cast<std::uint8_t>(cell - loss) : std::uint8_t{0};
+}
+
 // The cell on the far side of the torus, where the square ends.
 std::uint32_t Opposite(std::uint32_t cell) {
   return (cell + ObstacleGrid::kSide / 2) % ObstacleGrid::kSide;
 }
 
-// The way a firing looks, in the grid.
-struct Look {
-  Vec2 apex;
-  Vec2 axis;
+// How many cells a shape reaches to either side of that of its apex.
+struct Bounds {
+  int left, right, down, up;
 };
 
-Look LookOf(const HeardCone& heard) {
-  const Vec2 forward = Forward(heard.grid_from_body);
-  const auto turned = [&](Vec2 body) { return body.x * forward + body.y * Left(forward); };
-  return {heard.grid_from_body.position_world + turned(heard.apex_body), turned(heard.axis_body)};
+// Of a part of a cone's: between two ranges, rim to rim. Between the rims and the axis an arc
+// bulges by less than a hundredth, for which a cell is left.
+Bounds BoundsOf(Vec2 axis, double half_sine, double near_m, double far_m) {
+  const Vec2 along = Sqrt(1 - half_sine * half_sine) * axis;
+  const Vec2 across = half_sine * Left(axis);
+  const std::array<Vec2, 5> corners = {near_m * (along + across), near_m * (along - across),
+                                       far_m * (along + across), far_m * (along - across),
+                                       far_m * axis};
+  Vec2 low = corners[0];
+  Vec2 high = corners[0];
+  for (const Vec2 corner : corners) {
+    low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
+    high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+  }
+  const auto cells = [](double m) { return static_cast<int>(m / ObstacleGrid::kCell_m); };
+  return {cells(low.x) - 1, cells(high.x) + 1, cells(low.y) - 1, cells(high.y) + 1};
 }
 
-// How many cells a cone of that length reaches to either side of its apex's.
-struct Bounds {
-  std::uint32_t left, right, down, up;
-};
+// The cell so many steps on, round the torus.
+std::uint32_t StepFrom(std::uint32_t cell, int steps) {
+  constexpr int kSide = ObstacleGrid::kSide;
+  return static_cast<std::uint32_t>((static_cast<int>(cell) + steps + kSide) % kSide);
+}
 
-Bounds BoundsOf(Vec2 axis, double half_sine, double far_m) {
-  // Between the rims and the axis an arc bulges by less than a hundredth: a cell is left for that.
-  const Vec2 along = far_m * Sqrt(1 - half_sine * half_sine) * axis;
-  const Vec2 across = far_m * half_sine * Left(axis);
-  const auto cells = [](double a, double b, double c) {
-    return static_cast<std::uint32_t>(std::max({0.0, a, b, c}) / ObstacleGrid::kCell_m) + 2;
-  };
-  const Vec2 left = along + across;
-  const Vec2 right = along - across;
-  const Vec2 nose = far_m * axis;
-  return {.left = cells(-left.x, -right.x, -nose.x),
-          .right = cells(left.x, right.x, nose.x),
-          .down = cells(-left.y, -right.y, -nose.y),
-          .up = cells(left.y, right.y, nose.y)};
+// Bits of the columns from `left` to `right` steps on.
+std::uint64_t ColumnsFrom(std::uint32_t cell, const Bounds& bounds) {
+  constexpr std::uint32_t kSide = ObstacleGrid::kSide;
+  constexpr std::uint64_t kAll = (std::uint64_t{1} << kSide) - 1;
+  const auto count = static_cast<std::uint32_t>(bounds.right - bounds.left + 1);
+  if (count >= kSide) return kAll;
+  const std::uint64_t run = (std::uint64_t{1} << count) - 1;
+  const std::uint32_t first = StepFrom(cell, bounds.left);
+  return (run << first | run >> (kSide - first)) & kAll;
 }
 
 bool IsKnown(Vec2 point_body, std::span<const KnownBody> known) {
@@ -95,61 +107,67 @@ Vec2 ObstacleGrid::OffsetOf(std::uint32_t column, std::uint32_t row, Vec2 from_g
   return {OffsetAlong(column, from_grid.x), OffsetAlong(row, from_grid.y)};
 }
 
+void ObstacleGrid::Put(std::uint32_t column, std::uint32_t row, std::uint8_t confidence) {
+  const std::uint64_t bit = std::uint64_t{1} << column;
+  cells_[row * kSide + column] = confidence;
+  some_[row] = confidence != 0 ? some_[row] | bit : some_[row] & ~bit;
+}
+
 void ObstacleGrid::ClearColumn(std::uint32_t column) {
-  for (std::uint32_t row = 0; row < kSide; ++row) cells_[row * kSide + column] = 0;
+  for (std::uint32_t row = 0; row < kSide; ++row) {
+    if (some_[row] != 0) Put(column, row, 0);
+  }
 }
 
 void ObstacleGrid::ClearRow(std::uint32_t row) {
+  if (some_[row] == 0) return;
   std::fill_n(cells_.begin() + row * kSide, kSide, std::uint8_t{0});
+  some_[row] = 0;
 }
 
-void ObstacleGrid::Lose(std::uint8_t confidence) {
-  for (std::uint8_t& cell : cells_) {
-    cell = cell > confidence ? static_cast<std::uint8_t>(cell - confidence) : std::uint8_t{0};
+// All cells below that.
+void ObstacleGrid::Lose(std::uint8_t confidence, std::uint8_t below) {
+  for (std::uint32_t row = 0; row < kSide; ++row) {
+    for (const std::size_t column : BitsOf(some_[row])) {
+      const std::uint8_t cell = cells_[row * kSide + column];
+      if (cell < below) Put(static_cast<std::uint32_t>(column), row, LessBy(cell, confidence));
+    }
   }
 }
 
 void ObstacleGrid::Move(Vec2 moved_body, double turned_rad, double unsure_m2) {
-  const Vec2 forward = Forward(grid_from_body_);
-  const Vec2 moved = moved_body.x * forward + moved_body.y * Left(forward);
-  Vec2& at = grid_from_body_.position_world;
+  const Vec2 moved = Turned(moved_body);
+  const double heading_rad = WrapAngle(heading_.heading_rad + turned_rad);
   const bool far = Magnitude(moved.x) >= kWide_m / 2 || Magnitude(moved.y) >= kWide_m / 2;
-  const double heading_rad = WrapAngle(grid_from_body_.heading_rad + turned_rad);
   if (far || !(Magnitude(heading_rad) <= kPi)) {  // of no use to what it knew
     *this = ObstacleGrid{};
     return;
   }
-  grid_from_body_.heading_rad = heading_rad;
-  const std::uint32_t column = CellOf(at.x);
-  const std::uint32_t row = CellOf(at.y);
-  at = {Wrapped(at.x + moved.x), Wrapped(at.y + moved.y)};
+  heading_.Follow({.heading_rad = heading_rad});
+  const std::uint32_t column = CellOf(at_grid_.x);
+  const std::uint32_t row = CellOf(at_grid_.y);
+  at_grid_ = {Wrapped(at_grid_.x + moved.x), Wrapped(at_grid_.y + moved.y)};
   if (!active_) return;
   // What comes in on one side is what leaves on the other.
-  const std::uint32_t step_x = moved.x > 0 ? 1 : kSide - 1;
-  const std::uint32_t step_y = moved.y > 0 ? 1 : kSide - 1;
-  for (std::uint32_t x = column; x != CellOf(at.x); x = (x + step_x) % kSide) {
-    ClearColumn(Opposite(moved.x > 0 ? x : (x + step_x) % kSide));
+  const int step_x = moved.x > 0 ? 1 : -1;
+  const int step_y = moved.y > 0 ? 1 : -1;
+  for (std::uint32_t x = column; x != CellOf(at_grid_.x); x = StepFrom(x, step_x)) {
+    ClearColumn(Opposite(moved.x > 0 ? x : StepFrom(x, step_x)));
   }
-  for (std::uint32_t y = row; y != CellOf(at.y); y = (y + step_y) % kSide) {
-    ClearRow(Opposite(moved.y > 0 ? y : (y + step_y) % kSide));
+  for (std::uint32_t y = row; y != CellOf(at_grid_.y); y = StepFrom(y, step_y)) {
+    ClearRow(Opposite(moved.y > 0 ? y : StepFrom(y, step_y)));
   }
   unsure_m2_ += unsure_m2;
   if (unsure_m2_ < kUnsure_m2) return;
   unsure_m2_ = 0;
-  Lose(kLoss);
+  Lose(kLoss, kSurest + 1);
 }
 
 void ObstacleGrid::Fade(double dt_s) {
   faded_s_ += dt_s;
   if (!active_ || faded_s_ < kFadesEvery_s) return;
   faded_s_ = 0;
-  for (std::uint8_t& cell : cells_) {
-    if (cell > 0 && cell < kFirm) --cell;
-  }
-}
-
-Pose ObstacleGrid::Before(Twist twist, double age_s) const {
-  return AdvanceArc(grid_from_body_, twist, -age_s);
+  Lose(1, kFirm);
 }
 
 bool ObstacleGrid::IsNew(std::size_t transducer, Tick tick) {
@@ -160,80 +178,102 @@ bool ObstacleGrid::IsNew(std::size_t transducer, Tick tick) {
 
 void ObstacleGrid::StandsOn(double radius_m) {
   if (!active_) return;
-  const auto reach = static_cast<std::uint32_t>(radius_m / kCell_m) + 1;
-  const Vec2 at = grid_from_body_.position_world;
-  for (std::uint32_t i = 0; i <= 2 * reach; ++i) {
-    const std::uint32_t row = (CellOf(at.y) + kSide + i - reach) % kSide;
-    for (std::uint32_t j = 0; j <= 2 * reach; ++j) {
-      const std::uint32_t column = (CellOf(at.x) + kSide + j - reach) % kSide;
-      if (SquaredNorm(OffsetOf(column, row, at)) < radius_m * radius_m) {
-        cells_[row * kSide + column] = 0;
-      }
+  const int reach = static_cast<int>(radius_m / kCell_m) + 1;
+  const Bounds bounds = {-reach, reach, -reach, reach};
+  const std::uint64_t columns = ColumnsFrom(CellOf(at_grid_.x), bounds);
+  for (int i = -reach; i <= reach; ++i) {
+    const std::uint32_t row = StepFrom(CellOf(at_grid_.y), i);
+    for (const std::size_t at : BitsOf(some_[row] & columns)) {
+      const auto column = static_cast<std::uint32_t>(at);
+      if (SquaredNorm(OffsetOf(column, row, at_grid_)) < radius_m * radius_m) Put(column, row, 0);
     }
   }
 }
 
 void ObstacleGrid::Hear(const HeardCone& heard, std::span<const KnownBody> known) {
   active_ = true;
-  const Look look = LookOf(heard);
+  const Vec2 place = at_grid_ + Turned(heard.apex_body);
+  const Vec2 apex = {Wrapped(place.x), Wrapped(place.y)};
+  const Vec2 axis = Turned(heard.axis_body);
+  Clear(heard, apex, axis);
+  if (heard.echo && heard.enters && heard.range_m <= kEnters_m) Gain(heard, apex, axis, known);
+}
+
+// Those nearer than the echo that would have been heard.
+void ObstacleGrid::Clear(const HeardCone& heard, Vec2 apex, Vec2 axis) {
   const double arc_m = heard.unsure_m + kHalfCell_m;
-  const bool enters = heard.echo && heard.enters && heard.range_m <= kEnters_m;
-  // Nothing nearer than this answered.
-  const double free_m = heard.echo ? heard.range_m - arc_m : kClear_m;
-  const double far_m = std::max(std::min(free_m, kClear_m), enters ? heard.range_m + arc_m : 0);
+  const double far_m = heard.echo ? std::min(heard.range_m - arc_m, kClear_m) : kClear_m;
   if (far_m <= 0) return;
-  const Vec2 now = grid_from_body_.position_world;
-  const Vec2 forward = Forward(grid_from_body_);
-  const Vec2 apex = {Wrapped(look.apex.x), Wrapped(look.apex.y)};
-  const std::uint8_t most = heard.moves ? kFirm - 1 : kSurest;
   const double rim = heard.half_sine * heard.half_sine;
-  const Bounds bounds = BoundsOf(look.axis, heard.half_sine, far_m);
-  for (std::uint32_t i = 0; i <= bounds.up + bounds.down; ++i) {
-    const std::uint32_t row = (CellOf(apex.y) + kSide + i - bounds.down) % kSide;
-    for (std::uint32_t j = 0; j <= bounds.left + bounds.right; ++j) {
-      const std::uint32_t column = (CellOf(apex.x) + kSide + j - bounds.left) % kSide;
+  const Bounds bounds = BoundsOf(axis, heard.half_sine, 0, far_m);
+  const std::uint64_t columns = ColumnsFrom(CellOf(apex.x), bounds);
+  for (int i = bounds.down; i <= bounds.up; ++i) {
+    const std::uint32_t row = StepFrom(CellOf(apex.y), i);
+    for (const std::size_t at : BitsOf(some_[row] & columns)) {
+      const auto column = static_cast<std::uint32_t>(at);
       const Vec2 to = OffsetOf(column, row, apex);
       const double squared_m2 = SquaredNorm(to);
-      if (Dot(look.axis, to) <= 0 || squared_m2 > far_m * far_m) continue;
-      const double across_m = Cross(look.axis, to);
+      if (Dot(axis, to) <= 0 || squared_m2 > far_m * far_m) continue;
+      const double across_m = Cross(axis, to);
       const double off = across_m * across_m / (squared_m2 * rim);
-      if (off > 1) continue;
-      const double distance_m = Sqrt(squared_m2);
-      std::uint8_t& cell = cells_[row * kSide + column];
-      if (enters && Magnitude(distance_m - heard.range_m) <= arc_m) {
-        const Vec2 from_body = OffsetOf(column, row, now);
-        if (IsKnown({Dot(forward, from_body), Cross(forward, from_body)}, known)) continue;
-        const auto more = std::min(static_cast<std::uint8_t>(cell + kGain), most);
-        cell = std::max(cell, more);
-      } else if (distance_m < free_m && distance_m < kClear_m * (1 - kLessAtRim * off)) {
-        cell = cell > kLoss ? static_cast<std::uint8_t>(cell - kLoss) : std::uint8_t{0};
-      }
+      const double clear_m = kClear_m * (1 - kLessAtRim * off);
+      if (off > 1 || squared_m2 > clear_m * clear_m) continue;
+      Put(column, row, LessBy(cells_[row * kSide + column], kLoss));
+    }
+  }
+}
+
+// Those on the arc.
+void ObstacleGrid::Gain(const HeardCone& heard, Vec2 apex, Vec2 axis,
+                        std::span<const KnownBody> known) {
+  const double arc_m = heard.unsure_m + kHalfCell_m;
+  const double near_m = std::max(0.0, heard.range_m - arc_m);
+  const double far_m = heard.range_m + arc_m;
+  const double rim = heard.half_sine * heard.half_sine;
+  const std::uint8_t most = heard.moves ? kFirm - 1 : kSurest;
+  const Bounds bounds = BoundsOf(axis, heard.half_sine, near_m, far_m);
+  for (int i = bounds.down; i <= bounds.up; ++i) {
+    const std::uint32_t row = StepFrom(CellOf(apex.y), i);
+    for (int j = bounds.left; j <= bounds.right; ++j) {
+      const std::uint32_t column = StepFrom(CellOf(apex.x), j);
+      const Vec2 to = OffsetOf(column, row, apex);
+      const double squared_m2 = SquaredNorm(to);
+      if (squared_m2 > far_m * far_m || squared_m2 < near_m * near_m || Dot(axis, to) <= 0)
+        continue;
+      const double across_m = Cross(axis, to);
+      if (across_m * across_m > rim * squared_m2) continue;
+      const Vec2 from_body = OffsetOf(column, row, at_grid_);
+      const Vec2 forward = heading_.forward_world;
+      if (IsKnown({Dot(forward, from_body), Cross(forward, from_body)}, known)) continue;
+      const std::uint8_t cell = cells_[row * kSide + column];
+      const auto more = std::min(static_cast<std::uint8_t>(cell + kGain), most);
+      Put(column, row, std::max(cell, more));
     }
   }
 }
 
 std::uint8_t ObstacleGrid::At(Vec2 point_body) const {
-  const Vec2 forward = Forward(grid_from_body_);
-  const Vec2 offset = point_body.x * forward + point_body.y * Left(forward);
+  const Vec2 offset = Turned(point_body);
   constexpr double kReach_m = kWide_m / 2 - kCell_m;
   if (Magnitude(offset.x) > kReach_m || Magnitude(offset.y) > kReach_m) return 0;
-  const Vec2 at = grid_from_body_.position_world + offset;
+  const Vec2 at = at_grid_ + offset;
   return cells_[CellOf(Wrapped(at.y)) * kSide + CellOf(Wrapped(at.x))];
 }
 
 void ObstacleGrid::AddTo(StateHash* hash) const {
   if (!active_) return;
-  hash->Add(grid_from_body_.position_world.x);
-  hash->Add(grid_from_body_.position_world.y);
-  hash->Add(grid_from_body_.heading_rad);
+  hash->Add(at_grid_.x);
+  hash->Add(at_grid_.y);
+  hash->Add(heading_.heading_rad);
   hash->Add(unsure_m2_);
   hash->Add(faded_s_);
-  for (std::uint32_t i = 0; i < cells_.size(); i += 8) {
-    std::uint64_t eight = 0;
-    for (std::uint32_t j = 0; j < 8; ++j) eight |= std::uint64_t{cells_[i + j]} << 8 * j;
-    if (eight == 0) continue;
-    hash->Add(i);
-    hash->Add(eight);
+  for (std::uint32_t row = 0; row < kSide; ++row) {
+    if (some_[row] == 0) continue;
+    hash->Add(row);
+    hash->Add(some_[row]);
+    for (const std::size_t column : BitsOf(some_[row])) {
+      hash->Add(std::uint32_t{cells_[row * kSide + column]});
+    }
   }
 }
 

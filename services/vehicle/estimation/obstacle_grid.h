@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -18,7 +19,7 @@
 
 namespace giveway {
 
-// What one firing of one transducer says, as the vehicle stood when it fired.
+// What one firing of one transducer says: where it was when it fired, in the body frame of now.
 struct HeardCone {
   Vec2 apex_body;
   Vec2 axis_body;        // unit vector
@@ -28,7 +29,6 @@ struct HeardCone {
   double unsure_m = 0;   // the range may be off by so much
   bool enters = false;   // the echo is of something to be kept
   bool moves = false;    // of something that moves: it is forgotten soon
-  Pose grid_from_body;   // when it fired: ObstacleGrid::Before
 };
 
 // A disc that is known to be there and is no obstacle to be kept.
@@ -56,8 +56,6 @@ class ObstacleGrid {
   // Takes one firing in: cells on the arc of its echo gain, those it has heard clear lose.
   void Hear(const HeardCone& heard, std::span<const KnownBody> known);
 
-  // Where the body was `age_s` ago, having moved so.
-  Pose Before(Twist twist, double age_s) const;
   // Of `tick`, a transducer's last firing: true once.
   bool IsNew(std::size_t transducer, Tick tick);
 
@@ -68,15 +66,12 @@ class ObstacleGrid {
   // Visits the middle of every cell that counts, in the body frame.
   template <typename Visit>
   void Held(Visit&& visit) const {
-    const Vec2 forward = Forward(grid_from_body_);
+    const Vec2 forward = heading_.forward_world;
     for (std::uint32_t row = 0; row < kSide; ++row) {
-      for (std::uint32_t column = 0; column < kSide; ++column) {
-        if (column % 8 == 0 && AreEmpty(row * kSide + column)) {
-          column += 7;
-          continue;
-        }
+      for (std::uint64_t left = some_[row]; left != 0; left &= left - 1) {
+        const auto column = static_cast<std::uint32_t>(std::countr_zero(left));
         if (cells_[row * kSide + column] < kHeld) continue;
-        const Vec2 offset = OffsetOf(column, row, grid_from_body_.position_world);
+        const Vec2 offset = OffsetOf(column, row, at_grid_);
         visit(Vec2{Dot(forward, offset), Cross(forward, offset)});
       }
     }
@@ -89,21 +84,23 @@ class ObstacleGrid {
 
   // From a point of the grid to the middle of a cell, the short way round.
   static Vec2 OffsetOf(std::uint32_t column, std::uint32_t row, Vec2 from_grid);
-  // All eight from there on.
-  bool AreEmpty(std::uint32_t first) const {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, &cells_[first], sizeof eight);
-    return eight == 0;
+  Vec2 Turned(Vec2 body) const {
+    return body.x * heading_.forward_world + body.y * Left(heading_.forward_world);
   }
-  void Lose(std::uint8_t confidence);
+  void Put(std::uint32_t column, std::uint32_t row, std::uint8_t confidence);
+  void Lose(std::uint8_t confidence, std::uint8_t below);
   void ClearColumn(std::uint32_t column);
   void ClearRow(std::uint32_t row);
+  void Gain(const HeardCone& heard, Vec2 apex, Vec2 axis, std::span<const KnownBody> known);
+  void Clear(const HeardCone& heard, Vec2 apex, Vec2 axis);
 
   // The cell of column x, row y; the square is a torus, and the vehicle's place in it wraps round.
   std::array<std::uint8_t, kSide * kSide> cells_{};
-  Pose grid_from_body_{.position_world = {kWide_m / 2, kWide_m / 2}};  // both in [0, kWide_m)
-  double unsure_m2_ = 0;  // gained since the cells last lost by it
-  double faded_s_ = 0;    // passed since they last faded
+  std::array<std::uint64_t, kSide> some_{};  // by row: bit x where cell x is not 0
+  Vec2 at_grid_{kWide_m / 2, kWide_m / 2};   // both in [0, kWide_m)
+  KnownHeading heading_;                     // in the grid
+  double unsure_m2_ = 0;                     // gained since the cells last lost by it
+  double faded_s_ = 0;                       // passed since they last faded
   std::array<Tick, kSensorCount> fired_{};
   bool active_ = false;
 };

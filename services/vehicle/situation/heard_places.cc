@@ -41,21 +41,27 @@ KnownBodies KnownNear(const Situation& s) {
   return known;
 }
 
-HeardCone ConeOf(std::size_t sensor, const Situation& s, const ObstacleGrid& grid) {
+HeardCone HeardBy(std::size_t sensor, const Situation& s) {
   const SensorView& view = s.ranges[sensor];
   const double before_s = view.kind == Echo::kEcho && view.missed ? 0 : view.echo_before_s;
   const double age_s = Seconds(TicksBetween(view.tick, s.tick) * s.options.tick_period) + before_s;
   const bool echo = view.kind == Echo::kEcho && !view.missed;
   const bool explained = (s.explained >> sensor & 1U) != 0;
-  return {.apex_body = s.options.profile.sonar[sensor].position_body,
-          .axis_body = s.cones.of[sensor].axis_body,
+  Vec2 apex = s.options.profile.sonar[sensor].position_body;
+  Vec2 axis = s.cones.of[sensor].axis_body;
+  if (age_s > 0) {
+    const Pose then = AdvanceArc({}, {s.speed_m_s, s.turn_rad_s}, -age_s);
+    apex = ToWorld(then, apex);
+    axis = ToWorld({.heading_rad = then.heading_rad}, axis);
+  }
+  return {.apex_body = apex,
+          .axis_body = axis,
           .half_sine = s.cones.half_sine,
           .echo = echo,
           .range_m = view.range_m,
           .unsure_m = kRangeSigmas * s.options.sonar_noise * view.range_m,
           .enters = !explained,
-          .moves = !s.turns && MovesByItself(sensor, s),
-          .grid_from_body = grid.Before({s.speed_m_s, s.turn_rad_s}, age_s)};
+          .moves = echo && !s.turns && MovesByItself(sensor, s)};
 }
 
 }  // namespace
@@ -70,18 +76,21 @@ void RememberEchoes(const Situation& s, ObstacleGrid* grid) {
   for (const std::size_t i : BitsOf(s.cones.enabled)) {
     const SensorView& view = s.ranges[i];
     if (view.kind == Echo::kNoData || !grid->IsNew(i, view.tick)) continue;
-    grid->Hear(ConeOf(i, s, *grid), {known.of.data(), known.count});
+    grid->Hear(HeardBy(i, s), {known.of.data(), known.count});
   }
   grid->StandsOn(kShare * InnerRadius(s.options.profile));
   grid->Fade(Seconds(s.options.tick_period));
 }
 
-void ListPlaces(const ObstacleGrid& grid, HeardPlaces* places) {
-  constexpr double kNear_m = 1.8;
+void ListPlaces(const ObstacleGrid& grid, const Situation& s, HeardPlaces* places) {
+  // As far as one is steered past, or slows the vehicle down.
+  constexpr double kRound_m = 0.6;
+  const double near_m =
+      s.options.profile.body_radius_m + std::max(kRound_m, s.slows_m + kStandOff_m);
   places->count = 0;
   if (!grid.IsActive()) return;
   grid.Held([&](Vec2 place_body) {
-    if (SquaredNorm(place_body) > kNear_m * kNear_m) return;
+    if (SquaredNorm(place_body) > near_m * near_m) return;
     if (places->count < places->of.size()) places->of[places->count++] = place_body;
   });
 }

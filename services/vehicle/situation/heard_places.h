@@ -18,7 +18,7 @@ bool Remembers(const VehicleOptions& options);
 void RememberEchoes(const Situation& s, ObstacleGrid* grid);
 
 // Lists what the grid holds near the vehicle.
-void ListPlaces(const ObstacleGrid& grid, HeardPlaces* places);
+void ListPlaces(const ObstacleGrid& grid, const Situation& s, HeardPlaces* places);
 
 // How far straight on, in that direction from the axle centre, the own shell may go before it is at
 // a heard place; empty if at none. What it

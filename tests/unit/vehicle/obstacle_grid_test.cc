@@ -10,19 +10,18 @@ namespace giveway {
 namespace {
 
 // A transducer on the nose that looks straight ahead.
-HeardCone Ahead(const ObstacleGrid& grid, bool echo, double range_m = 0, double bearing_rad = 0) {
+HeardCone Ahead(bool echo, double range_m = 0, double bearing_rad = 0) {
   return {.apex_body = {0.15, 0},
           .axis_body = {Cos(bearing_rad), Sin(bearing_rad)},
           .half_sine = Sin(Radians(15)),
           .echo = echo,
           .range_m = range_m,
           .unsure_m = 0.02 * range_m,
-          .enters = true,
-          .grid_from_body = grid.Before({}, 0)};
+          .enters = true};
 }
 
 void HearTimes(ObstacleGrid* grid, int times, double range_m = 0.6) {
-  for (int i = 0; i < times; ++i) grid->Hear(Ahead(*grid, true, range_m), {});
+  for (int i = 0; i < times; ++i) grid->Hear(Ahead(true, range_m), {});
 }
 
 // What was heard 0.6 m before the nose.
@@ -54,11 +53,11 @@ TEST(ObstacleGrid, AnEchoFromFarAwayIsNotEntered) {
 TEST(ObstacleGrid, WhatIsHeardClearIsForgottenAfterAFewFirings) {
   ObstacleGrid grid;
   HearTimes(&grid, 5);
-  grid.Hear(Ahead(grid, false), {});
+  grid.Hear(Ahead(false), {});
   EXPECT_TRUE(Holds(grid, kThere)) << "one drop-out forgets nothing";
   int more = 0;
   while (Holds(grid, kThere) && more < 10) {
-    grid.Hear(Ahead(grid, false), {});
+    grid.Hear(Ahead(false), {});
     ++more;
   }
   EXPECT_GE(more, 2);
@@ -68,9 +67,9 @@ TEST(ObstacleGrid, WhatIsHeardClearIsForgottenAfterAFewFirings) {
 TEST(ObstacleGrid, AnEchoFromBehindThePlaceClearsItAndOneFromBeforeDoesNot) {
   ObstacleGrid grid;
   HearTimes(&grid, 3);
-  for (int i = 0; i < 8; ++i) grid.Hear(Ahead(grid, true, 0.3), {});
+  for (int i = 0; i < 8; ++i) grid.Hear(Ahead(true, 0.3), {});
   EXPECT_TRUE(Holds(grid, kThere));
-  for (int i = 0; i < 8; ++i) grid.Hear(Ahead(grid, true, 1.2), {});
+  for (int i = 0; i < 8; ++i) grid.Hear(Ahead(true, 1.2), {});
   EXPECT_FALSE(Holds(grid, kThere));
 }
 
@@ -79,10 +78,10 @@ TEST(ObstacleGrid, SilenceAtTheRimOfAConeClearsNearPlacesOnly) {
   const double rim_rad = Radians(14.5);
   for (const double range_m : {0.3, 0.9}) {
     ObstacleGrid grid;
-    for (int i = 0; i < 3; ++i) grid.Hear(Ahead(grid, true, range_m, rim_rad), {});
+    for (int i = 0; i < 3; ++i) grid.Hear(Ahead(true, range_m, rim_rad), {});
     const Vec2 there = Vec2{0.15, 0} + range_m * Vec2{Cos(rim_rad), Sin(rim_rad)};
     ASSERT_TRUE(Holds(grid, there));
-    for (int i = 0; i < 20; ++i) grid.Hear(Ahead(grid, false), {});
+    for (int i = 0; i < 20; ++i) grid.Hear(Ahead(false), {});
     EXPECT_EQ(Holds(grid, there), range_m > 0.5) << range_m;
   }
 }
@@ -92,7 +91,7 @@ TEST(ObstacleGrid, WhatWasHeardOutOfTheConesStays) {
   HearTimes(&grid, 3);
   grid.Move({0, 0}, Radians(70), 0);
   for (int i = 0; i < 200; ++i) {
-    grid.Hear(Ahead(grid, false), {});
+    grid.Hear(Ahead(false), {});
     grid.Fade(0.05);
   }
   EXPECT_TRUE(Holds(grid, {0.75 * Cos(Radians(70)), -0.75 * Sin(Radians(70))}));
@@ -113,7 +112,7 @@ TEST(ObstacleGrid, WhatWasHeardOnceFadesAndWhatWasHeardTwiceDoesNot) {
 
 TEST(ObstacleGrid, WhatMovesFadesHoweverOftenItIsHeard) {
   ObstacleGrid grid;
-  HeardCone mover = Ahead(grid, true, 0.6);
+  HeardCone mover = Ahead(true, 0.6);
   mover.moves = true;
   for (int i = 0; i < 10; ++i) grid.Hear(mover, {});
   EXPECT_TRUE(Holds(grid, kThere));
@@ -124,9 +123,9 @@ TEST(ObstacleGrid, WhatMovesFadesHoweverOftenItIsHeard) {
 TEST(ObstacleGrid, APeerKnownByItsBeaconsIsNotEntered) {
   ObstacleGrid grid;
   const KnownBody peer = {.centre_body = {1.0, 0}, .radius_m = 0.4};
-  for (int i = 0; i < 3; ++i) grid.Hear(Ahead(grid, true, 0.6), {&peer, 1});
+  for (int i = 0; i < 3; ++i) grid.Hear(Ahead(true, 0.6), {&peer, 1});
   EXPECT_FALSE(Holds(grid, kThere));
-  HeardCone explained = Ahead(grid, true, 0.6);
+  HeardCone explained = Ahead(true, 0.6);
   explained.enters = false;
   for (int i = 0; i < 3; ++i) grid.Hear(explained, {});
   EXPECT_FALSE(Holds(grid, kThere));
@@ -211,7 +210,7 @@ TEST(ObstacleGrid, TheSameStateHashesAlikeAndAnotherDoesNot) {
   HearTimes(&a, 2);
   ObstacleGrid b = a;
   EXPECT_EQ(hash_of(a), hash_of(b));
-  b.Hear(Ahead(b, false), {});
+  b.Hear(Ahead(false), {});
   EXPECT_NE(hash_of(a), hash_of(b));
 }
 
