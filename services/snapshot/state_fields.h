@@ -3,6 +3,7 @@
 #pragma once
 
 #include <new>
+#include <span>
 
 #include "services/recording/recording_fields.h"
 #include "services/vehicle/vehicle.h"
