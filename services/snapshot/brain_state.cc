@@ -1,5 +1,6 @@
 #include "services/snapshot/brain_state.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -14,8 +15,10 @@
 namespace giveway {
 namespace {
 
-// Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean.
+// Count the layouts; beside VehicleState::kVersion, which counts what the fields mean. That with an
+// obstacle grid is for those that have taken something into it: the others' stays what it was.
 constexpr std::uint32_t kStateFormat = 1;
+constexpr std::uint32_t kStateFormatWithGrid = 2;
 constexpr std::uint32_t kAllSensors = (1U << kSensorCount) - 1;
 // Of anything a brain remembers; its square is far from overflowing.
 constexpr double kMostNumber = 1e10;
@@ -184,6 +187,15 @@ bool IsSound(const HeldScan<Scan>& held) {
   return held.scan.tick == kNoTick || IsBelievable(held.scan);
 }
 
+bool IsSound(const ObstacleGrid& grid) {
+  const Vec2 at = StateFields::PlaceOf(grid);
+  const auto is_in = [](double at_m) { return at_m >= 0 && at_m < ObstacleGrid::kWide_m; };
+  const auto rows = StateFields::RowsOf(grid);
+  const bool has_columns = std::all_of(
+      rows.begin(), rows.end(), [](std::uint64_t row) { return row >> ObstacleGrid::kSide == 0; });
+  return is_in(at.x) && is_in(at.y) && has_columns;
+}
+
 // What a number is used as a place by.
 bool IsSound(const VehicleState& state, const VehicleOptions& options) {
   const bool on_route = OnRoute(options.route, {state.waypoint, 0}).waypoint == state.waypoint;
@@ -193,15 +205,18 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
   return state.boot_epoch != 0 && can_be_there && on_route && IsSensor(state.deaf_sensor) &&
          IsSensor(state.decision.sensor) && state.steer_side >= -1 && state.steer_side <= 1 &&
          (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 &&
-         AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.objects.radar) &&
-         IsSound(state.objects.lidar) && IsSound(state.objects.camera);
+         AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.grid) &&
+         IsSound(state.objects.radar) && IsSound(state.objects.lidar) &&
+         IsSound(state.objects.camera);
 }
 
 }  // namespace
 
 std::string BytesOf(const VehicleState& state) {
   StateWriter writer;
-  writer(kStateFormat, VehicleState::kVersion, state);
+  const bool has_grid = state.grid.IsActive();
+  writer(has_grid ? kStateFormatWithGrid : kStateFormat, VehicleState::kVersion, state);
+  if (has_grid) writer(state.grid);
   return writer.Take();
 }
 
@@ -210,9 +225,11 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   std::uint32_t format = 0;
   std::uint32_t version = 0;
   reader(format, version);
-  if (format != kStateFormat || version != VehicleState::kVersion) return nullptr;
+  const bool has_grid = format == kStateFormatWithGrid;
+  if ((format != kStateFormat && !has_grid) || version != VehicleState::kVersion) return nullptr;
   auto state = std::make_unique_for_overwrite<VehicleState>();
   reader(*state);
+  if (has_grid) reader(state->grid);
   if (!reader.IsSound() || !reader.IsAtEnd() || !IsSound(*state, options)) return nullptr;
   return state;
 }

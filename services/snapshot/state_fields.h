@@ -3,6 +3,7 @@
 #pragma once
 
 #include <new>
+#include <span>
 
 #include "services/recording/recording_fields.h"
 #include "services/vehicle/vehicle.h"
@@ -101,6 +102,20 @@ struct StateFields {
     auto& [sensors, echoes, spoke, spoke_tick, way, taken, any] = view;
     fields(sensors, echoes, spoke, spoke_tick, way, taken, any);
   }
+  // The cells row by row: which hold something, and what. Into an empty grid.
+  static void Of(auto& fields, Is<ObstacleGrid> auto& grid) {
+    auto& [cells, some, at, heading, unsure, faded, fired, active] = grid;
+    fields(some, at, heading, unsure, faded, fired, active);
+    constexpr std::uint32_t kSide = ObstacleGrid::kSide;
+    for (std::uint32_t row = 0; row < kSide; ++row) {
+      for (std::uint32_t column = 0; column < kSide; ++column) {
+        if ((some[row] >> column & 1U) != 0) fields(cells[row * kSide + column]);
+      }
+    }
+  }
+  // What a cell is looked up by.
+  static Vec2 PlaceOf(const ObstacleGrid& grid) { return grid.at_grid_; }
+  static std::span<const std::uint64_t> RowsOf(const ObstacleGrid& grid) { return grid.some_; }
   // As many heads as there are.
   static void Of(auto& fields, Is<SignalTable> auto& table) {
     auto& [heads, count] = table;
@@ -136,17 +151,20 @@ struct StateFields {
 };
 
 template <typename T>
-concept KeepsItsOwn = Is<T, Odometry> || Is<T, RangeView> || Is<T, SignalTable> || Is<T, PeerTable>;
+concept KeepsItsOwn = Is<T, Odometry> || Is<T, RangeView> || Is<T, ObstacleGrid> ||
+    Is<T, SignalTable> || Is<T, PeerTable>;
 
 void Visit(auto& fields, KeepsItsOwn auto& part) { StateFields::Of(fields, part); }
 
+// Without the grid, which brain_state.cc puts behind the rest where it is used.
 void Visit(auto& fields, Is<VehicleState> auto& state) {
   auto& [boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
          way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
          decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
          steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
-         caught_ticks, ranges, peers, signals, objects, last_heard, scans_refused, signals_refused,
-         beacons, qos, trust] = state;
+         caught_ticks, ranges, grid, peers, signals, objects, last_heard, scans_refused,
+         signals_refused, beacons, qos, trust] = state;
+  static_cast<void>(grid);
   fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
          way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
          decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/objects_ahead.h"
 
 namespace giveway {
@@ -21,7 +22,7 @@ std::optional<double> FreeOf(const Situation& s, const Decision& decision) {
     case Rule::kObstacle:
     case Rule::kDeaf:
     case Rule::kAvoid:
-      if (decision.sensor < 0) return std::nullopt;
+      if (decision.sensor < 0) return FreeOfPlaces({1, 0}, s);
       return FreeAhead(static_cast<std::size_t>(decision.sensor), s);
     case Rule::kObject:
       if (const auto object = NearestObstacle(s.objects, s)) return object->free_m;

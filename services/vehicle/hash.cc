@@ -26,6 +26,7 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.decision.peer);
   hash.Add(state.gives_way_to);
   state.ranges.AddTo(&hash);
+  state.grid.AddTo(&hash);
   state.peers.AddTo(&hash);
   state.signals.AddTo(&hash);
   AddTo(state.objects, &hash);

@@ -41,6 +41,7 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.let_pass = false;
   state.deaf = false;
   state.ranges = {};
+  state.grid = {};
   state.signals.LeaveWorld();
   state.objects = {};
   state.last_heard = {};

@@ -17,6 +17,7 @@
 #include "services/vehicle/situation/echo_trust.h"
 #include "services/vehicle/situation/echoes.h"
 #include "services/vehicle/situation/encounter.h"
+#include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/look.h"
 
 namespace giveway {
@@ -29,6 +30,18 @@ constexpr std::uint32_t kBlockedTicks = 20;  // what was in the way is still, fo
 double WheelError(const VehicleProfile& profile) {
   return Sqrt(profile.wheel_slip * profile.wheel_slip +
               profile.encoder_noise * profile.encoder_noise);
+}
+
+// What the way of the wheels adds to the variance of where things are that lie half a metre off: of
+// the own place and of the heading.
+double AddedVariance(const VehicleProfile& profile, const WayGone& gone, double dt_s) {
+  constexpr double kLever_m = 0.5;
+  const double axle_m = profile.drive.axle_m;
+  const double rolled = WheelError(profile) * profile.drive.wheel_radius_m * dt_s;
+  const double left_m = rolled * gone.wheels.left_rad_s;
+  const double right_m = rolled * gone.wheels.right_rad_s;
+  return (left_m * left_m + right_m * right_m) * (0.25 + kLever_m * kLever_m / (axle_m * axle_m)) +
+         gone.guessed_m * gone.guessed_m;
 }
 
 }  // namespace
@@ -62,9 +75,15 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
       state.reckoned == kNoTick ? 1 : TicksBetween(state.reckoned, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
   const VehicleProfile& profile = options_.profile;
+  const Pose before = state.odometry.WorldFromBody();
   const WayGone gone = ticks > 1 ? WayOfLostTicks(state.counted, scan, options_, dt_s)
                                  : WayGone{.wheels = scan.wheels};
   state.odometry.Roll(profile.drive, gone.wheels, dt_s, WheelError(profile), gone.guessed_m);
+  if (Remembers(options_)) {
+    const Pose& now = state.odometry.WorldFromBody();
+    state.grid.Move(ToBody(before, now.position_world), now.heading_rad - before.heading_rad,
+                    AddedVariance(profile, gone, dt_s));
+  }
   state.tick = scan.tick;
   state.reckoned = scan.tick;
   state.counted = scan.counted;
@@ -196,6 +215,11 @@ void Vehicle::LookAround(Situation* s) {
     NoteTurning(s);
     LookAtPeers(s);
     ListenForMovers(s);
+    if (Remembers(options_)) {
+      RememberEchoes(*s, &state_->grid);
+      ListPlaces(state_->grid, *s, &places_);
+      s->places = places_.All();
+    }
     Detour(s);
     return;
   }

@@ -15,6 +15,7 @@
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/decision/decide.h"
+#include "services/vehicle/estimation/obstacle_grid.h"
 #include "services/vehicle/estimation/odometry.h"
 #include "services/vehicle/estimation/peer_table.h"
 #include "services/vehicle/estimation/range_view.h"
@@ -62,6 +63,7 @@ struct VehicleState {
   Vec2 caught_world;                 // from where it gets no farther
   std::uint32_t caught_ticks = 0;    // for how long, not counting where it waits or queues
   RangeView ranges;
+  ObstacleGrid grid;  // of imperfect ultrasonics
   PeerTable peers;
   SignalTable signals;
   SeenObjects objects;
@@ -136,6 +138,7 @@ class Vehicle {
   VehicleOptions options_;
   Cones cones_;         // of options_.profile
   HeardEchoes echoes_;  // scratch of one step
+  HeardPlaces places_;  // the same
   std::unique_ptr<VehicleState> state_;
   std::unique_ptr<std::array<PeerView, kMaxPeers>> views_;  // scratch of one step
   std::uint32_t peers_heard_ = 0;

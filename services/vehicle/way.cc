@@ -5,6 +5,7 @@
 #include "services/vehicle/decision/detour.h"
 #include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/situation/blocked.h"
+#include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {
@@ -85,6 +86,9 @@ void Vehicle::Detour(Situation* s) {
     state.detour_tick = kNoTick;
   }
   if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
+  // Nor does it look for a way while it hears nothing. Where ultrasonics are exact this counts on:
+  // what was recorded of them replays bit for bit.
+  if (state.decision.rule == Rule::kRangesStale && Remembers(options_)) return;
   const bool queues =
       state.caught_ticks < kCaughtTicks && std::ranges::any_of(s->peers, [](const PeerView& view) {
         return view.leads && view.gap_m < kQueued_m;

@@ -21,7 +21,7 @@ bool SceneBox::Holds(Vec2 point_world) const {
 }
 
 Scene::Scene(std::span<const Wall> walls)
-    : wall_grid_(walls), listed_walls_(walls, kListedReach_m) {
+    : wall_grid_(walls), listed_walls_(walls, kListedReach_m), corners_(walls) {
   walls_.reserve(walls.size());
   for (const Wall& wall : walls) walls_.push_back({wall.from_world, wall.to_world, kNoOwner});
   Index();

@@ -14,6 +14,7 @@
 #include "services/types/scenario.h"
 #include "sim_world/geometry/grid.h"
 #include "sim_world/geometry/wall_grid.h"
+#include "sim_world/sensors/scene_corners.h"
 
 namespace giveway::sim {
 
@@ -87,6 +88,8 @@ class Scene {
     wall_grid_.Near(centre_world, reach_m, visit);
   }
   std::span<const SceneSegment> Walls() const { return walls_; }
+  // Of the walls alone.
+  const SceneCorners& Corners() const { return corners_; }
   // WallsNear for a reach of up to kListedReach_m, found at once, each wall once.
   static constexpr double kListedReach_m = 5.5;  // the ultrasonics of a P3-DX and more
   std::span<const std::uint32_t> WallsListedAt(Vec2 centre_world) const {
@@ -120,6 +123,7 @@ class Scene {
   std::vector<SceneSegment> walls_;
   WallGrid wall_grid_;
   WallGrid listed_walls_;
+  SceneCorners corners_;
 
   // As added; the sorted copies below are what is read.
   std::vector<Vec2> disc_centres_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "sim_world/sensors/sonar_corners.h"
 #include "sim_world/sensors/sonar_echo.h"
 
 namespace giveway::sim {
@@ -23,6 +24,7 @@ Sonar::Sonar(const SonarModel& model, std::uint32_t seed, Nanoseconds tick_perio
     : model_(model),
       incidence_(model.tier == SonarTier::kIdeal ? Incidence{}
                                                  : IncidenceUpTo(model.max_incidence_rad)),
+      edge_reach_m_(EdgeReach(model.tier)),
       seed_(seed),
       schedule_(model.slot, tick_period, seed) {}
 
@@ -49,6 +51,10 @@ void Sonar::SenseAtTick(Tick tick, const InstantBefore& instant_before,
 void Sonar::ReadAll(const Scene& scene, Tick tick, const SonarSubject& subject) const {
   const SonarRing& ring = *subject.ring;
   Lanes range_m = ring.Hear(scene, subject.world_from_body, subject.owner, incidence_);
+  if (edge_reach_m_ > 0) {
+    HearCorners(scene, ring, subject.world_from_body, subject.owner, edge_reach_m_,
+                ring.EnabledBits(), &range_m);
+  }
   for (std::size_t i = 0; i < kSensorCount; ++i) {
     RangeReading& reading = subject.state->readings[i];
     if (!ring.Enabled(i)) {
@@ -88,8 +94,14 @@ void Sonar::Fire(std::uint64_t slot, Tick tick, const SonarInstant& instant, std
   PublishHeard(subject.state);
   const auto transducers = schedule_.Firing(subject.vehicle, slot);
   SectorSet sectors = 0;
-  for (const std::size_t transducer : transducers) sectors |= SectorOf(transducer);
-  const Lanes heard = ring.Hear(scene, subject.world_from_body, subject.owner, incidence_, sectors);
+  std::uint32_t fired = 0;
+  for (const std::size_t transducer : transducers) {
+    sectors |= SectorOf(transducer);
+    fired |= 1U << transducer;
+  }
+  Lanes heard = ring.Hear(scene, subject.world_from_body, subject.owner, incidence_, sectors);
+  HearCorners(scene, ring, subject.world_from_body, subject.owner, edge_reach_m_,
+              fired & ring.EnabledBits(), &heard);
   for (std::size_t array = 0; array < kArrayCount; ++array) {
     const std::size_t transducer = transducers[array];
     if (!ring.Enabled(transducer)) continue;

@@ -1,6 +1,7 @@
 // What vehicles' ultrasonics deliver, tick by tick, in the scenario's tier. The tiers build on each
-// other: ideal (exact, every tick), typical (blind zone, noise, incidence cut-off, drop-outs), p3dx
-// (one transducer of each array at a time, slot by slot) and crosstalk (others' pulses are heard).
+// other: ideal (exact, every tick), typical (blind zone, noise, incidence cut-off, drop-outs; edges
+// and corners answer too, sonar_corners.h), p3dx (one transducer of each array at a time, slot by
+// slot) and crosstalk (others' pulses are heard).
 // Every number drawn hangs on seed, vehicle, time and transducer only, so neither the order of the
 // vehicles nor the number of threads shows.
 //
@@ -75,6 +76,7 @@ class Sonar {
 
   SonarModel model_;
   Incidence incidence_;
+  double edge_reach_m_;  // 0: corners are not heard
   std::uint32_t seed_;
   FiringSchedule schedule_;
   Crosstalk crosstalk_;  // of the slot being sensed

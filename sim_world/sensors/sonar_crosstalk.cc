@@ -2,22 +2,12 @@
 
 #include <algorithm>
 
-#include "sim_world/geometry/geometry.h"
+#include "sim_world/sensors/line_of_sight.h"
 
 namespace giveway::sim {
 namespace {
 
 constexpr double kHearingCell_m = 4;
-
-// Whether the ways from p to q and from a to b cross or touch. A wall met edge on hides nothing.
-bool Cross(Vec2 p, Vec2 q, const SceneSegment& wall) {
-  const Vec2 a = wall.from_world;
-  const Vec2 b = wall.to_world;
-  const double a_side = giveway::Cross(q - p, a - p);
-  const double b_side = giveway::Cross(q - p, b - p);
-  if (a_side == 0 && b_side == 0) return false;
-  return a_side * b_side <= 0 && giveway::Cross(b - a, p - a) * giveway::Cross(b - a, q - a) <= 0;
-}
 
 }  // namespace
 
@@ -44,29 +34,6 @@ double CrosstalkRange(const Pulse& listener, const Pulse& talker) {
   const bool mutual = Dot(listener.axis_world, way) >= distance_m * listener.cos_half &&
                       -Dot(talker.axis_world, way) >= distance_m * talker.cos_half;
   return mutual && distance_m / 2 <= listener.max_range_m ? distance_m / 2 : kSilence_m;
-}
-
-bool IsBlocked(const Scene& scene, Vec2 from_world, Vec2 to_world, Owner from, Owner to) {
-  const auto is_foreign = [&](Owner owner) {
-    return owner == kNoOwner || (owner != from && owner != to);
-  };
-  const Vec2 middle = 0.5 * (from_world + to_world);
-  const double reach_m = 0.5 * Norm(to_world - from_world);
-  const SceneDiscs discs = scene.Discs();
-  bool blocked = false;
-  scene.DiscsNear(middle, reach_m, [&](std::uint32_t begin, std::uint32_t end) {
-    for (std::uint32_t i = begin; i < end && !blocked; ++i) {
-      const Vec2 centre = {discs.x_world[i], discs.y_world[i]};
-      const Vec2 gap = NearestOnSegment(from_world, to_world, centre) - centre;
-      blocked =
-          is_foreign(discs.owner[i]) && SquaredNorm(gap) < discs.radius_m[i] * discs.radius_m[i];
-    }
-  });
-  if (blocked) return true;
-  scene.SegmentsNear(middle, reach_m, [&](const SceneSegment& segment) {
-    blocked = blocked || (is_foreign(segment.owner) && Cross(from_world, to_world, segment));
-  });
-  return blocked;
 }
 
 void Crosstalk::Clear() {

@@ -34,9 +34,6 @@ Pulses PulsesOf(const SonarRing& ring, const Pose& world_from_body,
 // between is not looked at.
 double CrosstalkRange(const Pulse& listener, const Pulse& talker);
 
-// Whether a shape that is neither's stands on the straight way from one to the other.
-bool IsBlocked(const Scene& scene, Vec2 from_world, Vec2 to_world, Owner from, Owner to);
-
 // All pulses of one slot.
 class Crosstalk {
  public:

@@ -37,6 +37,7 @@ SonarRing::SonarRing(const VehicleProfile& profile, SimdWidth width)
                       .max_range_m = max_range_m_};
     enabled_[i] = mount.enabled;
     if (!mount.enabled) continue;
+    enabled_bits_ |= 1U << i;
     sectors_ |= SectorOf(i);
     apex_reach_m_ = std::max(apex_reach_m_, Norm(mount.position_body));
   }

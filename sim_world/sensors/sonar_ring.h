@@ -41,6 +41,10 @@ class SonarRing {
   bool Enabled(std::size_t i) const { return enabled_[i]; }
   const Cone& ConeBody(std::size_t i) const { return cones_body_[i]; }
   double MaxRange() const { return max_range_m_; }
+  // Of the transducer that sits farthest from the axle centre, m.
+  double ApexReach() const { return apex_reach_m_; }
+  // Those that are switched on: bit i for transducer i.
+  std::uint32_t EnabledBits() const { return enabled_bits_; }
 
   friend bool operator==(const SonarRing& a, const SonarRing& b);
 
@@ -53,6 +57,7 @@ class SonarRing {
   ConeRing cones_;  // the same as below, as the kernel wants it
   std::array<Cone, kSensorCount> cones_body_{};
   std::array<bool, kSensorCount> enabled_{};
+  std::uint32_t enabled_bits_ = 0;
   SectorSet sectors_ = 0;  // with a transducer that is enabled
   double max_range_m_ = 0;
   double apex_reach_m_ = 0;  // farthest transducer from the axle centre

@@ -68,8 +68,9 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   }
   if (const auto turn = TurnTooFast(steering, s); turn && turn->max_speed_m_s <= speed) {
     speed = turn->max_speed_m_s;
-    action.decision = {
-        .rule = Rule::kKeepClear, .peer = turn->peer, .cause_tick = turn->cause_tick};
+    action.decision = {.rule = turn->peer == kNobody ? Rule::kObstacle : Rule::kKeepClear,
+                       .peer = turn->peer,
+                       .cause_tick = turn->cause_tick};
     // Straight on until it is slow enough for the turn: both rims brake alike.
     steering.heading_error_rad = 0;
   }

@@ -4,6 +4,7 @@
 
 #include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/objects_ahead.h"
 
 namespace giveway {
@@ -41,6 +42,16 @@ std::optional<Proposal> LowestOf(const Situation& s) {
   };
   (keep(kRules(s)), ...);
   return lowest;
+}
+
+// What was heard ahead, be it by none any more: a cause without a tick that shows it.
+std::optional<Proposal> HeardPlace(const Situation& s) {
+  const std::optional<double> free_m = FreeOfPlaces({1, 0}, s);
+  if (!free_m || Has(Defect::kObstacleIgnored)) return std::nullopt;
+  const double limit =
+      SpeedToStopWithin(*free_m - kStandOff_m, s.reaction_s, s.options.profile.deceleration_m_s2);
+  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  return Proposal{.max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObstacle};
 }
 
 }  // namespace
@@ -122,7 +133,8 @@ std::optional<Proposal> Obstacle(const Situation& s) {
                        .sensor = static_cast<int>(i),
                        .cause_tick = s.tick};
   }
-  return nearest;
+  const std::optional<Proposal> heard = HeardPlace(s);
+  return heard && (!nearest || heard->max_speed_m_s < nearest->max_speed_m_s) ? heard : nearest;
 }
 
 std::optional<Proposal> KeepClear(const Situation& s) {

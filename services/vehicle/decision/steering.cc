@@ -7,6 +7,7 @@
 #include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/situation/claim.h"
 #include "services/vehicle/situation/echoes.h"
+#include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/look.h"
 
 namespace giveway {
@@ -119,6 +120,36 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
     headings->of[headings->count++] = {
         WrapAngle(s.world_from_body.heading_rad + bearing_rad),
         std::max(kHalf_rad, stops ? Magnitude(bearing_rad) + kTurnAway_rad : 0), view.range_m,
+        kNobody};
+  }
+}
+
+// The same of places where something was heard: from its middle to where the shell gets past. The
+// nearest in each direction.
+void AddPlaces(const Situation& s, BlockedHeadings* headings) {
+  constexpr double kNear_m = 0.5;     // from the own shell
+  constexpr double kPasses_m = 0.08;  // between the shell and the middle of a cell
+  constexpr double kCreeps_m = 0.05;
+  constexpr std::size_t kDirections = 32;
+  const double room_m = s.options.profile.body_radius_m + kPasses_m;
+  std::array<const Vec2*, kDirections> nearest{};
+  for (const Vec2& place : s.places) {
+    if (SquaredNorm(place) > (room_m + kNear_m) * (room_m + kNear_m)) continue;
+    const double share = (Atan2(place.y, place.x) + kPi) / (2 * kPi) * kDirections;
+    const std::size_t i = std::min(static_cast<std::size_t>(share), kDirections - 1);
+    if (nearest[i] == nullptr || SquaredNorm(place) < SquaredNorm(*nearest[i])) nearest[i] = &place;
+  }
+  const std::optional<double> free_m = FreeOfPlaces({1, 0}, s);
+  headings->stops = headings->stops || (free_m && *free_m <= kStandOff_m + kCreeps_m);
+  for (const Vec2* place : nearest) {
+    if (place == nullptr || headings->count == headings->of.size()) continue;
+    const double distance_m = Norm(*place);
+    const double half_rad = distance_m > room_m
+                                ? Atan2(room_m, Sqrt(distance_m * distance_m - room_m * room_m))
+                                : kBesideIt_rad;
+    headings->echoes = true;
+    headings->of[headings->count++] = {
+        WrapAngle(s.world_from_body.heading_rad + Atan2(place->y, place->x)), half_rad, distance_m,
         kNobody};
   }
 }
@@ -251,6 +282,7 @@ Steering SteerToGoal(const Situation& s) {
   BlockedHeadings headings = WhatBlocks(s, way_m);
   if (s.aimless) {
     AddEchoes(s, &headings);
+    AddPlaces(s, &headings);
     steering.blocked_by = OnStraightWay(headings, s);
   }
   if (s.tries >= 0 && !s.away_rad) steering.away_rad = WayOut(wanted, s);
@@ -318,6 +350,20 @@ double MostTurnOf(const VehicleProfile& profile) {
   return std::min(profile.max_turn_rad_s / 2, kTurnWhileDriving_rad_s);
 }
 
+// The highest speed at which the vehicle stops before a heard place that the turn leads to, by its
+// end or halfway; empty where the way straight on is no longer.
+std::optional<double> PlaceLimitOfTurn(double turned_rad, const Situation& s) {
+  if (s.places.empty()) return std::nullopt;
+  const double straight_m = FreeOfPlaces({1, 0}, s).value_or(s.slows_m);
+  double free_m = s.slows_m;
+  for (const double angle_rad : {turned_rad / 2, turned_rad}) {
+    const Vec2 direction_body = {Cos(angle_rad), Sin(angle_rad)};
+    free_m = std::min(free_m, FreeOfPlaces(direction_body, s).value_or(s.slows_m));
+  }
+  if (free_m >= s.slows_m || free_m >= straight_m) return std::nullopt;
+  return SpeedToStopWithin(free_m, s.reaction_s, s.options.profile.deceleration_m_s2);
+}
+
 }  // namespace
 
 std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s) {
@@ -339,6 +385,8 @@ std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& 
       lowest = TurnLimit{limit, view.peer->id, view.peer->beacon.tick};
     }
   }
+  const std::optional<double> limit = PlaceLimitOfTurn(turned_rad, s);
+  if (limit && (!lowest || *limit < lowest->max_speed_m_s)) lowest = TurnLimit{*limit};
   return lowest;
 }
 

@@ -23,7 +23,7 @@ Steering SteerToGoal(const Situation& s);
 // like a speed, and is held against the claims before it is made.
 struct TurnLimit {
   double max_speed_m_s = 0;
-  VehicleId peer = kNobody;  // whose claim the turn leads to
+  VehicleId peer = kNobody;  // whose claim the turn leads to; nobody: to a place heard
   Tick cause_tick = kNoTick;
 };
 std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s);

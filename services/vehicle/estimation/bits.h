@@ -1,4 +1,5 @@
-// The set bits of a word, lowest first, for a range-based for: of 16 sensors few hear something.
+// The set bits of a word, lowest first, for a range-based for: of 16 sensors few hear something,
+// and of 48 cells few hold anything.
 #pragma once
 
 #include <bit>
@@ -9,11 +10,11 @@ namespace giveway {
 
 class BitsOf {
  public:
-  explicit constexpr BitsOf(std::uint32_t word) : word_(word) {}
+  explicit constexpr BitsOf(std::uint64_t word) : word_(word) {}
 
   class Iterator {
    public:
-    explicit constexpr Iterator(std::uint32_t left) : left_(left) {}
+    explicit constexpr Iterator(std::uint64_t left) : left_(left) {}
     constexpr std::size_t operator*() const {
       return static_cast<std::size_t>(std::countr_zero(left_));
     }
@@ -24,14 +25,14 @@ class BitsOf {
     constexpr bool operator!=(const Iterator& other) const { return left_ != other.left_; }
 
    private:
-    std::uint32_t left_;
+    std::uint64_t left_;
   };
 
   constexpr Iterator begin() const { return Iterator(word_); }
   constexpr Iterator end() const { return Iterator(0); }
 
  private:
-  std::uint32_t word_;
+  std::uint64_t word_;
 };
 
 }  // namespace giveway

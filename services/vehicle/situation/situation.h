@@ -69,6 +69,14 @@ struct HeardEchoes {
   alignas(16) std::array<float, kSensorCount> rough_range_m;
 };
 
+// The middles of cells of the obstacle grid that count, in the body frame: see heard_places.h.
+struct HeardPlaces {
+  std::size_t count = 0;
+  std::array<Vec2, 1024> of;
+
+  std::span<const Vec2> All() const { return {of.data(), count}; }
+};
+
 // A box that would be left too late: see box.h.
 struct BlockedBox {
   double begin_m = 0;  // from the own axle centre, along the own way; above 0
@@ -109,7 +117,8 @@ struct Situation {
   int tries = -1;      // headings tried since it is caught where it is; negative if it is not
   int steer_side = 0;  // the side of the last turn past something: 1 left, -1 right
   const RangeView& ranges;
-  const HeardEchoes& echoes;  // in `ranges`
+  const HeardEchoes& echoes;       // in `ranges`
+  std::span<const Vec2> places{};  // where something was heard: see heard_places.h
   const Cones& cones;
   const SeenObjects& objects;
   std::optional<StopLine> stop_line;  // a light ahead that says stop

@@ -6,6 +6,7 @@
 
 #include "services/types/math/math.h"
 #include "services/types/math/random.h"
+#include "sim_world/sensors/line_of_sight.h"
 #include "sim_world/sensors/sonar.h"
 
 namespace giveway::sim {

@@ -68,16 +68,25 @@ class Fate {
 class BrainStateOfSeed : public testing::TestWithParam<std::uint32_t> {};
 INSTANTIATE_TEST_SUITE_P(Seeds, BrainStateOfSeed, testing::Range(0U, 60U));
 
+// One that remembers what it heard, of every other seed.
+VehicleOptions OptionsOfSeed(std::uint32_t seed) {
+  VehicleOptions options = DefaultOptions();
+  if (seed % 2 == 1) options.sonar_noise = 0.01;
+  return options;
+}
+
 TEST_P(BrainStateOfSeed, IsTheSameBrainAfterwards) {
+  const VehicleOptions options = OptionsOfSeed(GetParam());
   Fate fate(GetParam());
-  Vehicle brain(DefaultOptions(), 42);
+  Vehicle brain(options, 42);
   std::uint32_t tick = 0;
   while (tick < 3 * GetParam()) fate.Lead(&brain, ++tick);
   const std::string bytes = BytesOf(brain.State());
-  const auto state = StateFrom(bytes, DefaultOptions());
+  EXPECT_EQ(brain.State().grid.IsActive(), options.sonar_noise > 0);
+  const auto state = StateFrom(bytes, options);
   ASSERT_NE(state, nullptr);
   ASSERT_EQ(BytesOf(*state), bytes);
-  Vehicle other(DefaultOptions(), 99);
+  Vehicle other(options, 99);
   other.Restore(*state);
   ASSERT_EQ(other.Hash(), brain.Hash());
   Fate same = fate;
@@ -91,10 +100,27 @@ TEST_P(BrainStateOfSeed, IsTheSameBrainAfterwards) {
   }
 }
 
+TEST(BrainState, KeepsWhatItHeardInAFewBytes) {
+  const VehicleOptions options = OptionsOfSeed(1);
+  Vehicle brain(options, 42);
+  const std::size_t before = BytesOf(brain.State()).size();
+  Fate fate(3);
+  for (std::uint32_t tick = 1; tick <= 4; ++tick) fate.Lead(&brain, tick);
+  ASSERT_TRUE(brain.State().grid.IsActive());
+  int held = 0;
+  const auto state = StateFrom(BytesOf(brain.State()), options);
+  ASSERT_NE(state, nullptr);
+  state->grid.Held([&](Vec2) { ++held; });
+  EXPECT_GT(held, 0);
+  state->peers = PeerTable();
+  EXPECT_LT(BytesOf(*state).size(), before + 1200);
+}
+
 // Whatever is made of wrong bytes can be led.
 TEST_P(BrainStateOfSeed, BelievesNothing) {
+  const VehicleOptions options = OptionsOfSeed(GetParam());
   Fate fate(7);
-  Vehicle brain(DefaultOptions(), 42);
+  Vehicle brain(options, 42);
   for (std::uint32_t tick = 1; tick <= 40; ++tick) fate.Lead(&brain, tick);
   const std::string whole = BytesOf(brain.State());
   Random random(GetParam());
@@ -106,10 +132,10 @@ TEST_P(BrainStateOfSeed, BelievesNothing) {
       bytes[drawn(bytes.size())] = static_cast<char>(random.Next());
     }
     if (drawn(10) == 0) bytes.resize(drawn(bytes.size()));
-    const auto state = StateFrom(bytes, DefaultOptions());
+    const auto state = StateFrom(bytes, options);
     if (state == nullptr) continue;
     ++taken;
-    Vehicle other(DefaultOptions(), 99);
+    Vehicle other(options, 99);
     other.Restore(*state);
     Fate on = fate;
     for (std::uint32_t tick = 41; tick <= 45; ++tick) on.Lead(&other, tick);

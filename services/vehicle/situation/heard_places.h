@@ -1,0 +1,28 @@
+// Places where something was heard, of late or just now, as the rules and the steering ask for
+// them: the cells of the obstacle grid that count, near the vehicle, in the body frame. Empty for
+// exact ultrasonics, whose last echo says all there is, and for the lecture's behaviours.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "services/vehicle/estimation/obstacle_grid.h"
+#include "services/vehicle/situation/situation.h"
+
+namespace giveway {
+
+// True if this vehicle remembers what it hears.
+bool Remembers(const VehicleOptions& options);
+
+// Takes the firings of this tick into the grid, but for the echoes of peers that are believed.
+void RememberEchoes(const Situation& s, ObstacleGrid* grid);
+
+// Lists what the grid holds near the vehicle.
+void ListPlaces(const ObstacleGrid& grid, const Situation& s, HeardPlaces* places);
+
+// How far straight on, in that direction from the axle centre, the own shell may go before it is at
+// a heard place; empty if at none. What it
+// leaves behind, or passes beside already, does not count.
+std::optional<double> FreeOfPlaces(Vec2 direction_body, const Situation& s);
+
+}  // namespace giveway

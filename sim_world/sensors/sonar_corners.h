@@ -1,0 +1,33 @@
+// What a vehicle's transducers hear of corners: edges, which diffract, and inner corners, which send
+// back from any angle. The tiers above ideal add it to what faces answer (sonar_ring.h).
+//
+// An edge's echo is 20 to 30 dB below that of a face at the same distance, falls with the range to
+// the power of 3/2 and not 1, and by the beam on the way out and back: so it is heard only from
+// near, and from nearer still towards the rim of the cone (Kuc and Siegel, IEEE PAMI 9(6), 1987;
+// Kleeman and Kuc, IJRR 14(4), 1995, section 2). An inner corner answers as strongly as a face.
+#pragma once
+
+#include <cstdint>
+
+#include "services/types/math/pose.h"
+#include "services/types/scenario.h"
+#include "sim_world/sensors/scene.h"
+#include "sim_world/sensors/sonar_ring.h"
+
+namespace giveway::sim {
+
+// How far off an edge is heard on the axis of a cone, m; 0: corners are not heard.
+double EdgeReach(SonarTier tier);
+
+// The same in a direction off the axis: `off` is the square of its sine by that of the half angle,
+// 1 at the rim. There either way loses half the amplitude: 4 to the power of -2/3 is 0.4.
+inline double EdgeReachOff(double edge_reach_m, double off) {
+  return edge_reach_m * (1 - 0.6 * off);
+}
+
+// Lowers the ranges of the transducers given by bits to those of the nearest corners they hear.
+// What stands between hides a corner; those of `self` are not heard.
+void HearCorners(const Scene& scene, const SonarRing& ring, const Pose& world_from_body, Owner self,
+                 double edge_reach_m, std::uint32_t transducers, Lanes* range_m);
+
+}  // namespace giveway::sim
