@@ -1,9 +1,13 @@
 #include "sim_world/sensors/line_of_sight.h"
 
+#include "services/types/math/math.h"
 #include "sim_world/geometry/geometry.h"
 
 namespace giveway::sim {
 namespace {
+
+// Twice the area of what rounding leaves between two ways along one line.
+constexpr double kEdgeOn_m2 = 1e-9;
 
 // Whether the ways from p to q and along the wall cross or touch.
 bool Crosses(Vec2 p, Vec2 q, const SceneSegment& wall) {
@@ -11,7 +15,7 @@ bool Crosses(Vec2 p, Vec2 q, const SceneSegment& wall) {
   const Vec2 b = wall.to_world;
   const double a_side = Cross(q - p, a - p);
   const double b_side = Cross(q - p, b - p);
-  if (a_side == 0 && b_side == 0) return false;
+  if (Magnitude(a_side) <= kEdgeOn_m2 && Magnitude(b_side) <= kEdgeOn_m2) return false;
   return a_side * b_side <= 0 && Cross(b - a, p - a) * Cross(b - a, q - a) <= 0;
 }
 

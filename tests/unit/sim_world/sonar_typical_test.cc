@@ -108,8 +108,9 @@ TEST(SonarTypical, ADiscAnswersUpTo25DegreesOffItsNormal) {
 }
 
 TEST(SonarTypical, WhatIsCutOffDoesNotHideWhatIsBehindIt) {
-  // Nearly edge on, right before the transducer; a disc behind it.
-  const Wall wall = {{1.0, 0.0}, {2.0, 0.2}};
+  // So slanted that it answers nothing, right through the cone; a disc behind it. Its ends, which
+  // would answer as edges, lie outside.
+  const Wall wall = {{0.7445, 0.716}, {2.291, -0.542}};
   OneVehicle vehicle(Faultless(SonarTier::kTypical), {&wall, 1});
   AddDiscAhead(&vehicle.scene, 3);
   EXPECT_NEAR(vehicle.Sense(1)[3].range_m, 3, 1e-9);

@@ -93,6 +93,50 @@ TEST(HeardPlaces, WhatWasHeardBesideItIsAheadAfterATurn) {
   EXPECT_LT(vehicle.State().grid.At(heard), ObstacleGrid::kHeld);
 }
 
+// Heard three times by that sensor, and then not, by two firings of all: the last echo is
+// forgotten, the place is not. What the vehicle decides then, driving on.
+Decision AfterSilence(VehicleOptions options, int sensor, double range_m, Vec2 goal_world) {
+  options.goal.at_world = goal_world;
+  test::BrainBench bench(options);
+  RangeScan scan = test::ClearScan(0);
+  test::SetEcho(&scan, sensor, range_m);
+  for (int i = 0; i < 3; ++i) bench.Step(scan);
+  scan = test::ClearScan(0);
+  bench.Step(scan);
+  scan.wheels = {0.3 / 0.0975, 0.3 / 0.0975};
+  const Outputs outputs = bench.Step(scan);
+  EXPECT_EQ(bench.Brain().State().ranges.Echoes(), 0U);
+  return outputs.command.decision;
+}
+
+TEST(HeardPlaces, ARuleStopsBeforeWhatNoSensorHearsAnyMore) {
+  const Decision decision = AfterSilence(Noisy(), 3, 0.3, {10, 0});
+  EXPECT_EQ(decision.rule, Rule::kObstacle);
+  EXPECT_EQ(decision.sensor, -1);
+  EXPECT_EQ(AfterSilence(test::DefaultOptions(), 3, 0.3, {10, 0}).rule, Rule::kCruise);
+}
+
+TEST(HeardPlaces, OnesBesideTheWayAreTurnedToNoFasterThanItStops) {
+  const Vec2 to_the_left = 10.0 * Vec2{Cos(Radians(30)), Sin(Radians(30))};
+  EXPECT_EQ(AfterSilence(Noisy(), 1, 0.3, to_the_left).rule, Rule::kObstacle);
+  EXPECT_EQ(AfterSilence(Noisy(), 1, 0.3, {10, 0}).rule, Rule::kCruise);
+  EXPECT_EQ(AfterSilence(test::DefaultOptions(), 1, 0.3, to_the_left).rule, Rule::kCruise);
+}
+
+TEST(HeardPlaces, StaleRangesAreNoLackOfProgress) {
+  for (const bool remembers : {true, false}) {
+    const VehicleOptions options = remembers ? Noisy() : test::DefaultOptions();
+    test::BrainBench bench(options);
+    bench.Step(test::ClearScan(0));
+    RangeScan stale = test::ClearScan(0);
+    stale.readings[3] = {};
+    for (int i = 0; i < 100; ++i) {
+      ASSERT_EQ(bench.Step(stale).command.decision.rule, Rule::kRangesStale);
+    }
+    EXPECT_EQ(bench.Brain().State().aimless_ticks > 50, !remembers);
+  }
+}
+
 struct Tier {
   SonarTier tier;
   Nanoseconds refresh;
