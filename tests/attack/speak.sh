@@ -171,7 +171,7 @@ else
   row ok "memory: the largest process took $((after - before)) kB more"
 fi
 
-kill -INT "$fleet"
+kill -INT "$fleet" 2>/dev/null || true
 wait "$fleet" || true
 contacts=$(jq .contacts run.json 2>/dev/null || echo none)
 if [[ $contacts == 0 ]]; then
