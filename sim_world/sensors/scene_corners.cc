@@ -89,7 +89,8 @@ SceneCorners::SceneCorners(std::span<const Wall> walls) {
         is_first = is_first && (other >= i || (!AreOnePoint(walls[other].from_world, point) &&
                                                !AreOnePoint(walls[other].to_world, point)));
       });
-      if (is_first) AddCorners(point, ArmsAt(point, walls, grid), &edges_.corners, &reflectors_.corners);
+      if (is_first)
+        AddCorners(point, ArmsAt(point, walls, grid), &edges_.corners, &reflectors_.corners);
     }
   }
   edges_.Build();

@@ -1,5 +1,5 @@
-// Where the walls of a scene end or meet: what echoes ultrasonics beside the faces themselves. Found
-// once, for walls stand. Knows no transducers.
+// Where the walls of a scene end or meet: what echoes ultrasonics beside the faces themselves.
+// Found once, for walls stand. Knows no transducers.
 //
 // Sound that meets a wall's end or the outside of a corner is diffracted: a weak echo, whatever the
 // incidence. In the inside of a right-angled corner it is reflected twice and comes straight back,

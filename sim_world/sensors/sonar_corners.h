@@ -1,5 +1,5 @@
-// What a vehicle's transducers hear of corners: edges, which diffract, and inner corners, which send
-// back from any angle. The tiers above ideal add it to what faces answer (sonar_ring.h).
+// What a vehicle's transducers hear of corners: edges, which diffract, and inner corners, which
+// send back from any angle. The tiers above ideal add it to what faces answer (sonar_ring.h).
 //
 // An edge's echo is 20 to 30 dB below that of a face at the same distance, falls with the range to
 // the power of 3/2 and not 1, and by the beam on the way out and back: so it is heard only from
