@@ -9,7 +9,7 @@
 
 namespace giveway {
 
-// Levenshtein's: letters inserted, removed or changed.
+// How many letters must be inserted, removed or changed, or neighbours swapped.
 std::size_t EditDistance(std::string_view a, std::string_view b);
 
 // The name that starts with `typed` (from three letters on), else the one at the least edit

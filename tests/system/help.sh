@@ -47,7 +47,7 @@ meant() {
 meant "no verb 'rum'; did you mean 'run'?" "$FLEETCTL" rum
 meant "no verb 'chekc'; did you mean 'check'?" "$FLEETCTL" qos chekc
 meant "no verb 'docter'; did you mean 'doctor'?" "$FLEETCTL" help docter
-meant "has no flag --vehicels; did you mean '--vehicle" "$FLEETCTL" run open_fleet --vehicels 3
+meant "has no flag --vehicels; did you mean '--vehicles'?" "$FLEETCTL" run open_fleet --vehicels 3
 meant "did you mean 'intersection_yield'?" "$FLEETCTL" run intersection_yeild
 meant "did you mean 'radio_storm'?" "$FLEETCTL" faults expand radiostorm --duration 3m --vehicles 2
 meant "did you mean 'lossy_radio'?" "$FLEETCTL" run intersection_yield --qos lossy-radio

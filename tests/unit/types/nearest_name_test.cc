@@ -28,7 +28,7 @@ TEST(NearestName, WhatIsFarFromAllIsNoneOfThem) {
 
 TEST(NearestName, TheNearestOfSeveralIsTaken) {
   EXPECT_THAT(NearestName("--vehicels", {"--vehicle", "--vehicles", "--verify"}),
-              Optional(std::string("--vehicle")));
+              Optional(std::string("--vehicles")));
   EXPECT_THAT(NearestName("lossy-radio", {"default", "lossy_radio", "same_host"}),
               Optional(std::string("lossy_radio")));
 }
@@ -38,7 +38,9 @@ TEST(NearestName, IsPutAsAQuestion) {
   EXPECT_EQ(DidYouMean("zebra", kVerbs), "");
 }
 
-TEST(NearestName, DistanceCountsInsertedRemovedAndChangedLetters) {
+TEST(NearestName, DistanceCountsInsertedRemovedChangedAndSwappedLetters) {
+  EXPECT_EQ(EditDistance("chekc", "check"), 1U);
+  EXPECT_EQ(EditDistance("ab", "ba"), 1U);
   EXPECT_EQ(EditDistance("", "abc"), 3U);
   EXPECT_EQ(EditDistance("kitten", "sitting"), 3U);
   EXPECT_EQ(EditDistance("same", "same"), 0U);
