@@ -19,7 +19,9 @@ fi
 source "$(dirname "${BASH_SOURCE[0]}")/../system/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 ATTACKER=${GIVEWAY_ATTACKER:-$BIN/attacker}
-DOMAIN=7 # nobody else is in this namespace
+# Nobody else is in this namespace, but fleets of others share the folder of the domains' locks.
+export TMPDIR=$SCRATCH
+DOMAIN=$((RANDOM % 90 + 5))
 VEHICLES=4
 SECONDS_EACH=${GIVEWAY_ATTACK_SECONDS:-3}
 FUZZ_SECONDS=${GIVEWAY_ATTACK_FUZZ_SECONDS:-6}
