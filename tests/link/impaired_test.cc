@@ -214,7 +214,7 @@ void StartRun(link::WorldLink* world, Listener* listener) {
   const SessionId session{1, 2, 3, 4};
   listener->link.SendJoin({session, kListener});
   RosterEntry entry{.session = session, .vehicle = kListener, .accepted = true};
-  entry.epoch = WorldEpoch{7};
+  entry.epoch = WorldEpoch{1};
   entry.run_state = RunState::kRunning;
   world->SendRoster(entry);
 }
