@@ -21,8 +21,8 @@ void RememberEchoes(const Situation& s, ObstacleGrid* grid);
 void ListPlaces(const ObstacleGrid& grid, const Situation& s, HeardPlaces* places);
 
 // How far straight on, in that direction from the axle centre, the own shell may go before it is at
-// a heard place; empty if at none. What it
-// leaves behind, or passes beside already, does not count.
+// a heard place; empty if at none. What it leaves behind, or passes beside already, does not
+// count.
 std::optional<double> FreeOfPlaces(Vec2 direction_body, const Situation& s);
 
 }  // namespace giveway

@@ -93,17 +93,18 @@ TEST(HeardPlaces, WhatWasHeardBesideItIsAheadAfterATurn) {
   EXPECT_LT(vehicle.State().grid.At(heard), ObstacleGrid::kHeld);
 }
 
-// Heard three times by that sensor, and then not, by two firings of all: the last echo is
-// forgotten, the place is not. What the vehicle decides then, driving on.
-Decision AfterSilence(VehicleOptions options, int sensor, double range_m, Vec2 goal_world) {
+// Heard three times by that sensor, 0.3 m before it, and then not, by two firings of all: the last
+// echo is forgotten, the place is not. What the vehicle decides then, driving on.
+Decision AfterSilence(VehicleOptions options, int sensor, double speed_m_s, Vec2 goal_world) {
+  options.cruise_m_s = speed_m_s;
   options.goal.at_world = goal_world;
   test::BrainBench bench(options);
   RangeScan scan = test::ClearScan(0);
-  test::SetEcho(&scan, sensor, range_m);
+  test::SetEcho(&scan, sensor, 0.3);
   for (int i = 0; i < 3; ++i) bench.Step(scan);
   scan = test::ClearScan(0);
   bench.Step(scan);
-  scan.wheels = {0.3 / 0.0975, 0.3 / 0.0975};
+  scan.wheels = WheelsFromTwist(options.profile.drive, {speed_m_s, 0});
   const Outputs outputs = bench.Step(scan);
   EXPECT_EQ(bench.Brain().State().ranges.Echoes(), 0U);
   return outputs.command.decision;
@@ -118,9 +119,9 @@ TEST(HeardPlaces, ARuleStopsBeforeWhatNoSensorHearsAnyMore) {
 
 TEST(HeardPlaces, OnesBesideTheWayAreTurnedToNoFasterThanItStops) {
   const Vec2 to_the_left = 10.0 * Vec2{Cos(Radians(30)), Sin(Radians(30))};
-  EXPECT_EQ(AfterSilence(Noisy(), 1, 0.3, to_the_left).rule, Rule::kObstacle);
-  EXPECT_EQ(AfterSilence(Noisy(), 1, 0.3, {10, 0}).rule, Rule::kCruise);
-  EXPECT_EQ(AfterSilence(test::DefaultOptions(), 1, 0.3, to_the_left).rule, Rule::kCruise);
+  EXPECT_EQ(AfterSilence(Noisy(), 1, 0.6, to_the_left).rule, Rule::kObstacle);
+  EXPECT_EQ(AfterSilence(Noisy(), 1, 0.6, {10, 0}).rule, Rule::kCruise);
+  EXPECT_EQ(AfterSilence(test::DefaultOptions(), 1, 0.6, to_the_left).rule, Rule::kCruise);
 }
 
 TEST(HeardPlaces, StaleRangesAreNoLackOfProgress) {

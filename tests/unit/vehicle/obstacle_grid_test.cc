@@ -181,9 +181,9 @@ TEST(ObstacleGrid, ScrollsWithTheVehicleAndKeepsWhatIsNear) {
         ASSERT_LT(nearest_m, 0.11) << seed << " " << i << " " << j;
       }
     }
-    // What it has left behind is gone: nothing of one heard at the start is left four metres on.
+    // What it has left behind is gone: nothing of one heard is left five metres on.
     HearTimes(&grid, 3);
-    for (int i = 0; i < 80; ++i) grid.Move({0.05, 0}, 0, 0);
+    for (int i = 0; i < 100; ++i) grid.Move({0.05, 0}, 0, 0);
     int held = 0;
     grid.Held([&](Vec2) { ++held; });
     ASSERT_EQ(held, 0) << seed;
