@@ -7,8 +7,8 @@
 namespace giveway {
 namespace {
 
-constexpr std::size_t kLongestName = 64;  // of one that is compared
-constexpr std::size_t kLeastPrefix = 3;
+constexpr std::size_t kMostCompared = 64;  // of one that is compared
+constexpr std::size_t kLeastPrefixLetters = 3;
 
 }  // namespace
 
@@ -32,9 +32,9 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> NearestName(std::string_view typed,
                                        const std::vector<std::string>& names) {
-  typed = typed.substr(0, kLongestName);
+  typed = typed.substr(0, kMostCompared);
   const auto prefixed = std::ranges::find_if(names, [&](const std::string& name) {
-    return typed.size() >= kLeastPrefix && name.starts_with(typed);
+    return typed.size() >= kLeastPrefixLetters && name.starts_with(typed);
   });
   if (prefixed != names.end()) return *prefixed;
   std::optional<std::string> nearest;

@@ -4,7 +4,7 @@
 set -euo pipefail
 programs=$1 output=$2
 mkdir -p "$output"
-version=$("$programs/fleetctl" --version)
+version=$("$programs/fleetctl" --version | sed "s/^fleetctl \([^,]*\),.*/\1/")
 
 # page COMMAND...: its name is that of the command, with "-" between the words.
 page() {
@@ -12,7 +12,7 @@ page() {
   name=${name//"$programs/"/}
   name=${name// /-}
   first=$("$@" --help | sed -n 1p)
-  help2man --no-info --no-discard-stderr --section 1 --source Giveway --version-string "$version" \
+  help2man --no-info --no-discard-stderr --section 1 --source Giveway --version-string "$name $version" \
     --name "$first" --output "$output/$name.1" "$*"
 }
 
