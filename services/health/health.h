@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "services/types/fleet_facts.h"
-#include "services/types/packet_counters.h"
+#include "services/types/figures/packet_counters.h"
 #include "services/types/time.h"
 
 namespace giveway {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "services/types/packet_counters.h"
+#include "services/types/figures/packet_counters.h"
 #include "services/types/time.h"
 
 namespace giveway {

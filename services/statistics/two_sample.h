@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "services/types/histogram.h"
+#include "services/types/figures/histogram.h"
 
 namespace giveway::statistics {
 

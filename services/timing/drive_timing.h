@@ -16,8 +16,8 @@
 #include <optional>
 
 #include "services/types/decision_evidence.h"
-#include "services/types/drive_figures.h"
-#include "services/types/histogram.h"
+#include "services/types/figures/drive_figures.h"
+#include "services/types/figures/histogram.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
 #include "services/types/time.h"

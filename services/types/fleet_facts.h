@@ -9,7 +9,7 @@
 
 #include "services/types/counters.h"
 #include "services/types/decision.h"
-#include "services/types/drive_figures.h"
+#include "services/types/figures/drive_figures.h"
 #include "services/types/ids.h"
 #include "services/types/impairment.h"
 #include "services/types/math/pose.h"

@@ -80,8 +80,8 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
                                  : WayGone{.wheels = scan.wheels};
   state.odometry.Roll(profile.drive, gone.wheels, dt_s, WheelError(profile), gone.guessed_m);
   if (Remembers(options_)) {
-    const Pose& now = state.odometry.WorldFromBody();
-    state.grid.Move(ToBody(before, now.position_world), now.heading_rad - before.heading_rad,
+    const Pose& after = state.odometry.WorldFromBody();
+    state.grid.Move(ToBody(before, after.position_world), after.heading_rad - before.heading_rad,
                     AddedVariance(profile, gone, dt_s));
   }
   state.tick = scan.tick;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "services/fleetctl/soak/soak_result.h"
-#include "services/types/drive_figures.h"
+#include "services/types/figures/drive_figures.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/time.h"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "services/statistics/slope.h"
-#include "services/types/histogram.h"
+#include "services/types/figures/histogram.h"
 #include "services/types/ids.h"
 
 namespace giveway::fleetctl {

@@ -1,7 +1,7 @@
 // What the packet filters of this process did. Knows no Fast DDS.
 #pragma once
 
-#include "services/types/packet_counters.h"
+#include "services/types/figures/packet_counters.h"
 
 namespace giveway::link {
 

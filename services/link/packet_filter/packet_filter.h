@@ -11,7 +11,7 @@
 
 #include "services/link/packet_filter/rtps_bytes.h"
 #include "services/link/packet_filter/writer_table.h"
-#include "services/types/packet_counters.h"
+#include "services/types/figures/packet_counters.h"
 #include "services/types/time.h"
 
 namespace giveway::link {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "services/link/packet_filter/rtps_bytes.h"
-#include "services/types/packet_counters.h"
+#include "services/types/figures/packet_counters.h"
 
 namespace giveway::link {
 

@@ -1,4 +1,4 @@
-#include "services/types/histogram.h"
+#include "services/types/figures/histogram.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
