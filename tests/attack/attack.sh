@@ -61,6 +61,13 @@ drives_on() {
   return 1
 }
 
+# how_they_are LINE: what each vehicle said last, behind that line.
+how_they_are() {
+  tail -n "+$(($1 + 1))" "$SCRATCH/status.json" | jq -R 'fromjson?' | jq -n -r '[inputs] |
+    group_by(.vehicle) | map(last | " \(.vehicle) \(.mode) \(.rule) \(.forward_m_s * 100 | round)cm/s") | add' \
+    2>/dev/null || true
+}
+
 # heard LINE: the share of each other's beacons, in per cent, that vehicles heard behind that line.
 heard() {
   tail -n "+$(($1 + 1))" "$SCRATCH/status.json" | jq -R 'fromjson?' | jq -n '
@@ -108,7 +115,7 @@ attacked() {
   local after
   after=$(wc -l <"$SCRATCH/status.json")
   begun=$(date +%s%N)
-  drives_on 5 "$after" || faults+=" not all drive on within 5 s;"
+  drives_on 5 "$after" || faults+=" not all drive on within 5 s:$(how_they_are "$after");"
   took=$((($(date +%s%N) - begun) / 1000000))
   share=$(heard "$line")
   grown=$(growth_kb "$before")
