@@ -161,7 +161,8 @@ runs=$(grep -c 'runs with the QoS of deadline.xml' logs/vehicle-1.log || true)
 }
 
 before=$(memory_kb)
-attack ids "100 000 ids of one process, of beacons and commands"
+attack ids "up to 100 000 ids of one process, of beacons and commands"
+row "" "        $(tail -n 1 attack.out)"
 attack sybil "30 000 joins of ten participants"
 after=$(memory_kb)
 if ((after - before > 16 * 1024)); then
