@@ -56,13 +56,13 @@ std::uint32_t Opposite(std::uint32_t cell) {
 }
 
 // How many cells a shape reaches to either side of that of its apex.
-struct CellBounds {
+struct CellSpan {
   int left, right, down, up;
 };
 
 // Of a part of a cone's: between two ranges, rim to rim. Between the rims and the axis an arc
 // bulges by less than a hundredth, for which a cell is left.
-CellBounds BoundsOf(Vec2 axis, double half_sine, double near_m, double far_m) {
+CellSpan CellSpanOf(Vec2 axis, double half_sine, double near_m, double far_m) {
   const Vec2 along = Sqrt(1 - half_sine * half_sine) * axis;
   const Vec2 across = half_sine * Left(axis);
   const std::array<Vec2, 5> corners = {near_m * (along + across), near_m * (along - across),
@@ -85,7 +85,7 @@ std::uint32_t StepFrom(std::uint32_t cell, int steps) {
 }
 
 // Bits of the columns from `left` to `right` steps on.
-std::uint64_t ColumnsFrom(std::uint32_t cell, const CellBounds& bounds) {
+std::uint64_t ColumnsFrom(std::uint32_t cell, const CellSpan& bounds) {
   constexpr std::uint32_t kSide = ObstacleGrid::kSide;
   constexpr std::uint64_t kAll = (std::uint64_t{1} << kSide) - 1;
   const auto count = static_cast<std::uint32_t>(bounds.right - bounds.left + 1);
@@ -179,7 +179,7 @@ bool ObstacleGrid::IsNew(std::size_t transducer, Tick tick) {
 void ObstacleGrid::StandsOn(double radius_m) {
   if (!active_) return;
   const int reach = static_cast<int>(radius_m / kCell_m) + 1;
-  const CellBounds bounds = {-reach, reach, -reach, reach};
+  const CellSpan bounds = {-reach, reach, -reach, reach};
   const std::uint64_t columns = ColumnsFrom(CellOf(at_grid_.x), bounds);
   for (int i = -reach; i <= reach; ++i) {
     const std::uint32_t row = StepFrom(CellOf(at_grid_.y), i);
@@ -205,7 +205,7 @@ void ObstacleGrid::Clear(const HeardCone& heard, Vec2 apex, Vec2 axis) {
   const double far_m = heard.echo ? std::min(heard.range_m - arc_m, kClear_m) : kClear_m;
   if (far_m <= 0) return;
   const double rim = heard.half_sine * heard.half_sine;
-  const CellBounds bounds = BoundsOf(axis, heard.half_sine, 0, far_m);
+  const CellSpan bounds = CellSpanOf(axis, heard.half_sine, 0, far_m);
   const std::uint64_t columns = ColumnsFrom(CellOf(apex.x), bounds);
   for (int i = bounds.down; i <= bounds.up; ++i) {
     const std::uint32_t row = StepFrom(CellOf(apex.y), i);
@@ -231,7 +231,7 @@ void ObstacleGrid::Gain(const HeardCone& heard, Vec2 apex, Vec2 axis,
   const double far_m = heard.range_m + arc_m;
   const double rim = heard.half_sine * heard.half_sine;
   const std::uint8_t most = heard.moves ? kFirm - 1 : kSurest;
-  const CellBounds bounds = BoundsOf(axis, heard.half_sine, near_m, far_m);
+  const CellSpan bounds = CellSpanOf(axis, heard.half_sine, near_m, far_m);
   for (int i = bounds.down; i <= bounds.up; ++i) {
     const std::uint32_t row = StepFrom(CellOf(apex.y), i);
     for (int j = bounds.left; j <= bounds.right; ++j) {
