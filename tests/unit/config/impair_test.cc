@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Refused{"lose=0.1", "lose = 0.1: is no part of an impairment"},
                       Refused{"loss=1.5", "loss = 1.5: must be a number between 0 and 1"},
                       Refused{"loss=-0.1", "between 0 and 1"}, Refused{"loss=nan", "must be"},
-                      Refused{"loss=10%", "loss = 10%"}, Refused{"loss=0.1x", "loss = 0.1x"},
+                      Refused{"loss=101%", "loss = 101%"}, Refused{"loss=0.1x", "loss = 0.1x"},
                       Refused{"loss=0.1,loss=0.2", "loss = 0.2: is given twice"},
                       Refused{"burst=0.95", "between 0 and 0.9"},
                       Refused{"burst=0.6,burst_length=1", "at most 0.5 can be bad"},
