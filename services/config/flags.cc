@@ -56,7 +56,7 @@ class CommandLine {
           "keep only the last so many seconds of the recording, in two files: 60");
       Add("--impair", "RULES",
           "impairs what it receives instead of the scenario: loss=0.1,delay=20ms, or "
-          "none, or @FILE; services/link/impairment/README.md lists the keys");
+          "none, or @FILE; link/impairment/README.md lists the keys");
       AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
       AddSwitch("--hang-on-signal",

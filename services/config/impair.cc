@@ -340,11 +340,10 @@ class Parser {
       return;
     }
     const std::string kind = field.is_time ? "must be a time with its unit, " : "must be a number ";
-    std::string remedy = field.is_time     ? "write such as 20ms or 0.02s"
-                         : field.IsShare() ? "write such as 0.1 or 10%"
-                                           : "write one in that range";
-    if (value.ends_with('%')) remedy = "write 0.1 for 10 %";
-    Complain(field.key, value, kind + Describe(field.allowed), std::move(remedy));
+    const std::string remedy = field.is_time     ? "write such as 20ms or 0.02s"
+                               : field.IsShare() ? "write such as 0.1 or 10%"
+                                                 : "write one in that range";
+    Complain(field.key, value, kind + Describe(field.allowed), remedy);
   }
 
   const int most_rules_;

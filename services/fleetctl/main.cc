@@ -29,7 +29,7 @@ struct LibraryLinesAtEnd {
 
 constexpr const char* kFooter = R"(
 Examples
-  fleetctl run intersection_yield          # two vehicles, one crossing, one verdict
+  fleetctl run intersection_yield          # two vehicles, one verdict
   fleetctl virtual crossing --seeds 1..20  # the same brains in virtual time
   fleetctl ls                              # the fleets on this machine
   fleetctl help run                        # a verb explained, examples first

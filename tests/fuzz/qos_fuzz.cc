@@ -24,7 +24,9 @@ std::vector<Input> Samples() {
   namespace fs = std::filesystem;
   std::vector<fs::path> files;
   for (const char* folder : {GIVEWAY_QOS_SETS, GIVEWAY_BAD_QOS}) {
-    for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      if (entry.path().extension() == ".xml") files.push_back(entry.path());
+    }
   }
   std::sort(files.begin(), files.end());
   std::vector<Input> samples;

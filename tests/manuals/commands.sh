@@ -37,8 +37,8 @@ run_manual() { # MANUAL
   mkdir -p "$folder"
   cd "$folder"
   awk -F '\t' -v file="$1" '$1 == file && $3 == "-" {print $2 "\t" $4 "\t" $5}' "$SCRATCH/commands" |
-    timeout --kill-after 5 110 "${isolate[@]}" bash "$here/one_manual.sh" "$1" ||
-    echo "FAILED  $1: did not end in 110 s"
+    timeout --kill-after 5 180 "${isolate[@]}" bash "$here/one_manual.sh" "$1" ||
+    echo "FAILED  $1: did not end in 180 s"
 }
 
 # Flags that a text must know: "--flag" as a word of its own.

@@ -34,13 +34,18 @@ constexpr std::array kVerdicts = {
 
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
+// "failed 0" is a count, and no verdict.
+bool IsCount(std::string_view line, std::size_t end) {
+  return end + 1 < line.size() && line[end] == ' ' && line[end + 1] >= '0' && line[end + 1] <= '9';
+}
+
 // Where the word stands by itself; npos if it does not.
 std::size_t FindWord(std::string_view line, std::string_view word) {
   for (std::size_t at = line.find(word); at != std::string_view::npos;
        at = line.find(word, at + 1)) {
     const std::size_t end = at + word.size();
     const bool begins = at == 0 || !IsLetter(line[at - 1]);
-    if (begins && (end == line.size() || !IsLetter(line[end]))) return at;
+    if (begins && (end == line.size() || (!IsLetter(line[end]) && !IsCount(line, end)))) return at;
   }
   return std::string_view::npos;
 }

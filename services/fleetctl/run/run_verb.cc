@@ -109,7 +109,7 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
   verb->add_option(
           "--impair", options->fleet.impair,
           "Impair what every vehicle receives, instead of the scenario: "
-          "loss=10%,delay=20ms, or none; services/link/impairment/README.md lists the keys")
+          "loss=10%,delay=20ms, or none; link/impairment/README.md lists the keys")
       ->check(CheckImpairment)
       ->envname("GIVEWAY_IMPAIR");
 }

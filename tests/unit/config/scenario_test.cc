@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> FilesIn(const fs::path& folder) {
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().extension() != ".md") files.push_back(entry.path());
+    if (entry.path().extension() == ".textproto") files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -17,7 +17,8 @@ TEST(TerminalText, TheFirstVerdictOfALineIsTheOne) {
   EXPECT_EQ(InColour("failed: 3 passed"), "\x1b[31mfailed\x1b[0m: 3 passed");
 }
 
-TEST(TerminalText, APartOfAWordIsNoVerdict) {
+TEST(TerminalText, APartOfAWordOrACountIsNoVerdict) {
+  EXPECT_EQ(InColour("  runs 5, failed 0, contacts 0"), "  runs 5, failed 0, contacts 0");
   EXPECT_EQ(InColour("expectations_passed, terrors"), "expectations_passed, terrors");
 }
 
