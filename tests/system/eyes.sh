@@ -83,7 +83,6 @@ timeout 10 "$FLEETCTL" listen fleet/beacon --domain "$domain" >&- 2>err || fail 
 eyes 2 "no such topic" listen fleet/beacons --domain "$domain"
 grep -q 'fleet/beacon, fleet/status' err || fail "no such topic: $(cat err)"
 eyes 2 "signals of a vehicle" listen world/signal --vehicle 1 --domain "$domain"
-eyes 2 "no domain" top --once
 eyes 2 "wait without once" top --domain "$domain" --wait 1
 eyes 2 "no such interface" top --domain "$domain" --once --interface no_such_0
 eyes 2 "no such profiles" listen fleet/beacon --domain "$domain" --qos no_such.xml
