@@ -1,11 +1,12 @@
 // What a stranger says in another's name: the participant that may say it is known, and another is
 // not believed, takes no memory and no honest sample's place.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "services/link/convert/convert.h"
 #include "services/link/observer_link.h"
@@ -198,47 +199,35 @@ TEST(Admin, AVehicleThatTakesNoOrdersCannotBeReached) {
   EXPECT_TRUE(deaf.TakeOrders().empty());
 }
 
-long MemoryKb() {
-  std::ifstream file("/proc/self/statm");
-  long total = 0;
-  long resident = 0;
-  file >> total >> resident;
-  return resident * (sysconf(_SC_PAGESIZE) / 1024);
-}
-
-// Issue 25: 26 to 60 MB, and a fifth of a processor after the writer was gone.
-TEST_F(Strangers, AWriterThatNamesAHundredThousandIdsTakesNoMemory) {
+// Issue 25: a hundred thousand took 34 MB, and a fifth of a processor after the writer was gone.
+// That they take no memory is measured by tests/attack/speak.sh: here the writer's own would count.
+TEST_F(Strangers, OfAWriterThatNamesThousandsOfIdsAFewAreHeard) {
   Unnamed listener;
   link::Participant flood(OptionsIn(domain_), "flood", listener);
   auto beacons = flood.MakeWriter<wire::Beacon>("main/v9");
   auto commands = flood.MakeWriter<wire::MotorCommand>("v9");
   ASSERT_TRUE(Eventually([&] { return beacons.HasReader() && commands.HasReader(); }));
-  const auto name = [&](std::uint32_t from, std::uint32_t to) {
-    for (std::uint32_t id = from; id < to; ++id) {
-      Beacon beacon;
-      beacon.vehicle = VehicleId{id};
-      beacons.Write(link::ToWire(beacon));
-      MotorCommand command;
-      command.vehicle = VehicleId{id};
-      commands.Write(link::ToWire(command));
-      // The writer's own instances are no matter here.
-      beacons.Retire(link::ToWire(beacon));
-      commands.Retire(link::ToWire(command));
-      if (id % 32 != 0) continue;
-      vehicle_.Take(SteadyTime{0});
-      world_.TakeCommands();
+  std::set<std::uint32_t> heard;
+  const auto take = [&] {
+    for (const ReceivedBeacon& one : vehicle_.Take(SteadyTime{0}).inputs.beacons) {
+      heard.insert(Number(one.beacon.vehicle));
     }
+    EXPECT_TRUE(world_.TakeCommands().empty());
   };
-  name(1000, 5000);
-  const long before = MemoryKb();
-  name(5000, 45'000);
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr long kMostKb = 32 * 1024;
-#else
-  constexpr long kMostKb = 4096;
-#endif
-  EXPECT_LT(MemoryKb() - before, kMostKb);
-  EXPECT_GT(vehicle_.Counters().strangers, 10'000U);
+  for (std::uint32_t id = 1000; id < 4000; ++id) {
+    wire::Beacon beacon;
+    beacon.vehicle(id);
+    beacons.Write(beacon);
+    wire::MotorCommand command;
+    command.vehicle(id);
+    commands.Write(command);
+    if (id % 32 == 0) take();
+  }
+  EXPECT_TRUE(Eventually([&] {
+    take();
+    return vehicle_.Counters().strangers > 1000 && world_.Counters().commands_strangers > 1000;
+  }));
+  EXPECT_LE(heard.size(), 4U);
 }
 
 }  // namespace
