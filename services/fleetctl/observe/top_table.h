@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "services/fleetctl/observe/heard_fleet.h"
+#include "services/observer/fleet/heard_fleet.h"
 #include "services/fleetctl/output/live_table.h"
 
 namespace giveway::fleetctl {

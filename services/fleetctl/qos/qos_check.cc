@@ -10,7 +10,7 @@
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/finding_text.h"
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/fleetctl/process/exit_codes.h"
 
 namespace giveway::fleetctl {

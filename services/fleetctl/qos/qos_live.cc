@@ -9,7 +9,7 @@
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/args/reading_along.h"
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/qos/orders.h"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/fleetctl/tune/tune_store.h"
 
 namespace giveway::fleetctl {

@@ -12,7 +12,7 @@
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/exit_codes.h"

@@ -11,7 +11,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/fleetctl/output/output_file.h"
 
 namespace giveway::fleetctl {

@@ -1,10 +1,10 @@
-#include "services/fleetctl/output/sample_json.h"
+#include "services/observer/fleet/sample_json.h"
 
 #include <fmt/format.h>
 
-#include "services/fleetctl/output/sample_words.h"
+#include "services/observer/fleet/sample_words.h"
 
-namespace giveway::fleetctl {
+namespace giveway {
 namespace {
 
 void AddId(std::string_view name, VehicleId vehicle, JsonObject* object) {
@@ -261,4 +261,4 @@ void AddFields(const RunFigures& figures, JsonObject* object) {
   object->Add("state_hash", fmt::format("{:016x}", figures.state_hash));
 }
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway

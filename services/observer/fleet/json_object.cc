@@ -1,4 +1,4 @@
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "services/runtime/json_line.h"
 
-namespace giveway::fleetctl {
+namespace giveway {
 
 void JsonObject::Add(std::string_view name, double value) {
   if (std::isfinite(value)) AddRaw(name, fmt::format("{}", value));
@@ -25,4 +25,4 @@ void JsonObject::AddRaw(std::string_view name, std::string_view json) {
   fields_ += fmt::format("\"{}\":{}", name, json);
 }
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway

@@ -6,13 +6,14 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "services/link/observer_link.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/time.h"
 
-namespace giveway::fleetctl {
+namespace giveway {
 
 enum class Hearing : std::uint8_t {
   kNever,  // its body is in the world, and it says nothing
@@ -20,6 +21,9 @@ enum class Hearing : std::uint8_t {
   kSilent,  // nothing for kSilentAfter
   kLeft,    // its last status said that it leaves
 };
+
+// "heard", "silent", "left" or "not_heard".
+std::string_view Name(Hearing hearing);
 
 struct HeardVehicle {
   std::optional<VehicleStatus> status;  // the newest, and of the beacons
@@ -65,4 +69,4 @@ class HeardFleet {
   SteadyTime newcomer_at_{0};
 };
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway

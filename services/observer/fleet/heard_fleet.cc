@@ -1,8 +1,8 @@
-#include "services/fleetctl/observe/heard_fleet.h"
+#include "services/observer/fleet/heard_fleet.h"
 
 #include <algorithm>
 
-namespace giveway::fleetctl {
+namespace giveway {
 namespace {
 
 constexpr SteadyTime kSettleTime = std::chrono::seconds(1);
@@ -10,6 +10,20 @@ constexpr SteadyTime kSettleTime = std::chrono::seconds(1);
 constexpr SteadyTime kStatusTime = std::chrono::seconds(4);
 
 }  // namespace
+
+std::string_view Name(Hearing hearing) {
+  switch (hearing) {
+    case Hearing::kNever:
+      return "not_heard";
+    case Hearing::kHeard:
+      return "heard";
+    case Hearing::kSilent:
+      return "silent";
+    case Hearing::kLeft:
+      return "left";
+  }
+  return "unknown";
+}
 
 std::optional<SteadyTime> HeardVehicle::HeardAt() const {
   if (!status_at) return beacon_at;
@@ -80,4 +94,4 @@ bool HeardFleet::IsSettled(SteadyTime now) const {
   });
 }
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway

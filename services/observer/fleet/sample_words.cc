@@ -1,4 +1,4 @@
-#include "services/fleetctl/output/sample_words.h"
+#include "services/observer/fleet/sample_words.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include "services/runtime/json_line.h"
 #include "services/types/math/math.h"
 
-namespace giveway::fleetctl {
+namespace giveway {
 namespace {
 
 // An enumerator this build does not know never comes this far: the link refuses it.
@@ -159,4 +159,4 @@ std::string ToLine(const RunFigures& figures) {
   return line;
 }
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace giveway::fleetctl {
+namespace giveway {
 
 class JsonObject {
  public:
@@ -40,4 +40,4 @@ std::string JsonArray(const Items& items, Of&& of) {
   return "[" + json + "]";
 }
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway

@@ -1,8 +1,8 @@
-#include "services/fleetctl/observe/heard_fleet.h"
+#include "services/observer/fleet/heard_fleet.h"
 
 #include <gtest/gtest.h>
 
-namespace giveway::fleetctl {
+namespace giveway {
 namespace {
 
 using std::chrono::milliseconds;
@@ -140,4 +140,4 @@ TEST(HeardFleet, DoesNotSettleWhileABodyHasNotSpoken) {
 }
 
 }  // namespace
-}  // namespace giveway::fleetctl
+}  // namespace giveway

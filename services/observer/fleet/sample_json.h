@@ -2,12 +2,12 @@
 // Vehicle ids of nobody are left out. Pure.
 #pragma once
 
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/signal.h"
 
-namespace giveway::fleetctl {
+namespace giveway {
 
 void AddFields(const ReceivedBeacon& received, JsonObject* object);
 void AddFields(const VehicleStatus& status, JsonObject* object);
@@ -17,4 +17,4 @@ void AddFields(const RosterEntry& entry, JsonObject* object);
 void AddFields(const SignalState& signal, JsonObject* object);
 void AddFields(const RunFigures& figures, JsonObject* object);
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway

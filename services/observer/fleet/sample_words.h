@@ -9,7 +9,7 @@
 #include "services/types/fleet_facts.h"
 #include "services/types/signal.h"
 
-namespace giveway::fleetctl {
+namespace giveway {
 
 std::string_view Name(EventKind kind);
 std::string_view Name(RunState state);
@@ -31,4 +31,4 @@ std::string ToLine(const RosterEntry& entry);
 std::string ToLine(const SignalState& signal);
 std::string ToLine(const RunFigures& figures);
 
-}  // namespace giveway::fleetctl
+}  // namespace giveway
