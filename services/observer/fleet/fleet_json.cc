@@ -70,21 +70,6 @@ std::string WorldJson(const FleetView& view, SteadyTime now) {
   return object.Text();
 }
 
-std::string RangesJson(const RangeScan& scan) {
-  constexpr std::array<std::string_view, 3> kEchoes{"ECHO_NO_DATA", "ECHO_CLEAR", "ECHO_HEARD"};
-  JsonObject object;
-  object.Add("vehicle", Number(scan.vehicle));
-  object.Add("world_epoch", Number(scan.epoch));
-  object.Add("tick", Number(scan.tick));
-  object.AddRaw("echo", JsonArray(scan.readings, [&](const RangeReading& reading) {
-                  return "\"" + std::string(kEchoes[static_cast<std::size_t>(reading.kind)]) + "\"";
-                }));
-  object.AddRaw("range_m", JsonArray(scan.readings, [](const RangeReading& reading) {
-                  return reading.kind == Echo::kEcho ? std::to_string(reading.range_m) : "null";
-                }));
-  return object.Text();
-}
-
 }  // namespace
 
 std::string FleetJson(const FleetView& view, SteadyTime now) {
@@ -121,7 +106,7 @@ std::optional<std::string> VehicleJson(const FleetView& view, VehicleId vehicle,
   add("status", heard.status);
   if (const VehicleView* view_of = view.Find(vehicle)) {
     add("truth", view_of->truth);
-    if (view_of->ranges) object.AddRaw("ranges", RangesJson(*view_of->ranges));
+    add("ranges", view_of->ranges);
   }
   return object.Text();
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "services/observer/fleet/sample_words.h"
 
 namespace giveway {
@@ -259,6 +261,33 @@ void AddFields(const RunFigures& figures, JsonObject* object) {
   object->Add("ticks", figures.ticks);
   object->Add("tick_overruns", figures.tick_overruns);
   object->Add("state_hash", fmt::format("{:016x}", figures.state_hash));
+}
+
+void AddFields(const RangeScan& scan, JsonObject* object) {
+  constexpr std::array<std::string_view, 3> kEchoes{"no_data", "clear", "heard"};
+  object->Add("vehicle", Number(scan.vehicle));
+  AddTick(scan.epoch, scan.tick, object);
+  object->Add("run_state", Name(scan.run_state));
+  AddWheels(scan.wheels, object);
+  object->Add("counted_left_rad", scan.counted.left_rad);
+  object->Add("counted_right_rad", scan.counted.right_rad);
+  object->AddRaw("echo", JsonArray(scan.readings, [&](const RangeReading& reading) {
+                   return fmt::format("\"{}\"", kEchoes[static_cast<std::size_t>(reading.kind)]);
+                 }));
+  object->AddRaw("range_m", JsonArray(scan.readings, [](const RangeReading& reading) {
+                   return reading.kind == Echo::kEcho ? fmt::format("{}", reading.range_m) : "null";
+                 }));
+}
+
+void AddFields(const MotorCommand& command, JsonObject* object) {
+  object->Add("vehicle", Number(command.vehicle));
+  AddTick(command.epoch, command.tick, object);
+  AddWheels(command.target, object);
+  AddDecision(command.decision, object);
+  object->Add("decision_changed", command.decision_changed);
+  object->Add("matched_peers", command.matched_peers);
+  object->Add("waypoint", command.task.waypoint);
+  object->Add("waited_ticks", command.task.waited_ticks);
 }
 
 }  // namespace giveway

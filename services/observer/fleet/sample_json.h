@@ -5,6 +5,8 @@
 #include "services/observer/fleet/json_object.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/motor_command.h"
+#include "services/types/range_scan.h"
 #include "services/types/signal.h"
 
 namespace giveway {
@@ -16,5 +18,7 @@ void AddFields(const WorldEvent& event, JsonObject* object);
 void AddFields(const RosterEntry& entry, JsonObject* object);
 void AddFields(const SignalState& signal, JsonObject* object);
 void AddFields(const RunFigures& figures, JsonObject* object);
+void AddFields(const RangeScan& scan, JsonObject* object);
+void AddFields(const MotorCommand& command, JsonObject* object);
 
 }  // namespace giveway
