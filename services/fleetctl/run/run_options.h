@@ -15,6 +15,7 @@ struct RunOptions {
   std::string qos_file;                 // empty: the shipped one
   FleetOptions fleet;
   std::string picture_file;  // empty: none is drawn
+  std::string html_file;     // empty: no page of the run is written
   bool json = false;         // one JSON object on stdout and nothing else
 };
 

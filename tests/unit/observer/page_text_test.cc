@@ -20,7 +20,7 @@ TEST(PageText, IsOneFileOfAtMost300kBWithoutOutsideResources) {
 }
 
 TEST(PageText, ARunWithinItCannotEndItsElement) {
-  const std::string page = PageWithRun(R"({"text":"</script><script>alert(1)"})");
+  const std::string page = PageWithRun(R"x({"text":"</script><script>alert(1)"})x");
   EXPECT_THAT(page, HasSubstr(R"({"text":"\u003c/script>\u003cscript>alert(1)"
 })"));
   EXPECT_THAT(page, Not(HasSubstr("<script>alert(1)")));
