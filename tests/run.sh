@@ -5,13 +5,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-ALL_STAGES=(format rules deploy unit golden virtual planted model link system tsan debian13 containers)
+ALL_STAGES=(format rules deploy unit golden virtual planted model link system web tsan debian13 containers)
 MORE_STAGES=(asan fuzz) # which debian13 runs in its container
 
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=480 [tsan]=180 [debian13]=480 [containers]=360
+  [virtual]=150 [planted]=90 [model]=240 [system]=480 [tsan]=180 [debian13]=480 [containers]=360 [web]=120
   [asan]=240 [fuzz]=120)
 
 usage() {
@@ -32,6 +32,7 @@ which debian13 runs in its container. Stages:
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
+  web      the observer's page in a browser, its recordings in the field's own readers
   asan     unit, golden and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, profiles, beacons, scans and recordings in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
@@ -314,6 +315,12 @@ stage_tsan() {
 stage_debian13() {
   prepare release giveway-vehicle giveway-world
   check_lines bash tests/containers/all.sh debian13
+}
+stage_web() {
+  mapfile -t wanted < <(web_packages && node_packages)
+  install_packages "${wanted[@]}"
+  prepare release giveway-observer giveway-vehicle giveway-world fleetctl
+  check_lines bash tests/web/web.sh
 }
 stage_containers() { check_lines bash tests/containers/all.sh containers; }
 
