@@ -4,6 +4,7 @@ const COLUMNS = [
   { name: "mode", title: "mode", text: true, of: (v) => v.mode },
   { name: "rule", title: "reason", text: true, of: (v) => v.rule + (v.peer ? " " + v.peer : "") },
   { name: "gives_way_to", title: "gives way to", of: (v) => v.gives_way_to || "" },
+  { name: "hearing", title: "heard", text: true, of: (v) => v.hearing },
   { name: "speed", title: "m/s", of: (v) => v.speed.toFixed(2) },
   { name: "nearest", title: "echo, m", of: (v) => (v.nearest === null ? "" : v.nearest.toFixed(2)) },
   { name: "beacon_age", title: "beacon, ms", of: (v) => (v.beacon_age < 0 ? "" : v.beacon_age) },
@@ -11,7 +12,6 @@ const COLUMNS = [
   { name: "peers_heard", title: "peers", wide: true, of: (v) => (v.peers_heard < 0 ? "" : v.peers_heard) },
   { name: "x", title: "x, m", wide: true, of: (v) => v.x.toFixed(2) },
   { name: "y", title: "y, m", wide: true, of: (v) => v.y.toFixed(2) },
-  { name: "hearing", title: "heard", text: true, of: (v) => v.hearing },
 ];
 const sorting = { name: "id", down: false };
 const tableRows = new Map();
@@ -77,7 +77,8 @@ function showTable(frame) {
 
 function eventText(event) {
   const who = event.vehicle ? String(event.vehicle) : "";
-  const other = event.other ? ` ${event.kind === "halted" ? "for" : "and"} ${event.other}` : "";
+  const join = { halted: "for", contact: "with" }[event.kind] ?? "and";
+  const other = event.other ? ` ${join} ${event.other}` : "";
   return `${who} ${event.kind.replaceAll("_", " ")}${other}${event.text ? ": " + event.text : ""}`.trim();
 }
 
