@@ -14,7 +14,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr int kIncomplete = 1;
+constexpr int kNotAllExported = 1;
 
 class Exporting {
  public:
@@ -93,7 +93,7 @@ class Exporting {
     if (written_ == 0) {
       std::fprintf(stderr, "%s: nothing of %s\n", options_.file.c_str(), options_.topic.c_str());
     }
-    return result.fault.empty() && unreadable_ == 0 && written_ > 0 ? 0 : kIncomplete;
+    return result.fault.empty() && unreadable_ == 0 && written_ > 0 ? 0 : kNotAllExported;
   }
 
   const ExportOptions& options_;

@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kExportFooter = R"(
 Fields have the names of fleet.idl, as those of fleetctl listen --json; in CSV those within others are
 joined by dots.
 
@@ -29,7 +29,7 @@ void AddExportVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* verb =
       fleetctl->add_subcommand("export", "One topic of an MCAP recording as JSON or CSV");
-  verb->footer(kFooter);
+  verb->footer(kExportFooter);
   verb->add_option("FILE", options->file, "The recording")->required()->check(CheckNotEmpty);
   verb->add_option("--topic", options->topic, "Which topic")
       ->required()

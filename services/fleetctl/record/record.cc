@@ -12,7 +12,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr int kIncomplete = 1;
+constexpr int kNotAllRecorded = 1;
 constexpr Nanoseconds kRecordTurn = std::chrono::milliseconds(10);
 constexpr Nanoseconds kFlushPeriod = std::chrono::seconds(1);
 
@@ -81,7 +81,7 @@ class Recording {
       std::fprintf(stderr, "nothing was heard: is the fleet in domain %u, on interface %s?\n",
                    options_.where.domain, options_.where.interface.c_str());
     }
-    return whole && files_.Messages() > 0 ? 0 : kIncomplete;
+    return whole && files_.Messages() > 0 ? 0 : kNotAllRecorded;
   }
 
   static constexpr unsigned kWriteSeconds = 30;

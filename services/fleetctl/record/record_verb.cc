@@ -12,7 +12,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kRecordFooter = R"(
 Writes every sample as its writer serialized it, with its source and reception time: nothing is decoded
 again. The schema is fleet.idl (omgidl), so that Foxglove, and whatever reads MCAP, shows it.
 It is flushed once a second: a recorder that is killed loses that much at most, and the file opens. A
@@ -59,7 +59,7 @@ std::string CheckTopic(const std::string& name) {
 void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<RecordOptions>();
   CLI::App* verb = fleetctl->add_subcommand("record", "Record what travels into an MCAP file");
-  verb->footer(kFooter);
+  verb->footer(kRecordFooter);
   verb->add_option("OUT", options->files.path, "The file, OUT.mcap; it must not be there yet")
       ->required()
       ->check(CheckNotEmpty);

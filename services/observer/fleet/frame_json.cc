@@ -142,7 +142,7 @@ std::string SignalsJson(const FleetView& view) {
   });
 }
 
-std::string EventsJson(const FleetView& view) {
+std::string NewestEventsJson(const FleetView& view) {
   const auto& events = view.Events();
   const std::size_t skipped = events.size() > kEventsInFrame ? events.size() - kEventsInFrame : 0;
   std::string json;
@@ -164,7 +164,7 @@ std::string FrameJson(const FleetView& view, SteadyTime now) {
   frame.AddRaw("vehicles", RowsJson(view, now));
   frame.AddRaw("ranges", RangesJson(view, now));
   frame.AddRaw("signals", SignalsJson(view));
-  frame.AddRaw("events", EventsJson(view));
+  frame.AddRaw("events", NewestEventsJson(view));
   return frame.Text();
 }
 

@@ -9,13 +9,13 @@
 namespace giveway {
 namespace {
 
-std::string Quoted(std::string_view name) { return fmt::format("\"{}\"", name); }
+std::string NameJson(std::string_view name) { return fmt::format("\"{}\"", name); }
 
 template <typename Enum>
 std::string NamesUpTo(Enum last) {
   std::string json;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(last); ++i) {
-    json += (json.empty() ? "" : ",") + Quoted(Name(static_cast<Enum>(i)));
+    json += (json.empty() ? "" : ",") + NameJson(Name(static_cast<Enum>(i)));
   }
   return "[" + json + "]";
 }
@@ -83,7 +83,7 @@ void AddScenario(const Scenario& scenario, JsonObject* scene) {
 std::string SceneJson(const SceneSource& source) {
   JsonObject scene;
   scene.Add("title", source.title);
-  scene.AddRaw("columns", JsonArray(kVehicleColumns, Quoted));
+  scene.AddRaw("columns", JsonArray(kVehicleColumns, NameJson));
   scene.AddRaw("hearings", NamesUpTo(Hearing::kLeft));
   scene.AddRaw("modes", NamesUpTo(Mode::kLeaving));
   scene.AddRaw("rules", NamesUpTo(Rule::kLeaving));
