@@ -253,6 +253,8 @@ stage_deploy() {
   [[ ${#node[@]} -eq 0 ]] || install_packages "${node[@]}"
   check_lines bash tests/deploy/kubernetes.sh
   check_lines bash tests/deploy/kubernetes_test.sh
+  install_packages prometheus jq
+  check_lines bash tests/deploy/monitoring.sh
 }
 
 stage_unit() { prepare release unit_tests && run_ctest release unit "$(nproc)"; }
