@@ -3,6 +3,7 @@
 # none in a healthy fleet, and every metric that alerts and dashboard name is one the observer serves.
 # Grafana is in no Debian: of the dashboard the structure and the expressions are checked.
 # Usage: monitoring.sh; lines "ok NAME" and "FAILED NAME". Exit code: 0 all ok, 1 something failed.
+# shellcheck disable=SC2317  # what check runs is called by its name
 set -uo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 folder=$project/config/deploy/monitoring
