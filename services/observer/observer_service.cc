@@ -35,7 +35,9 @@ std::string AreaOf(const ObserverFlags& flags) {
 }
 
 link::LinkOptions LinkOptionsOf(const ObserverFlags& flags) {
-  const Scenario scenario = ScenarioOf(flags).value_or(Scenario{});
+  Scenario unknown;
+  unknown.tick_period = Nanoseconds{0};  // then no rule speaks of it
+  const Scenario scenario = ScenarioOf(flags).value_or(unknown);
   link::LinkOptions options;
   options.domain = flags.domain;
   options.interface = flags.interface;
