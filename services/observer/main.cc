@@ -1,7 +1,9 @@
 // giveway-observer: shows a fleet that was started elsewhere. This file only wires: flags in, an
 // exit code out.
 #include <exception>
+#include <set>
 
+#include "services/fleetctl/survey/why_proc.h"
 #include "services/health/health_server.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/library_release.h"
@@ -9,7 +11,11 @@
 
 int main(int argc, char** argv) {
   using namespace giveway;
-  const auto parsed = ParseObserverFlags(argc, argv, link::LibraryName());
+  std::set<std::uint32_t> running;
+  for (const fleetctl::FleetMember& member : fleetctl::FindFleet("/proc")) {
+    running.insert(member.domain);
+  }
+  const auto parsed = ParseObserverFlags(argc, argv, link::LibraryName(), running);
   if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
   const auto& flags = std::get<ObserverFlags>(parsed);
   if (!flags.ask_health.empty()) {

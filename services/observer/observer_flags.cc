@@ -31,7 +31,8 @@ struct FlagHelp {
 };
 
 constexpr FlagHelp kFlags[] = {
-    {"--domain", "1..99", "DDS domain of the fleet (required)"},
+    {"--domain", "1..99",
+     "DDS domain of the fleet (default: that of the only fleet of this machine)"},
     {"--interface", "NAME|ADDRESS|any", "network interface of DDS (default 127.0.0.1)"},
     {"--discovery-server", "HOST[:PORT],...", "find the fleet through these servers"},
     {"--qos", "FILE", "Fast DDS XML profiles, those of the fleet (default: the shipped ones)"},
@@ -73,7 +74,16 @@ std::string DefaultQos(FlagValues* values) {
   }
 }
 
-ObserverFlags Read(FlagValues* values) {
+std::uint32_t ReadDomain(FlagValues* values, const std::set<std::uint32_t>& running) {
+  if (values->Text("--domain")) return values->Whole("--domain", {1, 99}).value_or(0);
+  if (running.size() == 1) return *running.begin();
+  std::string found = running.empty() ? "no fleet was found on this machine" : "fleets run in";
+  for (const std::uint32_t domain : running) found += " " + std::to_string(domain);
+  values->Complain("--domain", "is missing, and " + found, "write --domain with a number 1..99");
+  return 0;
+}
+
+ObserverFlags Read(FlagValues* values, const std::set<std::uint32_t>& running) {
   ObserverFlags flags;
   flags.address = values->TextOr(flags.address, "--address");
   flags.port = values->Whole("--port", {1, 65535}).value_or(flags.port);
@@ -82,10 +92,7 @@ ObserverFlags Read(FlagValues* values) {
         what->empty() ? "ready" : values->OneOf("--health", {"live", "ready"}).value_or("ready");
     return flags;  // what a service needs, a question does not
   }
-  if (!values->Text("--domain")) {
-    values->Complain("--domain", "is required and missing", "write --domain with a number 1..99");
-  }
-  flags.domain = values->Whole("--domain", {1, 99}).value_or(0);
+  flags.domain = ReadDomain(values, running);
   flags.interface = values->TextOr(flags.interface, "--interface");
   ReadServers(values, &flags);
   flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
@@ -101,7 +108,8 @@ ObserverFlags Read(FlagValues* values) {
 }  // namespace
 
 std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const* argv,
-                                                    std::string_view library) {
+                                                    std::string_view library,
+                                                    const std::set<std::uint32_t>& running) {
   CLI::App app("Shows a fleet live: a page, metrics, JSON.", "giveway-observer");
   app.set_version_flag("--version",
                        "giveway-observer " GIVEWAY_VERSION ", " + std::string(library));
@@ -124,7 +132,7 @@ std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const*
       if (option->count() > 0) given.emplace(option->get_name(), value);
     }
     FlagValues values(std::move(given));
-    ObserverFlags flags = Read(&values);
+    ObserverFlags flags = Read(&values, running);
     if (values.Problems().empty()) return flags;
     std::fprintf(stderr, "%s\n", Format(values.Problems()).c_str());
   } catch (const CLI::ParseError& error) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -28,8 +29,10 @@ struct ObserverFlags {
 };
 
 // The flags, or the exit code to end with at once: 0 after --help or --version, 2 after stderr
-// names what is wrong.
+// names what is wrong. Without --domain it is the only one of `running`, the domains of this
+// machine's fleets.
 std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const* argv,
-                                                    std::string_view library);
+                                                    std::string_view library,
+                                                    const std::set<std::uint32_t>& running);
 
 }  // namespace giveway

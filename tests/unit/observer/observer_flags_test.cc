@@ -8,10 +8,11 @@
 namespace giveway {
 namespace {
 
-std::variant<ObserverFlags, int> Parse(std::initializer_list<const char*> flags) {
+std::variant<ObserverFlags, int> Parse(std::initializer_list<const char*> flags,
+                                       const std::set<std::uint32_t>& running = {}) {
   std::vector<const char*> argv{"giveway-observer"};
   argv.insert(argv.end(), flags);
-  return ParseObserverFlags(static_cast<int>(argv.size()), argv.data(), "Fast DDS");
+  return ParseObserverFlags(static_cast<int>(argv.size()), argv.data(), "Fast DDS", running);
 }
 
 TEST(ObserverFlags, HaveDefaultsAndReadWhatIsGiven) {
@@ -34,6 +35,14 @@ TEST(ObserverFlags, AreRefusedInWords) {
     ASSERT_TRUE(std::holds_alternative<int>(parsed));
     EXPECT_EQ(std::get<int>(parsed), 2);
   }
+}
+
+TEST(ObserverFlags, TakeTheDomainOfTheOnlyFleet) {
+  const auto parsed = Parse({}, {42});
+  ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
+  EXPECT_EQ(std::get<ObserverFlags>(parsed).domain, 42U);
+  EXPECT_TRUE(std::holds_alternative<int>(Parse({}, {42, 43})));
+  EXPECT_EQ(std::get<ObserverFlags>(Parse({"--domain", "7"}, {42})).domain, 7U);
 }
 
 TEST(ObserverFlags, AHealthQuestionNeedsNoDomain) {
