@@ -71,6 +71,9 @@ class Recording {
       }
     }
     const bool whole = files_.Fault().empty() && files_.Close();
+    if (!files_.Missing().empty()) {
+      std::fprintf(stderr, "cannot be read, and is not attached: %s\n", files_.Missing().c_str());
+    }
     if (!files_.Fault().empty()) std::fprintf(stderr, "%s\n", files_.Fault().c_str());
     std::fprintf(stderr, "%s\n",
                  fmt::format("{} samples, {:.1f} MB in {} file{}", files_.Messages(),

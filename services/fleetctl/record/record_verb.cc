@@ -74,6 +74,8 @@ void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
       "--keep",
       [options](const std::string& text) { options->files.keep_bytes = SizeOf("--keep", text); },
       "Remove the oldest parts so that all take no more than this: 10GiB");
+  verb->add_option("--attach", options->files.attachments,
+                   "Put these files into the recording at its end, such as those of run --record");
   AddDurationFlag(verb, "--last", &options->last_s,
                   "Keep only the last so much in memory, and write it at the end: 60s");
   verb->add_option_function<std::string>(

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 
 namespace giveway {
 namespace {
@@ -65,6 +68,7 @@ bool CaptureFiles::Write(const link::RawSample& sample, SteadyTime now) {
   }
   if (capture_ == nullptr && !Open(now)) return false;
   ++messages_;
+  newest_ns_ = std::max(newest_ns_, sample.reception_ns);
   return capture_->Write(sample);
 }
 
@@ -91,9 +95,22 @@ void CaptureFiles::RemoveOldest() {
   }
 }
 
+// One that cannot be read is said, and the recording is whole without it.
+void CaptureFiles::Attach(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  if (file.bad() || !file.is_open()) {
+    missing_ += (missing_.empty() ? "" : ", ") + path;
+    return;
+  }
+  capture_->Attach(path.substr(path.rfind('/') + 1), bytes, newest_ns_);
+}
+
 bool CaptureFiles::Close() {
   if (capture_ == nullptr && part_ == 0 && !Open(SteadyTime{0})) return false;
-  return capture_ == nullptr || ClosePart();
+  if (capture_ == nullptr) return fault_.empty();
+  for (const std::string& path : options_.attachments) Attach(path);
+  return ClosePart();
 }
 
 }  // namespace giveway

@@ -36,7 +36,15 @@ Hearing HeardVehicle::HearingAt(SteadyTime now) const {
   return now - *HeardAt() > HeardFleet::kSilentAfter ? Hearing::kSilent : Hearing::kHeard;
 }
 
+void HeardFleet::MakeRoom() {
+  const auto heard_at = [](const auto& entry) {
+    return entry.second.HeardAt().value_or(SteadyTime{0});
+  };
+  vehicles_.erase(std::ranges::min_element(vehicles_, {}, heard_at));
+}
+
 HeardVehicle& HeardFleet::Known(VehicleId vehicle, SteadyTime now) {
+  if (vehicles_.size() >= kMostVehicles && !vehicles_.contains(vehicle)) MakeRoom();
   const auto [entry, is_new] = vehicles_.try_emplace(vehicle);
   if (is_new) newcomer_at_ = now;
   return entry->second;

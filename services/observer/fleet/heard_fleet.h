@@ -49,6 +49,10 @@ class HeardFleet {
   // A vehicle says something five times a second at least, and a running world twenty times.
   static constexpr SteadyTime kSilentAfter = std::chrono::seconds(1);
 
+  // A process that claims ids without end takes no more; of more the one goes that was silent
+  // longest.
+  static constexpr std::size_t kMostVehicles = 4096;
+
   void Fold(const link::Observed& observed, SteadyTime now);
 
   const std::map<VehicleId, HeardVehicle>& Vehicles() const { return vehicles_; }
@@ -59,6 +63,7 @@ class HeardFleet {
   bool IsSettled(SteadyTime now) const;
 
  private:
+  void MakeRoom();
   HeardVehicle& Known(VehicleId vehicle, SteadyTime now);
   void HearWorld(WorldEpoch epoch, SteadyTime now);
   void FoldTruth(const Truth& truth, SteadyTime now);

@@ -75,6 +75,16 @@ TEST(HeardFleet, OneThatSaidItsLastWordsHasLeftUntilItComesBack) {
   EXPECT_EQ(HearingOf(fleet, kOne, seconds(61)), Hearing::kHeard);
 }
 
+TEST(HeardFleet, OneThatClaimsIdsWithoutEndTakesNoMoreThanSoMany) {
+  HeardFleet fleet;
+  for (std::uint32_t id = 1; id <= HeardFleet::kMostVehicles + 10; ++id) {
+    fleet.Fold({.beacons = {BeaconOf(VehicleId{id})}}, SteadyTime{id});
+  }
+  EXPECT_EQ(fleet.Vehicles().size(), HeardFleet::kMostVehicles);
+  EXPECT_FALSE(fleet.Vehicles().contains(VehicleId{10})) << "the first to fall silent goes first";
+  EXPECT_TRUE(fleet.Vehicles().contains(VehicleId{11}));
+}
+
 TEST(HeardFleet, ABodyThatSaysNothingIsKnownAndNeverHeard) {
   HeardFleet fleet;
   fleet.Fold({.truths = {TruthOf(kTwo, 1)}}, seconds(1));
