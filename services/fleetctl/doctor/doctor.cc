@@ -10,8 +10,8 @@
 #include "services/fleetctl/doctor/memory_read.h"
 #include "services/fleetctl/doctor/memory_removal.h"
 #include "services/fleetctl/output/finding_text.h"
-#include "services/observer/fleet/json_object.h"
 #include "services/fleetctl/process/exit_codes.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/runtime/json_line.h"
 
 namespace giveway::fleetctl {

@@ -10,8 +10,8 @@
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/finding_text.h"
-#include "services/observer/fleet/json_object.h"
 #include "services/fleetctl/process/exit_codes.h"
+#include "services/observer/fleet/json_object.h"
 
 namespace giveway::fleetctl {
 namespace {
