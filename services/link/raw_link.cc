@@ -43,7 +43,8 @@ constexpr std::int32_t kRawDepth = 32;  // of each vehicle: a recorder may stand
 constexpr char kAllVehicles[] = "v*";
 constexpr char kFleetPartition[] = "fleet";
 
-std::uint64_t SinceEpoch_ns(const rtps::Time_t& time) {
+template <typename Time>  // which of its two the library takes here depends on its release
+std::uint64_t SinceEpoch_ns(const Time& time) {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(time.to_ns(), 0));
 }
 
