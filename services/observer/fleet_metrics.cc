@@ -17,6 +17,7 @@ using prometheus::MetricType;
 
 constexpr double kSecondsPerMs = 1e-3;
 constexpr double kSecondsPerUs = 1e-6;
+constexpr double kUsPerSecond = 1e6;  // by division 75 000 is 0.075 and nothing near it
 
 using Label = ClientMetric::Label;
 
@@ -79,11 +80,11 @@ class Families {
     std::uint64_t cumulative = 0;
     for (std::size_t i = 0; i < FigureHistogram::kLimits_us.size(); ++i) {
       cumulative += figure.Count(i);
-      histogram.bucket.push_back({cumulative, FigureHistogram::kLimits_us[i] * kSecondsPerUs});
+      histogram.bucket.push_back({cumulative, FigureHistogram::kLimits_us[i] / kUsPerSecond});
     }
     histogram.bucket.push_back({figure.Values(), std::numeric_limits<double>::infinity()});
     histogram.sample_count = figure.Values();
-    histogram.sample_sum = figure.Sum_us() * kSecondsPerUs;
+    histogram.sample_sum = figure.Sum_us() / kUsPerSecond;
     return histogram;
   }
 
