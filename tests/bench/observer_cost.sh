@@ -49,7 +49,7 @@ one() {
   [[ -z $client ]] || kill "$client" 2>/dev/null || true
   [[ -z $observer ]] || kill "$observer"
   wait || true
-  jq -r --arg with "$with" --argjson cpu $(((after - before) * 100 / 5 * 10 / $(getconf CLK_TCK))) \
+  jq -r --arg with "$with" --argjson cpu $(((after - before) * 200 / $(getconf CLK_TCK))) \
     --argjson rss "$rss" --argjson kb "$kilobytes" \
     '"\($with) misses=\([.. | .deadline_missed? // empty] | add // 0) verdict=\(.verdict) observer_cpu=\($cpu / 10)% rss=\($rss)MB stream=\($kb)kB/s"' \
     "$work/run.json"
