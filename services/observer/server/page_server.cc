@@ -128,9 +128,10 @@ struct PageServer::Impl {
   std::atomic<bool> ended{false};
   std::thread listener;
 
-  httplib::Server::HandlerResponse Check(const httplib::Request& request,
-                                         httplib::Response& response) {
+  // Before the library's own routing, which matches paths by regular expressions.
+  void Answer(const httplib::Request& request, httplib::Response& response) {
     constexpr int kNotAllowed = 405;
+    constexpr int kNoRanges = 416;
     constexpr int kMisdirected = 421;
     if (request.method != "GET" && request.method != "HEAD") {
       response.set_header("Allow", "GET, HEAD");
@@ -139,11 +140,13 @@ struct PageServer::Impl {
       Refuse(kMisdirected,
              "the Host header names neither an address nor localhost; --host-name allows a name",
              response);
+    } else if (request.has_header("Range")) {
+      Refuse(kNoRanges, "nothing here is served in parts", response);
     } else {
-      return httplib::Server::HandlerResponse::Unhandled;
+      Get(request, response);
+      return;
     }
     ++refused;
-    return httplib::Server::HandlerResponse::Handled;
   }
 
   void Stream(httplib::Response& response) {
@@ -217,9 +220,10 @@ PageServer::PageServer(const std::string& address, std::uint16_t port, PageSourc
   StreamServer& server = impl_->server;
   server.set_socket_options(ListenAlone);
   server.new_task_queue = [] { return new WaitingLine; };
-  server.set_pre_routing_handler(
-      [this](const auto& request, auto& response) { return impl_->Check(request, response); });
-  server.Get(".*", [this](const auto& request, auto& response) { impl_->Get(request, response); });
+  server.set_pre_routing_handler([this](const auto& request, auto& response) {
+    impl_->Answer(request, response);
+    return httplib::Server::HandlerResponse::Handled;
+  });
   errno = 0;
   if (!server.bind_to_port(address, port)) {
     throw ServerError("cannot listen on " + address + " port " + std::to_string(port) + ": " +
