@@ -106,6 +106,8 @@ mapCanvas.addEventListener("wheel", (event) => {
   zoomAt(event.offsetX, event.offsetY, Math.exp(-event.deltaY * 0.0015));
 }, { passive: false });
 
+addEventListener("resize", () => { if (!state.follow) view.isSet = false; });
+
 byId("show-table").addEventListener("click", () => setTable(!state.showTable));
 byId("fit").addEventListener("click", () => { setFollow(false); view.isSet = false; });
 byId("follow").addEventListener("click", () => setFollow(!state.follow));
