@@ -18,8 +18,8 @@ await until("the replay serves", () => fetch(url).then((answer) => answer.ok, ()
 const browser = await openBrowser();
 const { page, complaints } = await openPage(browser, url);
 
-await check("replay: 200 vehicles are shown and move", async () => {
-  await until("200 vehicles", async () => (await vehicles(page)).length === 200, 20000);
+await check("replay: all 190 vehicles of fleet_200 are shown and move", async () => {
+  await until("190 vehicles", async () => (await vehicles(page)).length === 190, 20000);
   const before = new Map((await vehicles(page)).map((v) => [v.id, v]));
   await until("they move", async () => (await vehicles(page)).filter((v) =>
     Math.hypot(v.x - before.get(v.id).x, v.y - before.get(v.id).y) > 0.2).length > 20);

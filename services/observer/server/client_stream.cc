@@ -48,9 +48,16 @@ ssize_t ClientStream::read(char* to, std::size_t size) {
   return got;
 }
 
+// All of it, or an error: the library takes what was written of a page for the whole of it.
 ssize_t ClientStream::write(const char* from, std::size_t size) {
-  if (!is_writable()) return -1;
-  return send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+  std::size_t written = 0;
+  while (written < size) {
+    if (!is_writable()) return -1;
+    const ssize_t sent = send(socket_, from + written, size - written, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && errno != EAGAIN && errno != EINTR) return -1;
+    written += static_cast<std::size_t>(std::max<ssize_t>(sent, 0));
+  }
+  return static_cast<ssize_t>(size);
 }
 
 void ClientStream::Drain() {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include "services/mcap/mcap_reader.h"
 
@@ -24,12 +25,11 @@ class CaptureFilesTest : public ::testing::Test {
   ~CaptureFilesTest() override { fs::remove_all(folder_); }
 
   std::string Path(const std::string& name) const { return folder_ + "/" + name; }
-  static link::RawSample Sample(std::size_t size) {
-    return {.topic = 0,
-            .source_ns = 1,
-            .reception_ns = 2,
-            .sequence = 3,
-            .bytes = std::string(size, 'x')};
+  // Of bytes that do not compress: a part's size is that of its file.
+  link::RawSample Sample(std::size_t size) {
+    link::RawSample sample{.source_ns = 1, .reception_ns = 2, .sequence = 3};
+    for (std::size_t i = 0; i < size; ++i) sample.bytes += static_cast<char>(random_());
+    return sample;
   }
   static std::uint64_t MessagesIn(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -38,6 +38,7 @@ class CaptureFilesTest : public ::testing::Test {
         .messages;
   }
 
+  std::minstd_rand random_{1};
   const std::string folder_ = ::testing::TempDir() + "capture_files_" +
                               ::testing::UnitTest::GetInstance()->current_test_info()->name();
 };
