@@ -25,7 +25,7 @@ build_packages() {
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && fastdds=libfastdds-dev
   printf '%s\n' git g++ cmake ninja-build ccache "$fastdds" fastddsgen \
     libprotobuf-dev protobuf-compiler libspdlog-dev libfmt-dev libcli11-dev libboost-dev libeigen3-dev \
-    libtinyxml2-dev libyaml-cpp-dev libssl-dev pkgconf libcpp-httplib-dev prometheus-cpp-dev gnuplot-nox \
+    libtinyxml2-dev libyaml-cpp-dev liblz4-dev libssl-dev pkgconf libcpp-httplib-dev prometheus-cpp-dev gnuplot-nox \
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 }
 
@@ -33,10 +33,10 @@ build_packages() {
 runtime_packages() {
   if [[ $(debian_version) -ge 13 ]]; then
     printf '%s\n' libfastdds3.1 libfastcdr2 libprotobuf32t64 libspdlog1.15 libfmt10 libtinyxml2-11 \
-      libyaml-cpp0.8 libssl3t64 libcpp-httplib0.18 libprometheus-cpp-core1.0
+      libyaml-cpp0.8 liblz4-1 libssl3t64 libcpp-httplib0.18 libprometheus-cpp-core1.0
   else
     printf '%s\n' libfastrtps2.9 libfastcdr1 libprotobuf32 libspdlog1.10 libfmt9 libtinyxml2-9 \
-      libyaml-cpp0.7 libssl3 libcpp-httplib0.11 libprometheus-cpp-core1.0
+      libyaml-cpp0.7 liblz4-1 libssl3 libcpp-httplib0.11 libprometheus-cpp-core1.0
   fi
 }
 
@@ -49,6 +49,9 @@ java_package() { java -version >/dev/null 2>&1 || echo default-jre-headless; }
 
 # Any Node.js with npm will do, too: for what checks the manifests of Kubernetes.
 node_packages() { command -v npm >/dev/null || printf '%s\n' nodejs npm; }
+
+# The browser of the stage web, and the font of its screenshots.
+web_packages() { printf '%s\n' chromium fonts-dejavu-core; }
 
 test_packages() {
   local clang_rt=libclang-rt-14-dev

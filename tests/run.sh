@@ -5,13 +5,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-ALL_STAGES=(format rules deploy unit golden virtual planted model link system attack manuals tsan debian13 containers)
+ALL_STAGES=(format rules deploy unit golden virtual planted model link system attack manuals web tsan debian13 containers)
 MORE_STAGES=(asan fuzz) # which debian13 runs in its container
 
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [tsan]=180 [debian13]=480 [containers]=360
+  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [web]=120 [tsan]=180 [debian13]=480 [containers]=360
   [asan]=240 [fuzz]=120)
 
 usage() {
@@ -34,6 +34,7 @@ which debian13 runs in its container. Stages:
   system   real processes: crossings, kills, bad input
   attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
+  web      the observer's page in a browser, its recordings in the field's own readers
   asan     unit, golden and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
@@ -259,6 +260,8 @@ stage_deploy() {
   [[ ${#node[@]} -eq 0 ]] || install_packages "${node[@]}"
   check_lines bash tests/deploy/kubernetes.sh
   check_lines bash tests/deploy/kubernetes_test.sh
+  install_packages prometheus jq
+  check_lines bash tests/deploy/monitoring.sh
 }
 
 stage_unit() { prepare release unit_tests && run_ctest release unit "$(nproc)"; }
@@ -330,6 +333,12 @@ stage_tsan() {
 stage_debian13() {
   prepare release giveway-vehicle giveway-world
   check_lines bash tests/containers/all.sh debian13
+}
+stage_web() {
+  mapfile -t wanted < <(web_packages && node_packages)
+  install_packages "${wanted[@]}"
+  prepare release giveway-observer giveway-vehicle giveway-world fleetctl
+  check_lines bash tests/web/web.sh
 }
 stage_containers() { check_lines bash tests/containers/all.sh containers; }
 

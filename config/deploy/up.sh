@@ -91,7 +91,7 @@ have_images() {
   local target base=debian:$SUITE-slim
   if $build; then
     has_image "$base" || timeout 60 docker pull -q "$base" >/dev/null 2>&1 || base_image "$SUITE"
-    for target in world vehicle tools; do
+    for target in world vehicle observer tools; do
       say "building giveway-$target (the first takes ten minutes on two cores)"
       build_image "$target"
     done

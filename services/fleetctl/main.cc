@@ -52,11 +52,13 @@ int main(int argc, char** argv) {
   int exit_code = giveway::fleetctl::kCouldNotRun;
   giveway::fleetctl::AddCampaignVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddExportVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddFaultsVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddListenVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddLsVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddPlanVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddQosVerb(&fleetctl, &exit_code);
+  giveway::fleetctl::AddRecordVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReplayVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddReportVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddRunVerb(&fleetctl, &exit_code);

@@ -23,7 +23,7 @@ void Append(Reader<Wire>& reader, std::vector<Ours>& list) {
 }  // namespace
 
 struct ObserverLink::Impl {
-  explicit Impl(const LinkOptions& options)
+  Impl(const LinkOptions& options, Ranges ranges)
       : participant(options, "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
         beacons(participant.MakeReader<wire::Beacon>(
@@ -36,7 +36,11 @@ struct ObserverLink::Impl {
                                                          dds::StatusMask::none(), &worlds)),
         roster_reader(participant.MakeReader<wire::Roster>(kWorldPartition, &worlds)),
         signal_reader(participant.MakeReader<wire::SignalState>(kWorldPartition, &worlds)),
-        figures_reader(participant.MakeReader<wire::Figures>(kWorldPartition, &worlds)) {}
+        figures_reader(participant.MakeReader<wire::Figures>(kWorldPartition, &worlds)) {
+    if (ranges == Ranges::kYes) {
+      ranges_reader = participant.MakeReader<wire::RangeScan>("v*", &worlds);
+    }
+  }
 
   void TakeStatuses(Observed& observed) {
     status_reader.TakeEach([&](const wire::Status& sample, const dds::SampleInfo& info) {
@@ -65,9 +69,11 @@ struct ObserverLink::Impl {
   Reader<wire::Roster> roster_reader;
   Reader<wire::SignalState> signal_reader;
   Reader<wire::Figures> figures_reader;
+  std::optional<Reader<wire::RangeScan>> ranges_reader;
 };
 
-ObserverLink::ObserverLink(const LinkOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+ObserverLink::ObserverLink(const LinkOptions& options, Ranges ranges)
+    : impl_(std::make_unique<Impl>(options, ranges)) {}
 ObserverLink::~ObserverLink() = default;
 
 Observed ObserverLink::Take() {
@@ -79,6 +85,7 @@ Observed ObserverLink::Take() {
   Append(impl_->event_reader, observed.events);
   Append(impl_->roster_reader, observed.roster);
   Append(impl_->signal_reader, observed.signals);
+  if (impl_->ranges_reader) Append(*impl_->ranges_reader, observed.ranges);
   std::vector<RunFigures> figures;
   Append(impl_->figures_reader, figures);
   if (!figures.empty()) observed.figures = figures.back();

@@ -9,6 +9,7 @@
 #include "services/link/fastdds/link_options.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/range_scan.h"
 #include "services/types/signal.h"
 
 namespace giveway::link {
@@ -21,12 +22,18 @@ struct Observed {
   std::vector<RosterEntry> roster;
   std::vector<SignalState> signals;
   std::optional<RunFigures> figures;
-  std::uint32_t refused = 0;  // statuses whose id is not the one of their writer's partition
+  std::vector<RangeScan> ranges;  // only where they are asked for
+  std::uint32_t refused = 0;      // statuses whose id is not the one of their writer's partition
 };
 
 class ObserverLink {
  public:
-  explicit ObserverLink(const LinkOptions& options);  // Throws LinkError.
+  // The ranges of all vehicles are what the world sends most of: it sends them to every observer
+  // that asks for them.
+  enum class Ranges : std::uint8_t { kNo, kYes };
+
+  explicit ObserverLink(const LinkOptions& options,
+                        Ranges ranges = Ranges::kNo);  // Throws LinkError.
   ~ObserverLink();
   ObserverLink(const ObserverLink&) = delete;
   ObserverLink& operator=(const ObserverLink&) = delete;

@@ -9,6 +9,7 @@ namespace giveway::fleetctl {
 
 void AddCampaignVerb(CLI::App* fleetctl, int* exit_code);
 void AddDoctorVerb(CLI::App* fleetctl, int* exit_code);
+void AddExportVerb(CLI::App* fleetctl, int* exit_code);
 void AddFaultsVerb(CLI::App* fleetctl, int* exit_code);
 void AddListenVerb(CLI::App* fleetctl, int* exit_code);
 void AddLsVerb(CLI::App* fleetctl, int* exit_code);
@@ -16,6 +17,7 @@ void AddPlanVerb(CLI::App* fleetctl, int* exit_code);
 void AddQosApply(CLI::App* qos, int* exit_code);  // of the verb qos
 void AddQosTune(CLI::App* qos, int* exit_code);   // of the verb qos
 void AddQosVerb(CLI::App* fleetctl, int* exit_code);
+void AddRecordVerb(CLI::App* fleetctl, int* exit_code);
 void AddReplayVerb(CLI::App* fleetctl, int* exit_code);
 void AddReportVerb(CLI::App* fleetctl, int* exit_code);
 void AddRunVerb(CLI::App* fleetctl, int* exit_code);

@@ -10,9 +10,9 @@
 #include "services/fleetctl/doctor/memory_read.h"
 #include "services/fleetctl/doctor/memory_removal.h"
 #include "services/fleetctl/output/finding_text.h"
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/runtime/json_line.h"
 
 namespace giveway::fleetctl {

@@ -6,7 +6,7 @@
 
 #include "services/faults/kind_table.h"
 #include "services/faults/schedule_text.h"
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "services/fleetctl/output/sample_json.h"
-#include "services/fleetctl/output/sample_words.h"
+#include "services/observer/fleet/sample_json.h"
+#include "services/observer/fleet/sample_words.h"
 
 namespace giveway::fleetctl {
 namespace {

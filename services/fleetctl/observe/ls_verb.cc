@@ -8,8 +8,8 @@
 
 #include "services/fleetctl/args/reading_along.h"
 #include "services/fleetctl/args/verbs.h"
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/survey/local_fleets.h"
+#include "services/observer/fleet/json_object.h"
 
 namespace giveway::fleetctl {
 namespace {

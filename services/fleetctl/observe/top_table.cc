@@ -2,27 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "services/fleetctl/output/sample_json.h"
-#include "services/fleetctl/output/sample_words.h"
+#include "services/observer/fleet/sample_json.h"
+#include "services/observer/fleet/sample_words.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kRowFormat = "{:>7}  {:<11}  {:<14}  {:>5}  {:>6}  {:>8}  {:>5}  {}";
-
-std::string_view Name(Hearing hearing) {
-  switch (hearing) {
-    case Hearing::kNever:
-      return "not_heard";
-    case Hearing::kHeard:
-      return "heard";
-    case Hearing::kSilent:
-      return "silent";
-    case Hearing::kLeft:
-      return "left";
-  }
-  return "unknown";
-}
 
 double SpeedOf(const Beacon& beacon) {
   return TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
@@ -77,7 +63,7 @@ bool IsWorldSilent(const HeardWorld& world, SteadyTime now) {
 std::string WorldText(const HeardWorld& world, SteadyTime now) {
   if (!world.heard_at) return "no world heard";
   std::string text = fmt::format(
-      "world {}", world.state ? fleetctl::Name(*world.state) : std::string_view("heard"));
+      "world {}", world.state ? giveway::Name(*world.state) : std::string_view("heard"));
   if (world.time_s > 0) text += fmt::format(", {:.1f} s", world.time_s);
   if (IsWorldSilent(world, now)) {
     text += fmt::format(", silent for {:.0f} s", Seconds(now - *world.heard_at));
@@ -94,7 +80,7 @@ JsonObject WorldJson(const HeardWorld& world, SteadyTime now) {
   object.Add("heard", world.heard_at.has_value());
   if (!world.heard_at) return object;
   object.Add("epoch", Number(world.epoch));
-  if (world.state) object.Add("state", fleetctl::Name(*world.state));
+  if (world.state) object.Add("state", giveway::Name(*world.state));
   object.Add("silent", IsWorldSilent(world, now));
   object.Add("heard_s_ago", Seconds(now - *world.heard_at));
   object.Add("time_s", world.time_s);

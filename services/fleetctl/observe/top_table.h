@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "services/fleetctl/observe/heard_fleet.h"
 #include "services/fleetctl/output/live_table.h"
+#include "services/observer/fleet/heard_fleet.h"
 
 namespace giveway::fleetctl {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/qos/finding.h"
 
 namespace giveway::fleetctl {

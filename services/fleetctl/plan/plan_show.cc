@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
 #include "services/fleetctl/output/finding_text.h"
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/plan/plan.h"
+#include "services/observer/fleet/json_object.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "services/fleetctl/output/finding_text.h"
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/runtime/json_line.h"
 
 namespace giveway::fleetctl {

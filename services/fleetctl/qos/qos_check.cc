@@ -10,9 +10,9 @@
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/finding_text.h"
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
+#include "services/observer/fleet/json_object.h"
 
 namespace giveway::fleetctl {
 namespace {

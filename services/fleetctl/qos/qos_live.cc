@@ -9,7 +9,6 @@
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/args/reading_along.h"
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
@@ -17,6 +16,7 @@
 #include "services/fleetctl/qos/qos_effective.h"
 #include "services/fleetctl/qos/qos_foreign.h"
 #include "services/fleetctl/survey/other_fleets.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
 #include "services/runtime/json_line.h"

@@ -1,6 +1,8 @@
 #include <memory>
 
+#include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/playback/playback.h"
 #include "services/fleetctl/replay/replay.h"
 
 namespace giveway::fleetctl {
@@ -14,7 +16,10 @@ record. The parts of a recording that was split by size are replayed one after t
 in any order. Those of a ring (--record-ring) replay by themselves too.
 The trace has the columns of fleetctl virtual --trace; places are where the vehicle believed to be.
 
+An MCAP file, as fleetctl record writes it, is shown on a page instead, with seek, pause and speed.
+
 Examples
+  fleetctl replay run.mcap --scenario intersection_yield
   fleetctl run intersection_yield --record tapes && fleetctl replay tapes/*
   fleetctl replay tapes/vehicle-2.recording --trace 2.tsv
   fleetctl replay tapes/* --json | jq '.files[] | select(.difference)'
@@ -32,7 +37,23 @@ void AddReplayVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_option("FILE", options->files, "Recordings")->required();
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_option("--trace", options->trace_file, "Write every decision of the only recording");
-  verb->callback([options, exit_code] { *exit_code = RunReplay(*options); });
+  const auto page = std::make_shared<PlaybackOptions>();
+  verb->add_option("--port", page->port, "Of an MCAP file: port of the page; default 8080")
+      ->check(CLI::Range(1U, 65535U));
+  verb->add_option("--address", page->address, "Of an MCAP file: address of the page")
+      ->check(CheckNotEmpty)
+      ->capture_default_str();
+  verb->add_option("--scenario", page->scenario,
+                   "Of an MCAP file: shows the walls of this scenario");
+  verb->add_option("--html", page->html_file, "Of an MCAP file: write the page with the run in it");
+  verb->callback([options, page, exit_code] {
+    if (options->files.size() == 1 && IsMcapFile(options->files.front())) {
+      page->file = options->files.front();
+      *exit_code = RunPlayback(*page);
+    } else {
+      *exit_code = RunReplay(*options);
+    }
+  });
 }
 
 }  // namespace giveway::fleetctl

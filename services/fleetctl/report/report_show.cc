@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "services/fleetctl/output/json_object.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {

@@ -103,7 +103,9 @@ int StartAndWatch(const RunOptions& options) {
   RefuseRestartOfClosed(options, scenario);
   const std::string qos_file = ResolveQosFile(options.qos_file);
   RequireSoundQos(qos_file, DeploymentOf(scenario));
-  if (!options.picture_file.empty()) CheckWritable(options.picture_file);
+  for (const std::string& file : {options.picture_file, options.html_file}) {
+    if (!file.empty()) CheckWritable(file);
+  }
   if (!options.fleet.logs_folder.empty()) CheckFolder(options.fleet.logs_folder);
   if (!options.fleet.record_folder.empty()) CheckFolder(options.fleet.record_folder);
 
@@ -127,9 +129,12 @@ int StartAndWatch(const RunOptions& options) {
   const bool told = Print(options, report);
   if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
   const int code = std::max(ExitCode(report.verdict), told ? 0 : 1);
-  if (options.picture_file.empty()) return code;
+  if (options.picture_file.empty() && options.html_file.empty()) return code;
   Interrupts::AllowSeconds(kDrawing_s);
-  return WriteAfterVerdict(code, [&] { WriteFile(options.picture_file, session.DrawPicture()); });
+  return WriteAfterVerdict(code, [&] {
+    if (!options.picture_file.empty()) WriteFile(options.picture_file, session.DrawPicture());
+    if (!options.html_file.empty()) WriteFile(options.html_file, session.DrawPage());
+  });
 }
 
 }  // namespace

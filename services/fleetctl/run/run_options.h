@@ -16,6 +16,7 @@ struct RunOptions {
   FleetOptions fleet;
   bool restart = false;      // processes that die are started again
   std::string picture_file;  // empty: none is drawn
+  std::string html_file;     // empty: no page of the run is written
   bool json = false;         // one JSON object on stdout and nothing else
 };
 

@@ -8,6 +8,8 @@
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/run/run_ends.h"
+#include "services/observer/fleet/scene_json.h"
+#include "services/observer/page/page_text.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -73,7 +75,9 @@ RunSession::RunSession(const RunOptions& options, const Scenario& scenario, cons
       time_limit_(TimeLimit(scenario, spec.options.lockstep)),
       watch_(scenario, !options.picture_file.empty()),
       invariants_(scenario),
-      observer_(ObserverOptions(spec, scenario)),
+      has_page_(!options.html_file.empty()),
+      observer_(ObserverOptions(spec, scenario),
+                has_page_ ? link::ObserverLink::Ranges::kYes : link::ObserverLink::Ranges::kNo),
       processes_(MakeCommands(spec, scenario)),
       screen_(!options.json && IsTerminal()) {}
 
@@ -180,6 +184,13 @@ void RunSession::Drain() {
   const link::Observed observed = observer_.Take();
   watch_.Fold(observed);
   invariants_.Fold(observed);
+  if (!has_page_) return;
+  view_.Fold(observed, SteadyNow());
+  frames_.Note(view_, SteadyNow());
+}
+
+std::string RunSession::DrawPage() const {
+  return PageWithRun(frames_.RunJson(SceneJson({"run", scenario_})));
 }
 
 void RunSession::Turn() {

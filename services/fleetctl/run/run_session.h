@@ -13,6 +13,8 @@
 #include "services/fleetctl/run/invariant_watch.h"
 #include "services/fleetctl/run/run_options.h"
 #include "services/link/observer_link.h"
+#include "services/observer/capture/run_frames.h"
+#include "services/observer/fleet/fleet_view.h"
 #include "services/report/report.h"
 #include "services/types/scenario.h"
 
@@ -26,6 +28,8 @@ class RunSession {
   // Returns when the last process is gone.
   Report Run();
   std::string DrawPicture() const { return watch_.DrawPicture(); }
+  // With what was observed of the run inside, see RunOptions::html_file.
+  std::string DrawPage() const;
 
  private:
   // Waits for the run's end. A value where the verdict is not the world's to give.
@@ -56,6 +60,9 @@ class RunSession {
   Interrupts interrupts_;
   FleetWatch watch_;
   InvariantWatch invariants_;
+  const bool has_page_;
+  FleetView view_;  // kept for the page alone, as the frames are
+  RunFrames frames_;
   link::ObserverLink observer_;
   FleetProcesses processes_;
   LiveScreen screen_;

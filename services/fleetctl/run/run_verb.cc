@@ -16,7 +16,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kFooter = R"(
-Every flag but --json, --picture and --logs has a twin in the environment: --domain is also
+Every flag but --html, --json, --picture and --logs has a twin in the environment: --domain is also
 GIVEWAY_DOMAIN. The flag wins.
 
 Examples
@@ -116,6 +116,7 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
 
 void AddOutputFlags(CLI::App* verb, RunOptions* options) {
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
+  verb->add_option("--html", options->html_file, "Write a page that shows the run into this file");
   verb->add_option("--picture", options->picture_file, "Draw both paths as SVG into this file")
       ->check(CheckNotEmpty);
   verb->add_option("--logs", options->fleet.logs_folder,

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/tune/tune_store.h"
+#include "services/observer/fleet/json_object.h"
 
 namespace giveway::fleetctl {
 namespace {

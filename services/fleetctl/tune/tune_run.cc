@@ -12,7 +12,6 @@
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/args/qos_files.h"
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/exit_codes.h"
@@ -22,6 +21,7 @@
 #include "services/fleetctl/tune/tune_report.h"
 #include "services/fleetctl/tune/tune_search.h"
 #include "services/link/convert/crc32c.h"
+#include "services/observer/fleet/json_object.h"
 #include "services/qos/check.h"
 
 namespace giveway::fleetctl {

@@ -11,8 +11,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "services/fleetctl/output/json_object.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/observer/fleet/json_object.h"
 
 namespace giveway::fleetctl {
 namespace {

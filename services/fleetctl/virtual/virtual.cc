@@ -14,7 +14,6 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/virtual/virtual_batch.h"
-#include "services/fleetctl/virtual/virtual_show.h"
 #include "services/report/virtual_report.h"
 #include "services/runtime/process.h"
 
@@ -115,7 +114,7 @@ int Print(const VirtualOptions& options, const VirtualReport& report) {
 }
 
 int RunAll(const VirtualOptions& options) {
-  for (const std::string& file : {options.picture_file, options.trace_file}) {
+  for (const std::string& file : {options.shown.picture, options.shown.trace}) {
     if (!file.empty()) CheckWritable(file);
   }
   const CaseMaker maker(options.made_by);
@@ -140,10 +139,8 @@ int RunAll(const VirtualOptions& options) {
     report.reason = "interrupted";
   }
   const int code = Print(options, report);
-  if (options.picture_file.empty() && options.trace_file.empty()) return code;
-  return WriteAfterVerdict(code, [&] {
-    ShowRun(maker.Make(options.seeds.low), options.picture_file, options.trace_file);
-  });
+  if (!options.shown.Any()) return code;
+  return WriteAfterVerdict(code, [&] { ShowRun(maker.Make(options.seeds.low), options.shown); });
 }
 
 int RefuseToRun(const VirtualOptions& options, const char* reason, const std::exception& why) {

@@ -3,10 +3,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <string>
 
 #include "services/fleetctl/virtual/virtual_case.h"
+#include "services/fleetctl/virtual/virtual_show.h"
 
 namespace giveway::fleetctl {
 
@@ -14,8 +13,7 @@ struct VirtualOptions {
   CaseOptions made_by;
   WholeRange seeds{1, 100};
   std::uint32_t jobs = 1;
-  std::string picture_file;  // of a single seed; empty: none
-  std::string trace_file;    // of a single seed; empty: none
+  ShownFiles shown;  // of a single seed
   bool json = false;
 };
 

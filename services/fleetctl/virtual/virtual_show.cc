@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "services/fleetctl/output/decision_trace.h"
 #include "services/fleetctl/output/output_file.h"
+#include "services/fleetctl/virtual/virtual_mcap.h"
 #include "services/report/picture.h"
 #include "sim_world/virtual/virtual_run.h"
 
@@ -56,8 +59,9 @@ void JudgeByInvariants(const sim::VirtualOutcome& outcome, std::vector<WorldEven
 
 }  // namespace
 
-void ShowRun(const VirtualCase& made, const std::string& picture_file,
-             const std::string& trace_file) {
+void ShowRun(const VirtualCase& made, const ShownFiles& files) {
+  std::optional<VirtualRecording> recording;
+  if (!files.mcap.empty()) recording.emplace(files.mcap);
   std::vector<Track> tracks;
   std::vector<WorldEvent> events;
   std::string trace(kTraceHead);
@@ -65,13 +69,15 @@ void ShowRun(const VirtualCase& made, const std::string& picture_file,
       sim::RunVirtually(made.scenario, made.plan, [&](const sim::VirtualFleet& fleet) {
         AppendTruths(fleet, &tracks);
         events.insert(events.end(), fleet.World().Events().begin(), fleet.World().Events().end());
-        if (!trace_file.empty()) Trace(fleet, &trace);
+        if (!files.trace.empty()) Trace(fleet, &trace);
+        if (recording) recording->Note(fleet);
       });
   AppendVerdict(outcome, &trace);
   JudgeByInvariants(outcome, &events);
-  if (!trace_file.empty()) WriteFile(trace_file, trace);
-  if (!picture_file.empty()) {
-    WriteFile(picture_file, DrawRun(made.scenario, tracks, events));
+  if (!files.trace.empty()) WriteFile(files.trace, trace);
+  if (recording) recording->Close();
+  if (!files.picture.empty()) {
+    WriteFile(files.picture, DrawRun(made.scenario, tracks, events));
   }
 }
 

@@ -7,8 +7,16 @@
 
 namespace giveway::fleetctl {
 
-// Runs the case and writes what is asked for; an empty name asks for nothing. Throws OutputError.
-void ShowRun(const VirtualCase& made, const std::string& picture_file,
-             const std::string& trace_file);
+// What is written of a run; an empty name asks for nothing.
+struct ShownFiles {
+  std::string picture;
+  std::string trace;
+  std::string mcap;
+
+  bool Any() const { return !picture.empty() || !trace.empty() || !mcap.empty(); }
+};
+
+// Runs the case and writes what is asked for. Throws OutputError.
+void ShowRun(const VirtualCase& made, const ShownFiles& files);
 
 }  // namespace giveway::fleetctl

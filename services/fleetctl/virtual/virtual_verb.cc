@@ -18,6 +18,7 @@ Examples
   fleetctl virtual crossing --seeds 1..200 --vehicles 6 --loss 5
   fleetctl virtual swarm --seeds 1..10000 --vehicles 2..50 --loss 0..20 --jobs 2 --json
   fleetctl virtual parking --seeds 1..20 --vehicles 4..12 --fleet mixed --crashes 0
+  fleetctl virtual fleet_200 --seed 1 --mcap run.mcap && fleetctl replay run.mcap
   fleetctl virtual swarm --seed 17 --vehicles 12 --picture swarm.svg --trace swarm.tsv
 
 Exit code: 0 passed, 1 failed or interrupted, 2 could not run.
@@ -48,9 +49,12 @@ void AddVirtualVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_option("--jobs", options->jobs, "Runs at a time; default 1")
       ->check(CLI::Range(1U, 1024U));
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
-  verb->add_option("--picture", options->picture_file, "Draw the run of --seed as SVG")
+  verb->add_option("--picture", options->shown.picture, "Draw the run of --seed as SVG")
       ->needs(seed);
-  verb->add_option("--trace", options->trace_file, "Write every tick of the run of --seed")
+  verb->add_option("--trace", options->shown.trace, "Write every tick of the run of --seed")
+      ->needs(seed);
+  verb->add_option("--mcap", options->shown.mcap,
+                   "Record the run of --seed, for fleetctl replay and other tools")
       ->needs(seed);
   verb->callback([options, exit_code] { *exit_code = RunVirtual(*options); });
 }

@@ -60,7 +60,7 @@ export function imagesArePinned(fleet) {
   const version = /project\(giveway VERSION ([0-9.]+)/.exec(cmake)[1];
   return each(fleet, ({ image }) => {
     const [name, tag] = image.split('/').pop().split(':');
-    if (!/^giveway-(world|vehicle|tools)$/.test(name)) return [`${name} is not an image of this project`];
+    if (!/^giveway-(observer|world|vehicle|tools)$/.test(name)) return [`${name} is not an image of this project`];
     return tag === version ? [] : [`${image} is not of version ${version}`];
   });
 }
@@ -68,13 +68,14 @@ export function imagesArePinned(fleet) {
 export function fleetIsPut(fleet) {
   const { document, replicas } = fleet.workload('vehicle');
   const world = fleet.workload('world').document.spec;
+  const size = fleet.overlay === 'observed' ? 2 : Number(fleet.overlay);
   const wanted = [
-    [replicas === Number(fleet.overlay), `${replicas} vehicles, and the overlay is ${fleet.overlay}`],
+    [replicas === size, `${replicas} vehicles, and the overlay is ${fleet.overlay}`],
     [document.spec.podManagementPolicy === 'Parallel', 'vehicles start one after the other, and wait for each other'],
     [world.replicas === 1 && world.strategy?.type === 'Recreate', 'there may be two worlds at a time'],
     [replicas < 100 || fleet.workload('vehicle').pod.topologySpreadConstraints, 'nothing spreads the vehicles'],
     [fleet.documents.every((one) => one.kind === 'Namespace' || one.metadata.namespace === 'giveway'), 'not all is in the namespace giveway'],
-    [fleet.documents.every((one) => one.metadata.labels?.['app.kubernetes.io/instance'] === `fleet-${fleet.overlay}`), 'not all is labelled with its fleet'],
+    [fleet.documents.every((one) => one.metadata.labels?.['app.kubernetes.io/instance'] === `fleet-${size}`), 'not all is labelled with its fleet'],
   ];
   return wanted.filter(([holds]) => !holds).map(([, text]) => text);
 }

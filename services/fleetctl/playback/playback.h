@@ -1,0 +1,24 @@
+// What `fleetctl replay` does with an MCAP recording: shows the run on the page, with seek, pause
+// and speed, or writes that page to a file. Values in; the exit code out.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace giveway::fleetctl {
+
+struct PlaybackOptions {
+  std::string file;
+  std::string scenario;   // shows its walls; empty: none are shown
+  std::string html_file;  // written instead of being served; empty: served
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8080;
+};
+
+// Whether the file is one that playback is for, by its name.
+bool IsMcapFile(const std::string& file);
+
+// 0 shown until Ctrl-C, or written; 1 nothing in the file can be shown; 2 could not run.
+int RunPlayback(const PlaybackOptions& options);
+
+}  // namespace giveway::fleetctl

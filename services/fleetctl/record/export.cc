@@ -1,0 +1,110 @@
+#include "services/fleetctl/record/export.h"
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+
+#include "services/fleetctl/args/reading_along.h"
+#include "services/fleetctl/process/exit_codes.h"
+#include "services/fleetctl/record/export_csv.h"
+#include "services/link/sample_codec.h"
+#include "services/mcap/mcap_reader.h"
+#include "services/observer/fleet/sample_json.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr int kNotAllExported = 1;
+
+class Exporting {
+ public:
+  explicit Exporting(const ExportOptions& options) : options_(options) {}
+
+  int Run() {
+    std::ifstream file(options_.file, std::ios::binary);
+    if (!file) {
+      std::fprintf(stderr, "%s: cannot be read: %s\n", options_.file.c_str(), std::strerror(errno));
+      return kCouldNotRun;
+    }
+    const mcap::ReadResult result = mcap::McapReader::Read(
+        [&file](char* to, std::size_t most) {
+          file.read(to, static_cast<std::streamsize>(most));
+          return static_cast<std::size_t>(file.gcount());
+        },
+        [this](const mcap::Message& message, const mcap::Channel& channel, const mcap::Schema&) {
+          return channel.topic != options_.topic || Take(message);
+        });
+    if (told_ != Told::kYes) return ExitCodeOf(told_);
+    return Finish(result);
+  }
+
+ private:
+  bool Take(const mcap::Message& message) {
+    link::Observed observed;
+    const link::Decoded decoded = link::DecodeInto(options_.topic, message.data, &observed);
+    if (decoded == link::Decoded::kUnreadable) ++unreadable_;
+    if (decoded == link::Decoded::kYes) WriteAll(message, observed);
+    if (options_.topic == "fleet/motor_command") TakeCommand(message);
+    return told_ == Told::kYes;
+  }
+
+  void TakeCommand(const mcap::Message& message) {
+    const auto command = link::DecodeMotorCommand(message.data);
+    if (!command) {
+      ++unreadable_;
+      return;
+    }
+    WriteOne(message, *command);
+  }
+
+  void WriteAll(const mcap::Message& message, const link::Observed& observed) {
+    for (const auto& sample : observed.beacons) WriteOne(message, sample);
+    for (const auto& sample : observed.statuses) WriteOne(message, sample);
+    for (const auto& sample : observed.truths) WriteOne(message, sample);
+    for (const auto& sample : observed.events) WriteOne(message, sample);
+    for (const auto& sample : observed.roster) WriteOne(message, sample);
+    for (const auto& sample : observed.signals) WriteOne(message, sample);
+    for (const auto& sample : observed.ranges) WriteOne(message, sample);
+    if (observed.figures) WriteOne(message, *observed.figures);
+  }
+
+  template <typename Sample>
+  void WriteOne(const mcap::Message& message, const Sample& sample) {
+    JsonObject object;
+    object.Add("log_ns", message.log_ns);
+    object.Add("publish_ns", message.publish_ns);
+    AddFields(sample, &object);
+    ++written_;
+    told_ = Tell(options_.csv ? csv_.Add(Flattened(object.Text())) : object.Text() + "\n");
+  }
+
+  int Finish(const mcap::ReadResult& result) const {
+    if (!result.fault.empty()) {
+      std::fprintf(stderr, "%s: %s\n", options_.file.c_str(), result.fault.c_str());
+    }
+    if (unreadable_ > 0) {
+      std::fprintf(stderr, "%s: %llu samples of %s could not be decoded\n", options_.file.c_str(),
+                   static_cast<unsigned long long>(unreadable_), options_.topic.c_str());
+    }
+    if (result.cut_off) {
+      std::fprintf(stderr, "%s: ends without its summary, as after kill -9\n",
+                   options_.file.c_str());
+    }
+    if (written_ == 0) {
+      std::fprintf(stderr, "%s: nothing of %s\n", options_.file.c_str(), options_.topic.c_str());
+    }
+    return result.fault.empty() && unreadable_ == 0 && written_ > 0 ? 0 : kNotAllExported;
+  }
+
+  const ExportOptions& options_;
+  CsvLines csv_;
+  Told told_ = Told::kYes;
+  std::uint64_t written_ = 0;
+  std::uint64_t unreadable_ = 0;
+};
+
+}  // namespace
+
+int RunExport(const ExportOptions& options) { return Exporting(options).Run(); }
+
+}  // namespace giveway::fleetctl

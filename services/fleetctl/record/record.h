@@ -1,0 +1,27 @@
+// The verb `fleetctl record`: what travels, as it came, into MCAP files. Values in; the exit code
+// out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "services/fleetctl/args/reading_along.h"
+#include "services/observer/capture/capture_files.h"
+
+namespace giveway::fleetctl {
+
+struct RecordOptions {
+  ObserverOptions where;
+  CaptureOptions files;
+  std::vector<std::string> topics;   // empty: all
+  std::optional<double> duration_s;  // end after so long; absent: never
+  double last_s = 0;                 // keeps only so much, and writes it at the end; 0: all
+};
+
+// 0 recorded, or ended by Ctrl-C; 1 nothing came, or a file could not be written to its end; 2
+// could not run.
+int RunRecord(const RecordOptions& options);
+
+}  // namespace giveway::fleetctl

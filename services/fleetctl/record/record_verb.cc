@@ -1,0 +1,102 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "services/config/byte_size.h"
+#include "services/fleetctl/args/duration_flag.h"
+#include "services/fleetctl/args/flag_checks.h"
+#include "services/fleetctl/args/observer_flags.h"
+#include "services/fleetctl/args/verbs.h"
+#include "services/fleetctl/record/record.h"
+#include "services/fleetctl/survey/local_fleets.h"
+
+namespace giveway::fleetctl {
+namespace {
+
+constexpr const char* kRecordFooter = R"(
+Writes every sample as its writer serialized it, with its source and reception time: nothing is decoded
+again. The schema is fleet.idl (omgidl), so that Foxglove, and whatever reads MCAP, shows it.
+It is flushed once a second: a recorder that is killed loses that much at most, and the file opens. A
+full disk ends the recording, never the fleet.
+
+Examples
+  fleetctl record run.mcap --domain 7
+  fleetctl record run.mcap --domain 7 --split 256MiB --keep 10GiB
+  fleetctl record crash.mcap --domain 7 --last 60s
+  fleetctl replay run.mcap
+
+Exit code: 0 recorded, or ended by Ctrl-C; 1 nothing heard, or a file not written; 2 could not run.
+)";
+
+std::uint64_t SizeOf(const std::string& flag, const std::string& text) {
+  const auto bytes = ParseByteSize(text);
+  if (bytes && *bytes >= kLeastSplitBytes && *bytes <= kMostSplitBytes) return *bytes;
+  throw CLI::ValidationError(flag, "\"" + text + "\": " + kSplitRemedy);
+}
+
+void SetSplit(const std::string& text, CaptureOptions* files) {
+  if (const auto seconds = ParseDuration_s(text); seconds && *seconds >= 1) {
+    files->split_time = Nanoseconds(static_cast<std::int64_t>(*seconds * 1e9));
+    return;
+  }
+  files->split_bytes = SizeOf("--split", text);
+}
+
+std::string TopicNames() {
+  std::string names;
+  for (const link::RawTopic& topic : link::RawTopics()) {
+    names += (names.empty() ? "" : ", ") + std::string(topic.name);
+  }
+  return names;
+}
+
+std::string CheckTopic(const std::string& name) {
+  if (RawTopicNamed(name) < link::RawTopics().size()) return {};
+  return "there is no topic \"" + name + "\"; there are " + TopicNames();
+}
+
+}  // namespace
+
+void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
+  const auto options = std::make_shared<RecordOptions>();
+  CLI::App* verb = fleetctl->add_subcommand("record", "Record what travels into an MCAP file");
+  verb->footer(kRecordFooter);
+  verb->add_option("OUT", options->files.path, "The file, OUT.mcap; it must not be there yet")
+      ->required()
+      ->check(CheckNotEmpty);
+  AddObserverFlags(verb, &options->where);
+  verb->add_option("--topics", options->topics, "Only these, with commas between them")
+      ->delimiter(',')
+      ->check(CheckTopic);
+  verb->add_option_function<std::string>(
+      "--split", [options](const std::string& text) { SetSplit(text, &options->files); },
+      "Another file at this size or after this time: 256MiB, 10m");
+  verb->add_option_function<std::string>(
+      "--keep",
+      [options](const std::string& text) { options->files.keep_bytes = SizeOf("--keep", text); },
+      "Remove the oldest parts so that all take no more than this: 10GiB");
+  verb->add_option("--attach", options->files.attachments,
+                   "Put these files into the recording at its end, such as those of run --record");
+  AddDurationFlag(verb, "--last", &options->last_s,
+                  "Keep only the last so much in memory, and write it at the end: 60s");
+  verb->add_option_function<std::string>(
+      "--duration",
+      [options](const std::string& text) {
+        options->duration_s = ParseDuration_s(text);
+        if (!options->duration_s) {
+          throw CLI::ValidationError("--duration", "\"" + text + "\" is no duration such as 30s");
+        }
+      },
+      "End after this time; default: at Ctrl-C");
+  verb->callback([options, exit_code] {
+    constexpr std::uint64_t kUsualSplit = 256ULL << 20U;
+    CaptureOptions& files = options->files;
+    if (files.keep_bytes != 0 && files.split_bytes == 0 && files.split_time.count() == 0) {
+      files.split_bytes = kUsualSplit;
+    }
+    FindFleetIfNotNamed(&options->where);
+    *exit_code = RunRecord(*options);
+  });
+}
+
+}  // namespace giveway::fleetctl

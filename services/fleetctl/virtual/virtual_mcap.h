@@ -1,0 +1,30 @@
+// A virtual run as the recording a recorder would have made of it: what bodies, brains and world
+// say in each tick, with the times of the run.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "services/observer/capture/capture_files.h"
+#include "sim_world/virtual/virtual_fleet.h"
+
+namespace giveway::fleetctl {
+
+class VirtualRecording {
+ public:
+  explicit VirtualRecording(const std::string& path);
+
+  void Note(const sim::VirtualFleet& fleet);
+  // Throws OutputError where the file could not be written.
+  void Close();
+
+ private:
+  void Write(const char* topic, std::string bytes);
+  void NoteVehicle(const sim::VirtualFleet& fleet, std::size_t index);
+
+  CaptureFiles files_;
+  std::uint64_t now_ns_ = 0;
+  std::uint32_t sequence_ = 0;
+};
+
+}  // namespace giveway::fleetctl

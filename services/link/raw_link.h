@@ -1,0 +1,57 @@
+// A recorder's side: every sample of every topic as its writer serialized it, with both times.
+// Decodes nothing, writes nothing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "services/link/fastdds/link_options.h"
+
+namespace giveway::link {
+
+struct RawSample {
+  std::size_t topic = 0;           // its place in RawTopics()
+  std::uint64_t source_ns = 0;     // by the writer's clock, since 1970
+  std::uint64_t reception_ns = 0;  // by ours, since 1970
+  std::uint32_t sequence = 0;      // of its writer, the lower half
+  std::string bytes;               // encapsulation header and CDR
+};
+
+struct RawTopic {
+  std::string_view name;  // "fleet/beacon"
+  std::string_view type;  // "giveway::wire::Beacon"
+};
+
+// All that can be recorded: what vehicles and world say. Profiles sent by an operator stay out.
+const std::vector<RawTopic>& RawTopics();
+
+class RawLink {
+ public:
+  // Reads the topics at these places of RawTopics(), and no other. Throws LinkError.
+  RawLink(const LinkOptions& options, const std::vector<std::size_t>& topics);
+  ~RawLink();
+  RawLink(const RawLink&) = delete;
+  RawLink& operator=(const RawLink&) = delete;
+
+  // Calls take(sample) for all that came since the last call; of one instance in order.
+  template <typename TakeSample>
+  void Take(TakeSample&& take) {
+    Collect();
+    for (RawSample& sample : samples_) take(std::move(sample));
+    samples_.clear();
+  }
+  // What the reader of this topic asks for, for people: "BEST_EFFORT, VOLATILE, deadline 150 ms".
+  std::string QosText(std::size_t topic) const;
+
+ private:
+  struct Impl;
+  void Collect();
+
+  std::unique_ptr<Impl> impl_;
+  std::vector<RawSample> samples_;
+};
+
+}  // namespace giveway::link

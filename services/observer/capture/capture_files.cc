@@ -1,0 +1,116 @@
+#include "services/observer/capture/capture_files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace giveway {
+namespace {
+
+// OUT.mcap and 3: OUT-0003.mcap.
+std::string PartPath(const std::string& path, std::uint32_t part) {
+  constexpr std::string_view kEnding = ".mcap";
+  const bool ends = path.ends_with(kEnding);
+  return fmt::format("{}-{:04}{}", path.substr(0, path.size() - (ends ? kEnding.size() : 0)), part,
+                     kEnding);
+}
+
+}  // namespace
+
+CaptureFiles::CaptureFiles(CaptureOptions options, FleetCapture::QosOf qos)
+    : options_(std::move(options)), qos_(std::move(qos)) {}
+
+CaptureFiles::~CaptureFiles() {
+  if (file_ >= 0) ::close(file_);
+}
+
+bool CaptureFiles::Fail(const std::string& what) {
+  if (fault_.empty()) fault_ = fmt::format("{}: {}: {}", part_path_, what, std::strerror(errno));
+  return false;
+}
+
+bool CaptureFiles::Append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return Fail("cannot be written; the recording ends here");
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+    bytes_ += static_cast<std::uint64_t>(written);
+  }
+  return true;
+}
+
+bool CaptureFiles::Open(SteadyTime now) {
+  ++part_;
+  part_path_ = IsSplit() ? PartPath(options_.path, part_) : options_.path;
+  // One that is there already is somebody's recording.
+  constexpr mode_t kMode = 0644;
+  file_ = ::open(part_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
+  if (file_ < 0) return Fail("cannot be made");
+  opened_ = now;
+  capture_ = std::make_unique<FleetCapture>(
+      [this](std::string_view bytes) { return Append(bytes); }, qos_);
+  return fault_.empty();
+}
+
+bool CaptureFiles::Write(const link::RawSample& sample, SteadyTime now) {
+  if (!fault_.empty()) return false;
+  if (capture_ != nullptr && IsSplit()) {
+    const bool large = options_.split_bytes != 0 && capture_->Size() >= options_.split_bytes;
+    const bool old = options_.split_time.count() != 0 && now - opened_ >= options_.split_time;
+    if ((large || old) && !ClosePart()) return false;
+  }
+  if (capture_ == nullptr && !Open(now)) return false;
+  ++messages_;
+  newest_ns_ = std::max(newest_ns_, sample.reception_ns);
+  return capture_->Write(sample);
+}
+
+bool CaptureFiles::Flush() { return fault_.empty() && (capture_ == nullptr || capture_->Flush()); }
+
+bool CaptureFiles::ClosePart() {
+  const bool whole = capture_->Close();
+  closed_.emplace_back(part_path_, capture_->Size());
+  capture_.reset();
+  if (::close(file_) != 0) Fail("cannot be closed");
+  file_ = -1;
+  RemoveOldest();
+  return whole && fault_.empty();
+}
+
+void CaptureFiles::RemoveOldest() {
+  if (options_.keep_bytes == 0) return;
+  std::uint64_t total = 0;
+  for (const auto& [path, size] : closed_) total += size;
+  while (closed_.size() > 1 && total > options_.keep_bytes) {
+    total -= closed_.front().second;
+    ::unlink(closed_.front().first.c_str());
+    closed_.pop_front();
+  }
+}
+
+// One that cannot be read is said, and the recording is whole without it.
+void CaptureFiles::Attach(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  if (file.bad() || !file.is_open()) {
+    missing_ += (missing_.empty() ? "" : ", ") + path;
+    return;
+  }
+  capture_->Attach(path.substr(path.rfind('/') + 1), bytes, newest_ns_);
+}
+
+bool CaptureFiles::Close() {
+  if (capture_ == nullptr && part_ == 0 && !Open(SteadyTime{0})) return false;
+  if (capture_ == nullptr) return fault_.empty();
+  for (const std::string& path : options_.attachments) Attach(path);
+  return ClosePart();
+}
+
+}  // namespace giveway

@@ -1,0 +1,69 @@
+// The files of a recording: one, or parts by size or time of which the oldest go where there are
+// too many. A disk that is full ends the recording; what was flushed before can be read.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "services/observer/capture/fleet_capture.h"
+#include "services/types/time.h"
+
+namespace giveway {
+
+struct CaptureOptions {
+  std::string path;                      // OUT.mcap; of parts OUT-0001.mcap and so on
+  std::uint64_t split_bytes = 0;         // 0: never
+  Nanoseconds split_time{0};             // 0: never
+  std::vector<std::string> attachments;  // files put into the last part at its end
+  std::uint64_t keep_bytes = 0;          // of all parts; 0: all are kept
+};
+
+class CaptureFiles {
+ public:
+  CaptureFiles(CaptureOptions options, FleetCapture::QosOf qos);
+  ~CaptureFiles();
+  CaptureFiles(const CaptureFiles&) = delete;
+  CaptureFiles& operator=(const CaptureFiles&) = delete;
+
+  // Each is false once something could not be written; Fault() says what and why.
+  bool Write(const link::RawSample& sample, SteadyTime now);
+  bool Flush();
+  bool Close();
+
+  const std::string& Fault() const { return fault_; }
+  // Files that were to be attached and could not be read; empty: none.
+  const std::string& Missing() const { return missing_; }
+  std::uint64_t Messages() const { return messages_; }
+  std::uint64_t Bytes() const { return bytes_; }
+  std::uint32_t Parts() const { return part_; }
+
+ private:
+  bool IsSplit() const { return options_.split_bytes != 0 || options_.split_time.count() != 0; }
+  bool Open(SteadyTime now);
+  bool ClosePart();
+  void Attach(const std::string& path);
+  void RemoveOldest();
+  bool Append(std::string_view bytes);
+  bool Fail(const std::string& what);
+
+  const CaptureOptions options_;
+  const FleetCapture::QosOf qos_;
+  int file_ = -1;
+  std::string part_path_;
+  std::unique_ptr<FleetCapture> capture_;
+  SteadyTime opened_{0};
+  std::uint32_t part_ = 0;
+  std::deque<std::pair<std::string, std::uint64_t>> closed_;  // paths and sizes
+  std::uint64_t messages_ = 0;
+  std::uint64_t bytes_ = 0;
+  std::uint64_t newest_ns_ = 0;  // reception of the newest sample
+  std::string fault_;
+  std::string missing_;
+};
+
+}  // namespace giveway

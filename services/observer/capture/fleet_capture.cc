@@ -1,0 +1,47 @@
+#include "services/observer/capture/fleet_capture.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace giveway {
+
+FleetCapture::FleetCapture(mcap::McapWriter::Sink sink, QosOf qos)
+    : qos_(std::move(qos)), writer_(std::move(sink), "giveway") {}
+
+std::uint16_t FleetCapture::ChannelOf(std::size_t topic) {
+  const auto known = channels_.find(topic);
+  if (known != channels_.end()) return known->second;
+  const link::RawTopic& raw = link::RawTopics().at(topic);
+  const std::uint16_t schema = writer_.AddSchema(
+      {.id = 0, .name = std::string(raw.type), .encoding = "omgidl", .data = FleetIdl()});
+  mcap::Metadata metadata;
+  const std::string qos = qos_ ? qos_(topic) : "";
+  if (!qos.empty()) metadata["reader_qos"] = qos;
+  const std::uint16_t channel = writer_.AddChannel({.id = 0,
+                                                    .schema = schema,
+                                                    .topic = std::string(raw.name),
+                                                    .encoding = "cdr",
+                                                    .metadata = std::move(metadata)});
+  channels_[topic] = channel;
+  return channel;
+}
+
+bool FleetCapture::Write(const link::RawSample& sample) {
+  return writer_.Write({.channel = ChannelOf(sample.topic),
+                        .sequence = sample.sequence,
+                        .log_ns = sample.reception_ns,
+                        .publish_ns = sample.source_ns,
+                        .data = sample.bytes});
+}
+
+bool FleetCapture::Attach(const std::string& name, std::string_view bytes, std::uint64_t log_ns) {
+  return writer_.Attach(name, "application/octet-stream", bytes, log_ns);
+}
+
+std::size_t RawTopicNamed(std::string_view name) {
+  const auto& topics = link::RawTopics();
+  const auto found = std::ranges::find(topics, name, &link::RawTopic::name);
+  return static_cast<std::size_t>(found - topics.begin());
+}
+
+}  // namespace giveway

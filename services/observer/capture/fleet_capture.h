@@ -1,0 +1,46 @@
+// Samples of the fleet's topics into one MCAP file: as they came, each topic a channel with
+// fleet.idl as its schema, so that the field's tools decode them. Knows no files: bytes go to a
+// sink.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "services/link/raw_link.h"
+#include "services/mcap/mcap_writer.h"
+
+namespace giveway {
+
+// fleet.idl, as this build was made from it.
+std::string FleetIdl();
+
+class FleetCapture {
+ public:
+  // `qos` says of a topic what its reader asked for; it becomes the channel's metadata.
+  using QosOf = std::function<std::string(std::size_t topic)>;
+
+  FleetCapture(mcap::McapWriter::Sink sink, QosOf qos);
+
+  // All false once the sink failed.
+  bool Write(const link::RawSample& sample);
+  bool Flush() { return writer_.Flush(); }
+  bool Attach(const std::string& name, std::string_view bytes, std::uint64_t log_ns);
+  bool Close() { return writer_.Close(); }
+
+  std::uint64_t Messages() const { return writer_.Messages(); }
+  std::uint64_t Size() const { return writer_.Size() + writer_.Pending(); }
+
+ private:
+  std::uint16_t ChannelOf(std::size_t topic);
+
+  const QosOf qos_;
+  mcap::McapWriter writer_;
+  std::map<std::size_t, std::uint16_t> channels_;  // by topic
+};
+
+// The place of a topic in link::RawTopics(); its size if there is none of that name.
+std::size_t RawTopicNamed(std::string_view name);
+
+}  // namespace giveway

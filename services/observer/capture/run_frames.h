@@ -1,0 +1,44 @@
+// A recorded run as the page shows it: the file's samples decoded, folded as an observer folds
+// them, a frame every tenth of a second.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "services/mcap/mcap_reader.h"
+#include "services/observer/fleet/fleet_view.h"
+
+namespace giveway {
+
+// Collects frames of a run that goes on. Bounded: of a run longer than that every second frame
+// goes.
+class RunFrames {
+ public:
+  static constexpr std::size_t kMostFrames = 6000;  // ten minutes at ten a second
+  static constexpr std::uint64_t kMostBytes = 256ULL << 20U;
+
+  // Takes a frame if one is due.
+  void Note(const FleetView& view, SteadyTime now);
+  std::size_t Size() const { return frames_.size(); }
+  // {"scene":…,"frames":[…]}, for PageWithRun.
+  std::string RunJson(const std::string& scene) const;
+
+ private:
+  void Thin();
+
+  std::vector<std::string> frames_;
+  std::uint64_t bytes_ = 0;
+  Nanoseconds period_{100'000'000};
+  SteadyTime due_{0};
+};
+
+struct RunRead {
+  RunFrames frames;
+  mcap::ReadResult result;
+  std::uint64_t unreadable = 0;  // samples of known topics that could not be decoded
+};
+
+RunRead ReadRun(const mcap::McapReader::Source& source);
+
+}  // namespace giveway

@@ -1,0 +1,171 @@
+#include "services/observer/fleet/frame_json.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+
+#include "services/observer/fleet/sample_json.h"
+#include "services/observer/fleet/sample_words.h"
+
+namespace giveway {
+namespace {
+
+constexpr std::size_t kEventsInFrame = 24;
+constexpr std::int64_t kNone = -1;
+
+// A thousandth of the unit; what is not finite or absurd is at the limit, for the page draws it.
+std::int64_t Milli(double value) {
+  constexpr double kMost = 1e9;
+  if (std::isnan(value)) return 0;
+  return std::llround(std::clamp(value * 1e3, -kMost, kMost));
+}
+
+std::int64_t SquareMilli(double value) { return Milli(value * 1e3); }
+
+std::int64_t AgeMs(std::optional<SteadyTime> heard_at, SteadyTime now) {
+  return heard_at ? static_cast<std::int64_t>(Milliseconds(now - *heard_at)) : kNone;
+}
+
+Pose PoseOf(const HeardVehicle& heard, const Truth* truth) {
+  if (truth != nullptr) return truth->world_from_body;
+  return heard.beacon ? heard.beacon->world_from_body : Pose{};
+}
+
+double SpeedOf(const HeardVehicle& heard, const Truth* truth) {
+  if (truth != nullptr) return truth->forward_m_s;
+  if (heard.beacon) {
+    return TwistFromWheels(heard.beacon->drive, heard.beacon->wheels).forward_m_s;
+  }
+  return heard.status ? heard.status->forward_m_s : 0;
+}
+
+// The status names the peer of a decision, the beacon comes more often.
+Decision DecisionOf(const HeardVehicle& heard) {
+  Decision decision;
+  if (heard.status) decision = heard.status->decision;
+  if (heard.beacon) {
+    const bool same = decision.rule == heard.beacon->rule;
+    decision.mode = heard.beacon->mode;
+    decision.rule = heard.beacon->rule;
+    if (!same) decision.peer = heard.beacon->gives_way_to;
+  }
+  return decision;
+}
+
+void AddRow(VehicleId id, const HeardVehicle& heard, const VehicleView* view, SteadyTime now,
+            std::string* json) {
+  const Truth* truth = view != nullptr && view->truth ? &*view->truth : nullptr;
+  if (truth != nullptr && !truth->present) truth = nullptr;
+  const Beacon beacon = heard.beacon.value_or(Beacon{});
+  const Pose pose = PoseOf(heard, truth);
+  const Decision decision = DecisionOf(heard);
+  const auto reaction = view != nullptr ? view->reaction.Newest_us() : std::nullopt;
+  const std::array<std::int64_t, kVehicleColumns.size()> row{
+      Number(id),
+      Milli(pose.position_world.x),
+      Milli(pose.position_world.y),
+      Milli(pose.heading_rad),
+      Milli(SpeedOf(heard, truth)),
+      static_cast<std::int64_t>(heard.HearingAt(now)),
+      static_cast<std::int64_t>(decision.mode),
+      static_cast<std::int64_t>(decision.rule),
+      Number(decision.peer),
+      Number(beacon.gives_way_to),
+      Number(beacon.blocked_by),
+      AgeMs(heard.beacon_at, now),
+      heard.status && heard.status->nearest_echo_m ? Milli(*heard.status->nearest_echo_m) : kNone,
+      Milli(beacon.world_from_body.position_world.x),
+      Milli(beacon.world_from_body.position_world.y),
+      SquareMilli(beacon.covariance.xx_m2),
+      SquareMilli(beacon.covariance.xy_m2),
+      SquareMilli(beacon.covariance.yy_m2),
+      Milli(beacon.body_radius_m),
+      reaction ? static_cast<std::int64_t>(*reaction / 1000) : kNone,
+      heard.status ? heard.status->peers_heard : kNone,
+      truth != nullptr && truth->arrived ? 1 : 0,
+      Milli(beacon.toward_world.x),
+      Milli(beacon.toward_world.y),
+      truth != nullptr || heard.beacon ? 1 : 0,
+  };
+  *json += fmt::format("{}[{}]", json->back() == '[' ? "" : ",", fmt::join(row, ","));
+}
+
+std::string RowsJson(const FleetView& view, SteadyTime now) {
+  std::string json = "[";
+  for (const auto& [id, heard] : view.Heard().Vehicles()) {
+    AddRow(id, heard, view.Find(id), now, &json);
+  }
+  return json + "]";
+}
+
+std::int64_t RangeOf(const RangeReading& reading) {
+  constexpr std::int64_t kClear = -1;
+  constexpr std::int64_t kNoData = -2;
+  if (reading.kind == Echo::kEcho) return Milli(reading.range_m);
+  return reading.kind == Echo::kClear ? kClear : kNoData;
+}
+
+std::string RangesJson(const FleetView& view, SteadyTime now) {
+  JsonObject object;
+  if (view.Heard().Vehicles().size() > kMostWithRanges) return object.Text();
+  for (const auto& [id, heard] : view.Heard().Vehicles()) {
+    const VehicleView* vehicle = view.Find(id);
+    if (vehicle == nullptr || !vehicle->ranges) continue;
+    if (now - vehicle->ranges_at > HeardFleet::kSilentAfter) continue;
+    object.AddRaw(std::to_string(Number(id)),
+                  JsonArray(vehicle->ranges->readings,
+                            [](const auto& reading) { return std::to_string(RangeOf(reading)); }));
+  }
+  return object.Text();
+}
+
+std::string WorldJson(const HeardWorld& world, SteadyTime now) {
+  JsonObject object;
+  object.Add("epoch", Number(world.epoch));
+  if (world.state) object.Add("state", Name(*world.state));
+  object.Add("time_ms", Milli(world.time_s));
+  object.Add("fleet_size", world.fleet_size);
+  object.Add("age_ms", AgeMs(world.heard_at, now));
+  return object.Text();
+}
+
+std::string SignalsJson(const FleetView& view) {
+  return JsonArray(view.Signals(), [](const auto& entry) {
+    const SignalState& signal = entry.second;
+    return fmt::format("[{},{},{},{},{},{},{}]", Number(signal.id), Milli(signal.line_from_world.x),
+                       Milli(signal.line_from_world.y), Milli(signal.line_to_world.x),
+                       Milli(signal.line_to_world.y), static_cast<int>(signal.phase),
+                       Milli(signal.to_change_s));
+  });
+}
+
+std::string NewestEventsJson(const FleetView& view) {
+  const auto& events = view.Events();
+  const std::size_t skipped = events.size() > kEventsInFrame ? events.size() - kEventsInFrame : 0;
+  std::string json;
+  for (auto event = events.begin() + static_cast<std::ptrdiff_t>(skipped); event != events.end();
+       ++event) {
+    JsonObject object;
+    AddFields(*event, &object);
+    json += (json.empty() ? "" : ",") + object.Text();
+  }
+  return "[" + json + "]";
+}
+
+}  // namespace
+
+std::string FrameJson(const FleetView& view, SteadyTime now) {
+  JsonObject frame;
+  frame.Add("at_ms", static_cast<std::int64_t>(Milliseconds(now)));
+  frame.AddRaw("world", WorldJson(view.Heard().World(), now));
+  frame.AddRaw("vehicles", RowsJson(view, now));
+  frame.AddRaw("ranges", RangesJson(view, now));
+  frame.AddRaw("signals", SignalsJson(view));
+  frame.AddRaw("events", NewestEventsJson(view));
+  return frame.Text();
+}
+
+}  // namespace giveway

@@ -1,0 +1,19 @@
+// What the page must know beside the frames: the names behind numbers, the shape of bodies, and
+// what stands in the world, which no topic carries: it comes from the scenario. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "services/types/scenario.h"
+
+namespace giveway {
+
+struct SceneSource {
+  std::string title;                 // "domain 7"
+  std::optional<Scenario> scenario;  // none: no walls are shown
+};
+
+std::string SceneJson(const SceneSource& source);
+
+}  // namespace giveway

@@ -1,0 +1,39 @@
+// giveway-observer: shows a fleet that was started elsewhere. This file only wires: flags in, an
+// exit code out.
+#include <exception>
+#include <set>
+
+#include "services/fleetctl/survey/why_proc.h"
+#include "services/health/health_server.h"
+#include "services/link/fastdds/library_log.h"
+#include "services/link/fastdds/library_release.h"
+#include "services/observer/observer_service.h"
+
+int main(int argc, char** argv) {
+  using namespace giveway;
+  std::set<std::uint32_t> running;
+  for (const fleetctl::FleetMember& member : fleetctl::FindFleet("/proc")) {
+    running.insert(member.domain);
+  }
+  const auto parsed = ParseObserverFlags(argc, argv, link::LibraryName(), running);
+  if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  const auto& flags = std::get<ObserverFlags>(parsed);
+  if (!flags.ask_health.empty()) {
+    return AskHealth(flags.address, static_cast<std::uint16_t>(flags.port), flags.ask_health);
+  }
+  InitLog("observer", flags.log_format, flags.log_level);
+  link::SetLibraryLog([](const std::string& line) { LogWarning(line); });
+  constexpr int kCouldNotRun = 2;
+  constexpr Nanoseconds kFlushTime = std::chrono::milliseconds(200);
+  int exit_code = kCouldNotRun;
+  try {
+    const StopSignal stop;
+    ObserverService service(flags);
+    service.Run(stop);
+    exit_code = 0;
+  } catch (const std::exception& error) {
+    LogError(error.what());
+  }
+  FlushLog(kFlushTime);
+  return exit_code;
+}

@@ -1,0 +1,43 @@
+// An observer at work: one loop reads the fleet and makes frames, the server's threads read what
+// the loop left. Nothing in the fleet waits for either.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "services/link/observer_link.h"
+#include "services/observer/fleet/fleet_view.h"
+#include "services/observer/fleet_metrics.h"
+#include "services/observer/observer_flags.h"
+#include "services/observer/server/page_server.h"
+#include "services/runtime/process.h"
+
+namespace giveway {
+
+class ObserverService {
+ public:
+  // Opens the port and joins the domain. Throws ServerError, LinkError, InputError.
+  explicit ObserverService(const ObserverFlags& flags);
+  ~ObserverService();
+
+  void Run(const StopSignal& stop);
+
+ private:
+  std::optional<PageAnswer> Get(const std::string& path);
+  PageAnswer Ready();
+  void Turn();
+
+  std::mutex mutex_;
+  FleetView view_;                     // guarded by mutex_
+  std::uint64_t refused_samples_ = 0;  // guarded by mutex_
+  std::atomic<std::uint64_t> frames_{0};
+  std::atomic<std::int64_t> turned_ns_{0};
+  FrameBoard board_;
+  link::ObserverLink link_;
+  std::optional<PageServer> server_;  // last: gone before what it reads
+};
+
+}  // namespace giveway

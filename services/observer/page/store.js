@@ -1,0 +1,156 @@
+// What came, and which moment of it is shown. Frames are kept as text for five minutes, decoded again
+// when they are looked at; what trails and plots need is kept as numbers.
+const KEEP_MS = 300000;
+const MOST_BYTES = 96 * 1024 * 1024;
+
+const state = {
+  scene: null, frames: [], bytes: 0, series: new Map(), events: new Map(),
+  cursor: null,       // ms of the observer's clock; null: the newest
+  playing: true, speed: 1, isReplay: false,
+  arrivedAt: 0,       // performance.now() of the newest frame
+  connected: false, picked: null, follow: false, filter: "", showTable: false,
+};
+
+const decoded = new Map();  // of the last few frames that were looked at
+
+function column(name) { return state.scene.columns.indexOf(name); }
+
+function asVehicle(row) {
+  const vehicle = {};
+  state.scene.columns.forEach((name, i) => { vehicle[name] = row[i]; });
+  for (const name of ["x", "y", "speed", "estimate_x", "estimate_y", "radius", "toward_x", "toward_y"]) {
+    vehicle[name] /= 1000;
+  }
+  vehicle.heading /= 1000;
+  vehicle.hearing = state.scene.hearings[vehicle.hearing];
+  vehicle.mode = state.scene.modes[vehicle.mode];
+  vehicle.rule = state.scene.rules[vehicle.rule];
+  vehicle.nearest = vehicle.nearest < 0 ? null : vehicle.nearest / 1000;
+  return vehicle;
+}
+
+function decode(entry) {
+  let frame = decoded.get(entry);
+  if (frame) return frame;
+  const raw = typeof entry.data === "string" ? JSON.parse(entry.data) : entry.data;
+  frame = { at: raw.at_ms, world: raw.world, ranges: raw.ranges, signals: raw.signals, vehicles: new Map() };
+  for (const row of raw.vehicles) {
+    const vehicle = asVehicle(row);
+    frame.vehicles.set(vehicle.id, vehicle);
+  }
+  if (decoded.size > 8) decoded.delete(decoded.keys().next().value);
+  decoded.set(entry, frame);
+  return frame;
+}
+
+function noteSeries(raw) {
+  const at = raw.at_ms;
+  const of = ["id", "x", "y", "speed", "nearest", "beacon_age", "reaction"].map(column);
+  for (const row of raw.vehicles) {
+    let series = state.series.get(row[of[0]]);
+    if (!series) {
+      series = { at: [], x: [], y: [], speed: [], nearest: [], beacon_age: [], reaction: [] };
+      state.series.set(row[of[0]], series);
+    }
+    series.at.push(at);
+    series.x.push(row[of[1]] / 1000);
+    series.y.push(row[of[2]] / 1000);
+    series.speed.push(row[of[3]] / 1000);
+    series.nearest.push(row[of[4]] < 0 ? NaN : row[of[4]] / 1000);
+    series.beacon_age.push(row[of[5]] < 0 ? NaN : row[of[5]]);
+    series.reaction.push(row[of[6]] < 0 ? NaN : row[of[6]]);
+    if (!state.isReplay && series.at.length > 3600) {
+      for (const list of Object.values(series)) list.splice(0, 600);
+    }
+  }
+}
+
+function noteEvents(raw) {
+  for (const event of raw.events) {
+    const key = event.world_epoch * 1e6 + event.seq;
+    if (!state.events.has(key)) state.events.set(key, { at: raw.at_ms, ...event });
+  }
+  while (state.events.size > 600) state.events.delete(state.events.keys().next().value);
+}
+
+function clearStore() {
+  state.frames = []; state.bytes = 0; state.series.clear(); state.events.clear(); decoded.clear();
+  state.cursor = null;
+}
+
+function addFrame(data, raw) {
+  const newest = state.frames.at(-1);
+  if (newest && raw.at_ms < newest.at) clearStore();  // another machine's clock, or a new observer
+  const size = typeof data === "string" ? data.length : 0;
+  state.frames.push({ at: raw.at_ms, data, size });
+  state.bytes += size;
+  noteSeries(raw);
+  noteEvents(raw);
+  if (state.isReplay) return;
+  let drop = 0;
+  while (drop < state.frames.length - 2 &&
+         (state.frames[drop].at < raw.at_ms - KEEP_MS || state.bytes > MOST_BYTES)) {
+    state.bytes -= state.frames[drop++].size;
+  }
+  if (drop > 0) state.frames.splice(0, drop);
+  for (const [id, series] of state.series) {
+    if (series.at.at(-1) < raw.at_ms - KEEP_MS) state.series.delete(id);
+  }
+}
+
+// The place of the last entry not after `at`; -1 if none is.
+function lastBefore(list, at, of) {
+  let low = 0, high = list.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (of(list[middle]) <= at) low = middle + 1; else high = middle;
+  }
+  return low - 1;
+}
+
+// The time that is shown.
+function shownAt() {
+  const newest = state.frames.at(-1);
+  if (!newest) return 0;
+  if (state.cursor !== null) return state.cursor;
+  // A little behind, so that there is a frame on either side to draw between.
+  return Math.min(newest.at, newest.at + performance.now() - state.arrivedAt - 120);
+}
+
+function turned(from, to, share) {
+  let angle = to - from;
+  while (angle > Math.PI) angle -= 2 * Math.PI;
+  while (angle < -Math.PI) angle += 2 * Math.PI;
+  return from + angle * share;
+}
+
+// What is drawn: the frame at the time shown, its vehicles moved on towards the next.
+function shownFrame() {
+  if (!state.scene || state.frames.length === 0) return null;
+  const at = shownAt();
+  const place = Math.max(0, lastBefore(state.frames, at, (entry) => entry.at));
+  const frame = decode(state.frames[place]);
+  const next = state.frames[place + 1];
+  if (!next || next.at - frame.at > 1000 || at <= frame.at) return frame;
+  const later = decode(next);
+  const share = (at - frame.at) / (later.at - frame.at);
+  const vehicles = new Map();
+  for (const [id, vehicle] of frame.vehicles) {
+    const then = later.vehicles.get(id);
+    if (!then || Math.hypot(then.x - vehicle.x, then.y - vehicle.y) > 2) {
+      vehicles.set(id, vehicle);
+      continue;
+    }
+    vehicles.set(id, { ...vehicle,
+      x: vehicle.x + (then.x - vehicle.x) * share, y: vehicle.y + (then.y - vehicle.y) * share,
+      heading: turned(vehicle.heading, then.heading, share) });
+  }
+  return { ...frame, at, vehicles };
+}
+
+function matches(vehicle) {
+  const filter = state.filter.trim().toLowerCase();
+  if (!filter) return true;
+  return filter.split(/[\s,]+/).filter(Boolean).some((part) => String(vehicle.id) === part ||
+    vehicle.mode === part || vehicle.hearing === part || (isNaN(part) && vehicle.rule.includes(part)));
+}

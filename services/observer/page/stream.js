@@ -1,0 +1,117 @@
+// Where frames come from, what is said about them, and the turn that draws.
+const STALE_MS = 2000;
+
+function follow() {
+  const source = new EventSource("api/v1/stream");
+  source.addEventListener("scene", (event) => {
+    state.scene = JSON.parse(event.data);
+    clearStore();
+    state.connected = true;
+    document.title = "Giveway " + state.scene.title;
+  });
+  source.addEventListener("frame", (event) => {
+    state.connected = true;
+    const raw = JSON.parse(event.data);
+    addFrame(event.data, raw);
+    state.arrivedAt = performance.now();
+  });
+  source.addEventListener("error", () => {
+    state.connected = false;
+    source.close();
+    setTimeout(follow, 1000);
+  });
+}
+
+function loadRun(text) {
+  const run = JSON.parse(text);
+  state.isReplay = true;
+  state.scene = run.scene;
+  for (const frame of run.frames) addFrame(frame, frame);
+  state.connected = true;
+  document.title = "Giveway " + state.scene.title;
+  byId("live").textContent = "Restart";
+  byId("live").title = "From the start (L)";
+  setLive();
+}
+
+function setChip(id, text, kind) {
+  const chip = byId(id);
+  setText(chip, text);
+  const name = "chip" + (kind ? " " + kind : "");
+  if (chip.className !== name) chip.className = name;
+}
+
+function linkWords(silence_ms) {
+  if (state.isReplay) return ["replay", "ok"];
+  if (!state.frames.length) return [state.connected ? "no frame yet" : "connecting", "warn"];
+  if (!state.connected) return ["disconnected", "bad"];
+  if (silence_ms > STALE_MS) return ["stale", "bad"];
+  return state.cursor === null ? ["live", "ok"] : ["live, looking back", "warn"];
+}
+
+function showStatus(frame) {
+  const silence_ms = state.frames.length ? performance.now() - state.arrivedAt : 0;
+  setChip("link", ...linkWords(silence_ms));
+  const stale = !state.isReplay && state.frames.length > 0 && (silence_ms > STALE_MS || !state.connected);
+  const banner = byId("banner");
+  banner.hidden = !stale;
+  if (stale) {
+    setText(banner, `The data is stale: nothing new for ${Math.round(silence_ms / 1000)} s` +
+      (state.connected ? "." : "; connecting to the observer again."));
+  }
+  if (!frame) return;
+  setText(byId("title"), state.scene.scenario ? `${state.scene.title}, ${state.scene.scenario}` : state.scene.title);
+  const world = frame.world;
+  const silent = world.age_ms > 1000 && world.state !== "ended";
+  setChip("world", world.age_ms < 0 ? "no world heard"
+    : `${world.state ?? "world"} ${(world.time_ms / 1000).toFixed(1)} s${silent ? ", silent" : ""}`,
+    world.age_ms < 0 || silent ? "warn" : "");
+  const all = [...frame.vehicles.values()];
+  const silentCount = all.filter((v) => v.hearing === "silent").length;
+  const waiting = all.filter((v) => v.hearing === "heard" && v.gives_way_to).length;
+  setChip("counts", `${all.length} vehicles, ${waiting} give way` + (silentCount ? `, ${silentCount} silent` : ""),
+    silentCount ? "bad" : "");
+}
+
+function showTime() {
+  const first = state.frames[0], last = state.frames.at(-1);
+  setText(byId("play"), state.playing ? "Pause" : "Play");
+  if (!first) return;
+  const at = shownAt(), scrub = byId("scrub");
+  const place = last.at > first.at ? Math.round((at - first.at) / (last.at - first.at) * 1000) : 1000;
+  if (document.activeElement !== scrub || state.playing) scrub.value = place;
+  setText(byId("when"), state.isReplay
+    ? `${((at - first.at) / 1000).toFixed(1)} of ${((last.at - first.at) / 1000).toFixed(1)} s`
+    : state.cursor === null ? "now" : `${((at - last.at) / 1000).toFixed(1)} s`);
+}
+
+let lastTurn = performance.now(), lastWords = 0;
+const drawn = { frames: 0 };
+function turn(now) {
+  advance(now - lastTurn);
+  lastTurn = now;
+  const frame = shownFrame();
+  if (!state.showTable) drawMap(frame);
+  if (now - lastWords > 150) {
+    lastWords = now;
+    if (state.showTable) showTable(frame);
+    showPicked(frame);
+    showEvents(frame);
+    showStatus(frame);
+    showTime();
+  }
+  ++drawn.frames;
+  requestAnimationFrame(turn);
+}
+
+// For tests and the curious.
+window.giveway = {
+  state, drawn,
+  vehicles: () => [...(shownFrame()?.vehicles.values() ?? [])],
+  screenOf: (id) => { const v = shownFrame().vehicles.get(id); return toScreen(v.x, v.y); },
+  seek, pick,
+};
+
+const run = byId("run").textContent.trim();
+if (run) loadRun(run); else follow();
+requestAnimationFrame(turn);

@@ -1,0 +1,105 @@
+#include "services/observer/capture/capture_files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "services/mcap/mcap_reader.h"
+
+namespace giveway {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class CaptureFilesTest : public ::testing::Test {
+ protected:
+  CaptureFilesTest() {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~CaptureFilesTest() override { fs::remove_all(folder_); }
+
+  std::string Path(const std::string& name) const { return folder_ + "/" + name; }
+  // Of bytes that do not compress: a part's size is that of its file.
+  link::RawSample Sample(std::size_t size) {
+    link::RawSample sample{.source_ns = 1, .reception_ns = 2, .sequence = 3};
+    for (std::size_t i = 0; i < size; ++i) sample.bytes += static_cast<char>(random_());
+    return sample;
+  }
+  static std::uint64_t MessagesIn(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    return mcap::McapReader::Read(bytes, [](const auto&, const auto&, const auto&) { return true; })
+        .messages;
+  }
+
+  std::minstd_rand random_{1};
+  const std::string folder_ = ::testing::TempDir() + "capture_files_" +
+                              ::testing::UnitTest::GetInstance()->current_test_info()->name();
+};
+
+TEST_F(CaptureFilesTest, OneFileWithoutASplit) {
+  CaptureFiles files({.path = Path("run.mcap")}, {});
+  for (int n = 0; n < 10; ++n) EXPECT_TRUE(files.Write(Sample(100), SteadyTime{0}));
+  EXPECT_TRUE(files.Close());
+  EXPECT_EQ(MessagesIn(Path("run.mcap")), 10U);
+  EXPECT_EQ(files.Parts(), 1U);
+}
+
+TEST_F(CaptureFilesTest, PartsBySizeAndTheOldestGo) {
+  CaptureFiles files({.path = Path("run.mcap"), .split_bytes = 1'000'000, .keep_bytes = 100'000},
+                     {});
+  for (int n = 0; n < 100; ++n) EXPECT_TRUE(files.Write(Sample(100'000), SteadyTime{0}));
+  EXPECT_TRUE(files.Close());
+  EXPECT_GT(files.Parts(), 5U);
+  EXPECT_FALSE(fs::exists(Path("run-0001.mcap")));
+  EXPECT_GT(MessagesIn(Path("run-" + std::string(files.Parts() < 10 ? "000" : "00") +
+                            std::to_string(files.Parts()) + ".mcap")),
+            0U);
+}
+
+TEST_F(CaptureFilesTest, PartsByTime) {
+  CaptureFiles files({.path = Path("run.mcap"), .split_time = std::chrono::seconds(10)}, {});
+  for (int second = 0; second < 30; ++second) {
+    files.Write(Sample(10), std::chrono::seconds(second));
+  }
+  EXPECT_TRUE(files.Close());
+  EXPECT_EQ(files.Parts(), 3U);
+  EXPECT_EQ(MessagesIn(Path("run-0002.mcap")), 10U);
+}
+
+TEST_F(CaptureFilesTest, WhatIsThereIsNotOverwritten) {
+  std::ofstream(Path("run.mcap")) << "precious";
+  CaptureFiles files({.path = Path("run.mcap")}, {});
+  EXPECT_FALSE(files.Write(Sample(1), SteadyTime{0}));
+  EXPECT_THAT(files.Fault(), HasSubstr("run.mcap: cannot be made: File exists"));
+  EXPECT_FALSE(files.Close());
+  EXPECT_EQ(fs::file_size(Path("run.mcap")), 8U);
+}
+
+TEST_F(CaptureFilesTest, AFullDiskEndsItInWords) {
+  CaptureFiles files({.path = "/dev/full/run.mcap"}, {});
+  EXPECT_FALSE(files.Write(Sample(1), SteadyTime{0}));
+  EXPECT_THAT(files.Fault(), HasSubstr("cannot be made"));
+}
+
+TEST_F(CaptureFilesTest, FilesAreAttachedAndOneThatIsMissingIsNamed) {
+  std::ofstream(Path("brain.recording")) << "brain's bytes";
+  CaptureFiles files(
+      {.path = Path("run.mcap"), .attachments = {Path("brain.recording"), Path("other.recording")}},
+      {});
+  files.Write(Sample(1), SteadyTime{0});
+  EXPECT_TRUE(files.Close());
+  EXPECT_THAT(files.Missing(), HasSubstr("other.recording"));
+  std::ifstream file(Path("run.mcap"), std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  EXPECT_THAT(bytes, HasSubstr("brain's bytes"));
+}
+
+}  // namespace
+}  // namespace giveway

@@ -1,0 +1,54 @@
+#include "services/observer/fleet_metrics.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace giveway {
+namespace {
+
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+FleetView ViewOfSeven() {
+  VehicleStatus status;
+  status.vehicle = VehicleId{7};
+  status.decision.mode = Mode::kSensorOnly;
+  status.qos.deadline_missed = 4;
+  status.beacons.rejected_crc = 2;
+  FigureSummary& age = status.timing.figures[static_cast<std::size_t>(DriveFigure::kBeaconAge)];
+  age.count = 2;
+  age.newest[0] = 40'000;
+  age.newest[1] = 120'000;
+  FleetView view;
+  view.Fold({.statuses = {status}}, seconds(1));
+  return view;
+}
+
+TEST(FleetMetrics, EveryVehicleHasItsLabel) {
+  const std::string text = FleetMetrics(ViewOfSeven(), {}, seconds(1));
+  EXPECT_THAT(text, HasSubstr("giveway_vehicle_deadline_missed_total{vehicle=\"7\"} 4"));
+  EXPECT_THAT(text, HasSubstr("giveway_vehicle_mode{vehicle=\"7\",mode=\"sensor_only\"} 1"));
+  EXPECT_THAT(text,
+              HasSubstr("giveway_vehicle_beacons_rejected_total{vehicle=\"7\",reason=\"crc\"} 2"));
+}
+
+TEST(FleetMetrics, BeaconAgesAreAHistogramInSeconds) {
+  const std::string text = FleetMetrics(ViewOfSeven(), {}, seconds(1));
+  EXPECT_THAT(text, HasSubstr("# TYPE giveway_vehicle_beacon_age_seconds histogram"));
+  EXPECT_THAT(text,
+              HasSubstr("giveway_vehicle_beacon_age_seconds_bucket{vehicle=\"7\",le=\"0.05\"} 1"));
+  EXPECT_THAT(text,
+              HasSubstr("giveway_vehicle_beacon_age_seconds_bucket{vehicle=\"7\",le=\"+Inf\"} 2"));
+  EXPECT_THAT(text, HasSubstr("giveway_vehicle_beacon_age_seconds_sum{vehicle=\"7\"} 0.16"));
+}
+
+TEST(FleetMetrics, OneThatIsSilentIsNoLongerHeard) {
+  EXPECT_THAT(FleetMetrics(ViewOfSeven(), {}, seconds(1)),
+              HasSubstr("giveway_vehicle_heard{vehicle=\"7\"} 1"));
+  const std::string later = FleetMetrics(ViewOfSeven(), {}, seconds(9));
+  EXPECT_THAT(later, HasSubstr("giveway_vehicle_heard{vehicle=\"7\"} 0"));
+  EXPECT_THAT(later, HasSubstr("giveway_vehicle_silence_seconds{vehicle=\"7\"} 8"));
+}
+
+}  // namespace
+}  // namespace giveway

@@ -1,0 +1,63 @@
+#include "services/observer/observer_flags.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <initializer_list>
+
+namespace giveway {
+namespace {
+
+std::variant<ObserverFlags, int> Parse(std::initializer_list<const char*> flags,
+                                       const std::set<std::uint32_t>& running = {}) {
+  std::vector<const char*> argv{"giveway-observer"};
+  argv.insert(argv.end(), flags);
+  return ParseObserverFlags(static_cast<int>(argv.size()), argv.data(), "Fast DDS", running);
+}
+
+TEST(ObserverFlags, HaveDefaultsAndReadWhatIsGiven) {
+  const auto parsed = Parse({"--domain", "7", "--host-name", "fleet,robots.example"});
+  ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
+  const auto& flags = std::get<ObserverFlags>(parsed);
+  EXPECT_EQ(flags.domain, 7U);
+  EXPECT_EQ(flags.port, 8080U);
+  EXPECT_EQ(flags.address, "127.0.0.1");
+  EXPECT_EQ(flags.host_names, (std::vector<std::string>{"fleet", "robots.example"}));
+}
+
+TEST(ObserverFlags, AreRefusedInWords) {
+  for (const auto& wrong : {std::initializer_list<const char*>{},
+                            {"--domain", "0"},
+                            {"--domain", "7", "--port", "70000"},
+                            {"--domain", "7", "--log-level", "loud"},
+                            {"--domain", "7", "--nonsense", "1"}}) {
+    const auto parsed = Parse(wrong);
+    ASSERT_TRUE(std::holds_alternative<int>(parsed));
+    EXPECT_EQ(std::get<int>(parsed), 2);
+  }
+}
+
+TEST(ObserverFlags, TakeTheDomainOfTheOnlyFleet) {
+  const auto parsed = Parse({}, {42});
+  ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
+  EXPECT_EQ(std::get<ObserverFlags>(parsed).domain, 42U);
+  EXPECT_TRUE(std::holds_alternative<int>(Parse({}, {42, 43})));
+  EXPECT_EQ(std::get<ObserverFlags>(Parse({"--domain", "7"}, {42})).domain, 7U);
+}
+
+TEST(ObserverFlags, AHealthQuestionNeedsNoDomain) {
+  const auto parsed = Parse({"--health", "live", "--port", "9000"});
+  ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
+  EXPECT_EQ(std::get<ObserverFlags>(parsed).ask_health, "live");
+}
+
+TEST(ObserverFlags, HaveTwinsInTheEnvironment) {
+  setenv("GIVEWAY_DOMAIN", "9", 1);
+  const auto parsed = Parse({});
+  unsetenv("GIVEWAY_DOMAIN");
+  ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
+  EXPECT_EQ(std::get<ObserverFlags>(parsed).domain, 9U);
+}
+
+}  // namespace
+}  // namespace giveway

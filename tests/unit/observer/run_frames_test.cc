@@ -1,0 +1,112 @@
+#include "services/observer/capture/run_frames.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/link/sample_codec.h"
+#include "services/observer/capture/fleet_capture.h"
+
+namespace giveway {
+namespace {
+
+using ::testing::HasSubstr;
+
+Beacon BeaconAt(double x) {
+  Beacon beacon;
+  beacon.vehicle = VehicleId{7};
+  beacon.boot_epoch = 1;
+  beacon.seq = 1;
+  beacon.world_from_body.position_world = {x, 0};
+  return beacon;
+}
+
+mcap::McapReader::Source SourceOf(const std::string& bytes) {
+  return [rest = std::string_view(bytes)](char* to, std::size_t most) mutable {
+    const std::size_t got = rest.copy(to, most);
+    rest.remove_prefix(got);
+    return got;
+  };
+}
+
+std::string Recorded(const std::string& topic, const std::string& sample, int count) {
+  std::string bytes;
+  FleetCapture capture(
+      [&bytes](std::string_view more) {
+        bytes += more;
+        return true;
+      },
+      {});
+  for (int n = 0; n < count; ++n) {
+    capture.Write({.topic = RawTopicNamed(topic),
+                   .source_ns = 1,
+                   .reception_ns = 1'000'000'000ULL + static_cast<std::uint64_t>(n) * 50'000'000,
+                   .sequence = 1,
+                   .bytes = sample});
+  }
+  capture.Close();
+  return bytes;
+}
+
+TEST(RunFrames, ARecordedBeaconIsDecodedToWhatWasSent) {
+  const std::string bytes = link::Encode(BeaconAt(1.5));
+  link::Observed observed;
+  ASSERT_EQ(link::DecodeInto("fleet/beacon", bytes, &observed), link::Decoded::kYes);
+  EXPECT_TRUE(observed.beacons.front().crc_valid);
+  EXPECT_DOUBLE_EQ(observed.beacons.front().beacon.world_from_body.position_world.x, 1.5);
+}
+
+TEST(RunFrames, DamagedAndForeignSamplesAreNone) {
+  const std::string bytes = link::Encode(BeaconAt(1.5));
+  link::Observed observed;
+  EXPECT_EQ(link::DecodeInto("fleet/beacon", bytes.substr(0, 40), &observed),
+            link::Decoded::kUnreadable);
+  EXPECT_EQ(link::DecodeInto("fleet/beacon", "", &observed), link::Decoded::kUnreadable);
+  EXPECT_EQ(link::DecodeInto("camera/raw", bytes, &observed), link::Decoded::kUnknownTopic);
+}
+
+TEST(RunFrames, ARecordingBecomesFramesTenASecond) {
+  const std::string file = Recorded("fleet/beacon", link::Encode(BeaconAt(1.5)), 41);
+  const RunRead run = ReadRun(SourceOf(file));
+  EXPECT_EQ(run.result.fault, "");
+  EXPECT_EQ(run.result.messages, 41U);
+  EXPECT_GE(run.frames.Size(), 18U);
+  EXPECT_LE(run.frames.Size(), 22U);
+  EXPECT_THAT(run.frames.RunJson("{}"), HasSubstr("[7,1500,0,"));
+}
+
+TEST(RunFrames, OfWhatCannotBeDecodedItSaysHowMuch) {
+  const RunRead run = ReadRun(SourceOf(Recorded("fleet/beacon", "nonsense", 3)));
+  EXPECT_EQ(run.unreadable, 3U);
+  EXPECT_EQ(run.frames.Size(), 0U);
+}
+
+TEST(RunFrames, ALongRunKeepsABoundedNumber) {
+  RunFrames frames;
+  FleetView view;
+  ReceivedBeacon received;
+  received.crc_valid = received.name_valid = true;
+  received.beacon = BeaconAt(0);
+  view.Fold({.beacons = {received}}, SteadyTime{1});
+  for (int tenth = 1; tenth <= 20'000; ++tenth) {
+    frames.Note(view, SteadyTime{std::int64_t{100'000'000} * tenth});
+  }
+  EXPECT_LE(frames.Size(), RunFrames::kMostFrames + 1);
+  EXPECT_GT(frames.Size(), RunFrames::kMostFrames / 4);
+}
+
+TEST(FleetCapture, EveryChannelHasTheIdlAsItsSchema) {
+  const std::string file = Recorded("world/truth", link::Encode(Truth{}), 1);
+  std::string schema;
+  std::string name;
+  mcap::McapReader::Read(SourceOf(file),
+                         [&](const mcap::Message&, const mcap::Channel&, const mcap::Schema& of) {
+                           schema = of.data;
+                           name = of.name;
+                           return true;
+                         });
+  EXPECT_EQ(name, "giveway::wire::Truth");
+  EXPECT_THAT(schema, HasSubstr("struct Beacon {"));
+}
+
+}  // namespace
+}  // namespace giveway

@@ -1,0 +1,137 @@
+// Recordings in the field's own readers: every beacon decoded from its CDR by the IDL within the file,
+// and equal to what fleetctl listen says; and what is left of a recorder that was killed.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { parseIDL } from "@foxglove/omgidl-parser";
+import { MessageReader } from "@foxglove/omgidl-serialization";
+import { McapIndexedReader, McapStreamReader } from "@mcap/core";
+import lz4 from "lz4js";
+import { check, domainOf, expect, finish, start, stop, until, work } from "./support.mjs";
+
+const decompressHandlers = { lz4: (bytes) => lz4.decompress(bytes) };
+
+class Bytes {
+  constructor(file) { this.bytes = readFileSync(file); }
+  async size() { return BigInt(this.bytes.length); }
+  async read(offset, size) {
+    return new Uint8Array(this.bytes.subarray(Number(offset), Number(offset + size)));
+  }
+}
+
+const readers = new Map();
+function decoded(schema, data) {
+  if (!readers.has(schema.name)) {
+    readers.set(schema.name,
+      new MessageReader(schema.name, parseIDL(new TextDecoder().decode(schema.data))));
+  }
+  return readers.get(schema.name).readMessage(data);
+}
+
+// Every message of an indexed file, decoded.
+async function readIndexed(file) {
+  const reader = await McapIndexedReader.Initialize({ readable: new Bytes(file), decompressHandlers });
+  const messages = [];
+  for await (const message of reader.readMessages()) {
+    const channel = reader.channelsById.get(message.channelId);
+    const schema = reader.schemasById.get(channel.schemaId);
+    messages.push({ topic: channel.topic, value: decoded(schema, message.data), ...message });
+  }
+  return messages;
+}
+
+// Of a file without its end.
+function readStream(file) {
+  const reader = new McapStreamReader({ decompressHandlers, noMagicPrefix: false });
+  reader.append(new Uint8Array(readFileSync(file)));
+  const channels = new Map(), schemas = new Map(), messages = [];
+  for (let record; (record = reader.nextRecord());) {
+    if (record.type === "Schema") schemas.set(record.id, record);
+    if (record.type === "Channel") channels.set(record.id, record);
+    if (record.type !== "Message") continue;
+    const channel = channels.get(record.channelId);
+    messages.push({ topic: channel.topic, logTime: record.logTime,
+      value: decoded(schemas.get(channel.schemaId), record.data) });
+  }
+  return messages;
+}
+
+const run = start("fleetctl", "run", "intersection_yield");
+const domain = await domainOf(run);
+const whole = join(work, "whole.mcap");
+const recorder = start("fleetctl", "record", whole, "--domain", domain);
+const listener = start("fleetctl", "listen", "fleet/beacon", "--domain", domain, "--json");
+const killed = [];
+for (let i = 0; i < 5; ++i) {
+  const file = join(work, `killed-${i}.mcap`);
+  const victim = start("fleetctl", "record", file, "--domain", domain);
+  await new Promise((resolve) => setTimeout(resolve, 1700 + 230 * i));
+  await stop(victim, "SIGKILL");
+  killed.push({ file, at_ms: Date.now() });
+}
+await run.ended;
+await stop(listener, "SIGINT");
+
+let messages = [];
+await check("recording: ends in good order at Ctrl-C", async () => {
+  const code = await stop(recorder, "SIGINT");
+  expect(code === 0, `exit code ${code}: ${recorder.stderr}`);
+});
+await check("recording: the official reader opens it by its index", async () => {
+  messages = await readIndexed(whole);
+  expect(messages.length > 1000, `${messages.length} messages`);
+  const topics = new Set(messages.map((message) => message.topic));
+  for (const topic of ["fleet/beacon", "fleet/motor_command", "fleet/status", "world/ranges", "world/truth",
+    "world/event", "world/roster", "world/figures"]) {
+    expect(topics.has(topic), `nothing of ${topic}`);
+  }
+});
+await check("recording: every beacon is what fleetctl listen heard", () => {
+  const heard = new Map(listener.stdout.trim().split("\n").map((line) => JSON.parse(line))
+    .map((beacon) => [`${beacon.vehicle}.${beacon.boot_epoch}.${beacon.seq}`, beacon]));
+  const beacons = messages.filter((message) => message.topic === "fleet/beacon").map((message) => message.value);
+  let compared = 0;
+  for (const beacon of beacons) {
+    const other = heard.get(`${beacon.vehicle}.${beacon.boot_epoch}.${beacon.seq}`);
+    if (!other) continue;  // the two joined at different moments
+    ++compared;
+    for (const name of ["world_epoch", "tick", "left_rad_s", "right_rad_s", "cruise_m_s", "toward_x_m",
+      "toward_y_m", "body_radius_m", "axle_m", "order_speed_bucket"]) {
+      expect(beacon[name] === other[name], `${name}: ${beacon[name]} and ${other[name]}`);
+    }
+    for (const name of ["x_m", "y_m", "heading_rad"]) {
+      expect(beacon.world_from_body[name] === other.world_from_body[name], name);
+    }
+    expect((other.gives_way_to ?? 0) === beacon.gives_way_to, "gives_way_to");
+  }
+  expect(compared > 200 && compared > 0.9 * Math.min(beacons.length, heard.size),
+    `${compared} of ${beacons.length} and ${heard.size} compared`);
+});
+await check("recording: times are the writers' and ours", () => {
+  for (const message of messages) {
+    const late_ms = Number(message.logTime - message.publishTime) / 1e6;
+    expect(late_ms > -5 && late_ms < 60000, `${message.topic} ${late_ms} ms`);
+  }
+});
+await check("recording: after kill -9 all but the last second is there", () => {
+  for (const { file, at_ms } of killed) {
+    const left = readStream(file);
+    expect(left.length > 0, `${file}: nothing`);
+    const lost_ms = at_ms - Number(left.at(-1).logTime / 1000000n);
+    expect(lost_ms < 1500, `${file}: the last ${lost_ms} ms are lost`);
+  }
+});
+await check("recording: export gives the same as CSV and JSON", async () => {
+  const beacons = messages.filter((message) => message.topic === "fleet/beacon");
+  const csv = start("fleetctl", "export", whole, "--topic", "fleet/beacon", "--csv");
+  expect(await csv.ended === 0, csv.stderr);
+  expect(csv.stdout.trim().split("\n").length === beacons.length + 1, "lines of CSV");
+  const json = start("fleetctl", "export", whole, "--topic", "world/event", "--json");
+  expect(await json.ended === 0, json.stderr);
+  expect(json.stdout.trim().split("\n").map((line) => JSON.parse(line)).some((e) => e.kind === "halted"), "halted");
+});
+await check("recording: a file that is there already is not overwritten", async () => {
+  const again = start("fleetctl", "record", whole, "--domain", domain, "--duration", "1s");
+  const code = await again.ended;
+  expect(code !== 0, "it was");
+});
+finish();

@@ -1,0 +1,66 @@
+// A fleet of 200 from virtual time, replayed on the page.
+import { existsSync, statSync } from "node:fs";
+import { join } from "node:path";
+import {
+  check, expect, finish, freePort, openBrowser, openPage, shots, start, stop, text, until, vehicles, work,
+} from "./support.mjs";
+
+const file = join(work, "fleet_200.mcap");
+await check("replay: a fleet of 200 is recorded in virtual time", async () => {
+  const run = start("fleetctl", "virtual", "fleet_200", "--seed", "1", "--duration", "20", "--mcap", file);
+  await run.ended;
+  expect(existsSync(file) && statSync(file).size > 1e6, run.stderr.slice(-200));
+});
+const port = await freePort();
+const url = `http://127.0.0.1:${port}/`;
+const replay = start("fleetctl", "replay", file, "--port", String(port), "--scenario", "fleet_200");
+await until("the replay serves", () => fetch(url).then((answer) => answer.ok, () => false), 60000);
+const browser = await openBrowser();
+const { page, complaints } = await openPage(browser, url);
+
+await check("replay: all 190 vehicles of fleet_200 are shown and move", async () => {
+  await until("190 vehicles", async () => (await vehicles(page)).length === 190, 20000);
+  const before = new Map((await vehicles(page)).map((v) => [v.id, v]));
+  await until("they move", async () => (await vehicles(page)).filter((v) =>
+    Math.hypot(v.x - before.get(v.id).x, v.y - before.get(v.id).y) > 0.2).length > 20);
+});
+await check("replay: at least 30 frames a second", async () => {
+  const from = await page.evaluate(() => [window.giveway.drawn.frames, performance.now()]);
+  await page.waitForTimeout(3000);
+  const to = await page.evaluate(() => [window.giveway.drawn.frames, performance.now()]);
+  const rate = (to[0] - from[0]) / (to[1] - from[1]) * 1000;
+  console.log(`        ${rate.toFixed(1)} frames/s`);
+  expect(rate >= 30, `${rate.toFixed(1)} frames/s`);
+});
+await check("replay: pause, seek and speed", async () => {
+  await page.locator("#play").click();
+  const paused = await text(page, "when");
+  await page.waitForTimeout(500);
+  expect(paused === await text(page, "when"), "it goes on while paused");
+  await page.evaluate(() => window.giveway.seek(window.giveway.state.frames[0].at + 5000));
+  await until("5.0 s", async () => (await text(page, "when")).startsWith("5.0"), 3000);
+  await page.selectOption("#speed", "4");
+  await page.locator("#play").click();
+  await page.waitForTimeout(1000);
+  const at = parseFloat(await text(page, "when"));
+  expect(at > 7.5, `at ${at} s after a second at 4x`);
+});
+await check("replay: picking, following, dark", async () => {
+  await page.keyboard.press("n");
+  await page.keyboard.press("f");
+  await until("picked", () => page.locator("#picked").isVisible(), 3000);
+  await page.screenshot({ path: join(shots, "fleet-light.png") });
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("0");
+  await page.keyboard.press("d");
+  await page.waitForTimeout(400);
+  await page.screenshot({ path: join(shots, "fleet-dark.png") });
+});
+await check("replay: no complaint in the console", async () =>
+  expect(complaints.length === 0, complaints.join("; ")));
+await check("replay: ends at SIGTERM", async () => {
+  const code = await stop(replay);
+  expect(code === 0, `exit code ${code}`);
+});
+await browser.close();
+finish();
