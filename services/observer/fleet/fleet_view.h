@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "services/observer/fleet/heard_fleet.h"
-#include "services/types/drive_figures.h"
+#include "services/types/figures/drive_figures.h"
 #include "services/types/range_scan.h"
 
 namespace giveway {
