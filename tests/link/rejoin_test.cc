@@ -161,11 +161,11 @@ TEST(Rejoining, AWorldThatFellSilentIsFollowedByTheNextAndNoLongerBelieved) {
   ASSERT_TRUE(AwaitJoin(second).has_value());
   second.OpenVehicle(kSeven, VehicleProfile{});
   second.SendRoster(Accepted(kSession, kSeven, 2));
-  const auto told = ToldWithin(milliseconds(2500), vehicle, [] {});
+  const auto speak = [&] { second.SendScan(ScanOf(2)); };
+  const auto told = ToldWithin(milliseconds(2500), vehicle, speak);
   ASSERT_TRUE(told.has_value());
   EXPECT_EQ(told->epoch, WorldEpoch{2});
   first.SendRoster(Accepted(kSession, kSeven, 3));
-  const auto speak = [&] { second.SendScan(ScanOf(2)); };
   EXPECT_FALSE(ToldWithin(milliseconds(1500), vehicle, speak).has_value());
 }
 

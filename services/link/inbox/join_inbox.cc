@@ -32,7 +32,6 @@ Refusal RefusalOf(const JoinRequest& request, std::uint64_t writer, const char* 
 
 std::vector<JoinRequest> JoinInbox::Take(const WriterNames& names, SteadyTime now,
                                          std::vector<Refusal>& refusals) {
-  if (++turns_ % kForgetEvery == 0) ForgetDeparted(names);
   std::vector<JoinRequest> joins;
   reader_.TakeEach([&](const wire::Join& sample, const dds::SampleInfo& info) {
     const rtps::GUID_t& writer = info.sample_identity.writer_guid();
@@ -45,6 +44,8 @@ std::vector<JoinRequest> JoinInbox::Take(const WriterNames& names, SteadyTime no
       refusals.push_back(RefusalOf(request, Identity(writer), why));
     }
   });
+  // After the last words of those who have left were read.
+  if (++turns_ % kForgetEvery == 0) ForgetDeparted(names);
   std::stable_partition(joins.begin(), joins.end(),
                         [](const JoinRequest& request) { return request.leaving; });
   return joins;
