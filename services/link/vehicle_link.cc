@@ -45,12 +45,14 @@ struct FittedSensors {
   FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant)
       : radar(MakeInboxIf<wire::RadarScan, RadarScan>(profile.radar, participant, id)),
         lidar(MakeInboxIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id)),
-        camera(MakeInboxIf<wire::CameraScan, CameraScan>(profile.camera, participant, id)) {}
+        camera(MakeInboxIf<wire::CameraScan, CameraScan>(profile.camera, participant, id)),
+        pose_fix(MakeInboxIf<wire::PoseFix, PoseFix>(profile.pose_fix.Fitted(), participant, id)) {}
 
   void Take(const WriterNames& names, Inputs& inputs) {
     inputs.radar = NewestOf(radar, names);
     inputs.lidar = NewestOf(lidar, names);
     inputs.camera = NewestOf(camera, names);
+    if (const PoseFix* fix = NewestOf(pose_fix, names)) inputs.pose_fix = *fix;
   }
   // Calls visit(counters) of each.
   template <typename Visit>
@@ -58,11 +60,13 @@ struct FittedSensors {
     if (radar) visit(radar->Counters());
     if (lidar) visit(lidar->Counters());
     if (camera) visit(camera->Counters());
+    if (pose_fix) visit(pose_fix->Counters());
   }
 
   OptionalInbox<wire::RadarScan, RadarScan> radar;
   OptionalInbox<wire::LidarScan, LidarScan> lidar;
   OptionalInbox<wire::CameraScan, CameraScan> camera;
+  OptionalInbox<wire::PoseFix, PoseFix> pose_fix;
 };
 
 // Everything that is named after the vehicle.

@@ -14,8 +14,6 @@
 namespace giveway {
 namespace {
 
-// Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean.
-constexpr std::uint32_t kStateFormat = 1;
 constexpr std::uint32_t kAllSensors = (1U << kSensorCount) - 1;
 // Of anything a brain remembers; its square is far from overflowing.
 constexpr double kMostNumber = 1e10;
@@ -29,7 +27,7 @@ constexpr std::uint64_t kLast = std::numeric_limits<std::uint32_t>::max();
 template <>
 constexpr std::uint64_t kLast<Mode> = static_cast<std::uint64_t>(Mode::kLeaving);
 template <>
-constexpr std::uint64_t kLast<Rule> = static_cast<std::uint64_t>(Rule::kLeaving);
+constexpr std::uint64_t kLast<Rule> = static_cast<std::uint64_t>(kLastRule);
 template <>
 constexpr std::uint64_t kLast<RunState> = static_cast<std::uint64_t>(RunState::kEnded);
 template <>
@@ -49,6 +47,7 @@ concept Array = !std::is_same_v<T, Nanoseconds> && requires(T list) {
 class StateWriter {
  public:
   void operator()(const auto&... values) { (Put(values), ...); }
+  bool Has(StateFormat) const { return true; }
   std::string Take() { return std::move(bytes_); }
 
  private:
@@ -78,6 +77,9 @@ class StateReader {
   explicit StateReader(std::string_view bytes) : bytes_(bytes) {}
 
   void operator()(auto&... values) { (Get(&values), ...); }
+  // Of the layout that is read.
+  void SetFormat(StateFormat format) { format_ = format; }
+  bool Has(StateFormat part) const { return format_ >= part; }
   bool IsSound() const { return sound_; }
   bool IsAtEnd() const { return bytes_.empty(); }
 
@@ -145,6 +147,7 @@ class StateReader {
   }
 
   std::string_view bytes_;
+  StateFormat format_ = kStateFormat;
   bool sound_ = true;
 };
 
@@ -193,7 +196,7 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
   return state.boot_epoch != 0 && can_be_there && on_route && IsSensor(state.deaf_sensor) &&
          IsSensor(state.decision.sensor) && state.steer_side >= -1 && state.steer_side <= 1 &&
          (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 &&
-         AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.objects.radar) &&
+         IsSound(state.pose) && AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.objects.radar) &&
          IsSound(state.objects.lidar) && IsSound(state.objects.camera);
 }
 
@@ -201,7 +204,7 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
 
 std::string BytesOf(const VehicleState& state) {
   StateWriter writer;
-  writer(kStateFormat, VehicleState::kVersion, state);
+  writer(static_cast<std::uint32_t>(kStateFormat), VehicleState::kVersion, state);
   return writer.Take();
 }
 
@@ -210,8 +213,12 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   std::uint32_t format = 0;
   std::uint32_t version = 0;
   reader(format, version);
-  if (format != kStateFormat || version != VehicleState::kVersion) return nullptr;
+  const bool known = format >= static_cast<std::uint32_t>(StateFormat::kFirst) &&
+                     format <= static_cast<std::uint32_t>(kStateFormat);
+  if (!known || version != VehicleState::kVersion) return nullptr;
+  reader.SetFormat(StateFormat{format});
   auto state = std::make_unique_for_overwrite<VehicleState>();
+  Begin(options.profile, &state->pose);  // an image without it
   reader(*state);
   if (!reader.IsSound() || !reader.IsAtEnd() || !IsSound(*state, options)) return nullptr;
   return state;

@@ -5,6 +5,7 @@
 #include <new>
 
 #include "services/recording/recording_fields.h"
+#include "services/snapshot/pose_state_fields.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {
@@ -135,24 +136,31 @@ struct StateFields {
   }
 };
 
+// Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean. What a layout
+// has more than the one before stands at the end of the state.
+enum class StateFormat : std::uint32_t { kFirst = 1, kWithPose = 2 };
+inline constexpr StateFormat kStateFormat = StateFormat::kWithPose;
+
 template <typename T>
 concept KeepsItsOwn = Is<T, Odometry> || Is<T, RangeView> || Is<T, SignalTable> || Is<T, PeerTable>;
 
 void Visit(auto& fields, KeepsItsOwn auto& part) { StateFields::Of(fields, part); }
 
+// What is appended to the state is led over apart, by the format that has it: brain_state.cc.
 void Visit(auto& fields, Is<VehicleState> auto& state) {
   auto& [boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
          way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
          decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
          steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
          caught_ticks, ranges, peers, signals, objects, last_heard, scans_refused, signals_refused,
-         beacons, qos, trust] = state;
+         beacons, qos, trust, pose] = state;
   fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
          way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
          decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
          steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
          caught_ticks, ranges, peers, signals, objects, last_heard, scans_refused, signals_refused,
          beacons, qos, trust);
+  if (fields.Has(StateFormat::kWithPose)) fields(pose);
 }
 
 }  // namespace giveway

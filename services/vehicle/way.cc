@@ -57,6 +57,9 @@ void Vehicle::LookAhead(Situation* s) {
   if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
   // Well inside the radius, so that the truth is inside too.
   if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
+  // A fix may say that it was not there.
+  const bool shown = options_.profile.pose_fix.Fitted();
+  if (shown && s->distance_to_goal_m > options_.goal.radius_m) state.arrived = false;
 }
 
 // Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand
@@ -84,7 +87,8 @@ void Vehicle::Detour(Situation* s) {
     state.aimless_ticks = 0;
     state.detour_tick = kNoTick;
   }
-  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
+  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal || s->lost)
+    return;
   const bool queues =
       state.caught_ticks < kCaughtTicks && std::ranges::any_of(s->peers, [](const PeerView& view) {
         return view.leads && view.gap_m < kQueued_m;

@@ -128,6 +128,8 @@ struct Situation {
   bool meets = false;            // an encounter with any of them is under way
   std::optional<BlockedBox> blocked_box;
   LastHeard last_heard;  // of lecture_printed alone, which has no peers
+  double known_share = 1;  // of the cruise speed that it may drive, by how well it knows its pose
+  bool lost = false;       // it does not know well enough where it is
 };
 
 // Below this a vehicle stands still, as the verdict defines it.
