@@ -25,14 +25,14 @@ void ReadPoseKeeping(const Section& section, VehicleProfile* profile) {
   const auto sensors = section.Sub("sensors");
   const auto fixes = sensors ? sensors->Sub("pose_fix") : std::nullopt;
   if (fixes) profile->pose_fix = ReadPoseFix(*fixes);
-  if (const auto errors = section.Sub("wheel_error")) {
+  const auto errors = section.Sub("wheel_error");
+  if (errors) {
     profile->wheel_error = {.diameter = errors->NumberOr(0, "diameter", kError),
                             .axle = errors->NumberOr(0, "axle", kError)};
   }
   if (section.Has("pose_limit_m")) {
     profile->pose_limit_m = section.Number("pose_limit_m", {0, 10, "m"});
-  } else if (profile->pose_limit_m == 0 &&
-             (profile->pose_fix.Fitted() || profile->wheel_error.Any())) {
+  } else if (profile->pose_limit_m == 0 && (fixes || errors)) {
     profile->pose_limit_m = kUsualPoseLimit_m;
   }
   const double limit_m = profile->pose_limit_m;

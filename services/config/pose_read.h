@@ -7,8 +7,8 @@
 
 namespace giveway {
 
-// Of a profile section. What it does not write stays as it was, but for the limit: with a sensor or
-// wheel errors it is the usual one unless somebody wrote another.
+// Of a profile section. What it does not write stays as it was, but for the limit: a section that
+// writes a sensor or wheel errors brings the usual one, unless somebody wrote another.
 void ReadPoseKeeping(const Section& section, VehicleProfile* profile);
 
 }  // namespace giveway
