@@ -55,6 +55,9 @@ struct VehicleHealth {
   std::uint32_t ranges_deadline_missed = 0;
   SteadyTime scanned{0};  // when the last scan came; 0 before the first
   Nanoseconds ranges_age_limit{0};
+  double pose_sigma_m = 0;  // how unsure it is of its position, as a standard deviation
+  std::uint32_t fixes_used = 0;
+  std::uint32_t fixes_refused = 0;
 };
 
 struct WorldHealth {

@@ -1,5 +1,7 @@
 #include "services/vehicle_node/vehicle_health.h"
 
+#include "services/types/math/pose.h"
+
 namespace giveway {
 
 void VehicleHealthTeller::Joins(const std::string& waits_for) {
@@ -30,6 +32,14 @@ void VehicleHealthTeller::Turned(const link::Taken& taken,
   now.write_failures = counters.write_failures;
   now.ranges_deadline_missed = counters.ranges_deadline_missed;
   service_.Tell();
+}
+
+void VehicleHealthTeller::Reported(const VehicleStatus& status, const VehicleState& brain) {
+  VehicleHealth& now = service_.Now();
+  now.status = status;
+  now.pose_sigma_m = SigmaPosition(PromisedCovariance(brain.odometry, brain.pose));
+  now.fixes_used = brain.pose.fixes_used;
+  now.fixes_refused = brain.pose.fixes_refused;
 }
 
 void VehicleHealthTeller::Leaves() {
