@@ -81,7 +81,7 @@ Rule RuleBefore(Rule peers_rule) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   Rule rule = Rule::kCruise;
   for (std::uint32_t tick = 1; tick < 40; ++tick) {
-    Beacon peer = test::BeaconOf(2, tick, {{2.2, -1.6}, kPi / 2}, 0.5);
+    Beacon peer = test::BeaconOf(2, tick, {{1.1, -0.8}, kPi / 2}, 0.5);
     peer.rule = peers_rule;
     rule = bench.Step(Rolling(0), {peer}).command.decision.rule;
   }
@@ -113,13 +113,16 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
   for (int i = 0; i < 100 && out.command.decision.rule != Rule::kArrived; ++i)
     out = bench.Step(Rolling(3));
   ASSERT_EQ(out.command.decision.rule, Rule::kArrived);
-  PoseFix fix{.world_from_body = {{0.8, 0.05}, 0},
-              .sigma_position_m = 0.01,
-              .vehicle = VehicleId{1},
-              .epoch = test::kEpoch,
-              .tick = out.beacon.tick};
-  bench.WithNext().pose_fix = fix;
-  EXPECT_EQ(bench.Step(Rolling(0)).command.decision.rule, Rule::kCruise);
+  for (int i = 0; i < 3; ++i) {  // so many are believed against the wheels
+    ASSERT_EQ(out.command.decision.rule, Rule::kArrived) << i;
+    bench.WithNext().pose_fix = PoseFix{.world_from_body = {{0.8, 0.05}, 0},
+                                        .sigma_position_m = 0.01,
+                                        .vehicle = VehicleId{1},
+                                        .epoch = test::kEpoch,
+                                        .tick = out.beacon.tick};
+    out = bench.Step(Rolling(0));
+  }
+  EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
 }
 
 }  // namespace
