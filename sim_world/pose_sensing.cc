@@ -13,12 +13,12 @@ void PoseSensing::Sense(WorldEpoch epoch, Tick tick, std::uint32_t driven_tick,
   if (driven_tick == 0) return;
   for (const Body& body : bodies) {
     if (!body.present || !body.profile.pose_fix.Fitted()) continue;
-    std::optional<PoseFix> fix = SensePose(body.profile.pose_fix,
-                                           {.seed = seed_,
-                                            .vehicle = body.vehicle,
-                                            .driven_tick = driven_tick,
-                                            .dt_s = dt_s_,
-                                            .world_from_body = body.world_from_body});
+    std::optional<PoseFix> fix =
+        SensePose(body.profile.pose_fix, {.seed = seed_,
+                                          .vehicle = body.vehicle,
+                                          .driven_tick = driven_tick,
+                                          .dt_s = dt_s_,
+                                          .world_from_body = body.world_from_body});
     if (!fix) continue;
     fix->vehicle = body.vehicle;
     fix->epoch = epoch;

@@ -14,8 +14,7 @@ PoseFixModel ReadPoseFix(const Section& section) {
   model.every_s = section.Number("every_s", {0.005, 3600, "s"});
   model.sigma_m = section.Number("sigma_m", {0.001, 10, "m"});
   model.dropout = section.NumberOr(0, "dropout", {0, 0.99});
-  model.sigma_heading_rad =
-      Radians(section.NumberOr(0, "sigma_heading_deg", {0, 90, "degrees"}));
+  model.sigma_heading_rad = Radians(section.NumberOr(0, "sigma_heading_deg", {0, 90, "degrees"}));
   return model;
 }
 

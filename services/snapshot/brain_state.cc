@@ -195,8 +195,8 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
       covariance.xx_m2 >= 0 && covariance.yy_m2 >= 0 && covariance.hh_rad2 >= 0;
   return state.boot_epoch != 0 && can_be_there && on_route && IsSensor(state.deaf_sensor) &&
          IsSensor(state.decision.sensor) && state.steer_side >= -1 && state.steer_side <= 1 &&
-         (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 &&
-         IsSound(state.pose) && AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.objects.radar) &&
+         (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 && IsSound(state.pose) &&
+         AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.objects.radar) &&
          IsSound(state.objects.lidar) && IsSound(state.objects.camera);
 }
 

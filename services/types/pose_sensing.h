@@ -1,5 +1,5 @@
-// What a vehicle's own idea of where it is rests on beside its encoders: a sensor that says where it
-// is, as landmarks or ultra-wideband radio do, and by how much its wheels are not what its drive
+// What a vehicle's own idea of where it is rests on beside its encoders: a sensor that says where
+// it is, as landmarks or ultra-wideband radio do, and by how much its wheels are not what its drive
 // says. Plain values; who makes fixes is sim_world/sensors/pose_fix.h, who uses them
 // vehicle/estimation/pose_keeping.h.
 #pragma once
@@ -9,8 +9,8 @@
 
 namespace giveway {
 
-// The limit of a vehicle of which more is said than that its wheels slip: how unsure of its position
-// it may be, as a standard deviation. Others keep two of them from where it says it is.
+// The limit of a vehicle of which more is said than that its wheels slip: how unsure of its
+// position it may be, as a standard deviation. Others keep two of them from where it says it is.
 inline constexpr double kUsualPoseLimit_m = 0.3;
 
 // The sensor: every so often a fix whose errors are independent of each other.

@@ -51,7 +51,8 @@ struct VehicleProfile {
   PoseFixModel pose_fix;
   // The brain takes no more of it than how wrong the wheels may be, never which way.
   WheelErrors wheel_error;
-  // The standard deviation of its position beyond which it halts and says that it is lost; 0: never.
+  // The standard deviation of its position beyond which it halts and says that it is lost; 0:
+  // never.
   double pose_limit_m = 0;
 };
 

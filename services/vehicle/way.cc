@@ -87,8 +87,7 @@ void Vehicle::Detour(Situation* s) {
     state.aimless_ticks = 0;
     state.detour_tick = kNoTick;
   }
-  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal || s->lost)
-    return;
+  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal || s->lost) return;
   const bool queues =
       state.caught_ticks < kCaughtTicks && std::ranges::any_of(s->peers, [](const PeerView& view) {
         return view.leads && view.gap_m < kQueued_m;

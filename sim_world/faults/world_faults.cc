@@ -46,7 +46,8 @@ void Combine(const faults::Fault& fault, WheelSpeeds held, DriveFault* drive) {
   }
 }
 
-// By `factor` of its standard deviations, to a side drawn anew: as radio that came by way of a wall.
+// By `factor` of its standard deviations, to a side drawn anew: as radio that came by way of a
+// wall.
 void MisplaceFix(const faults::Parameters& parameters, Random random, PoseFix* fix) {
   if (random.Uniform(0, 1) >= parameters.probability.value_or(1)) return;
   const double off_m = parameters.factor.value_or(0) * fix->sigma_position_m;

@@ -1,8 +1,8 @@
-// The faults of a schedule that the world carries out: of ultrasonics, motors, encoders, pose fixes. Says in
-// each driving tick what they make of which body's wheels, alters the scans that leave the world,
-// and names those that begin and end. Which tick a fault begins and ends in hangs on its times
-// alone, and every number drawn on seed, rule, the fault's number and the tick. Faults of other
-// actors are not its business. Pure.
+// The faults of a schedule that the world carries out: of ultrasonics, motors, encoders, pose
+// fixes. Says in each driving tick what they make of which body's wheels, alters the scans that
+// leave the world, and names those that begin and end. Which tick a fault begins and ends in hangs
+// on its times alone, and every number drawn on seed, rule, the fault's number and the tick. Faults
+// of other actors are not its business. Pure.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// A pose fix goes to the wire and back unchanged; what is not finite or has no deviation is refused.
+// A pose fix goes to the wire and back unchanged; what is not finite or has no deviation is
+// refused.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -35,8 +36,8 @@ TEST(ConvertPoseFix, ComesBackAsItWas) {
 }
 
 TEST(ConvertPoseFix, WhatIsNotFiniteIsRefused) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
-                           std::numeric_limits<double>::infinity()}) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     for (double PoseFix::*field : {&PoseFix::sigma_position_m, &PoseFix::sigma_heading_rad}) {
       PoseFix fix = FixOfOurs();
       fix.*field = bad;

@@ -146,8 +146,8 @@ PoseFixModel PoseFixOf(const std::string& text) {
   static const std::regex kForm(R"(([\d.]+),([\d.]+),([\d.]+))");
   std::smatch part;
   if (!std::regex_match(text, part, kForm)) {
-    throw CLI::ValidationError("--pose-fix",
-                               "must be EVERY_S,SIGMA_M,DROPOUT, as in 1,0.05,0.1, not '" + text + "'");
+    throw CLI::ValidationError(
+        "--pose-fix", "must be EVERY_S,SIGMA_M,DROPOUT, as in 1,0.05,0.1, not '" + text + "'");
   }
   const auto number = [](const std::string& name, const std::string& value, double least,
                          double most) {

@@ -1,5 +1,5 @@
-// What a sensor of a vehicle's pose says. Only what is finite and has a deviation passes: how far it
-// is to be believed is for the brain to judge.
+// What a sensor of a vehicle's pose says. Only what is finite and has a deviation passes: how far
+// it is to be believed is for the brain to judge.
 #include <cmath>
 
 #include "services/link/convert/convert.h"

@@ -1,7 +1,7 @@
 // Dead reckoning that knows its error: the prediction of an extended Kalman filter over the wheel
-// encoders. State x, y, heading in the world frame; see Thrun, Burgard, Fox, Probabilistic Robotics,
-// ch. 5.4 for the motion model and ch. 3.3 for the filter. What fixes make of it is said by
-// pose_keeping.h. Pure.
+// encoders. State x, y, heading in the world frame; see Thrun, Burgard, Fox, Probabilistic
+// Robotics, ch. 5.4 for the motion model and ch. 3.3 for the filter. What fixes make of it is said
+// by pose_keeping.h. Pure.
 #pragma once
 
 #include <array>

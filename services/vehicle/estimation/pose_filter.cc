@@ -7,7 +7,7 @@
 namespace giveway {
 namespace {
 
-constexpr std::size_t kPose = 3;  // of the numbers, the first; two of the wheels after them
+constexpr std::size_t kPose = 3;    // of the numbers, the first; two of the wheels after them
 constexpr double kMostError = 0.3;  // of a wheel: more is no wheel any more
 
 }  // namespace

@@ -72,8 +72,7 @@ bool Fits(const Innovation& innovation, const Odometry& odometry) {
   const PoseCovariance c = odometry.Covariance();
   if (Mahalanobis(innovation.off_world, c, innovation.position_m2) > kGate) return false;
   const double off_rad2 = innovation.off_rad * innovation.off_rad;
-  return !innovation.of_heading ||
-         off_rad2 <= kHeadingGate * (c.hh_rad2 + innovation.heading_rad2);
+  return !innovation.of_heading || off_rad2 <= kHeadingGate * (c.hh_rad2 + innovation.heading_rad2);
 }
 
 void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometry,
@@ -107,8 +106,8 @@ bool IsOutOfReach(const Innovation& innovation, const VehicleProfile& profile,
   constexpr double kSigmasOff = 4;
   const double driven_m =
       profile.max_speed_m_s * TicksBetween(keeping.agreed, taker.tick) * taker.tick_s;
-  const double unsure_m = kSigmasOff * (SigmaPosition(odometry.Covariance()) +
-                                        Sqrt(innovation.position_m2));
+  const double unsure_m =
+      kSigmasOff * (SigmaPosition(odometry.Covariance()) + Sqrt(innovation.position_m2));
   return Norm(innovation.off_world) > 2 * driven_m + unsure_m;
 }
 
@@ -130,8 +129,8 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
   if (IsOutOfReach(*innovation, profile, taker, *odometry, *keeping)) return;
   Disagreement& disagreement = keeping->disagreement;
   const Vec2 between = innovation->off_world - disagreement.off_world;
-  const bool same = disagreement.fixes > 0 &&
-                    SquaredNorm(between) <= kGate * 2 * innovation->position_m2;
+  const bool same =
+      disagreement.fixes > 0 && SquaredNorm(between) <= kGate * 2 * innovation->position_m2;
   disagreement = {innovation->off_world, same ? disagreement.fixes + 1 : 1};
   if (disagreement.fixes < kAgreeing) return;
   --keeping->fixes_refused;
@@ -154,9 +153,9 @@ void Begin(const VehicleProfile& profile, PoseKeeping* keeping) {
 void Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
           PoseKeeping* keeping) {
   const Calibration& calibration = keeping->calibration;
-  const WheelSpeeds wheels =
-      profile.wheel_error.Any() ? AsNominal(profile.drive, calibration.wheels, rolling.wheels)
-                                : rolling.wheels;
+  const WheelSpeeds wheels = profile.wheel_error.Any()
+                                 ? AsNominal(profile.drive, calibration.wheels, rolling.wheels)
+                                 : rolling.wheels;
   const double error = profile.pose_fix.Fitted() ? std::max(rolling.wheel_error, kLeastWheelError)
                                                  : rolling.wheel_error;
   const Vec2 from_world = odometry->WorldFromBody().position_world;

@@ -20,7 +20,8 @@ VehicleProfile ProfileWith(const std::string& text) {
 
 TEST(PoseRules, FixesWheelErrorsAndTheLimitReachTheProfile) {
   const VehicleProfile profile = ProfileWith(
-      "profile { sensors { pose_fix { every_s: 0.5 sigma_m: 0.04 dropout: 0.2 sigma_heading_deg: 3 } "
+      "profile { sensors { pose_fix { every_s: 0.5 sigma_m: 0.04 dropout: 0.2 sigma_heading_deg: 3 "
+      "} "
       "} wheel_error { diameter: 0.01 axle: -0.02 } pose_limit_m: 0.4 }");
   EXPECT_EQ(profile.pose_fix.every_s, 0.5);
   EXPECT_EQ(profile.pose_fix.sigma_m, 0.04);
@@ -33,8 +34,9 @@ TEST(PoseRules, FixesWheelErrorsAndTheLimitReachTheProfile) {
 
 TEST(PoseRules, TheLimitIsTheUsualOneWithFixesOrWheelErrorsAndNoneWithout) {
   EXPECT_EQ(ProfileWith("profile { wheel_slip: 0.1 }").pose_limit_m, 0);
-  EXPECT_EQ(ProfileWith("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.05 } } }").pose_limit_m,
-            kUsualPoseLimit_m);
+  EXPECT_EQ(
+      ProfileWith("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.05 } } }").pose_limit_m,
+      kUsualPoseLimit_m);
   EXPECT_EQ(ProfileWith("profile { wheel_error { axle: 0.01 } }").pose_limit_m, kUsualPoseLimit_m);
   EXPECT_EQ(ProfileWith("profile { wheel_error { axle: 0.01 } pose_limit_m: 0 }").pose_limit_m, 0);
 }
@@ -46,25 +48,24 @@ TEST(PoseRules, ASensorWithoutRateOrDeviationIsRefused) {
 }
 
 TEST(PoseRules, AbsurdFixesAndWheelsAreRefusedAllAtOnce) {
-  EXPECT_THAT(
-      With("profile { sensors { pose_fix { every_s: 0 sigma_m: nan dropout: 1 sigma_heading_deg: 91 } "
-           "} wheel_error { diameter: 0.3 axle: -0.3 } pose_limit_m: -1 }"),
-      UnorderedElementsAre(
-          Is(17, "profile.sensors.pose_fix.every_s", "between 0.005 and 3600 s"),
-          Is(17, "profile.sensors.pose_fix.sigma_m", "not a finite number"),
-          Is(17, "profile.sensors.pose_fix.dropout", "between 0 and 0.99"),
-          Is(17, "profile.sensors.pose_fix.sigma_heading_deg", "between 0 and 90 degrees"),
-          Is(17, "profile.wheel_error.diameter", "between -0.2 and 0.2"),
-          Is(17, "profile.wheel_error.axle", "between -0.2 and 0.2"),
-          Is(17, "profile.pose_limit_m", "between 0 and 10 m")));
+  EXPECT_THAT(With("profile { sensors { pose_fix { every_s: 0 sigma_m: nan dropout: 1 "
+                   "sigma_heading_deg: 91 } "
+                   "} wheel_error { diameter: 0.3 axle: -0.3 } pose_limit_m: -1 }"),
+              UnorderedElementsAre(
+                  Is(17, "profile.sensors.pose_fix.every_s", "between 0.005 and 3600 s"),
+                  Is(17, "profile.sensors.pose_fix.sigma_m", "not a finite number"),
+                  Is(17, "profile.sensors.pose_fix.dropout", "between 0 and 0.99"),
+                  Is(17, "profile.sensors.pose_fix.sigma_heading_deg", "between 0 and 90 degrees"),
+                  Is(17, "profile.wheel_error.diameter", "between -0.2 and 0.2"),
+                  Is(17, "profile.wheel_error.axle", "between -0.2 and 0.2"),
+                  Is(17, "profile.pose_limit_m", "between 0 and 10 m")));
 }
 
 TEST(PoseRules, FixesTooRoughToFindALostOneByAreRefused) {
   EXPECT_THAT(With("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.2 } } }"),
               ElementsAre(Is(17, "profile.sensors.pose_fix.sigma_m", "more than half")));
-  EXPECT_TRUE(
-      With("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.2 } } pose_limit_m: 0.5 }")
-          .empty());
+  EXPECT_TRUE(With("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.2 } } pose_limit_m: 0.5 }")
+                  .empty());
 }
 
 }  // namespace

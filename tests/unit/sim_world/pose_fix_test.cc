@@ -1,5 +1,5 @@
-// The sensor of fixes: how often, how wrong, how often not, and that it hangs on nobody else; wheels
-// that are not what the drive says; and the faults of fixes.
+// The sensor of fixes: how often, how wrong, how often not, and that it hangs on nobody else;
+// wheels that are not what the drive says; and the faults of fixes.
 #include "sim_world/sensors/pose_fix.h"
 
 #include <gtest/gtest.h>
@@ -153,8 +153,8 @@ TEST(PoseFixFault, WrongFixesAreOffByTheirMultipleForItsTime) {
   ASSERT_EQ(fixes.size(), sound.size());
   int off = 0;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
-    const double off_m = Norm(fixes[i].world_from_body.position_world -
-                              sound[i].world_from_body.position_world);
+    const double off_m =
+        Norm(fixes[i].world_from_body.position_world - sound[i].world_from_body.position_world);
     EXPECT_TRUE(off_m == 0 || std::abs(off_m - 0.4) < 1e-12) << i;
     off += off_m > 0 ? 1 : 0;
   }

@@ -134,8 +134,8 @@ TEST(BrainState, AnImageOfBeforeThePoseWasKeptIsTheSameBrainWithItsPoseBegunAnew
   Vehicle brain(DefaultOptions(), 42);
   for (std::uint32_t tick = 1; tick <= 40; ++tick) fate.Lead(&brain, tick);
   std::string bytes = BytesOf(brain.State());
-  constexpr std::size_t kPoseBytes = (2 + 6 + 3) * 8 + kPastPoses * (4 + 3 * 8) + (3 + 2) * 8 +
-                                     3 * 4 + 4 + 2 * 8 + 4 + 2 * 4 + 1;
+  constexpr std::size_t kPoseBytes =
+      (2 + 6 + 3) * 8 + kPastPoses * (4 + 3 * 8) + (3 + 2) * 8 + 3 * 4 + 4 + 2 * 8 + 4 + 2 * 4 + 1;
   bytes.resize(bytes.size() - kPoseBytes);
   bytes[0] = 1;
   const auto state = StateFrom(bytes, DefaultOptions());

@@ -1,5 +1,5 @@
-// How a vehicle keeps its pose: fixes weighed, late, doubted and believed; wheels whose errors fixes
-// show; and when it is unsure, lost and found.
+// How a vehicle keeps its pose: fixes weighed, late, doubted and believed; wheels whose errors
+// fixes show; and when it is unsure, lost and found.
 #include "services/vehicle/estimation/pose_keeping.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,9 @@ class Keeper {
     return Norm(odometry.WorldFromBody().position_world - truth.position_world);
   }
   double Sigma() const { return SigmaPosition(PromisedCovariance(odometry, keeping)); }
-  double Share() { return JudgeCertainty(profile_, PromisedCovariance(odometry, keeping), &keeping); }
+  double Share() {
+    return JudgeCertainty(profile_, PromisedCovariance(odometry, keeping), &keeping);
+  }
 
   std::uint32_t tick = 0;
   Pose truth;

@@ -1,5 +1,5 @@
-// Fleets that do not know exactly where they are: with fixes they arrive, without they say that they
-// are lost, and an encoder that counts wrongly is noticed.
+// Fleets that do not know exactly where they are: with fixes they arrive, without they say that
+// they are lost, and an encoder that counts wrongly is noticed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,13 +47,12 @@ TEST(PoseFleet, WithoutFixesTheySayThatTheyAreLost) {
   std::uint32_t lost = 0;
   for (std::uint32_t seed = 1; seed <= 6; ++seed) {
     const Scenario scenario = Swarm(8, seed, {.slip = 0.1, .limit_m = kUsualPoseLimit_m});
-    const VirtualOutcome outcome =
-        RunVirtually(scenario, {}, [&](const VirtualFleet& fleet) {
-          for (std::size_t i = 0; i < fleet.Size(); ++i) {
-            const Beacon& said = fleet.Said(i).beacon;
-            lost += said.rule == Rule::kLost && said.tick == fleet.World().Now() ? 1 : 0;
-          }
-        });
+    const VirtualOutcome outcome = RunVirtually(scenario, {}, [&](const VirtualFleet& fleet) {
+      for (std::size_t i = 0; i < fleet.Size(); ++i) {
+        const Beacon& said = fleet.Said(i).beacon;
+        lost += said.rule == Rule::kLost && said.tick == fleet.World().Now() ? 1 : 0;
+      }
+    });
     EXPECT_EQ(outcome.contacts, 0U) << seed;
     EXPECT_EQ(Of(outcome, Invariant::kPose), 0U) << seed;
   }
