@@ -46,8 +46,10 @@ concept Array = !std::is_same_v<T, Nanoseconds> && requires(T list) {
 // Little-endian, without padding.
 class StateWriter {
  public:
+  explicit StateWriter(StateFormat format) : format_(format) {}
+
   void operator()(const auto&... values) { (Put(values), ...); }
-  bool Has(StateFormat) const { return true; }
+  bool Has(StateFormat part) const { return format_ >= part; }
   std::string Take() { return std::move(bytes_); }
 
  private:
@@ -69,6 +71,7 @@ class StateWriter {
     for (std::size_t i = 0; i < count; ++i) bytes_ += static_cast<char>(number >> 8 * i);
   }
 
+  StateFormat format_;
   std::string bytes_;
 };
 
@@ -187,6 +190,17 @@ bool IsSound(const HeldScan<Scan>& held) {
   return held.scan.tick == kNoTick || IsBelievable(held.scan);
 }
 
+bool IsKnown(std::uint32_t format) {
+  return format >= static_cast<std::uint32_t>(StateFormat::kFirst) &&
+         format <= static_cast<std::uint32_t>(kStateFormat);
+}
+
+std::string BytesIn(StateFormat format, const VehicleState& state) {
+  StateWriter writer(format);
+  writer(static_cast<std::uint32_t>(format), VehicleState::kVersion, state);
+  return writer.Take();
+}
+
 // What a number is used as a place by.
 bool IsSound(const VehicleState& state, const VehicleOptions& options) {
   const bool on_route = OnRoute(options.route, {state.waypoint, 0}).waypoint == state.waypoint;
@@ -202,10 +216,13 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
 
 }  // namespace
 
-std::string BytesOf(const VehicleState& state) {
-  StateWriter writer;
-  writer(static_cast<std::uint32_t>(kStateFormat), VehicleState::kVersion, state);
-  return writer.Take();
+std::string BytesOf(const VehicleState& state) { return BytesIn(kStateFormat, state); }
+
+bool AreBytesOf(std::string_view bytes, const VehicleState& state) {
+  StateReader reader(bytes);
+  std::uint32_t format = 0;
+  reader(format);
+  return IsKnown(format) && BytesIn(StateFormat{format}, state) == bytes;
 }
 
 std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOptions& options) {
@@ -213,9 +230,7 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   std::uint32_t format = 0;
   std::uint32_t version = 0;
   reader(format, version);
-  const bool known = format >= static_cast<std::uint32_t>(StateFormat::kFirst) &&
-                     format <= static_cast<std::uint32_t>(kStateFormat);
-  if (!known || version != VehicleState::kVersion) return nullptr;
+  if (!IsKnown(format) || version != VehicleState::kVersion) return nullptr;
   reader.SetFormat(StateFormat{format});
   auto state = std::make_unique_for_overwrite<VehicleState>();
   Begin(options.profile, &state->pose);  // an image without it

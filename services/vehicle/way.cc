@@ -59,7 +59,8 @@ void Vehicle::LookAhead(Situation* s) {
   if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
   // A fix may say that it was not there.
   const bool shown = options_.profile.pose_fix.Fitted();
-  if (shown && s->distance_to_goal_m > options_.goal.radius_m) state.arrived = false;
+  const double surely_m = s->distance_to_goal_m - SigmaPosition(s->covariance);
+  if (shown && surely_m > options_.goal.radius_m) state.arrived = false;
 }
 
 // Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand

@@ -143,6 +143,10 @@ TEST(BrainState, AnImageOfBeforeThePoseWasKeptIsTheSameBrainWithItsPoseBegunAnew
   Vehicle other(DefaultOptions(), 99);
   other.Restore(*state);
   EXPECT_EQ(other.Hash(), brain.Hash());
+  EXPECT_TRUE(AreBytesOf(bytes, brain.State()));
+  EXPECT_TRUE(AreBytesOf(BytesOf(brain.State()), brain.State()));
+  fate.Lead(&brain, 41);
+  EXPECT_FALSE(AreBytesOf(bytes, brain.State()));
 }
 
 // Places by which a brain looks something up.
