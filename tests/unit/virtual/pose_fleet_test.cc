@@ -10,6 +10,7 @@
 namespace giveway::sim {
 namespace {
 
+constexpr std::uint32_t kSeeds = 2;
 constexpr PoseFixModel kFixes = {.every_s = 1, .sigma_m = 0.05, .dropout = 0.1};
 
 struct Fleet {
@@ -34,9 +35,9 @@ std::uint32_t Of(const VirtualOutcome& outcome, Invariant invariant) {
 }
 
 TEST(PoseFleet, WithFixesAllArriveWhoseWheelsSlip) {
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const VirtualOutcome outcome = RunVirtually(
-        Swarm(8, seed, {.slip = 0.02, .fixes = kFixes, .limit_m = kUsualPoseLimit_m}), {});
+        Swarm(6, seed, {.slip = 0.02, .fixes = kFixes, .limit_m = kUsualPoseLimit_m}), {});
     EXPECT_EQ(outcome.arrived, outcome.vehicles) << seed;
     EXPECT_EQ(outcome.contacts, 0U) << seed;
     EXPECT_EQ(Of(outcome, Invariant::kPose), 0U) << seed;
@@ -45,8 +46,8 @@ TEST(PoseFleet, WithFixesAllArriveWhoseWheelsSlip) {
 
 TEST(PoseFleet, WithoutFixesTheySayThatTheyAreLost) {
   std::uint32_t lost = 0;
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-    const Scenario scenario = Swarm(8, seed, {.slip = 0.1, .limit_m = kUsualPoseLimit_m});
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+    const Scenario scenario = Swarm(6, seed, {.slip = 0.1, .limit_m = kUsualPoseLimit_m});
     const VirtualOutcome outcome = RunVirtually(scenario, {}, [&](const VirtualFleet& fleet) {
       for (std::size_t i = 0; i < fleet.Size(); ++i) {
         const Beacon& said = fleet.Said(i).beacon;
@@ -56,12 +57,12 @@ TEST(PoseFleet, WithoutFixesTheySayThatTheyAreLost) {
     EXPECT_EQ(outcome.contacts, 0U) << seed;
     EXPECT_EQ(Of(outcome, Invariant::kPose), 0U) << seed;
   }
-  EXPECT_GT(lost, 100U);
+  EXPECT_GT(lost, 20U);
 }
 
 TEST(PoseFleet, UnequalWheelsAreDrivenByWhatFixesShow) {
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-    const VirtualOutcome outcome = RunVirtually(Swarm(8, seed,
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
+    const VirtualOutcome outcome = RunVirtually(Swarm(6, seed,
                                                       {.fixes = kFixes,
                                                        .limit_m = kUsualPoseLimit_m,
                                                        .errors = {.diameter = 0.02, .axle = 0.02}}),
@@ -86,7 +87,7 @@ VirtualPlan PlanOf(faults::Kind kind, const faults::Parameters& parameters) {
 TEST(PoseFleet, AnEncoderThatCountsWronglyIsNoticedByFixes) {
   const VirtualPlan plan = PlanOf(faults::Kind::kEncoderWrong, {.factor = 1.1});
   std::uint32_t wrong_without = 0;
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     wrong_without += Of(RunVirtually(Swarm(6, seed, {}), plan), Invariant::kPose);
     const VirtualOutcome with =
         RunVirtually(Swarm(6, seed, {.fixes = kFixes, .limit_m = kUsualPoseLimit_m}), plan);
@@ -98,7 +99,7 @@ TEST(PoseFleet, AnEncoderThatCountsWronglyIsNoticedByFixes) {
 
 TEST(PoseFleet, WrongFixesAreNotFollowed) {
   const VirtualPlan plan = PlanOf(faults::Kind::kPoseFixWrong, {.probability = 0.5, .factor = 8});
-  for (std::uint32_t seed = 1; seed <= 6; ++seed) {
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const VirtualOutcome outcome = RunVirtually(
         Swarm(6, seed, {.slip = 0.02, .fixes = kFixes, .limit_m = kUsualPoseLimit_m}), plan);
     EXPECT_EQ(Of(outcome, Invariant::kPose), 0U) << seed;
@@ -110,7 +111,7 @@ TEST(PoseFleet, WrongFixesAreNotFollowed) {
 TEST(PoseFleet, WithoutFixesForAWhileTheyAreLostAndGoOnAfterwards) {
   VirtualPlan plan = PlanOf(faults::Kind::kPoseFixLost, {});
   plan.schedule[0].for_s = 40;
-  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const VirtualOutcome outcome = RunVirtually(
         Swarm(6, seed, {.slip = 0.1, .fixes = kFixes, .limit_m = kUsualPoseLimit_m}), plan);
     EXPECT_EQ(outcome.arrived, outcome.vehicles) << seed;
