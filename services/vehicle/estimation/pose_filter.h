@@ -4,12 +4,21 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "services/types/math/pose.h"
+#include "services/types/pose_sensing.h"
 #include "services/vehicle/estimation/odometry.h"
-#include "services/vehicle/estimation/pose_keeping.h"
 
 namespace giveway {
+
+// What the wheels do otherwise than the drive says, as far as fixes have shown it.
+struct Calibration {
+  WheelErrors wheels;
+  std::array<double, 6> with_pose{};  // covariance of x, y, heading (rows) with diameter and axle
+  std::array<double, 3> own{};        // of diameter, of both, of axle
+};
 
 // x, y, heading, then the wheels' diameter and axle errors.
 enum class PoseNumber : std::uint8_t { kX, kY, kHeading, kDiameter, kAxle };

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "services/types/math/math.h"
-#include "services/vehicle/estimation/pose_filter.h"
 
 namespace giveway {
 namespace {

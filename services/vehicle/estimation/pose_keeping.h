@@ -12,15 +12,9 @@
 #include "services/types/profile.h"
 #include "services/types/state_hash.h"
 #include "services/vehicle/estimation/odometry.h"
+#include "services/vehicle/estimation/pose_filter.h"
 
 namespace giveway {
-
-// What the wheels do otherwise than the drive says, as far as fixes have shown it.
-struct Calibration {
-  WheelErrors wheels;
-  std::array<double, 6> with_pose{};  // covariance of x, y, heading (rows) with diameter and axle
-  std::array<double, 3> own{};        // of diameter, of both, of axle
-};
 
 // Where it took itself to be at a tick: fixes speak of the past.
 struct PastPose {
