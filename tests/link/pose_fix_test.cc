@@ -33,7 +33,7 @@ TEST(PoseFixTopic, BringsItsVehicleTheNewestFix) {
   link::WorldLink world(OptionsIn(domain));
   link::VehicleLink vehicle(OptionsIn(domain));
   world.OpenVehicle(kSeven, Fitted());
-  vehicle.Open(kSeven, Fitted());
+  vehicle.Open(kSeven, Fitted(), false);
   ASSERT_TRUE(Eventually([&] { return world.IsMatched(kSeven); }));
   std::optional<PoseFix> fix;
   ASSERT_TRUE(Eventually([&] {
@@ -54,8 +54,8 @@ TEST(PoseFixTopic, IsWaitedForByTheStartWhereItIsFitted) {
   world.OpenVehicle(VehicleId{8}, VehicleProfile{});
   link::VehicleLink lacking(OptionsIn(domain));
   link::VehicleLink whole(OptionsIn(domain));
-  lacking.Open(kSeven, VehicleProfile{});
-  whole.Open(VehicleId{8}, VehicleProfile{});
+  lacking.Open(kSeven, VehicleProfile{}, false);
+  whole.Open(VehicleId{8}, VehicleProfile{}, false);
   EXPECT_TRUE(Eventually([&] { return world.IsMatched(VehicleId{8}); }));
   Repeat(milliseconds(200), [&] { EXPECT_FALSE(world.IsMatched(kSeven)); });
 }
@@ -66,7 +66,7 @@ TEST(PoseFixTopic, AFixInAnotherVehiclesNameOrWithoutADeviationIsRefusedAndCount
   link::Participant raw(OptionsIn(domain), "raw-world", names);
   auto writer = raw.MakeWriter<wire::PoseFix>("v7");
   link::VehicleLink vehicle(OptionsIn(domain));
-  vehicle.Open(kSeven, Fitted());
+  vehicle.Open(kSeven, Fitted(), false);
   EXPECT_TRUE(Eventually([&] {
     writer.Write(link::ToWire(FixOf(VehicleId{8}, 1)));
     EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.pose_fix.has_value());
