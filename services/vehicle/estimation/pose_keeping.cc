@@ -18,7 +18,10 @@ constexpr double kLeastWheelError = 0.05;
 constexpr double kGate = 13.8;
 constexpr double kHeadingGate = 10.8;
 // So many that do not fit must agree before they are believed against the wheels.
-constexpr std::uint32_t kAgreeing = 3;
+constexpr std::uint32_t kAgreeing = 5;
+// One of twenty true fixes is farther off than this: of more the pose may have a share that no
+// noise explains, as of an encoder that counts wrongly.
+constexpr double kSuspicious = 6;
 // How much of what fixes say may have come by turning wrongly.
 constexpr double kDoubtedHeading_rad = 0.3;
 // It slows down from this share of its limit on, and having been lost goes on from this one.
@@ -65,6 +68,11 @@ std::optional<Innovation> InnovationOf(const PoseFix& fix, const Odometry& odome
       .position_m2 = fix.sigma_position_m * fix.sigma_position_m + turned_by_m * turned_by_m,
       .heading_rad2 = fix.sigma_heading_rad * fix.sigma_heading_rad,
       .of_heading = fix.sigma_heading_rad > 0};
+}
+
+bool IsSuspicious(const Innovation& innovation, const Odometry& odometry) {
+  return Mahalanobis(innovation.off_world, odometry.Covariance(), innovation.position_m2) >
+         kSuspicious;
 }
 
 bool Fits(const Innovation& innovation, const Odometry& odometry) {
@@ -121,7 +129,7 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
     return;
   }
   if (Fits(*innovation, *odometry)) {
-    Believe(*innovation, fix.tick, false, odometry, keeping);
+    Believe(*innovation, fix.tick, IsSuspicious(*innovation, *odometry), odometry, keeping);
     return;
   }
   ++keeping->fixes_refused;

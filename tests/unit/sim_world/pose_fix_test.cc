@@ -98,8 +98,8 @@ Scenario Fitted() {
   return scenario;
 }
 
-std::vector<PoseFix> Drive(const Scenario& scenario, const faults::Schedule& faults, int ticks,
-                           std::uint64_t* hash = nullptr) {
+std::vector<PoseFix> FixesOf(const Scenario& scenario, const faults::Schedule& faults, int ticks,
+                             std::uint64_t* hash = nullptr) {
   Run run(scenario, kEpoch, OnThisThread, {faults, 1});
   for (const VehicleOptions& options : scenario.vehicles) run.Join(options.id);
   run.Advance({});
@@ -107,7 +107,8 @@ std::vector<PoseFix> Drive(const Scenario& scenario, const faults::Schedule& fau
   run.Start();
   std::vector<PoseFix> fixes;
   for (int i = 0; i < ticks; ++i) {
-    run.Advance({});
+    const MotorCommand commands[] = {Drive(1, run.Now(), 1, 1), Drive(2, run.Now(), 1, 1)};
+    run.Advance(commands);
     fixes.insert(fixes.end(), run.PoseFixes().begin(), run.PoseFixes().end());
     for (const PoseFix& fix : run.PoseFixes()) {
       EXPECT_EQ(fix.tick, run.Now());
@@ -119,17 +120,17 @@ std::vector<PoseFix> Drive(const Scenario& scenario, const faults::Schedule& fau
 }
 
 TEST(PoseFixSensor, SpeaksToThoseThatAreFittedAlone) {
-  const std::vector<PoseFix> fixes = Drive(Fitted(), {}, 50);
+  const std::vector<PoseFix> fixes = FixesOf(Fitted(), {}, 50);
   EXPECT_EQ(fixes.size(), 50U);
   for (const PoseFix& fix : fixes) EXPECT_EQ(fix.vehicle, kOne);
 }
 
 TEST(PoseFixSensor, ChangesNothingInTheWorld) {
   std::uint64_t with = 0, without = 1;
-  Drive(Fitted(), {}, 50, &with);
+  FixesOf(Fitted(), {}, 50, &with);
   Scenario plain = Fitted();
   plain.vehicles[0].profile.pose_fix = {};
-  Drive(plain, {}, 50, &without);
+  FixesOf(plain, {}, 50, &without);
   EXPECT_EQ(with, without);
 }
 
@@ -143,13 +144,13 @@ faults::Fault FaultOf(faults::Kind kind, const faults::Parameters& parameters = 
 }
 
 TEST(PoseFixFault, LostFixesDoNotComeForItsTime) {
-  EXPECT_EQ(Drive(Fitted(), {FaultOf(faults::Kind::kPoseFixLost)}, 100).size(), 80U);
+  EXPECT_EQ(FixesOf(Fitted(), {FaultOf(faults::Kind::kPoseFixLost)}, 100).size(), 80U);
 }
 
 TEST(PoseFixFault, WrongFixesAreOffByTheirMultipleForItsTime) {
   const auto wrong = FaultOf(faults::Kind::kPoseFixWrong, {.probability = 1, .factor = 8});
-  const std::vector<PoseFix> sound = Drive(Fitted(), {}, 100);
-  const std::vector<PoseFix> fixes = Drive(Fitted(), {wrong}, 100);
+  const std::vector<PoseFix> sound = FixesOf(Fitted(), {}, 100);
+  const std::vector<PoseFix> fixes = FixesOf(Fitted(), {wrong}, 100);
   ASSERT_EQ(fixes.size(), sound.size());
   int off = 0;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
@@ -163,8 +164,8 @@ TEST(PoseFixFault, WrongFixesAreOffByTheirMultipleForItsTime) {
 
 TEST(PoseFixFault, OfSomeHitsSome) {
   const auto wrong = FaultOf(faults::Kind::kPoseFixWrong, {.probability = 0.5, .factor = 8});
-  const std::vector<PoseFix> sound = Drive(Fitted(), {}, 100);
-  const std::vector<PoseFix> fixes = Drive(Fitted(), {wrong}, 100);
+  const std::vector<PoseFix> sound = FixesOf(Fitted(), {}, 100);
+  const std::vector<PoseFix> fixes = FixesOf(Fitted(), {wrong}, 100);
   int off = 0;
   for (std::size_t i = 0; i < fixes.size(); ++i) {
     off += fixes[i].world_from_body == sound[i].world_from_body ? 0 : 1;
