@@ -30,6 +30,8 @@ constexpr double kFoundFrom = 0.75;
 // It drives no slower than this share of its cruise speed up to the limit, so that it gets there.
 constexpr double kSlowest = 0.2;
 
+enum class Belief : std::uint8_t { kPlain, kSuspicious, kAgainstWheels };
+
 struct Innovation {
   Vec2 off_world;
   double off_rad = 0;
@@ -97,13 +99,15 @@ void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometr
   }
 }
 
-void Believe(const Innovation& innovation, Tick tick, bool doubted, Odometry* odometry,
+void Believe(const Innovation& innovation, Tick tick, Belief how, Odometry* odometry,
              PoseKeeping* keeping) {
   PoseFilter filter(*odometry, keeping->calibration);
-  if (doubted) filter.Doubt(innovation.off_world, kDoubtedHeading_rad);
+  if (how != Belief::kPlain) filter.Doubt(innovation.off_world, kDoubtedHeading_rad);
   Correct(innovation, &filter, odometry, keeping);
   keeping->agreed = tick;
+  // Until another fix fits it may as well be where it took itself to be before.
   keeping->disagreement = {};
+  if (how == Belief::kSuspicious) keeping->disagreement = {-1.0 * filter.Moved(), 1};
   ++keeping->fixes_used;
 }
 
@@ -129,7 +133,9 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
     return;
   }
   if (Fits(*innovation, *odometry)) {
-    Believe(*innovation, fix.tick, IsSuspicious(*innovation, *odometry), odometry, keeping);
+    const bool suspicious = IsSuspicious(*innovation, *odometry);
+    Believe(*innovation, fix.tick, suspicious ? Belief::kSuspicious : Belief::kPlain, odometry,
+            keeping);
     return;
   }
   ++keeping->fixes_refused;
@@ -141,7 +147,7 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
   disagreement = {innovation->off_world, same ? disagreement.fixes + 1 : 1};
   if (disagreement.fixes < kAgreeing) return;
   --keeping->fixes_refused;
-  Believe(*innovation, fix.tick, true, odometry, keeping);
+  Believe(*innovation, fix.tick, Belief::kAgainstWheels, odometry, keeping);
 }
 
 }  // namespace

@@ -98,7 +98,7 @@ TEST(PoseFleet, AnEncoderThatCountsWronglyIsNoticedByFixes) {
 }
 
 TEST(PoseFleet, WrongFixesAreNotFollowed) {
-  const VirtualPlan plan = PlanOf(faults::Kind::kPoseFixWrong, {.probability = 0.5, .factor = 8});
+  const VirtualPlan plan = PlanOf(faults::Kind::kPoseFixWrong, {.probability = 0.2, .factor = 8});
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const VirtualOutcome outcome = RunVirtually(
         Swarm(6, seed, {.slip = 0.02, .fixes = kFixes, .limit_m = kUsualPoseLimit_m}), plan);
