@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "services/config/pose_read.h"
 #include "services/types/fleet_limits.h"
 #include "services/types/math/math.h"
 
@@ -188,6 +189,7 @@ void ReadProfile(const std::optional<Section>& section, VehicleProfile* profile)
   read("wheel_slip", {0, 0.5}, &profile->wheel_slip);
   read("encoder_noise", {0, 0.5}, &profile->encoder_noise);
   ReadSensors(section->Sub("sensors"), profile);
+  ReadPoseKeeping(*section, profile);
   for (std::size_t i = kSensorCount / 2; i < kSensorCount; ++i) {
     profile->sonar[i].enabled = section->FlagOr(profile->sonar[i].enabled, "rear_sonar");
   }

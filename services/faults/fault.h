@@ -55,6 +55,8 @@ enum class Kind : std::uint8_t {
   kMotorWeak,          // wheels reach `factor` of what was commanded
   kMotorStuck,         // wheels continue as they turned when it started
   kEncoderWrong,       // encoders count `factor` of what the wheels turn
+  kPoseFixLost,        // no pose fixes
+  kPoseFixWrong,       // each with `probability` off by `factor` of its standard deviations
   // A program of the tests.
   kSpoofed,    // beacons under the target's id
   kReplayed,   // the target's beacons of before

@@ -36,6 +36,9 @@ constexpr std::array kSonarDelayedNumbers = {QuantityRow{N::kDelay, 0.1, 0, 10}}
 constexpr std::array kIntermittentNumbers = {QuantityRow{N::kProbability, 0.3, 0, 1}};
 constexpr std::array kWeakQuantities = {QuantityRow{N::kFactor, 0.7, 0, 10}};
 constexpr std::array kEncoderNumbers = {QuantityRow{N::kFactor, 1.02, 0, 10}};
+// Off by far more than a fix can be by chance, and by no more than wheels could have gone.
+constexpr std::array kFixNumbers = {QuantityRow{N::kProbability, 0.5, 0, 1},
+                                    QuantityRow{N::kFactor, 8, 0, 10}};
 constexpr std::array kForgedNumbers = {QuantityRow{N::kRate, 20, 1, 100000}};
 constexpr std::array kFloodNumbers = {QuantityRow{N::kRate, 2000, 1, 100000}};
 constexpr std::array kMalformedNumbers = {QuantityRow{N::kRate, 50, 1, 100000}};
@@ -264,6 +267,18 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      "its wheels go on as they turned when it began"},
     {Kind::kEncoderWrong, "encoder_wrong", kW, kEar, kLasts, kVirtualToo, kEncoderNumbers, false,
      "", "its encoders count a multiple of what the wheels turn"},
+    {Kind::kPoseFixLost,
+     "pose_fix_lost",
+     kW,
+     kEar,
+     kLasts,
+     kVirtualToo,
+     {},
+     false,
+     "",
+     "it has no pose fixes"},
+    {Kind::kPoseFixWrong, "pose_fix_wrong", kW, kEar, kLasts, kVirtualToo, kFixNumbers, false, "",
+     "some of its pose fixes are off by a multiple of their standard deviation"},
     {Kind::kSpoofed, "spoofed", kA, kOnVehicle, kLasts, kReal, kForgedNumbers, false, "",
      "beacons of another come under its id"},
     {Kind::kReplayed, "replayed", kA, kOnVehicle, kLasts, kReal, kForgedNumbers, false, "",

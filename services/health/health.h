@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "services/types/fleet_facts.h"
 #include "services/types/figures/packet_counters.h"
+#include "services/types/fleet_facts.h"
 #include "services/types/time.h"
 
 namespace giveway {
@@ -57,6 +57,9 @@ struct VehicleHealth {
   PacketCounters packets;  // of this process
   SteadyTime scanned{0};   // when the last scan came; 0 before the first
   Nanoseconds ranges_age_limit{0};
+  double pose_sigma_m = 0;  // how unsure it is of its position, as a standard deviation
+  std::uint32_t fixes_used = 0;
+  std::uint32_t fixes_refused = 0;
 };
 
 struct WorldHealth {

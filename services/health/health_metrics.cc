@@ -167,6 +167,17 @@ void AddDriving(const VehicleHealth& vehicle, SteadyTime now, Metrics* metrics) 
                    vehicle.placements);
 }
 
+void AddPose(const VehicleHealth& vehicle, Metrics* metrics) {
+  metrics->Gauge("lost", "1 while it stands for not knowing well enough where it is.",
+                 vehicle.status.decision.rule == Rule::kLost);
+  metrics->Gauge("pose_sigma_meters", "Standard deviation of its own position.",
+                 vehicle.pose_sigma_m);
+  metrics->Counter("pose_fixes_used", "Fixes of its position that were weighed.",
+                   vehicle.fixes_used);
+  metrics->Counter("pose_fixes_refused", "Fixes that were out of date, or not believed.",
+                   vehicle.fixes_refused);
+}
+
 void AddTiming(const DriveFigures& timing, Metrics* metrics) {
   metrics->Summary("beacon_age_seconds", "Time since the tick of the oldest beacon decided by.",
                    timing.Of(DriveFigure::kBeaconAge));
@@ -229,6 +240,7 @@ std::string MetricsText(const VehicleHealth& vehicle, const ProcessFigures& proc
       &metrics);
   AddLoop(vehicle.loop, NotReady(vehicle, now).empty(), now, &metrics);
   AddDriving(vehicle, now, &metrics);
+  AddPose(vehicle, &metrics);
   AddPeers(vehicle, &metrics);
   AddBeacons(vehicle.status, &metrics);
   AddTrust(vehicle.status.trust, &metrics);

@@ -110,8 +110,8 @@ std::unique_ptr<Listener> MakeListener(Participant& participant, const EarTopic&
 
 std::unique_ptr<Listener> MakeAnyListener(Participant& participant, const EarTopic& topic) {
   return MakeListener<wire::Beacon, wire::MotorCommand, wire::Join, wire::RangeScan,
-                      wire::RadarScan, wire::LidarScan, wire::CameraScan, wire::Roster,
-                      wire::SignalState>(participant, topic);
+                      wire::RadarScan, wire::LidarScan, wire::CameraScan, wire::PoseFix,
+                      wire::Roster, wire::SignalState>(participant, topic);
 }
 
 }  // namespace

@@ -28,8 +28,8 @@ void TryQos(const LinkOptions& options) {
   participant.StandApart();
   MakeEndpoints<wire::Beacon, wire::MotorCommand, wire::Status, wire::Order, wire::Answer,
                 wire::Join, wire::RangeScan, wire::RadarScan, wire::LidarScan, wire::CameraScan,
-                wire::SignalState, wire::Roster, wire::Truth, wire::Event, wire::Figures>(
-      participant);
+                wire::PoseFix, wire::SignalState, wire::Roster, wire::Truth, wire::Event,
+                wire::Figures>(participant);
 }
 
 }  // namespace giveway::link

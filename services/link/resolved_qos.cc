@@ -75,6 +75,7 @@ std::vector<ResolvedEntity> ResolveQos(const LinkOptions& options) {
   participant.Append<wire::RadarScan>(kOfProfile, resolved);
   participant.Append<wire::LidarScan>(kOfProfile, resolved);
   participant.Append<wire::CameraScan>(kOfProfile, resolved);
+  participant.Append<wire::PoseFix>(kOfProfile, resolved);
   participant.Append<wire::SignalState>(kOfProfile, resolved);
   participant.Append<wire::Roster>(kOfProfile, resolved);
   participant.Append<wire::Truth>(kOfProfile, resolved);

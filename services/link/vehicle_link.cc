@@ -60,12 +60,15 @@ struct FittedSensors {
         lidar(
             MakeInboxIf<wire::LidarScan, LidarScan>(profile.lidar, participant, id, world, filter)),
         camera(MakeInboxIf<wire::CameraScan, CameraScan>(profile.camera, participant, id, world,
-                                                         filter)) {}
+                                                         filter)),
+        pose_fix(MakeInboxIf<wire::PoseFix, PoseFix>(profile.pose_fix.Fitted(), participant, id,
+                                                     world, filter)) {}
 
   void Take(const WriterNames& names, SteadyTime now, Inputs& inputs) {
     inputs.radar = NewestOf(radar, names, now);
     inputs.lidar = NewestOf(lidar, names, now);
     inputs.camera = NewestOf(camera, names, now);
+    if (const PoseFix* fix = NewestOf(pose_fix, names, now)) inputs.pose_fix = *fix;
   }
   // Calls visit(inbox) of each.
   template <typename Visit>
@@ -73,11 +76,13 @@ struct FittedSensors {
     if (radar) visit(*radar);
     if (lidar) visit(*lidar);
     if (camera) visit(*camera);
+    if (pose_fix) visit(*pose_fix);
   }
 
   OptionalInbox<wire::RadarScan, RadarScan> radar;
   OptionalInbox<wire::LidarScan, LidarScan> lidar;
   OptionalInbox<wire::CameraScan, CameraScan> camera;
+  OptionalInbox<wire::PoseFix, PoseFix> pose_fix;
 };
 
 // What the readers of a vehicle take no notice of. The library asks them until the participant is

@@ -22,6 +22,7 @@ class VehicleWriters {
   bool Write(const wire::RadarScan& scan) { return Fitted(radar_).Write(scan); }
   bool Write(const wire::LidarScan& scan) { return Fitted(lidar_).Write(scan); }
   bool Write(const wire::CameraScan& scan) { return Fitted(camera_).Write(scan); }
+  bool Write(const wire::PoseFix& fix) { return Fitted(pose_fix_).Write(fix); }
 
   // True if each of them has a reader.
   bool HaveReaders() const;
@@ -38,6 +39,7 @@ class VehicleWriters {
   std::optional<Writer<wire::RadarScan>> radar_;
   std::optional<Writer<wire::LidarScan>> lidar_;
   std::optional<Writer<wire::CameraScan>> camera_;
+  std::optional<Writer<wire::PoseFix>> pose_fix_;
 };
 
 }  // namespace giveway::link

@@ -237,6 +237,7 @@ void WorldLink::SendSignal(const SignalState& state) {
 void WorldLink::SendRadar(const RadarScan& scan) { impl_->Send(scan); }
 void WorldLink::SendLidar(const LidarScan& scan) { impl_->Send(scan); }
 void WorldLink::SendCamera(const CameraScan& scan) { impl_->Send(scan); }
+void WorldLink::SendPoseFix(const PoseFix& fix) { impl_->Send(fix); }
 void WorldLink::SendScan(const RangeScan& scan) { impl_->Send(scan); }
 
 void WorldLink::SendTruth(const Truth& truth) {

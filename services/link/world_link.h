@@ -75,6 +75,7 @@ class WorldLink final : public AdminLink {
   void SendRadar(const RadarScan& scan);
   void SendLidar(const LidarScan& scan);
   void SendCamera(const CameraScan& scan);
+  void SendPoseFix(const PoseFix& fix);
   void SendScan(const RangeScan& scan);
   void SendTruth(const Truth& truth);
   void SendEvent(const WorldEvent& event);

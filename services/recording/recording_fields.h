@@ -64,11 +64,23 @@ void Visit(auto& fields, Is<SensorMount> auto& mount) {
   fields(position, bearing, enabled);
 }
 
+void Visit(auto& fields, Is<PoseFixModel> auto& model) {
+  auto& [every, sigma, sigma_heading, dropout] = model;
+  fields(every, sigma, sigma_heading, dropout);
+}
+
+void Visit(auto& fields, Is<WheelErrors> auto& errors) {
+  auto& [diameter, axle] = errors;
+  fields(diameter, axle);
+}
+
 void Visit(auto& fields, Is<VehicleProfile> auto& profile) {
   auto& [drive, shape, body_radius, box_half, max_speed, max_turn, acceleration, deceleration, slip,
-         encoder_noise, half_angle, max_range, sonar, radar, lidar, camera] = profile;
+         encoder_noise, half_angle, max_range, sonar, radar, lidar, camera, pose_fix, wheel_error,
+         pose_limit] = profile;
   fields(drive, shape, body_radius, box_half, max_speed, max_turn, acceleration, deceleration, slip,
-         encoder_noise, half_angle, max_range, sonar, radar, lidar, camera);
+         encoder_noise, half_angle, max_range, sonar, radar, lidar, camera, pose_fix, wheel_error,
+         pose_limit);
 }
 
 void Visit(auto& fields, Is<VehicleOptions> auto& options) {
@@ -161,8 +173,8 @@ void Visit(auto& fields, Is<Handover> auto& handover) {
 }
 
 void Visit(auto& fields, Is<PoseFix> auto& fix) {
-  auto& [pose, sigma_position, sigma_heading] = fix;
-  fields(pose, sigma_position, sigma_heading);
+  auto& [pose, sigma_position, sigma_heading, vehicle, epoch, tick] = fix;
+  fields(pose, sigma_position, sigma_heading, vehicle, epoch, tick);
 }
 
 void Visit(auto& fields, Is<Decision> auto& decision) {

@@ -15,10 +15,6 @@
 namespace giveway {
 namespace {
 
-// Count the layouts; beside VehicleState::kVersion, which counts what the fields mean. That with an
-// obstacle grid is for those that have taken something into it: the others' stays what it was.
-constexpr std::uint32_t kStateFormat = 1;
-constexpr std::uint32_t kStateFormatWithGrid = 2;
 constexpr std::uint32_t kAllSensors = (1U << kSensorCount) - 1;
 // Of anything a brain remembers; its square is far from overflowing.
 constexpr double kMostNumber = 1e10;
@@ -32,7 +28,7 @@ constexpr std::uint64_t kLast = std::numeric_limits<std::uint32_t>::max();
 template <>
 constexpr std::uint64_t kLast<Mode> = static_cast<std::uint64_t>(Mode::kLeaving);
 template <>
-constexpr std::uint64_t kLast<Rule> = static_cast<std::uint64_t>(Rule::kLeaving);
+constexpr std::uint64_t kLast<Rule> = static_cast<std::uint64_t>(kLastRule);
 template <>
 constexpr std::uint64_t kLast<RunState> = static_cast<std::uint64_t>(RunState::kEnded);
 template <>
@@ -51,7 +47,10 @@ concept Array = !std::is_same_v<T, Nanoseconds> && requires(T list) {
 // Little-endian, without padding.
 class StateWriter {
  public:
+  explicit StateWriter(StateFormat format) : format_(format) {}
+
   void operator()(const auto&... values) { (Put(values), ...); }
+  bool Has(StateFormat part) const { return format_ >= part; }
   std::string Take() { return std::move(bytes_); }
 
  private:
@@ -73,6 +72,7 @@ class StateWriter {
     for (std::size_t i = 0; i < count; ++i) bytes_ += static_cast<char>(number >> 8 * i);
   }
 
+  StateFormat format_;
   std::string bytes_;
 };
 
@@ -81,6 +81,9 @@ class StateReader {
   explicit StateReader(std::string_view bytes) : bytes_(bytes) {}
 
   void operator()(auto&... values) { (Get(&values), ...); }
+  // Of the layout that is read.
+  void SetFormat(StateFormat format) { format_ = format; }
+  bool Has(StateFormat part) const { return format_ >= part; }
   bool IsSound() const { return sound_; }
   bool IsAtEnd() const { return bytes_.empty(); }
 
@@ -148,6 +151,7 @@ class StateReader {
   }
 
   std::string_view bytes_;
+  StateFormat format_ = kStateFormat;
   bool sound_ = true;
 };
 
@@ -196,6 +200,18 @@ bool IsSound(const ObstacleGrid& grid) {
   return is_in(at.x) && is_in(at.y) && has_columns;
 }
 
+bool IsKnown(std::uint32_t format) {
+  return format >= static_cast<std::uint32_t>(StateFormat::kFirst) &&
+         format <= static_cast<std::uint32_t>(StateFormat::kWithGrid);
+}
+
+std::string BytesIn(StateFormat format, const VehicleState& state) {
+  StateWriter writer(format);
+  writer(static_cast<std::uint32_t>(format), VehicleState::kVersion, state);
+  if (writer.Has(StateFormat::kWithGrid)) writer(state.grid);
+  return writer.Take();
+}
+
 // What a number is used as a place by.
 bool IsSound(const VehicleState& state, const VehicleOptions& options) {
   const bool on_route = OnRoute(options.route, {state.waypoint, 0}).waypoint == state.waypoint;
@@ -204,7 +220,7 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
       covariance.xx_m2 >= 0 && covariance.yy_m2 >= 0 && covariance.hh_rad2 >= 0;
   return state.boot_epoch != 0 && can_be_there && on_route && IsSensor(state.deaf_sensor) &&
          IsSensor(state.decision.sensor) && state.steer_side >= -1 && state.steer_side <= 1 &&
-         (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 &&
+         (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 && IsSound(state.pose) &&
          AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.grid) &&
          IsSound(state.objects.radar) && IsSound(state.objects.lidar) &&
          IsSound(state.objects.camera);
@@ -213,11 +229,14 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
 }  // namespace
 
 std::string BytesOf(const VehicleState& state) {
-  StateWriter writer;
-  const bool has_grid = state.grid.IsActive();
-  writer(has_grid ? kStateFormatWithGrid : kStateFormat, VehicleState::kVersion, state);
-  if (has_grid) writer(state.grid);
-  return writer.Take();
+  return BytesIn(state.grid.IsActive() ? StateFormat::kWithGrid : kStateFormat, state);
+}
+
+bool AreBytesOf(std::string_view bytes, const VehicleState& state) {
+  StateReader reader(bytes);
+  std::uint32_t format = 0;
+  reader(format);
+  return IsKnown(format) && BytesIn(StateFormat{format}, state) == bytes;
 }
 
 std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOptions& options) {
@@ -225,11 +244,12 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   std::uint32_t format = 0;
   std::uint32_t version = 0;
   reader(format, version);
-  const bool has_grid = format == kStateFormatWithGrid;
-  if ((format != kStateFormat && !has_grid) || version != VehicleState::kVersion) return nullptr;
+  if (!IsKnown(format) || version != VehicleState::kVersion) return nullptr;
+  reader.SetFormat(StateFormat{format});
   auto state = std::make_unique_for_overwrite<VehicleState>();
+  Begin(options.profile, &state->pose);  // an image without it
   reader(*state);
-  if (has_grid) reader(state->grid);
+  if (reader.Has(StateFormat::kWithGrid)) reader(state->grid);
   if (!reader.IsSound() || !reader.IsAtEnd() || !IsSound(*state, options)) return nullptr;
   return state;
 }

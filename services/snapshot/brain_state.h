@@ -15,6 +15,10 @@ namespace giveway {
 // A kilobyte a peer, and five.
 std::string BytesOf(const VehicleState& state);
 
+// True if these are the state's bytes, in the layout of today or in the one of before that they are
+// written in.
+bool AreBytesOf(std::string_view bytes, const VehicleState& state);
+
 // Null where the bytes are no such state.
 std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOptions& options);
 

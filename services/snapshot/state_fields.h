@@ -6,6 +6,7 @@
 #include <span>
 
 #include "services/recording/recording_fields.h"
+#include "services/snapshot/pose_state_fields.h"
 #include "services/vehicle/vehicle.h"
 
 namespace giveway {
@@ -150,20 +151,27 @@ struct StateFields {
   }
 };
 
+// Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean. What a
+// layout has more than the one before stands at the end of the state.
+enum class StateFormat : std::uint32_t { kFirst = 1, kWithPose = 2, kWithGrid = 3 };
+// Of a brain that has taken nothing into its obstacle grid; of others it is kWithGrid.
+inline constexpr StateFormat kStateFormat = StateFormat::kWithPose;
+
 template <typename T>
 concept KeepsItsOwn = Is<T, Odometry> || Is<T, RangeView> || Is<T, ObstacleGrid> ||
     Is<T, SignalTable> || Is<T, PeerTable>;
 
 void Visit(auto& fields, KeepsItsOwn auto& part) { StateFields::Of(fields, part); }
 
-// Without the grid, which brain_state.cc puts behind the rest where it is used.
+// What is appended to the state is led over apart, by the format that has it, and the grid behind
+// the rest where it is used: brain_state.cc.
 void Visit(auto& fields, Is<VehicleState> auto& state) {
   auto& [boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
          way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
          decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
          steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
          caught_ticks, ranges, grid, peers, signals, objects, last_heard, scans_refused,
-         signals_refused, beacons, qos, trust] = state;
+         signals_refused, beacons, qos, trust, pose] = state;
   static_cast<void>(grid);
   fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
          way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
@@ -171,6 +179,7 @@ void Visit(auto& fields, Is<VehicleState> auto& state) {
          steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
          caught_ticks, ranges, peers, signals, objects, last_heard, scans_refused, signals_refused,
          beacons, qos, trust);
+  if (fields.Has(StateFormat::kWithPose)) fields(pose);
 }
 
 }  // namespace giveway

@@ -66,6 +66,10 @@ std::string_view Name(Rule rule) {
       return "object";
     case Rule::kLeaving:
       return "leaving";
+    case Rule::kUnsure:
+      return "unsure";
+    case Rule::kLost:
+      return "lost";
   }
   return "unknown";
 }

@@ -45,7 +45,15 @@ enum class Rule : std::uint8_t {
   kMakeRoom,     // turning out of the way of one that comes first and cannot pass
   kObject,       // radar or lidar: an object whose place and motion make it an obstacle
   kLeaving,      // stopping in good order
+  kUnsure,       // slower: soon it will not know any more where it is
+  kLost,         // it does not know well enough where it is: it stands until a fix says so
 };
+inline constexpr Rule kLastRule = Rule::kLost;
+
+// True for the rules by which a vehicle says that it will not move by itself.
+constexpr bool StaysPut(Rule rule) {
+  return rule == Rule::kArrived || rule == Rule::kNotRunning || rule == Rule::kLost;
+}
 
 // True for the rules that count as giving way to another vehicle (the verdict's `halted`).
 constexpr bool IsGiveWay(Rule rule) {

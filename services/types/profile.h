@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "services/types/math/pose.h"
+#include "services/types/pose_sensing.h"
 
 namespace giveway {
 
@@ -47,6 +48,12 @@ struct VehicleProfile {
   bool radar = false;
   bool lidar = false;
   bool camera = false;
+  PoseFixModel pose_fix;
+  // The brain takes no more of it than how wrong the wheels may be, never which way.
+  WheelErrors wheel_error;
+  // The standard deviation of its position beyond which it halts and says that it is lost; 0:
+  // never.
+  double pose_limit_m = 0;
 };
 
 // The P3-DX: front eight enabled, rear eight fitted and switched off.

@@ -7,6 +7,7 @@
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
+#include "services/types/pose_sensing.h"
 #include "services/types/qos_event.h"
 #include "services/types/range_scan.h"
 #include "services/types/sensor_scan.h"
@@ -14,14 +15,6 @@
 #include "services/types/time.h"
 
 namespace giveway {
-
-// Where somebody else says this vehicle is: a marker passed, a camera on the ceiling. Deviations
-// are standard deviations; the position's is along any axis.
-struct PoseFix {
-  Pose world_from_body;
-  double sigma_position_m = 0;
-  double sigma_heading_rad = 0;
-};
 
 struct Inputs {
   SteadyTime now{0};
@@ -36,7 +29,7 @@ struct Inputs {
   std::span<const SignalState> signals;
   // The world's newest word on this vehicle since the last step: a new epoch brings a new pose.
   std::optional<RosterEntry> roster;
-  std::optional<PoseFix> pose_fix;  // of the scan's tick
+  std::optional<PoseFix> pose_fix;  // the newest since the last step
   bool leaving = false;             // the process was asked to stop: halt and send a leave notice
   bool halting = false;             // the process is about to restart itself: halt
 };

@@ -17,6 +17,7 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.counted.left_rad);
   hash.Add(state.counted.right_rad);
   state.odometry.AddTo(&hash);
+  if (KeepsPose(options_.profile)) giveway::AddTo(state.pose, &hash);
   hash.Add(state.arrived);
   hash.Add(state.order.waited_ticks);
   hash.Add(state.waited_ticks);

@@ -24,6 +24,7 @@ void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
   state.tick = kNoTick;
   state.run_state = RunState::kWaiting;
   state.odometry = Odometry(world_from_body);
+  Begin(options_.profile, &state.pose);
   state.reckoned = kNoTick;
   state.wheels = {};
   state.waypoint = 0;
@@ -64,7 +65,7 @@ std::optional<Handover> Vehicle::HandOver() const {
                   .tick = state.reckoned,
                   .counted = state.counted,
                   .world_from_body = state.odometry.WorldFromBody(),
-                  .covariance = state.odometry.Covariance(),
+                  .covariance = PromisedCovariance(state.odometry, state.pose),
                   .task = {state.waypoint, state.waited_ticks}};
 }
 

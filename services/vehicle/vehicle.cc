@@ -55,6 +55,7 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->boot_epoch = boot_epoch;
   state_->odometry = Odometry(options.start_world);
+  Begin(options.profile, &state_->pose);
   state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
 
@@ -78,7 +79,13 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   const Pose before = state.odometry.WorldFromBody();
   const WayGone gone = ticks > 1 ? WayOfLostTicks(state.counted, scan, options_, dt_s)
                                  : WayGone{.wheels = scan.wheels};
-  state.odometry.Roll(profile.drive, gone.wheels, dt_s, WheelError(profile), gone.guessed_m);
+  Roll(profile,
+       {.wheels = gone.wheels,
+        .dt_s = dt_s,
+        .wheel_error = WheelError(profile),
+        .guessed_m = gone.guessed_m,
+        .tick = scan.tick},
+       &state.odometry, &state.pose);
   if (Remembers(options_)) {
     const Pose& after = state.odometry.WorldFromBody();
     state.grid.Move(ToBody(before, after.position_world), after.heading_rad - before.heading_rad,
@@ -138,11 +145,10 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.run_state = state.run_state;
   s.leaving = inputs.leaving;
   s.halting = inputs.halting;
-  s.world_from_body = state.odometry.WorldFromBody();
+  LookAtOwnPose(&s);
   s.speed_m_s = twist.forward_m_s;
   s.turn_rad_s = twist.turn_rad_s;
   s.wheels = state.wheels;
-  s.covariance = state.odometry.Covariance();
   s.reaction_s = ReactionSeconds(options_);
   s.slows_m =
       StoppingDistance(options_.cruise_m_s, s.reaction_s, options_.profile.deceleration_m_s2);
@@ -151,7 +157,6 @@ Situation Vehicle::Look(const Inputs& inputs) {
   s.order = ActingOrder(state.order, state.peers, options_.id);
   s.steer_side = state.steer_side;
   s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_, cones_.enabled);
-  s.forward_world = state.odometry.ForwardWorld();
   LookAhead(&s);
   s.path_rad = state.way.Of(s.path.direction_world);
   s.arrived = state.arrived;
@@ -291,7 +296,7 @@ Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   VehicleState& state = *state_;
   if (inputs.roster) TakeRoster(*inputs.roster);
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
-  if (inputs.pose_fix) state.odometry.Fix(*inputs.pose_fix);
+  TakeFix(inputs);
   TakePeers(inputs);
   TakeSignalsAndObjects(inputs);
   Situation s = Look(inputs);

@@ -18,6 +18,7 @@
 #include "services/vehicle/estimation/obstacle_grid.h"
 #include "services/vehicle/estimation/odometry.h"
 #include "services/vehicle/estimation/peer_table.h"
+#include "services/vehicle/estimation/pose_keeping.h"
 #include "services/vehicle/estimation/range_view.h"
 #include "services/vehicle/situation/situation.h"
 
@@ -73,6 +74,7 @@ struct VehicleState {
   BeaconCounters beacons;
   QosCounters qos;
   TrustCounters trust;
+  PoseKeeping pose;
 };
 
 // A beacon of the last step's inputs that was refused.
@@ -117,9 +119,11 @@ class Vehicle {
   void GoOn(TaskProgress task);
   void TakeRoster(const RosterEntry& entry);
   void TakeScan(const RangeScan& scan, SteadyTime now);
+  void TakeFix(const Inputs& inputs);
   void TakePeers(const Inputs& inputs);
   void TakeSignalsAndObjects(const Inputs& inputs);
   Situation Look(const Inputs& inputs);
+  void LookAtOwnPose(Situation* situation);
   void LookAhead(Situation* situation);
   void LookAtSignals(Situation* situation);
   void LookAround(Situation* situation);

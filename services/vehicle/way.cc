@@ -58,6 +58,10 @@ void Vehicle::LookAhead(Situation* s) {
   if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
   // Well inside the radius, so that the truth is inside too.
   if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
+  // A fix may say that it was not there.
+  const bool shown = options_.profile.pose_fix.Fitted();
+  const double surely_m = s->distance_to_goal_m - SigmaPosition(s->covariance);
+  if (shown && surely_m > options_.goal.radius_m) state.arrived = false;
 }
 
 // Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand
@@ -85,7 +89,7 @@ void Vehicle::Detour(Situation* s) {
     state.aimless_ticks = 0;
     state.detour_tick = kNoTick;
   }
-  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal) return;
+  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal || s->lost) return;
   // Nor does it look for a way while it hears nothing. Where ultrasonics are exact this counts on:
   // what was recorded of them replays bit for bit.
   if (state.decision.rule == Rule::kRangesStale && Remembers(options_)) return;

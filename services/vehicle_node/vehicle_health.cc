@@ -1,6 +1,7 @@
 #include "services/vehicle_node/vehicle_health.h"
 
 #include "services/link/fastdds/packets_of_process.h"
+#include "services/types/math/pose.h"
 
 namespace giveway {
 
@@ -33,6 +34,14 @@ void VehicleHealthTeller::Turned(const link::Taken& taken,
   now.ranges_deadline_missed = counters.ranges_deadline_missed;
   now.packets = link::PacketsOfProcess();
   service_.Tell();
+}
+
+void VehicleHealthTeller::Reported(const VehicleStatus& status, const VehicleState& brain) {
+  VehicleHealth& now = service_.Now();
+  now.status = status;
+  now.pose_sigma_m = SigmaPosition(PromisedCovariance(brain.odometry, brain.pose));
+  now.fixes_used = brain.pose.fixes_used;
+  now.fixes_refused = brain.pose.fixes_refused;
 }
 
 void VehicleHealthTeller::Leaves() {

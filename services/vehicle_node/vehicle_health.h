@@ -5,6 +5,7 @@
 
 #include "services/health/health_service.h"
 #include "services/link/drive_link.h"
+#include "services/vehicle/vehicle.h"
 
 namespace giveway {
 
@@ -19,8 +20,8 @@ class VehicleHealthTeller {
   // The loop has taken what came, at `woke`.
   void Turned(const link::Taken& taken, const link::VehicleLinkCounters& counters,
               const RosterEntry& place, SteadyTime woke);
-  // The same status went to the fleet.
-  void Reported(const VehicleStatus& status) { service_.Now().status = status; }
+  // The same status went to the fleet, of a brain that has come to this.
+  void Reported(const VehicleStatus& status, const VehicleState& brain);
   void Leaves();
 
  private:

@@ -125,7 +125,7 @@ void VehicleLoop::Turn(bool leaving) {
   log_.TellOfBlackouts(link_.BlackoutsSince());
   if (inputs.scan && on_first_scan_) std::exchange(on_first_scan_, nullptr)();
   if (!decision_changed && woke < next_status_) return;
-  health_.Reported(report_.Send(vehicle_, link_));
+  health_.Reported(report_.Send(vehicle_, link_), vehicle_.State());
   next_status_ = woke + kStatusPeriod;
 }
 

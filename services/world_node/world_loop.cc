@@ -267,6 +267,9 @@ void WorldLoop::Publish() {
   for (const CameraScan& scan : run.Cameras()) {
     if (is_told(scan)) link_.SendCamera(scan);
   }
+  for (const PoseFix& fix : run.PoseFixes()) {
+    if (is_told(fix)) link_.SendPoseFix(fix);
+  }
   for (RangeScan scan : run.Scans()) {
     if (!is_told(scan)) continue;
     if (MustStand(scan.vehicle)) scan.run_state = RunState::kWaiting;

@@ -52,14 +52,18 @@ WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, Wheel
 }
 
 Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random) {
-  if (profile.wheel_slip == 0 && profile.encoder_noise == 0) return {wheels, wheels};
-  const auto disturbed = [&](double share) {
+  const WheelSpeeds rolls =
+      profile.wheel_error.Any() ? AsNominal(profile.drive, profile.wheel_error, wheels) : wheels;
+  if (profile.wheel_slip == 0 && profile.encoder_noise == 0) {
+    return {profile.wheel_error.Any() ? WithinCaps(profile, rolls) : wheels, wheels};
+  }
+  const auto disturbed = [&](WheelSpeeds speeds, double share) {
     const double left = 1 + random.Gaussian(share);
     const double right = 1 + random.Gaussian(share);
-    return WheelSpeeds{left * wheels.left_rad_s, right * wheels.right_rad_s};
+    return WheelSpeeds{left * speeds.left_rad_s, right * speeds.right_rad_s};
   };
-  const WheelSpeeds ground = disturbed(profile.wheel_slip);
-  return {WithinCaps(profile, ground), disturbed(profile.encoder_noise)};
+  const WheelSpeeds ground = disturbed(rolls, profile.wheel_slip);
+  return {WithinCaps(profile, ground), disturbed(wheels, profile.encoder_noise)};
 }
 
 }  // namespace giveway::sim

@@ -26,8 +26,9 @@ struct Rolled {
   WheelSpeeds encoders;  // what the encoders count
 };
 
-// Draws the tick's slip and encoder noise from `random`, the same draws whichever of them is on.
-// Slip never takes the body beyond the profile's caps. Without either both are `wheels`.
+// Wheels that are not what the drive says move the body otherwise than they turn. Draws the tick's
+// slip and encoder noise from `random`, the same draws whichever of them is on. Neither takes the
+// body beyond the profile's caps. Without any of it both are `wheels`.
 Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random);
 
 // What is wrong with one body's drive in one tick.

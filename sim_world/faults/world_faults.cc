@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "services/faults/kind_table.h"
+#include "services/types/math/math.h"
+#include "services/types/math/random.h"
 #include "services/types/state_hash.h"
 #include "sim_world/geometry/ticks.h"
 
@@ -12,6 +14,10 @@ namespace {
 bool IsOfDrive(faults::Kind kind) {
   return kind == faults::Kind::kMotorWeak || kind == faults::Kind::kMotorStuck ||
          kind == faults::Kind::kEncoderWrong;
+}
+
+bool IsOfFix(faults::Kind kind) {
+  return kind == faults::Kind::kPoseFixLost || kind == faults::Kind::kPoseFixWrong;
 }
 
 bool Concerns(const faults::Target& target, VehicleId vehicle) {
@@ -40,6 +46,16 @@ void Combine(const faults::Fault& fault, WheelSpeeds held, DriveFault* drive) {
   }
 }
 
+// By `factor` of its standard deviations, to a side drawn anew: as radio that came by way of a
+// wall.
+void MisplaceFix(const faults::Parameters& parameters, Random random, PoseFix* fix) {
+  if (random.Uniform(0, 1) >= parameters.probability.value_or(1)) return;
+  const double off_m = parameters.factor.value_or(0) * fix->sigma_position_m;
+  const double side_rad = random.Uniform(-kPi, kPi);
+  fix->world_from_body.position_world =
+      fix->world_from_body.position_world + off_m * Vec2{Cos(side_rad), Sin(side_rad)};
+}
+
 }  // namespace
 
 std::string EventText(const faults::Fault& fault) {
@@ -57,7 +73,8 @@ WorldFaults::WorldFaults(const FaultSchedule& schedule, Nanoseconds tick_period)
     planned.ends =
         std::max(planned.begins + 1, TicksCovering(FromSeconds(fault.EndsAt_s()), tick_period));
     planned.draws = DrawsOf(fault, schedule.seed);
-    planned.of_sonar = !IsOfDrive(fault.kind);
+    planned.of_fix = IsOfFix(fault.kind);
+    planned.of_sonar = !IsOfDrive(fault.kind) && !planned.of_fix;
     planned_.push_back(std::move(planned));
   }
   std::ranges::stable_sort(planned_, {}, &Planned::begins);
@@ -95,6 +112,8 @@ void WorldFaults::FollowTime(std::uint32_t driven_tick) {
   }
   sonars_ = static_cast<std::size_t>(std::ranges::count_if(
       active_, [&](const Active& active) { return planned_[active.planned].of_sonar; }));
+  fixes_ = static_cast<std::size_t>(std::ranges::count_if(
+      active_, [&](const Active& active) { return planned_[active.planned].of_fix; }));
 }
 
 void WorldFaults::Follow(const Body& body) {
@@ -106,7 +125,7 @@ void WorldFaults::Follow(const Body& body) {
     if (!active.begun) begun_.push_back(&planned.fault);
     active.begun = true;
     const Memory* memory = Remember(&active, body);
-    if (planned.of_sonar) continue;
+    if (planned.of_sonar || planned.of_fix) continue;
     Combine(planned.fault, memory->wheels, &drive);
     drives_wrongly = true;
   }
@@ -136,6 +155,18 @@ void WorldFaults::Alter(const VehicleProfile& profile, RangeScan* scan) {
     if (memory == active.memories.end() || memory->vehicle != scan->vehicle) continue;
     if (memory->sonar) memory->sonar->Alter(profile, driven_tick_, scan);
   }
+}
+
+bool WorldFaults::Alter(PoseFix* fix) const {
+  for (const Active& active : active_) {
+    const Planned& planned = planned_[active.planned];
+    if (!planned.of_fix || !Concerns(planned.fault.target, fix->vehicle)) continue;
+    if (planned.fault.kind == faults::Kind::kPoseFixLost) return false;
+    MisplaceFix(planned.fault.parameters,
+                Random(planned.draws, std::uint64_t{Number(fix->vehicle)} << 32 | driven_tick_),
+                fix);
+  }
+  return true;
 }
 
 std::vector<WorldFaults::State> WorldFaults::Save() const {

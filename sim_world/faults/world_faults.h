@@ -1,8 +1,8 @@
-// The faults of a schedule that the world carries out: of ultrasonics, motors and encoders. Says in
-// each driving tick what they make of which body's wheels, alters the scans that leave the world,
-// and names those that start and end. Which tick a fault starts and ends in hangs on its times
-// alone, and every number drawn on seed, rule, the fault's number and the tick. Faults of other
-// actors are not its business. Pure.
+// The faults of a schedule that the world carries out: of ultrasonics, motors, encoders, pose
+// fixes. Says in each driving tick what they make of which body's wheels, alters the scans that
+// leave the world, and names those that start and end. Which tick a fault starts and ends in hangs
+// on its times alone, and every number drawn on seed, rule, the fault's number and the tick. Faults
+// of other actors are not its business. Pure.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "services/faults/fault.h"
+#include "services/types/pose_sensing.h"
 #include "services/types/range_scan.h"
 #include "services/types/time.h"
 #include "sim_world/body.h"
@@ -44,6 +45,9 @@ class WorldFaults {
   bool AlterScans() const { return !resting_ && sonars_ > 0; }
   // What this tick's faults make of the scan of a body that is present.
   void Alter(const VehicleProfile& profile, RangeScan* scan);
+  bool AlterFixes() const { return !resting_ && fixes_ > 0; }
+  // What they make of a fix. False: it does not come.
+  bool Alter(PoseFix* fix) const;
 
   // A fault has started in the first tick of its time in which a body it is about was there; only
   // such a fault ends. Of this tick.
@@ -80,6 +84,7 @@ class WorldFaults {
     std::uint32_t ends = 0;
     std::uint64_t draws = 0;
     bool of_sonar = false;
+    bool of_fix = false;
   };
   struct Active {
     std::uint32_t planned = 0;  // index
@@ -98,6 +103,7 @@ class WorldFaults {
   bool resting_ = true;
   std::uint32_t driven_tick_ = 0;
   std::size_t sonars_ = 0;  // of the active ones
+  std::size_t fixes_ = 0;   // the same
   std::vector<DriveFault> drives_;
   std::vector<const faults::Fault*> begun_;
   std::vector<const faults::Fault*> ended_;

@@ -25,6 +25,7 @@ Run::Run(const Scenario& scenario, WorldEpoch epoch, ParallelFor parallel,
       open_(!scenario.spawns.empty()),
       epoch_(epoch),
       world_(scenario, epoch, std::move(parallel)),
+      pose_sensing_(scenario),
       signals_(scenario),
       faults_(scenario),
       world_faults_(schedule, scenario.tick_period),
@@ -139,7 +140,7 @@ void Run::Advance(std::span<const MotorCommand> commands) {
   comings_and_goings_.clear();
   if (running) Observe();
   if (state_ != RunState::kEnded) CheckEnd();
-  Publish();
+  Publish(running);
 }
 
 void Run::Observe() {
@@ -287,9 +288,13 @@ void Run::Finish() {
       {.kind = EventKind::kVerdict, .value = figures_.passed ? 1.0 : 0.0, .text = figures_.reason});
 }
 
-void Run::Publish() {
+void Run::Publish(bool drove) {
   truths_.clear();
   further_.Sense(epoch_, &world_);
+  pose_sensing_.Sense(epoch_, world_.Now(), drove ? ticks_run_ : 0, world_.Bodies());
+  if (world_faults_.AlterFixes()) {
+    pose_sensing_.Lose([&](PoseFix& fix) { return !world_faults_.Alter(&fix); });
+  }
   const double time_s = started_ ? TimeSeconds() : kBeforeStart_s;
   signals_.Advance(time_s, epoch_, world_.Now());
   std::size_t scans = 0;

@@ -26,6 +26,7 @@
 #include "sim_world/faults/planned_silence.h"
 #include "sim_world/faults/world_faults.h"
 #include "sim_world/further_sensing.h"
+#include "sim_world/pose_sensing.h"
 #include "sim_world/run/attendance.h"
 #include "sim_world/run/event_log.h"
 #include "sim_world/run/fault_plan.h"
@@ -73,6 +74,7 @@ class Run {
   std::span<const RadarScan> Radars() const { return further_.Radars(); }
   std::span<const LidarScan> Lidars() const { return further_.Lidars(); }
   std::span<const CameraScan> Cameras() const { return further_.Cameras(); }
+  std::span<const PoseFix> PoseFixes() const { return pose_sensing_.Fixes(); }
   std::span<const SignalState> Signals() const { return signals_.States(); }
   std::span<const Truth> Truths() const { return truths_; }
   std::span<const WorldEvent> Events() const { return log_.Events(); }
@@ -132,13 +134,14 @@ class Run {
   bool IsEveryoneSilent() const;
   void Finish();
   Outcome TheOutcome() const;
-  void Publish();
+  void Publish(bool drove);
 
   Scenario scenario_;
   bool open_;
   WorldEpoch epoch_;
   World world_;
   FurtherSensing further_;
+  PoseSensing pose_sensing_;
   SignalHeads signals_;
   FaultPlan faults_;
   WorldFaults world_faults_;

@@ -26,7 +26,15 @@ GoalTolerance ToleranceOf(const VehicleOptions& options) {
   const VehicleProfile& profile = options.profile;
   const double squared =
       profile.wheel_slip * profile.wheel_slip + profile.encoder_noise * profile.encoder_noise;
-  if (squared == 0 || !HasGoal(options)) return {};
+  const PoseFixModel& fixes = profile.pose_fix;
+  if (!HasGoal(options)) return {};
+  if (fixes.Fitted()) {
+    return {options.goal.at_world, options.goal.radius_m + kSigmas * fixes.sigma_m};
+  }
+  if (profile.pose_limit_m > 0 && (squared > 0 || profile.wheel_error.Any())) {
+    return {options.goal.at_world, options.goal.radius_m + kSigmas * profile.pose_limit_m};
+  }
+  if (squared == 0) return {};
   const double way_m = kDetour * RouteLength(options);
   const double tick_m = options.cruise_m_s * Seconds(options.tick_period);
   const double heading_rad = Sqrt(2 * squared) * tick_m / profile.drive.axle_m;

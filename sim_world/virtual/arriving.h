@@ -18,7 +18,9 @@ Arriving WhoCanArrive(const Scenario& scenario);
 
 // Where a vehicle may stand that has nothing but its wheels to know by that it has arrived, and
 // whose wheels slip or miscount: three standard deviations of what its heading drifts on the way,
-// half of the way again for turning out. beyond_m is 0 where they do neither: in its goal, then.
+// half of the way again for turning out. One with fixes, or with a limit beyond which it is lost,
+// knows it better: three of the fixes' deviations, or of the limit. beyond_m is 0 where nothing
+// makes it err: in its goal, then.
 struct GoalTolerance {
   Vec2 at_world;
   double beyond_m = 0;  // from the goal

@@ -83,6 +83,7 @@ bool Progress::MakesProgress(const Observed& now, Track* track) const {
 
 bool Progress::IsExcused(const Observed& now, double time_s, bool red) const {
   if (!now.lives || now.decision.rule == Rule::kNotRunning) return true;
+  if (now.decision.rule == Rule::kLost) return true;  // it says so, and waits for a fix
   if (red && now.decision.rule == Rule::kSignal) return true;
   return std::ranges::any_of(doors_, [&](const Door& door) {
     return SlidingDoor(door).PlannedOpening(time_s) < 1 &&

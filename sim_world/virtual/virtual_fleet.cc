@@ -141,6 +141,7 @@ void VirtualFleet::BringBack(std::size_t index) {
   entry = {.vehicle = options.id, .accepted = true, .epoch = kVirtualEpoch};
   run_.Locate(options, &entry);
   member.queued.clear();
+  member.fix.reset();
   member.slow_until_tick = 0;
 }
 
@@ -158,6 +159,9 @@ void VirtualFleet::TellRadioThePlaces() {
 void VirtualFleet::Think() {
   commands_.clear();
   for (Member& member : members_) member.answered = false;
+  for (const PoseFix& fix : run_.PoseFixes()) {
+    if (Member* member = Find(fix.vehicle)) member->fix = fix;
+  }
   std::size_t index = 0;
   for (const RangeScan& scan : run_.Scans()) {
     while (index < members_.size() && members_[index].id != scan.vehicle) ++index;
@@ -186,6 +190,7 @@ void VirtualFleet::Step(const RangeScan& scan, std::size_t index) {
   radio_.Notice(index, &events_);
   inputs_.roster = std::exchange(member.placed, std::nullopt);
   inputs_.scan = scan;
+  inputs_.pose_fix = std::exchange(member.fix, std::nullopt);
   inputs_.beacons = heard_;
   inputs_.events = events_;
   inputs_.signals = run_.Signals();

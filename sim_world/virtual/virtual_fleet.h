@@ -54,6 +54,7 @@ class VirtualFleet {
     Outputs said;
     std::optional<RosterEntry> placed;   // what a new process is sent before its first scan
     std::vector<ReceivedBeacon> queued;  // in the reader of a paused process
+    std::optional<PoseFix> fix;          // in its reader
   };
   struct DueFault {
     ProcessFault fault;

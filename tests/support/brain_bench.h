@@ -74,6 +74,7 @@ struct MoreInputs {
   std::optional<RadarScan> radar;
   std::optional<LidarScan> lidar;
   std::optional<CameraScan> camera;
+  std::optional<PoseFix> pose_fix;  // its tick is as the test says
 };
 
 // Runs one brain through ticks 1, 2, 3 … of 50 ms.
@@ -136,6 +137,7 @@ class BrainBench {
     if (more_.radar) inputs.radar = Stamp(&*more_.radar);
     if (more_.lidar) inputs.lidar = Stamp(&*more_.lidar);
     if (more_.camera) inputs.camera = Stamp(&*more_.camera);
+    inputs.pose_fix = more_.pose_fix;
     const Outputs outputs = vehicle_.Step(inputs);
     more_ = {};
     return outputs;

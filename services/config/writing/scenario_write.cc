@@ -65,6 +65,7 @@ bool IsPioneer(const VehicleProfile& profile) {
          profile.acceleration_m_s2 == pioneer.acceleration_m_s2 &&
          profile.deceleration_m_s2 == pioneer.deceleration_m_s2 && profile.wheel_slip == 0 &&
          profile.encoder_noise == 0 && !profile.radar && !profile.lidar && !profile.camera &&
+         !profile.pose_fix.Fitted() && !profile.wheel_error.Any() && profile.pose_limit_m == 0 &&
          !profile.sonar[kSensorCount - 1].enabled;
 }
 

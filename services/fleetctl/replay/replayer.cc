@@ -50,7 +50,7 @@ void Replayer::Begin(const RecordingFile& file, ReplayedFile* outcome) {
 // two. What speaks against it; empty: nothing.
 std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcome) {
   if (brain_) {
-    if (BytesOf(brain_->State()) == image.state) return "";
+    if (AreBytesOf(image.state, brain_->State())) return "";
     outcome->difference = {
         outcome->steps,
         brain_->State().tick,

@@ -44,6 +44,7 @@ struct Instructions {
   bool radar = false;  // of this vehicle, here and below
   bool lidar = false;
   bool camera = false;
+  bool pose_fix = false;
   bool signals = false;
   Impairment impairment;  // of what it hears
 };

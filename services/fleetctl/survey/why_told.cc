@@ -32,6 +32,7 @@ void AddSensors(const Scenario& scenario, Instructions* told) {
       told->radar |= options.profile.radar;
       told->lidar |= options.profile.lidar;
       told->camera |= options.profile.camera;
+      told->pose_fix |= options.profile.pose_fix.Fitted();
     }
   }
 }

@@ -20,6 +20,7 @@ constexpr double kMostTurn_rad_s = 2.5;
 constexpr double kLongest = 2;  // a box's length to its width, at most
 // More draws are not needed of what a quarter of all comes out by.
 constexpr int kTries = 200;
+constexpr std::uint64_t kPoseStream = 0x706f7365;
 
 // As many weak ones as strong ones on a scale of ratios.
 double UniformRatio(double low, double high, Random* dice) {
@@ -39,7 +40,11 @@ void DrawBody(double most_radius_m, Random* dice, VehicleProfile* profile) {
 }  // namespace
 
 FleetDraw::FleetDraw(const FleetChoice& choice, double most_radius_m, double delay_s, Random dice)
-    : choice_(choice), most_radius_m_(most_radius_m), delay_s_(delay_s), dice_(dice) {
+    : choice_(choice),
+      most_radius_m_(most_radius_m),
+      delay_s_(delay_s),
+      dice_(dice),
+      pose_dice_(Random(dice).Next(), kPoseStream) {
   if (!choice_.tiers.empty()) tier_ = choice_.tiers[dice_.Next() % choice_.tiers.size()];
 }
 
@@ -66,6 +71,21 @@ VehicleOptions FleetDraw::Draw(const VehicleOptions& plain) {
   return drawn;
 }
 
+void FleetDraw::DrawPoseKeeping(VehicleProfile* profile) {
+  if (choice_.pose_fix.Fitted()) profile->pose_fix = choice_.pose_fix;
+  if (choice_.most_wheel_error > 0) {
+    const auto error = [&] {
+      const double share = pose_dice_.Uniform(choice_.least_wheel_error, choice_.most_wheel_error);
+      return pose_dice_.Next() % 2 == 0 ? share : -share;
+    };
+    profile->wheel_error.diameter = error();
+    profile->wheel_error.axle = error();
+  }
+  const bool asked = choice_.pose_fix.Fitted() || choice_.most_wheel_error > 0;
+  if (asked) profile->pose_limit_m = kUsualPoseLimit_m;
+  if (choice_.pose_limit_m) profile->pose_limit_m = *choice_.pose_limit_m;
+}
+
 void FleetDraw::Take(VehicleOptions* options) {
   if (tier_) {
     SonarModel sonar;
@@ -77,6 +97,7 @@ void FleetDraw::Take(VehicleOptions* options) {
     options->profile.wheel_slip = dice_.Uniform(choice_.least_slip, choice_.most_slip);
     options->profile.encoder_noise = dice_.Uniform(choice_.least_slip, choice_.most_slip);
   }
+  DrawPoseKeeping(&options->profile);
   if (!choice_.mixed_robots) return;
   // Never of use to one that stays a Pioneer: that one comes out with all that did so far.
   for (int draw = 0; draw < kTries; ++draw) {

@@ -19,6 +19,10 @@ struct FleetChoice {
   std::vector<SonarTier> tiers;  // a seed draws one; empty: the place's own
   double least_slip = 0;         // of wheel slip and of encoder noise: share of a wheel's speed
   double most_slip = 0;
+  double least_wheel_error = 0;  // of diameter and axle, either way: share
+  double most_wheel_error = 0;
+  PoseFixModel pose_fix;               // not fitted: the place's own
+  std::optional<double> pose_limit_m;  // absent: the usual one with fixes or wheel errors
 };
 
 class FleetDraw {
@@ -35,12 +39,14 @@ class FleetDraw {
 
  private:
   bool ComesOut(const VehicleOptions& options) const;
+  void DrawPoseKeeping(VehicleProfile* profile);
   VehicleOptions Draw(const VehicleOptions& plain);
 
   FleetChoice choice_;
   double most_radius_m_;
   double delay_s_;
   Random dice_;
+  Random pose_dice_;  // apart, so that robots are what they are without
   std::optional<SonarTier> tier_;
   std::vector<VehicleOptions> taken_;
   std::uint32_t refused_ = 0;

@@ -151,6 +151,46 @@ void AddRobotFlags(CLI::App* verb, CaseOptions* made_by) {
       "Percent of wheel slip and of encoder noise, or LO..HI: each vehicle draws both");
 }
 
+// "EVERY_S,SIGMA_M,DROPOUT".
+PoseFixModel PoseFixOf(const std::string& text) {
+  static const std::regex kForm(R"(([\d.]+),([\d.]+),([\d.]+))");
+  std::smatch part;
+  if (!std::regex_match(text, part, kForm)) {
+    throw CLI::ValidationError(
+        "--pose-fix", "must be EVERY_S,SIGMA_M,DROPOUT, as in 1,0.05,0.1, not '" + text + "'");
+  }
+  const auto number = [](const std::string& name, const std::string& value, double least,
+                         double most) {
+    return NumbersOf("--pose-fix " + name, value, least, most).low;
+  };
+  return {.every_s = number("EVERY_S", part[1], 0.005, 3600),
+          .sigma_m = number("SIGMA_M", part[2], 0.001, 10),
+          .dropout = number("DROPOUT", part[3], 0, 0.99)};
+}
+
+void AddPoseFlags(CLI::App* verb, CaseOptions* made_by) {
+  verb->add_option_function<std::string>(
+      "--pose-fix",
+      [made_by](const std::string& text) { made_by->fleet.pose_fix = PoseFixOf(text); },
+      "EVERY_S,SIGMA_M,DROPOUT: each vehicle has a sensor of its position, as in 1,0.05,0.1");
+  verb->add_option_function<std::string>(
+      "--wheel-error",
+      [made_by](const std::string& text) {
+        const NumberRange percent = NumbersOf("--wheel-error", text, 0, 20);
+        made_by->fleet.least_wheel_error = percent.low / 100;
+        made_by->fleet.most_wheel_error = percent.high / 100;
+      },
+      "Percent by which wheels are unequal and the axle is another, or LO..HI: each vehicle draws "
+      "both, and which way");
+  verb->add_option_function<std::string>(
+      "--pose-limit",
+      [made_by](const std::string& text) {
+        made_by->fleet.pose_limit_m = NumbersOf("--pose-limit", text, 0, 10).low;
+      },
+      "Metres of standard deviation beyond which a vehicle says that it is lost, 0: never; default "
+      "0.3 with --pose-fix or --wheel-error, else the scenario's");
+}
+
 void AddJudgeFlag(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option_function<std::vector<std::string>>(
           "--judge",
@@ -221,6 +261,7 @@ void AddCaseFlags(CLI::App* verb, CaseOptions* made_by) {
                                                       : "must be a time from 1s to 24h";
       });
   AddRobotFlags(verb, made_by);
+  AddPoseFlags(verb, made_by);
   verb->add_option("--radio-seed", made_by->radio_seed, "Of the radio's draws; default the seed");
   AddRadioFlags(verb, made_by);
   AddFaultFlags(verb, made_by);

@@ -133,6 +133,7 @@ std::vector<TopicOutlook> TopicsBetween(const Instructions& hearer, const Instru
   if (hearer.radar) add("world/radar", own);
   if (hearer.lidar) add("world/lidar", own);
   if (hearer.camera) add("world/camera", own);
+  if (hearer.pose_fix) add("world/pose_fix", own);
   if (hearer.signals) add("world/signal", "world");
   add("world/roster", "world");
   return topics;

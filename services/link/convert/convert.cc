@@ -160,7 +160,7 @@ Arrival FromWire(const wire::Beacon& sample, Beacon& beacon) {
 
 FieldFault FaultOf(const wire::Beacon& sample) {
   if (const auto fault = EnumFault("mode", sample.mode(), Mode::kLeaving)) return *fault;
-  return EnumFault("rule", sample.rule(), Rule::kLeaving).value_or(FieldFault{});
+  return EnumFault("rule", sample.rule(), kLastRule).value_or(FieldFault{});
 }
 
 wire::RangeScan ToWire(const RangeScan& scan) {
@@ -235,7 +235,7 @@ FieldFault FaultOf(const wire::MotorCommand& sample) {
   }
   const wire::DecisionRecord& decision = sample.decision();
   if (const auto fault = EnumFault("decision.mode", decision.mode(), Mode::kLeaving)) return *fault;
-  return EnumFault("decision.rule", decision.rule(), Rule::kLeaving).value_or(FieldFault{});
+  return EnumFault("decision.rule", decision.rule(), kLastRule).value_or(FieldFault{});
 }
 
 wire::Truth ToWire(const Truth& truth) {

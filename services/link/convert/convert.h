@@ -9,6 +9,7 @@
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
+#include "services/types/pose_sensing.h"
 #include "services/types/range_scan.h"
 #include "services/types/refusal.h"
 #include "services/types/sensor_scan.h"
@@ -21,6 +22,7 @@ wire::RangeScan ToWire(const RangeScan& scan);
 wire::RadarScan ToWire(const RadarScan& scan);
 wire::LidarScan ToWire(const LidarScan& scan);
 wire::CameraScan ToWire(const CameraScan& scan);
+wire::PoseFix ToWire(const PoseFix& fix);
 wire::SignalState ToWire(const SignalState& state);
 wire::MotorCommand ToWire(const MotorCommand& command);
 wire::Status ToWire(const VehicleStatus& status);
@@ -47,6 +49,7 @@ bool FromWire(const wire::RangeScan& sample, RangeScan& scan);
 bool FromWire(const wire::RadarScan& sample, RadarScan& scan);
 bool FromWire(const wire::LidarScan& sample, LidarScan& scan);
 bool FromWire(const wire::CameraScan& sample, CameraScan& scan);
+bool FromWire(const wire::PoseFix& sample, PoseFix& fix);
 bool FromWire(const wire::SignalState& sample, SignalState& state);
 bool FromWire(const wire::MotorCommand& sample, MotorCommand& command);
 bool FromWire(const wire::Status& sample, VehicleStatus& status);

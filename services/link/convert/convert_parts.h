@@ -23,7 +23,7 @@ constexpr bool SameOrder(Wire wire_last, Ours last) {
   return static_cast<std::uint32_t>(wire_last) == static_cast<std::uint32_t>(last);
 }
 static_assert(SameOrder(wire::DriveMode::MODE_LEAVING, Mode::kLeaving));
-static_assert(SameOrder(wire::DriveRule::RULE_LEAVING, Rule::kLeaving));
+static_assert(SameOrder(wire::DriveRule::RULE_LOST, kLastRule));
 static_assert(SameOrder(wire::EchoKind::ECHO_HEARD, Echo::kEcho));
 static_assert(SameOrder(wire::SeenClass::SEEN_SIGNAL, SeenClass::kSignal));
 static_assert(SameOrder(wire::SignalPhase::PHASE_GREEN, SignalPhase::kGreen));
@@ -67,7 +67,7 @@ inline bool FromWirePart(wire::DriveMode sent, Mode& mode) {
   return FromWireEnum(sent, Mode::kLeaving, mode);
 }
 inline bool FromWirePart(wire::DriveRule sent, Rule& rule) {
-  return FromWireEnum(sent, Rule::kLeaving, rule);
+  return FromWireEnum(sent, kLastRule, rule);
 }
 inline bool FromWirePart(wire::EchoKind sent, Echo& echo) {
   return FromWireEnum(sent, Echo::kEcho, echo);

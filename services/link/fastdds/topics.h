@@ -36,6 +36,7 @@ GIVEWAY_TOPIC(RangeScan, "world/ranges", "world_ranges");
 GIVEWAY_TOPIC(RadarScan, "world/radar", "world_radar");
 GIVEWAY_TOPIC(LidarScan, "world/lidar", "world_lidar");
 GIVEWAY_TOPIC(CameraScan, "world/camera", "world_camera");
+GIVEWAY_TOPIC(PoseFix, "world/pose_fix", "world_pose_fix");
 
 // From the world to all, in the partition world.
 GIVEWAY_TOPIC(Roster, "world/roster", "world_roster");       // keyed by session

@@ -20,7 +20,7 @@ bool IsAvoiding(Behaviour behaviour) {
 // The ladder: how much of what a decision wants to know is known.
 Mode ModeOf(const Situation& s) {
   if (s.leaving) return Mode::kLeaving;
-  if (s.blind_sensor >= 0) return Mode::kHalt;
+  if (s.blind_sensor >= 0 || s.lost) return Mode::kHalt;
   return s.deaf || s.someone_lost || s.someone_doubted ? Mode::kSensorOnly : Mode::kCooperative;
 }
 

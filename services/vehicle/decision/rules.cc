@@ -179,8 +179,8 @@ std::optional<Proposal> MostRestrictive(const Situation& s) {
     case Behaviour::kCooperative:
       break;
   }
-  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Signal, GiveWay, NotGranted, PeerLost,
-                  Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
+  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Unsure, Signal, GiveWay, NotGranted,
+                  PeerLost, Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
 }
 
 }  // namespace giveway

@@ -23,6 +23,9 @@ std::optional<Proposal> NotRunning(const Situation& s);
 std::optional<Proposal> RangesStale(const Situation& s);
 std::optional<Proposal> Arrived(const Situation& s);
 
+// How well it knows where it is: slower, then a dead stop.
+std::optional<Proposal> Unsure(const Situation& s);
+
 // Right of way: dead stops for the nearest peer that an encounter holds this vehicle for.
 std::optional<Proposal> GiveWay(const Situation& s);
 std::optional<Proposal> NotGranted(const Situation& s);

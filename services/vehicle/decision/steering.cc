@@ -53,8 +53,7 @@ bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
 // in front of whatever comes the other way.
 bool Queues(const PeerView& view, const Situation& s) {
   if (Has(Defect::kQueueOvertaken)) return false;
-  const Rule rule = view.peer->beacon.rule;
-  if (rule == Rule::kArrived || rule == Rule::kNotRunning) return false;
+  if (StaysPut(view.peer->beacon.rule)) return false;
   constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
   const double way_m = Norm(view.way_world);
   return way_m > 0.5 && view.fresh &&

@@ -190,7 +190,7 @@ bool IsFinite(const Beacon& b) {
 
 bool IsInRange(const Beacon& b) {
   return AreNumbersInRange(b) && b.vehicle != kNobody && b.boot_epoch != 0 && b.seq != 0 &&
-         b.mode <= Mode::kLeaving && b.rule <= Rule::kLeaving && b.order.vehicle != kNobody &&
+         b.mode <= Mode::kLeaving && b.rule <= kLastRule && b.order.vehicle != kNobody &&
          b.order.waited_ticks <= Number(b.tick) &&
          b.order.speed_bucket <= SpeedBucket(kMaxSpeed_m_s) &&
          (b.order.vehicle != b.vehicle || b.order.speed_bucket == SpeedBucket(b.cruise_m_s));
@@ -208,7 +208,7 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   const auto mode = static_cast<std::uint32_t>(b.mode);
   const auto rule = static_cast<std::uint32_t>(b.rule);
   if (b.mode > Mode::kLeaving) return fault("mode", mode, 0, double(Mode::kLeaving));
-  if (b.rule > Rule::kLeaving) return fault("rule", rule, 0, double(Rule::kLeaving));
+  if (b.rule > kLastRule) return fault("rule", rule, 0, double(kLastRule));
   const OrderKey& order = b.order;
   if (order.waited_ticks > Number(b.tick)) {
     return fault("order_waited_ticks", order.waited_ticks, 0, Number(b.tick));

@@ -2,10 +2,6 @@
 
 #define EIGEN_DONT_VECTORIZE
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <cmath>
-
-#include "services/types/math/math.h"
 
 namespace giveway {
 namespace {
@@ -13,14 +9,6 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Vector3 = Eigen::Matrix<double, 3, 1>;
 using MapOf3 = Eigen::Map<Matrix3>;
-
-bool IsUsable(const PoseFix& fix) {
-  const Pose& pose = fix.world_from_body;
-  const auto positive = [](double sigma) { return std::isfinite(sigma) && sigma > 0; };
-  return std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
-         std::isfinite(pose.heading_rad) && positive(fix.sigma_position_m) &&
-         positive(fix.sigma_heading_rad);
-}
 
 }  // namespace
 
@@ -54,29 +42,6 @@ void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s,
   covariance += of_right.lazyProduct(of_right.transpose());
   covariance(0, 0) += guessed_m * guessed_m;
   covariance(1, 1) += guessed_m * guessed_m;
-}
-
-bool Odometry::Fix(const PoseFix& fix) {
-  if (!IsUsable(fix)) return false;
-  MapOf3 covariance(covariance_.data());
-  Matrix3 noise = Matrix3::Zero();
-  noise(0, 0) = noise(1, 1) = fix.sigma_position_m * fix.sigma_position_m;
-  noise(2, 2) = fix.sigma_heading_rad * fix.sigma_heading_rad;
-  const Matrix3 innovation = covariance + noise;
-  const Matrix3 gain = covariance * innovation.inverse();
-
-  const Vec2 off = fix.world_from_body.position_world - pose_.position_world;
-  const Vector3 difference(off.x, off.y,
-                           WrapAngle(fix.world_from_body.heading_rad - pose_.heading_rad));
-  const Vector3 step = gain * difference;
-  pose_.position_world = pose_.position_world + Vec2{step(0), step(1)};
-  pose_.heading_rad = WrapAngle(pose_.heading_rad + step(2));
-  heading_.Follow(pose_);
-  // Joseph's form: stays symmetric and positive whatever is rounded.
-  const Matrix3 kept = Matrix3::Identity() - gain;
-  const Matrix3 updated = kept * covariance * kept.transpose() + gain * noise * gain.transpose();
-  covariance = updated;
-  return true;
 }
 
 PoseCovariance Odometry::Covariance() const {

@@ -1,13 +1,13 @@
-// Dead reckoning that knows its error: an extended Kalman filter over the wheel encoders, with pose
-// fixes where somebody gives them. State x, y, heading in the world frame; see Thrun, Burgard, Fox,
-// Probabilistic Robotics, ch. 5.4 for the motion model and ch. 3.3 for the filter. Pure.
+// Dead reckoning that knows its error: the prediction of an extended Kalman filter over the wheel
+// encoders. State x, y, heading in the world frame; see Thrun, Burgard, Fox, Probabilistic
+// Robotics, ch. 5.4 for the motion model and ch. 3.3 for the filter. What fixes make of it is said
+// by pose_keeping.h. Pure.
 #pragma once
 
 #include <array>
 
 #include "services/types/math/pose.h"
 #include "services/types/state_hash.h"
-#include "services/types/vehicle_io.h"
 
 namespace giveway {
 
@@ -20,9 +20,6 @@ class Odometry {
   // of wheel_error times itself, plus guessed_m of way where the speeds are a guess.
   void Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s, double wheel_error,
             double guessed_m);
-  // Corrects by a fix. A fix that is not finite or without a positive deviation changes nothing.
-  // True if it was used.
-  bool Fix(const PoseFix& fix);
 
   const Pose& WorldFromBody() const { return pose_; }
   Vec2 ForwardWorld() const { return heading_.forward_world; }  // the unit vector of its heading

@@ -48,7 +48,7 @@ OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_
 }
 
 VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed) {
-  if (s.arrived) return kNobody;
+  if (s.arrived || s.lost) return kNobody;
   for (const PeerView& view : s.peers) {
     const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
     if (there && Occupies(view, Toward(s), s)) return view.peer->id;

@@ -38,7 +38,8 @@ bool Begins(const PeerView& view, const Situation& s) {
   const bool critically_close = NearestEchoOf(view, s) - by_metric_m < CriticalDistance(s, view);
   if (s.options.behaviour == Behaviour::kLectureYield) {
     const bool parting = !view.conflict && ClosingSpeed(view, s) <= 0;
-    return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived;
+    return critically_close && !parting && view.peer->beacon.rule != Rule::kArrived &&
+           view.peer->beacon.rule != Rule::kLost;
   }
   return critically_close || !IsThroughFirst(view, s);
 }

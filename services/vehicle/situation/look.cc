@@ -15,7 +15,7 @@ constexpr double kFarAway_m = 1e6;
 // A peer that will not move by itself stands where it is: an obstacle to steer round, not a path.
 bool StaysPut(const Beacon& beacon) {
   if (Has(Defect::kArrivedClaimsWay)) return false;
-  return beacon.rule == Rule::kArrived || beacon.rule == Rule::kNotRunning;
+  return StaysPut(beacon.rule);
 }
 
 // Of where a peer is to this vehicle that was carried forward by a way since its beacon.

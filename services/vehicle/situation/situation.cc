@@ -50,11 +50,14 @@ double RoomBeside(const PeerView& view, const Situation& s) {
   // Between the two shells; less than a vehicle keeps that halts before the own way, so that one
   // drives past it and not round it.
   constexpr double kRoundMargin_m = 0.12;
-  return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m;
+  // A lost one may stand beside where it says that it does.
+  const double unsure_m = view.peer->beacon.rule == Rule::kLost ? kSigmas * view.sigma_m : 0;
+  return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m +
+         unsure_m;
 }
 
 Vec2 Toward(const Situation& s) {
-  if (s.arrived) return s.world_from_body.position_world;
+  if (s.arrived || s.lost) return s.world_from_body.position_world;
   const double way_m = std::min(s.distance_to_goal_m, kLongestWay_m);
   return s.world_from_body.position_world + way_m * s.path.direction_world;
 }

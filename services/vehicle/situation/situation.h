@@ -136,7 +136,9 @@ struct Situation {
   bool let_pass = false;         // an encounter with one that comes first is over, just now
   bool meets = false;            // an encounter with any of them is under way
   std::optional<BlockedBox> blocked_box;
-  LastHeard last_heard;  // of lecture_printed alone, which has no peers
+  LastHeard last_heard;    // of lecture_printed alone, which has no peers
+  double known_share = 1;  // of the cruise speed that it may drive, by how well it knows its pose
+  bool lost = false;       // it does not know well enough where it is
 };
 
 // Below this a vehicle stands still, as the verdict defines it.

@@ -142,6 +142,10 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
   vehicle.status.timing.narrowest = ReactionMargin{Tick{9}, 0.25, 0.5};
   vehicle.status.timing.budget_spent = 2;
   vehicle.status.beacons.rejected_crc = 4;
+  vehicle.status.decision.rule = Rule::kLost;
+  vehicle.pose_sigma_m = 0.5;
+  vehicle.fixes_used = 9;
+  vehicle.fixes_refused = 2;
   const std::string text =
       MetricsText(vehicle, {.started_s = 1000, .cpu_s = 0.5, .resident_bytes = 4096}, kNow);
   EXPECT_THAT(text,
@@ -154,21 +158,28 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
                          "# HELP giveway_vehicle_loop_turns_total Turns of the control loop.\n"
                          "# TYPE giveway_vehicle_loop_turns_total counter\n"
                          "giveway_vehicle_loop_turns_total 7\n"));
-  for (const char* line :
-       {"\ngiveway_vehicle_mode{mode=\"cooperative\"} 1\n", "_mode{mode=\"halt\"} 0\n",
-        "\ngiveway_vehicle_speed_meters_per_second 0.25\n",
-        "\ngiveway_vehicle_step_p99_seconds 0.00025\n",
-        "\ngiveway_vehicle_loop_max_seconds 0.0015\n", "\ngiveway_vehicle_beacons_lost_total 3\n",
-        "\ngiveway_vehicle_beacons_rejected_total{reason=\"crc\"} 4\n",
-        "\n# TYPE giveway_vehicle_reaction_meters summary\n",
-        "\ngiveway_vehicle_reaction_meters_count 4\n",
-        "\ngiveway_vehicle_reaction_meters_sum 0.1\n",
-        "\ngiveway_vehicle_reaction_meters{quantile=\"0.5\"} 0.02\n",
-        "\ngiveway_vehicle_reaction_meters{quantile=\"0.99\"} 0.04\n",
-        "\ngiveway_vehicle_reaction_meters{quantile=\"1\"} 0.05\n",
-        "\ngiveway_vehicle_narrowest_margin_ratio 0.5\n",
-        "\ngiveway_vehicle_budget_spent_total 2\n", "\nprocess_start_time_seconds 1000\n",
-        "\nprocess_cpu_seconds_total 0.5\n", "\nprocess_resident_memory_bytes 4096\n"}) {
+  for (const char* line : {"\ngiveway_vehicle_mode{mode=\"cooperative\"} 1\n",
+                           "_mode{mode=\"halt\"} 0\n",
+                           "\ngiveway_vehicle_speed_meters_per_second 0.25\n",
+                           "\ngiveway_vehicle_step_p99_seconds 0.00025\n",
+                           "\ngiveway_vehicle_loop_max_seconds 0.0015\n",
+                           "\ngiveway_vehicle_beacons_lost_total 3\n",
+                           "\ngiveway_vehicle_beacons_rejected_total{reason=\"crc\"} 4\n",
+                           "\ngiveway_vehicle_lost 1\n",
+                           "\ngiveway_vehicle_pose_sigma_meters 0.5\n",
+                           "\ngiveway_vehicle_pose_fixes_used_total 9\n",
+                           "\ngiveway_vehicle_pose_fixes_refused_total 2\n",
+                           "\n# TYPE giveway_vehicle_reaction_meters summary\n",
+                           "\ngiveway_vehicle_reaction_meters_count 4\n",
+                           "\ngiveway_vehicle_reaction_meters_sum 0.1\n",
+                           "\ngiveway_vehicle_reaction_meters{quantile=\"0.5\"} 0.02\n",
+                           "\ngiveway_vehicle_reaction_meters{quantile=\"0.99\"} 0.04\n",
+                           "\ngiveway_vehicle_reaction_meters{quantile=\"1\"} 0.05\n",
+                           "\ngiveway_vehicle_narrowest_margin_ratio 0.5\n",
+                           "\ngiveway_vehicle_budget_spent_total 2\n",
+                           "\nprocess_start_time_seconds 1000\n",
+                           "\nprocess_cpu_seconds_total 0.5\n",
+                           "\nprocess_resident_memory_bytes 4096\n"}) {
     EXPECT_THAT(text, HasSubstr(line));
   }
 }

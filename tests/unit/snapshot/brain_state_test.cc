@@ -155,6 +155,27 @@ TEST(BrainState, OfAnotherFormatIsRefused) {
   EXPECT_EQ(StateFrom(bytes, DefaultOptions()), nullptr);
 }
 
+// Bytes of the layout of before end where those of the pose begin.
+TEST(BrainState, AnImageOfBeforeThePoseWasKeptIsTheSameBrainWithItsPoseBegunAnew) {
+  Fate fate(5);
+  Vehicle brain(DefaultOptions(), 42);
+  for (std::uint32_t tick = 1; tick <= 40; ++tick) fate.Lead(&brain, tick);
+  std::string bytes = BytesOf(brain.State());
+  constexpr std::size_t kPoseBytes =
+      (2 + 6 + 3) * 8 + kPastPoses * (4 + 3 * 8) + (3 + 2) * 8 + 3 * 4 + 4 + 2 * 8 + 4 + 2 * 4 + 1;
+  bytes.resize(bytes.size() - kPoseBytes);
+  bytes[0] = 1;
+  const auto state = StateFrom(bytes, DefaultOptions());
+  ASSERT_NE(state, nullptr);
+  Vehicle other(DefaultOptions(), 99);
+  other.Restore(*state);
+  EXPECT_EQ(other.Hash(), brain.Hash());
+  EXPECT_TRUE(AreBytesOf(bytes, brain.State()));
+  EXPECT_TRUE(AreBytesOf(BytesOf(brain.State()), brain.State()));
+  fate.Lead(&brain, 41);
+  EXPECT_FALSE(AreBytesOf(bytes, brain.State()));
+}
+
 // Places by which a brain looks something up.
 TEST(BrainState, AWaypointThatTheRouteDoesNotHaveIsRefused) {
   Vehicle brain(DefaultOptions(), 42);

@@ -1,11 +1,9 @@
-// The filter against what it models: many robots with wheels as wrong as it is told, and fixes as
-// wrong as they say.
+// Dead reckoning against what it models: many robots with wheels as wrong as it is told.
 #include "services/vehicle/estimation/odometry.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "services/types/math/math.h"
 #include "services/types/math/random.h"
@@ -71,49 +69,14 @@ TEST(Odometry, TicksThatAreGuessedCostCertainty) {
   EXPECT_NEAR(SigmaPosition(odometry.Covariance()), 0.02, 1e-12);
 }
 
-TEST(Odometry, AFixIsWeighedByWhatBothKnow) {
-  Odometry odometry;
-  odometry.Roll({}, {}, kDt_s, 0, 0.1);  // at the origin, 0.1 m uncertain
-  ASSERT_TRUE(odometry.Fix({{{0.2, 0}, 0}, 0.1, 1}));
-  EXPECT_NEAR(odometry.WorldFromBody().position_world.x, 0.1, 1e-12);
-  EXPECT_NEAR(SigmaPosition(odometry.Covariance()), 0.1 / std::sqrt(2.0), 1e-12);
-}
-
-TEST(Odometry, AFixOfThePositionAlsoRightsTheHeadingThatLedThere) {
-  Odometry odometry = Rolled(kTicks);
-  const double before = SigmaHeading(odometry.Covariance());
-  ASSERT_TRUE(odometry.Fix({odometry.WorldFromBody(), 0.01, 10}));
-  EXPECT_LT(SigmaHeading(odometry.Covariance()), 0.9 * before);
-  EXPECT_LE(SigmaPosition(odometry.Covariance()), 0.01);
-}
-
-TEST(Odometry, AFixThatIsNoneChangesNothing) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (const PoseFix& fix :
-       {PoseFix{{{kNan, 0}, 0}, 1, 1}, PoseFix{{{1, 0}, kNan}, 1, 1}, PoseFix{{{1, 0}, 0}, 0, 1},
-        PoseFix{{{1, 0}, 0}, 1, -1}, PoseFix{{{1, 0}, 0}, kNan, 1}}) {
-    Odometry odometry = Rolled(10);
-    const Pose before = odometry.WorldFromBody();
-    const double sigma = SigmaPosition(odometry.Covariance());
-    EXPECT_FALSE(odometry.Fix(fix));
-    EXPECT_EQ(odometry.WorldFromBody(), before);
-    EXPECT_EQ(SigmaPosition(odometry.Covariance()), sigma);
-  }
-}
-
-// Ten thousand fixes and turns: rounding must never make a variance negative.
-TEST(Odometry, StaysCertainAndUncertainWithinReason) {
+// Ten thousand turns: rounding must never make a variance negative.
+TEST(Odometry, StaysUncertainWithinReason) {
   Odometry odometry;
   Random random(2);
   for (int i = 0; i < 10'000; ++i) {
     odometry.Roll({}, {random.Uniform(-5, 5), random.Uniform(-5, 5)}, kDt_s, kWheelError, 0);
-    if (i % 7 == 0) odometry.Fix({odometry.WorldFromBody(), 0.02, 0.01});
-    ASSERT_TRUE(SigmaPosition(odometry.Covariance()) >= 0 &&
-                SigmaPosition(odometry.Covariance()) < 0.2)
-        << i;
-    ASSERT_TRUE(SigmaHeading(odometry.Covariance()) >= 0 &&
-                SigmaHeading(odometry.Covariance()) < 0.2)
-        << i;
+    const PoseCovariance c = odometry.Covariance();
+    ASSERT_TRUE(c.xx_m2 >= 0 && c.yy_m2 >= 0 && c.hh_rad2 >= 0 && c.hh_rad2 < 30) << i;
   }
 }
 

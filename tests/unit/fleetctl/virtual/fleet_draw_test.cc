@@ -44,6 +44,32 @@ TEST(FleetDraw, EveryFleetOfEveryGeneratorCanStop) {
   }
 }
 
+TEST(FleetDraw, FixesAndWheelErrorsLeaveTheRobotsAsTheyAreDrawn) {
+  CaseOptions options = MixedOf("swarm");
+  std::vector<Scenario> plain;
+  OnManySeeds(options, [&](const Scenario& scenario) { plain.push_back(scenario); });
+  options.fleet.pose_fix = {.every_s = 1, .sigma_m = 0.05, .dropout = 0.1};
+  options.fleet.most_wheel_error = 0.02;
+  std::size_t at = 0;
+  double least = 1, most = -1;
+  OnManySeeds(options, [&](const Scenario& scenario) {
+    for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
+      const VehicleProfile& profile = scenario.vehicles[i].profile;
+      const VehicleProfile& before = plain[at].vehicles[i].profile;
+      EXPECT_EQ(profile.body_radius_m, before.body_radius_m);
+      EXPECT_EQ(profile.wheel_slip, before.wheel_slip);
+      EXPECT_EQ(profile.pose_fix.every_s, 1);
+      EXPECT_EQ(profile.pose_limit_m, kUsualPoseLimit_m);
+      EXPECT_FALSE(before.pose_fix.Fitted() || before.wheel_error.Any());
+      least = std::min({least, profile.wheel_error.diameter, profile.wheel_error.axle});
+      most = std::max({most, profile.wheel_error.diameter, profile.wheel_error.axle});
+    }
+    ++at;
+  });
+  EXPECT_NEAR(least, -0.02, 0.001);
+  EXPECT_NEAR(most, 0.02, 0.001);
+}
+
 TEST(FleetDraw, DrawsAllThereIs) {
   double weakest = 9, fastest = 0, slowest = 9, largest = 0, most_slip = 0, turns_least = 9;
   std::set<BodyShape> shapes;

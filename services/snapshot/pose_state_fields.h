@@ -1,0 +1,41 @@
+// Which fields a brain remembers of its own pose beside its dead reckoning, for state_fields.h.
+// They stand at the end of the state: images of before have none of them.
+#pragma once
+
+#include "services/recording/recording_fields.h"
+#include "services/vehicle/estimation/pose_keeping.h"
+
+namespace giveway {
+
+void Visit(auto& fields, Is<Calibration> auto& calibration) {
+  auto& [wheels, with_pose, own] = calibration;
+  fields(wheels, with_pose, own);
+}
+
+void Visit(auto& fields, Is<PastPose> auto& past) {
+  auto& [tick, position, heading] = past;
+  fields(tick, position, heading);
+}
+
+void Visit(auto& fields, Is<Disagreement> auto& disagreement) {
+  auto& [off, fixes] = disagreement;
+  fields(off, fixes);
+}
+
+void Visit(auto& fields, Is<PoseKeeping> auto& keeping) {
+  auto& [calibration, past, waiting, agreed, disagreement, fixes_used, fixes_refused, lost] =
+      keeping;
+  fields(calibration, past, waiting, agreed, disagreement, fixes_used, fixes_refused, lost);
+}
+
+// True where a brain can have come to this.
+inline bool IsSound(const PoseKeeping& keeping) {
+  constexpr double kMostError = 0.5;
+  const Calibration& calibration = keeping.calibration;
+  const auto is_error = [](double share) { return share >= -kMostError && share <= kMostError; };
+  return is_error(calibration.wheels.diameter) && is_error(calibration.wheels.axle) &&
+         calibration.own[0] >= 0 && calibration.own[2] >= 0 &&
+         keeping.waiting.sigma_position_m >= 0 && keeping.waiting.sigma_heading_rad >= 0;
+}
+
+}  // namespace giveway

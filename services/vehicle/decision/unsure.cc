@@ -1,0 +1,15 @@
+// What a vehicle's own doubt about where it is asks for. Others keep two standard deviations from
+// where it says it is: beyond its limit it promises no place any more, stands, and says so.
+#include "services/vehicle/decision/rules.h"
+
+namespace giveway {
+
+std::optional<Proposal> Unsure(const Situation& s) {
+  if (s.lost) return Proposal{.max_speed_m_s = 0, .may_turn = false, .rule = Rule::kLost};
+  if (s.known_share >= 1) return std::nullopt;
+  return Proposal{.max_speed_m_s = s.known_share * s.options.cruise_m_s,
+                  .may_turn = true,
+                  .rule = Rule::kUnsure};
+}
+
+}  // namespace giveway

@@ -1,0 +1,60 @@
+// The arithmetic of pose_keeping.h: a Kalman filter over five numbers, of which one is measured at
+// a time (Thrun, Burgard, Fox, Probabilistic Robotics, ch. 3; sequential updates as in Simon,
+// Optimal State Estimation, ch. 6.1). No judgement: whoever calls has decided to believe. Pure.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "services/types/math/pose.h"
+#include "services/types/pose_sensing.h"
+#include "services/vehicle/estimation/odometry.h"
+
+namespace giveway {
+
+// What the wheels do otherwise than the drive says, as far as fixes have shown it.
+struct Calibration {
+  WheelErrors wheels;
+  std::array<double, 6> with_pose{};  // covariance of x, y, heading (rows) with diameter and axle
+  std::array<double, 3> own{};        // of diameter, of both, of axle
+};
+
+// x, y, heading, then the wheels' diameter and axle errors.
+enum class PoseNumber : std::uint8_t { kX, kY, kHeading, kDiameter, kAxle };
+inline constexpr std::size_t kPoseNumbers = 5;
+
+class PoseFilter {
+ public:
+  PoseFilter(const Odometry& odometry, const Calibration& calibration);
+
+  // One of the numbers is said to be off by `off` from what it was before any correction, with that
+  // variance.
+  void Measure(PoseNumber number, double off, double variance);
+  // The position may be off by that, too; and the heading by so much.
+  void Doubt(Vec2 off_world, double heading_rad);
+  // The wheels moved the pose along way_world, whose heading was forward_world, by these ways of
+  // the rims in m, after the odometry did: what is not known of their errors is not known of the
+  // way.
+  void Carry(Vec2 way_world, Vec2 forward_world, double left_m, double right_m, double axle_m);
+
+  Vec2 Moved() const { return {moved_[0], moved_[1]}; }
+  double Turned() const { return moved_[2]; }
+  Odometry TheOdometry() const;
+  Calibration TheCalibration() const;
+
+ private:
+  double& At(std::size_t row, std::size_t column) {
+    return covariance_[row * kPoseNumbers + column];
+  }
+  double At(std::size_t row, std::size_t column) const {
+    return covariance_[row * kPoseNumbers + column];
+  }
+
+  Pose pose_;
+  WheelErrors wheels_;
+  std::array<double, kPoseNumbers> moved_{};  // by corrections
+  std::array<double, kPoseNumbers * kPoseNumbers> covariance_{};
+};
+
+}  // namespace giveway

@@ -1,0 +1,248 @@
+#include "services/vehicle/estimation/pose_keeping.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "services/types/math/math.h"
+
+namespace giveway {
+namespace {
+
+// A vehicle that is fitted with fixes does not take its encoders for exact, whatever its profile
+// says: their errors would never be noticed. Share of a wheel's speed, each tick by itself; over a
+// second at 0.4 m/s 4 mm and 1 degree.
+constexpr double kLeastWheelError = 0.05;
+// Of a thousand true fixes one is farther off, by both its own deviation and the pose's: chi-square
+// of two numbers, and of one.
+constexpr double kGate = 13.8;
+constexpr double kHeadingGate = 10.8;
+// So many that do not fit must agree before they are believed against the wheels.
+constexpr std::uint32_t kAgreeing = 5;
+// One of twenty true fixes is farther off than this: of more the pose may have a share that no
+// noise explains, as of an encoder that counts wrongly.
+constexpr double kSuspicious = 6;
+// How much of what fixes say may have come by turning wrongly.
+constexpr double kDoubtedHeading_rad = 0.3;
+// It slows down from this share of its limit on, and having been lost goes on from this one.
+constexpr double kUnsureFrom = 0.6;
+constexpr double kFoundFrom = 0.75;
+// It drives no slower than this share of its cruise speed up to the limit, so that it gets there.
+constexpr double kSlowest = 0.2;
+
+enum class Belief : std::uint8_t { kPlain, kSuspicious, kAgainstWheels };
+
+struct Innovation {
+  Vec2 off_world;
+  double off_rad = 0;
+  double position_m2 = 0;  // variance of the fix, carried on to now
+  double heading_rad2 = 0;
+  bool of_heading = false;
+};
+
+// Squared distance in standard deviations, of the position.
+double Mahalanobis(Vec2 off, const PoseCovariance& c, double variance_m2) {
+  const double xx = c.xx_m2 + variance_m2;
+  const double yy = c.yy_m2 + variance_m2;
+  const double determinant = xx * yy - c.xy_m2 * c.xy_m2;
+  return (yy * off.x * off.x - 2 * c.xy_m2 * off.x * off.y + xx * off.y * off.y) / determinant;
+}
+
+bool IsUsable(const PoseFix& fix, const FixTaker& taker) {
+  const Pose& pose = fix.world_from_body;
+  return fix.vehicle == taker.vehicle && fix.epoch == taker.epoch && fix.tick != kNoTick &&
+         std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
+         std::isfinite(pose.heading_rad) && std::isfinite(fix.sigma_position_m) &&
+         fix.sigma_position_m > 0 && std::isfinite(fix.sigma_heading_rad) &&
+         fix.sigma_heading_rad >= 0;
+}
+
+// What was driven since the fix is known but for the heading it was driven by.
+std::optional<Innovation> InnovationOf(const PoseFix& fix, const Odometry& odometry,
+                                       const PoseKeeping& keeping) {
+  const PastPose& past = keeping.past[Number(fix.tick) % kPastPoses];
+  if (past.tick != fix.tick) return std::nullopt;
+  const double since_m = Norm(odometry.WorldFromBody().position_world - past.position_world);
+  const double turned_by_m = since_m * SigmaHeading(odometry.Covariance());
+  return Innovation{
+      .off_world = fix.world_from_body.position_world - past.position_world,
+      .off_rad = WrapAngle(fix.world_from_body.heading_rad - past.heading_rad),
+      .position_m2 = fix.sigma_position_m * fix.sigma_position_m + turned_by_m * turned_by_m,
+      .heading_rad2 = fix.sigma_heading_rad * fix.sigma_heading_rad,
+      .of_heading = fix.sigma_heading_rad > 0};
+}
+
+bool IsSuspicious(const Innovation& innovation, const Odometry& odometry) {
+  return Mahalanobis(innovation.off_world, odometry.Covariance(), innovation.position_m2) >
+         kSuspicious;
+}
+
+bool Fits(const Innovation& innovation, const Odometry& odometry) {
+  const PoseCovariance c = odometry.Covariance();
+  if (Mahalanobis(innovation.off_world, c, innovation.position_m2) > kGate) return false;
+  const double off_rad2 = innovation.off_rad * innovation.off_rad;
+  return !innovation.of_heading || off_rad2 <= kHeadingGate * (c.hh_rad2 + innovation.heading_rad2);
+}
+
+void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometry,
+             PoseKeeping* keeping) {
+  filter->Measure(PoseNumber::kX, innovation.off_world.x, innovation.position_m2);
+  filter->Measure(PoseNumber::kY, innovation.off_world.y, innovation.position_m2);
+  if (innovation.of_heading) {
+    filter->Measure(PoseNumber::kHeading, innovation.off_rad, innovation.heading_rad2);
+  }
+  *odometry = filter->TheOdometry();
+  keeping->calibration = filter->TheCalibration();
+  for (PastPose& past : keeping->past) {
+    past.position_world = past.position_world + filter->Moved();
+    past.heading_rad = WrapAngle(past.heading_rad + filter->Turned());
+  }
+}
+
+void Believe(const Innovation& innovation, Tick tick, Belief how, Odometry* odometry,
+             PoseKeeping* keeping) {
+  PoseFilter filter(*odometry, keeping->calibration);
+  if (how != Belief::kPlain) filter.Doubt(innovation.off_world, kDoubtedHeading_rad);
+  Correct(innovation, &filter, odometry, keeping);
+  keeping->agreed = tick;
+  // Until another fix fits it may as well be where it took itself to be before.
+  keeping->disagreement = {};
+  if (how == Belief::kSuspicious) keeping->disagreement = {-1.0 * filter.Moved(), 1};
+  ++keeping->fixes_used;
+}
+
+// No wheels, however wrong their encoders, can have brought it there since a fix fitted last.
+bool IsOutOfReach(const Innovation& innovation, const VehicleProfile& profile,
+                  const FixTaker& taker, const Odometry& odometry, const PoseKeeping& keeping) {
+  constexpr double kSigmasOff = 4;
+  const double driven_m =
+      profile.max_speed_m_s * TicksBetween(keeping.agreed, taker.tick) * taker.tick_s;
+  const double unsure_m =
+      kSigmasOff * (SigmaPosition(odometry.Covariance()) + Sqrt(innovation.position_m2));
+  return Norm(innovation.off_world) > 2 * driven_m + unsure_m;
+}
+
+// One that does not fit may be wrong, or all before it. Which, only further ones can say; until
+// then both may be.
+void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& taker,
+           Odometry* odometry, PoseKeeping* keeping) {
+  const bool newer = keeping->agreed == kNoTick || fix.tick > keeping->agreed;
+  const auto innovation = InnovationOf(fix, *odometry, *keeping);
+  if (!newer || !innovation) {
+    ++keeping->fixes_refused;
+    return;
+  }
+  if (Fits(*innovation, *odometry)) {
+    const bool suspicious = IsSuspicious(*innovation, *odometry);
+    Believe(*innovation, fix.tick, suspicious ? Belief::kSuspicious : Belief::kPlain, odometry,
+            keeping);
+    return;
+  }
+  ++keeping->fixes_refused;
+  if (IsOutOfReach(*innovation, profile, taker, *odometry, *keeping)) return;
+  Disagreement& disagreement = keeping->disagreement;
+  const Vec2 between = innovation->off_world - disagreement.off_world;
+  const bool same =
+      disagreement.fixes > 0 && SquaredNorm(between) <= kGate * 2 * innovation->position_m2;
+  disagreement = {innovation->off_world, same ? disagreement.fixes + 1 : 1};
+  if (disagreement.fixes < kAgreeing) return;
+  --keeping->fixes_refused;
+  Believe(*innovation, fix.tick, Belief::kAgainstWheels, odometry, keeping);
+}
+
+}  // namespace
+
+bool KeepsPose(const VehicleProfile& profile) {
+  return profile.pose_fix.Fitted() || profile.wheel_error.Any() || profile.pose_limit_m > 0;
+}
+
+// How wrong the wheels may be is known, not which way: the squares alone are looked at.
+void Begin(const VehicleProfile& profile, PoseKeeping* keeping) {
+  *keeping = {.fixes_used = keeping->fixes_used, .fixes_refused = keeping->fixes_refused};
+  const WheelErrors& may_be = profile.wheel_error;
+  keeping->calibration.own = {may_be.diameter * may_be.diameter, 0, may_be.axle * may_be.axle};
+}
+
+void Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
+          PoseKeeping* keeping) {
+  const Calibration& calibration = keeping->calibration;
+  const WheelSpeeds wheels = profile.wheel_error.Any()
+                                 ? AsNominal(profile.drive, calibration.wheels, rolling.wheels)
+                                 : rolling.wheels;
+  const double error = profile.pose_fix.Fitted() ? std::max(rolling.wheel_error, kLeastWheelError)
+                                                 : rolling.wheel_error;
+  const Vec2 from_world = odometry->WorldFromBody().position_world;
+  const Vec2 forward_world = odometry->ForwardWorld();
+  odometry->Roll(profile.drive, wheels, rolling.dt_s, error, rolling.guessed_m);
+  if (profile.wheel_error.Any()) {
+    const double rim_m = profile.drive.wheel_radius_m * rolling.dt_s;
+    PoseFilter filter(*odometry, calibration);
+    filter.Carry(odometry->WorldFromBody().position_world - from_world, forward_world,
+                 rim_m * wheels.left_rad_s, rim_m * wheels.right_rad_s, profile.drive.axle_m);
+    *odometry = filter.TheOdometry();
+    keeping->calibration = filter.TheCalibration();
+  }
+  if (!profile.pose_fix.Fitted()) return;
+  const Pose& now = odometry->WorldFromBody();
+  keeping->past[Number(rolling.tick) % kPastPoses] = {rolling.tick, now.position_world,
+                                                      now.heading_rad};
+  if (keeping->agreed == kNoTick) keeping->agreed = rolling.tick;
+}
+
+void Take(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& taker,
+          Odometry* odometry, PoseKeeping* keeping) {
+  if (!profile.pose_fix.Fitted() || !IsUsable(fix, taker)) {
+    ++keeping->fixes_refused;
+  } else if (fix.tick >= taker.tick) {
+    keeping->waiting = fix;
+  } else {
+    Weigh(fix, profile, taker, odometry, keeping);
+  }
+}
+
+void TakeWaiting(const VehicleProfile& profile, const FixTaker& taker, Odometry* odometry,
+                 PoseKeeping* keeping) {
+  if (keeping->waiting.tick == kNoTick || keeping->waiting.tick >= taker.tick) return;
+  const PoseFix fix = keeping->waiting;
+  keeping->waiting = {};
+  if (fix.epoch == taker.epoch) Weigh(fix, profile, taker, odometry, keeping);
+}
+
+PoseCovariance PromisedCovariance(const Odometry& odometry, const PoseKeeping& keeping) {
+  PoseCovariance promised = odometry.Covariance();
+  if (keeping.disagreement.fixes == 0) return promised;
+  const Vec2 off = keeping.disagreement.off_world;
+  promised.xx_m2 += off.x * off.x;
+  promised.xy_m2 += off.x * off.y;
+  promised.yy_m2 += off.y * off.y;
+  return promised;
+}
+
+double JudgeCertainty(const VehicleProfile& profile, const PoseCovariance& promised,
+                      PoseKeeping* keeping) {
+  if (!(profile.pose_limit_m > 0)) return 1;
+  const double share = SigmaPosition(promised) / profile.pose_limit_m;
+  keeping->lost = share >= (keeping->lost ? kFoundFrom : 1);
+  if (keeping->lost) return 0;
+  if (share <= kUnsureFrom) return 1;
+  return std::max(kSlowest, (1 - share) / (1 - kUnsureFrom));
+}
+
+void AddTo(const PoseKeeping& keeping, StateHash* hash) {
+  hash->Add(keeping.calibration.wheels.diameter);
+  hash->Add(keeping.calibration.wheels.axle);
+  for (const double entry : keeping.calibration.with_pose) hash->Add(entry);
+  for (const double entry : keeping.calibration.own) hash->Add(entry);
+  hash->Add(keeping.waiting.tick);
+  hash->Add(keeping.waiting.world_from_body.position_world.x);
+  hash->Add(keeping.waiting.world_from_body.position_world.y);
+  hash->Add(keeping.agreed);
+  hash->Add(keeping.disagreement.off_world.x);
+  hash->Add(keeping.disagreement.off_world.y);
+  hash->Add(keeping.disagreement.fixes);
+  hash->Add(keeping.fixes_used);
+  hash->Add(keeping.fixes_refused);
+  hash->Add(keeping.lost);
+}
+
+}  // namespace giveway

@@ -1,0 +1,30 @@
+// How a brain keeps its own pose: what it makes of fixes, how sure it is, and when it says that it
+// is lost. The filter and the judgement of fixes are estimation/pose_keeping.h.
+#include "services/vehicle/vehicle.h"
+
+namespace giveway {
+
+// Those of a world that has not placed it yet say nothing.
+void Vehicle::TakeFix(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  if (state.tick == kNoTick) return;
+  const FixTaker taker{.vehicle = options_.id,
+                       .epoch = state.epoch,
+                       .tick = state.tick,
+                       .tick_s = Seconds(options_.tick_period)};
+  TakeWaiting(options_.profile, taker, &state.odometry, &state.pose);
+  if (inputs.pose_fix) {
+    Take(*inputs.pose_fix, options_.profile, taker, &state.odometry, &state.pose);
+  }
+}
+
+void Vehicle::LookAtOwnPose(Situation* s) {
+  VehicleState& state = *state_;
+  s->world_from_body = state.odometry.WorldFromBody();
+  s->forward_world = state.odometry.ForwardWorld();
+  s->covariance = PromisedCovariance(state.odometry, state.pose);
+  s->known_share = JudgeCertainty(options_.profile, s->covariance, &state.pose);
+  s->lost = state.pose.lost;
+}
+
+}  // namespace giveway

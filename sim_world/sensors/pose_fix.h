@@ -1,0 +1,25 @@
+// A sensor that says where its vehicle is, as a landmark system or ultra-wideband radio does: every
+// so often, with errors that are Gaussian and independent of each other, and now and then not at
+// all. One body, one tick; numbers drawn hang on seed, vehicle and tick alone.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "services/types/pose_sensing.h"
+
+namespace giveway::sim {
+
+struct PoseFixMoment {
+  std::uint32_t seed = 0;  // the scenario's
+  VehicleId vehicle = kNobody;
+  std::uint32_t driven_tick = 0;  // since the start signal, from 1
+  double dt_s = 0;
+  Pose world_from_body;  // the truth at the end of the tick
+};
+
+// Pose and deviations; whose and when is for the caller to say. Vehicles take turns: not all of a
+// fleet have their fixes in the same tick.
+std::optional<PoseFix> SensePose(const PoseFixModel& model, const PoseFixMoment& moment);
+
+}  // namespace giveway::sim

@@ -1,0 +1,72 @@
+// What a scenario says of how a vehicle knows where it is: read, and refused with what to write
+// instead. What is appended to the good text stands on line 17.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/types/math/math.h"
+#include "tests/unit/config/problem_matcher.h"
+#include "tests/unit/config/scenario_files.h"
+
+namespace giveway {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::UnorderedElementsAre;
+
+std::vector<Problem> With(const std::string& text) { return ProblemsOf(kGoodScenario + text); }
+VehicleProfile ProfileWith(const std::string& text) {
+  return Load(kGoodScenario + text).vehicles[0].profile;
+}
+
+TEST(PoseRules, FixesWheelErrorsAndTheLimitReachTheProfile) {
+  const VehicleProfile profile = ProfileWith(
+      "profile { sensors { pose_fix { every_s: 0.5 sigma_m: 0.04 dropout: 0.2 sigma_heading_deg: 3 "
+      "} "
+      "} wheel_error { diameter: 0.01 axle: -0.02 } pose_limit_m: 0.4 }");
+  EXPECT_EQ(profile.pose_fix.every_s, 0.5);
+  EXPECT_EQ(profile.pose_fix.sigma_m, 0.04);
+  EXPECT_EQ(profile.pose_fix.dropout, 0.2);
+  EXPECT_DOUBLE_EQ(profile.pose_fix.sigma_heading_rad, Radians(3));
+  EXPECT_EQ(profile.wheel_error.diameter, 0.01);
+  EXPECT_EQ(profile.wheel_error.axle, -0.02);
+  EXPECT_EQ(profile.pose_limit_m, 0.4);
+}
+
+TEST(PoseRules, TheLimitIsTheUsualOneWithFixesOrWheelErrorsAndNoneWithout) {
+  EXPECT_EQ(ProfileWith("profile { wheel_slip: 0.1 }").pose_limit_m, 0);
+  EXPECT_EQ(
+      ProfileWith("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.05 } } }").pose_limit_m,
+      kUsualPoseLimit_m);
+  EXPECT_EQ(ProfileWith("profile { wheel_error { axle: 0.01 } }").pose_limit_m, kUsualPoseLimit_m);
+  EXPECT_EQ(ProfileWith("profile { wheel_error { axle: 0.01 } pose_limit_m: 0 }").pose_limit_m, 0);
+}
+
+TEST(PoseRules, ASensorWithoutRateOrDeviationIsRefused) {
+  EXPECT_THAT(With("profile { sensors { pose_fix { dropout: 0.1 } } }"),
+              UnorderedElementsAre(Is(17, "profile.sensors.pose_fix.every_s", "missing"),
+                                   Is(17, "profile.sensors.pose_fix.sigma_m", "missing")));
+}
+
+TEST(PoseRules, AbsurdFixesAndWheelsAreRefusedAllAtOnce) {
+  EXPECT_THAT(With("profile { sensors { pose_fix { every_s: 0 sigma_m: nan dropout: 1 "
+                   "sigma_heading_deg: 91 } "
+                   "} wheel_error { diameter: 0.3 axle: -0.3 } pose_limit_m: -1 }"),
+              UnorderedElementsAre(
+                  Is(17, "profile.sensors.pose_fix.every_s", "between 0.005 and 3600 s"),
+                  Is(17, "profile.sensors.pose_fix.sigma_m", "not a finite number"),
+                  Is(17, "profile.sensors.pose_fix.dropout", "between 0 and 0.99"),
+                  Is(17, "profile.sensors.pose_fix.sigma_heading_deg", "between 0 and 90 degrees"),
+                  Is(17, "profile.wheel_error.diameter", "between -0.2 and 0.2"),
+                  Is(17, "profile.wheel_error.axle", "between -0.2 and 0.2"),
+                  Is(17, "profile.pose_limit_m", "between 0 and 10 m")));
+}
+
+TEST(PoseRules, FixesTooRoughToFindALostOneByAreRefused) {
+  EXPECT_THAT(With("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.2 } } }"),
+              ElementsAre(Is(17, "profile.sensors.pose_fix.sigma_m", "more than half")));
+  EXPECT_TRUE(With("profile { sensors { pose_fix { every_s: 1 sigma_m: 0.2 } } pose_limit_m: 0.5 }")
+                  .empty());
+}
+
+}  // namespace
+}  // namespace giveway

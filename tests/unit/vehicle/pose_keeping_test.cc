@@ -1,0 +1,381 @@
+// How a vehicle keeps its pose: fixes weighed, late, doubted and believed; wheels whose errors
+// fixes show; and when it is unsure, lost and found.
+#include "services/vehicle/estimation/pose_keeping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "services/types/math/math.h"
+#include "services/types/math/random.h"
+
+namespace giveway {
+namespace {
+
+constexpr double kDt_s = 0.05;
+constexpr double kSigma_m = 0.05;
+constexpr WorldEpoch kEpoch{7};
+constexpr VehicleId kOwn{1};
+
+VehicleProfile Fitted(double wheel_slip = 0) {
+  VehicleProfile profile = PioneerP3dx();
+  profile.pose_fix = {.every_s = 1, .sigma_m = kSigma_m};
+  profile.wheel_slip = wheel_slip;
+  profile.pose_limit_m = kUsualPoseLimit_m;
+  return profile;
+}
+
+// A vehicle whose truth is known, with encoders that may say something else.
+class Keeper {
+ public:
+  explicit Keeper(const VehicleProfile& profile, std::uint64_t seed = 1)
+      : profile_(profile), random_(seed) {
+    Begin(profile_, &keeping);
+  }
+
+  // One tick at these speeds, by which the encoders count so many times of it.
+  void Drive(WheelSpeeds wheels, double counts = 1) {
+    ++tick;
+    const double slip = profile_.wheel_slip;
+    const WheelSpeeds slipping = {wheels.left_rad_s * (1 + random_.Gaussian(slip)),
+                                  wheels.right_rad_s * (1 + random_.Gaussian(slip))};
+    const WheelSpeeds ground = AsNominal(profile_.drive, profile_.wheel_error, slipping);
+    truth = AdvanceArc(truth, TwistFromWheels(profile_.drive, ground), kDt_s);
+    past_[tick % 64] = truth;
+    Roll(profile_,
+         {.wheels = {counts * wheels.left_rad_s, counts * wheels.right_rad_s},
+          .dt_s = kDt_s,
+          .wheel_error = slip,
+          .tick = Tick{tick}},
+         &odometry, &keeping);
+    TakeWaiting(profile_, Taker(), &odometry, &keeping);
+  }
+  PoseFix FixOf(std::uint32_t at_tick, Vec2 off = {}) const {
+    PoseFix fix{.world_from_body = past_[at_tick % 64],
+                .sigma_position_m = kSigma_m,
+                .vehicle = kOwn,
+                .epoch = kEpoch,
+                .tick = Tick{at_tick}};
+    fix.world_from_body.position_world = fix.world_from_body.position_world + off;
+    return fix;
+  }
+  PoseFix NoisyFix() {
+    const double x_m = random_.Gaussian(kSigma_m);
+    return FixOf(tick, {x_m, random_.Gaussian(kSigma_m)});
+  }
+  void Give(const PoseFix& fix) { Take(fix, profile_, Taker(), &odometry, &keeping); }
+  FixTaker Taker() const {
+    return {.vehicle = kOwn, .epoch = kEpoch, .tick = Tick{tick}, .tick_s = kDt_s};
+  }
+  double Off() const {
+    return Norm(odometry.WorldFromBody().position_world - truth.position_world);
+  }
+  double Sigma() const { return SigmaPosition(PromisedCovariance(odometry, keeping)); }
+  double Share() {
+    return JudgeCertainty(profile_, PromisedCovariance(odometry, keeping), &keeping);
+  }
+
+  std::uint32_t tick = 0;
+  Pose truth;
+  Odometry odometry;
+  PoseKeeping keeping;
+
+ private:
+  VehicleProfile profile_;
+  Random random_;
+  std::array<Pose, 64> past_{};
+};
+
+constexpr WheelSpeeds kAhead = {4, 4};
+constexpr WheelSpeeds kBend = {3.8, 4.2};
+
+TEST(PoseKeeping, AFixIsWeighedByWhatBothKnow) {
+  Keeper keeper(Fitted());
+  keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});  // 0.1 m unsure
+  keeper.Drive({});
+  keeper.Drive({});
+  keeper.Give(keeper.FixOf(2, {0.2, 0}));
+  keeper.Drive({});
+  const double share = 0.01 / (0.01 + kSigma_m * kSigma_m);
+  EXPECT_NEAR(keeper.odometry.WorldFromBody().position_world.x, share * 0.2, 1e-12);
+  EXPECT_NEAR(keeper.odometry.Covariance().xx_m2, (1 - share) * 0.01, 1e-12);
+  EXPECT_EQ(keeper.keeping.fixes_used, 1U);
+}
+
+TEST(PoseKeeping, AFixOfThePositionAlsoRightsTheHeadingThatLedThere) {
+  Keeper keeper(Fitted(0.1));
+  for (int i = 0; i < 60; ++i) keeper.Drive(kAhead);
+  const double before = SigmaHeading(keeper.odometry.Covariance());
+  keeper.Give(keeper.FixOf(keeper.tick));
+  keeper.Drive(kAhead);
+  EXPECT_LT(SigmaHeading(keeper.odometry.Covariance()), 0.9 * before);
+}
+
+TEST(PoseKeeping, AFixOfTheHeadingRightsIt) {
+  Keeper keeper(Fitted());
+  keeper.odometry = Odometry({}, {.hh_rad2 = 0.04});
+  keeper.Drive({});
+  keeper.Drive({});
+  PoseFix fix = keeper.FixOf(2);
+  fix.world_from_body.heading_rad = 0.2;
+  fix.sigma_heading_rad = 0.2;
+  keeper.Give(fix);
+  keeper.Drive({});
+  EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, 0.1, 1e-9);
+}
+
+TEST(PoseKeeping, AFixIsUsedFromTheTickAfterItsOwnOn) {
+  Keeper keeper(Fitted());
+  keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});
+  keeper.Drive({});
+  keeper.Drive({});
+  keeper.Give(keeper.FixOf(2, {0.1, 0}));
+  EXPECT_EQ(keeper.odometry.WorldFromBody().position_world.x, 0);
+  keeper.Drive({});
+  EXPECT_GT(keeper.odometry.WorldFromBody().position_world.x, 0.05);
+}
+
+// One that comes ten ticks late speaks of where the vehicle was, not of where it is.
+TEST(PoseKeeping, ALateFixIsComparedWithWhereItWasThen) {
+  Keeper keeper(Fitted());
+  keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});
+  for (int i = 0; i < 30; ++i) keeper.Drive(kBend);
+  keeper.Give(keeper.FixOf(20));
+  EXPECT_EQ(keeper.keeping.fixes_used, 1U);
+  EXPECT_LT(keeper.Off(), 1e-9);
+}
+
+TEST(PoseKeeping, AFixOfTooLongAgoOrFromAnotherWorldIsRefused) {
+  Keeper keeper(Fitted());
+  for (int i = 0; i < 40; ++i) keeper.Drive(kAhead);
+  keeper.Give(keeper.FixOf(40 - kPastPoses));
+  EXPECT_EQ(keeper.keeping.fixes_refused, 1U);
+  PoseFix other = keeper.FixOf(39);
+  other.epoch = WorldEpoch{8};
+  keeper.Give(other);
+  other = keeper.FixOf(39);
+  other.vehicle = VehicleId{2};
+  keeper.Give(other);
+  EXPECT_EQ(keeper.keeping.fixes_refused, 3U);
+  EXPECT_EQ(keeper.keeping.fixes_used, 0U);
+}
+
+TEST(PoseKeeping, TheSameFixTwiceCountsOnce) {
+  Keeper keeper(Fitted(0.1));
+  for (int i = 0; i < 30; ++i) keeper.Drive(kAhead);
+  keeper.Give(keeper.FixOf(29));
+  const double sigma_m = keeper.Sigma();
+  keeper.Give(keeper.FixOf(29));
+  EXPECT_EQ(keeper.Sigma(), sigma_m);
+  EXPECT_EQ(keeper.keeping.fixes_used, 1U);
+}
+
+TEST(PoseKeeping, AFixThatIsNoneChangesNothing) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  Keeper keeper(Fitted(0.1));
+  for (int i = 0; i < 30; ++i) keeper.Drive(kAhead);
+  const Pose before = keeper.odometry.WorldFromBody();
+  for (const double bad : {kNan, 0.0, -1.0, std::numeric_limits<double>::infinity()}) {
+    PoseFix fix = keeper.FixOf(29);
+    fix.sigma_position_m = bad;
+    keeper.Give(fix);
+  }
+  PoseFix nowhere = keeper.FixOf(29, {kNan, 0});
+  keeper.Give(nowhere);
+  EXPECT_EQ(keeper.odometry.WorldFromBody(), before);
+  EXPECT_EQ(keeper.keeping.fixes_refused, 5U);
+}
+
+// Over a hundred robots, 60 s each, what the filter says of its doubt is what it is.
+TEST(PoseKeeping, ItsErrorStaysAsSmallAsItSays) {
+  double squares = 0;
+  int samples = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Keeper keeper(Fitted(0.1), seed);
+    for (int i = 1; i <= 1200; ++i) {
+      keeper.Drive(i / 100 % 2 == 0 ? kBend : kAhead);
+      if (i % 20 == 0) keeper.Give(keeper.NoisyFix());
+      if (i % 60 != 0) continue;
+      squares += std::pow(keeper.Off() / keeper.Sigma(), 2);
+      ++samples;
+    }
+    EXPECT_LT(keeper.Off(), 0.3) << seed;
+  }
+  // Of two numbers along the worst axis each: at most 2, and not far from it.
+  EXPECT_GT(squares / samples, 0.5);
+  EXPECT_LT(squares / samples, 2.5);
+}
+
+// One wild fix does not move the vehicle; until the next it says that it may be there.
+TEST(PoseKeeping, AnOutlierIsDoubtedAndNotFollowed) {
+  Keeper keeper(Fitted());
+  for (int i = 0; i < 200; ++i) {
+    keeper.Drive(kAhead);
+    if (i % 20 == 10) keeper.Give(keeper.NoisyFix());
+  }
+  const double sigma_m = keeper.Sigma();
+  keeper.Give(keeper.FixOf(keeper.tick, {0, 0.6}));
+  keeper.Drive(kAhead);
+  EXPECT_LT(keeper.Off(), 0.1);
+  EXPECT_GT(keeper.Sigma(), 0.5);
+  EXPECT_EQ(keeper.keeping.fixes_refused, 1U);
+  keeper.Give(keeper.NoisyFix());
+  keeper.Drive(kAhead);
+  EXPECT_LT(keeper.Sigma(), 1.2 * sigma_m);
+}
+
+TEST(PoseKeeping, AFixWhereNoWheelsCanHaveBroughtItIsPassedOver) {
+  Keeper keeper(Fitted());
+  for (int i = 0; i < 40; ++i) {
+    keeper.Drive(kAhead);
+    if (i % 20 == 10) keeper.Give(keeper.NoisyFix());
+  }
+  const double sigma_m = keeper.Sigma();
+  keeper.Give(keeper.FixOf(keeper.tick - 1, {20, 0}));
+  EXPECT_EQ(keeper.Sigma(), sigma_m);
+  EXPECT_EQ(keeper.keeping.fixes_refused, 1U);
+}
+
+// Encoders that count a third too much: fixes are doubted, then believed.
+TEST(PoseKeeping, FixesThatAgreeAreBelievedAgainstTheWheels) {
+  Keeper keeper(Fitted());
+  for (int i = 0; i < 40; ++i) {
+    keeper.Drive(kAhead, 2.5);
+    const Vec2 off = keeper.odometry.WorldFromBody().position_world - keeper.truth.position_world;
+    ASSERT_LE(Norm(off), 3 * keeper.Sigma() + 0.6) << i;
+    if (i % 20 == 19) keeper.Give(keeper.NoisyFix());
+  }
+  EXPECT_GT(keeper.keeping.disagreement.fixes, 0U);
+  for (int i = 0; i < 160; ++i) {
+    keeper.Drive({});
+    if (i % 20 == 19) keeper.Give(keeper.NoisyFix());
+  }
+  EXPECT_EQ(keeper.keeping.disagreement.fixes, 0U);
+  EXPECT_LT(keeper.Off(), 0.15);
+}
+
+// Such as the fault encoder_wrong makes: unnoticed by wheels alone, in reach of what others allow
+// for with fixes.
+TEST(PoseKeeping, EncodersThatCountALittleTooMuchAreMadeGoodByFixes) {
+  Keeper keeper(Fitted());
+  for (int i = 0; i < 400; ++i) {
+    keeper.Drive(kAhead, 1.02);
+    if (i % 20 == 19) keeper.Give(keeper.NoisyFix());
+    ASSERT_LE(keeper.Off(), 3 * keeper.Sigma() + 0.1) << i;
+  }
+}
+
+TEST(PoseKeeping, UnequalWheelsAreLearntFromFixes) {
+  VehicleProfile profile = Fitted();
+  profile.wheel_error = {.diameter = 0.03, .axle = -0.05};
+  Keeper keeper(profile);
+  for (int i = 1; i <= 2400; ++i) {
+    keeper.Drive(i / 200 % 2 == 0 ? WheelSpeeds{2, 4} : WheelSpeeds{4.2, 2.4});
+    if (i % 20 == 0) keeper.Give(keeper.NoisyFix());
+    ASSERT_LE(keeper.Off(), 3 * keeper.Sigma() + 0.1) << i;
+  }
+  EXPECT_NEAR(keeper.keeping.calibration.wheels.diameter, 0.03, 0.006);
+  EXPECT_NEAR(keeper.keeping.calibration.wheels.axle, -0.05, 0.012);
+}
+
+// It is told how wrong its wheels may be, not which way.
+TEST(PoseKeeping, TheSignOfAWheelErrorIsNotKnownToIt) {
+  VehicleProfile one = Fitted();
+  one.wheel_error = {.diameter = 0.03, .axle = -0.05};
+  VehicleProfile other = one;
+  other.wheel_error = {.diameter = -0.03, .axle = 0.05};
+  Odometry odometry_of_one, odometry_of_other;
+  PoseKeeping keeping_of_one, keeping_of_other;
+  Begin(one, &keeping_of_one);
+  Begin(other, &keeping_of_other);
+  for (std::uint32_t tick = 1; tick < 100; ++tick) {
+    const Rolling rolling{.wheels = kBend, .dt_s = kDt_s, .tick = Tick{tick}};
+    Roll(one, rolling, &odometry_of_one, &keeping_of_one);
+    Roll(other, rolling, &odometry_of_other, &keeping_of_other);
+  }
+  EXPECT_EQ(odometry_of_one.WorldFromBody(), odometry_of_other.WorldFromBody());
+  EXPECT_EQ(odometry_of_one.Covariance(), odometry_of_other.Covariance());
+}
+
+// Its error grows with the way, not with the root of it.
+TEST(PoseKeeping, WithoutFixesTheDoubtOfUnequalWheelsGrowsAsTheirErrorDoes) {
+  VehicleProfile profile = PioneerP3dx();
+  profile.wheel_error = {.diameter = 0.02, .axle = 0.02};
+  Keeper keeper(profile);
+  for (int i = 0; i < 200; ++i) {
+    keeper.Drive(kBend);
+    ASSERT_LE(keeper.Off(), 2 * keeper.Sigma() + 1e-6) << i;
+  }
+  EXPECT_GT(keeper.Off(), 0.3 * keeper.Sigma());
+}
+
+TEST(PoseKeeping, WithoutAnyOfItDeadReckoningIsWhatItWas) {
+  VehicleProfile profile = PioneerP3dx();
+  profile.wheel_slip = 0.1;
+  Keeper keeper(profile);
+  Odometry plain;
+  for (int i = 0; i < 300; ++i) {
+    keeper.Drive(kBend);
+    plain.Roll(profile.drive, kBend, kDt_s, 0.1, 0);
+  }
+  EXPECT_EQ(keeper.odometry.WorldFromBody(), plain.WorldFromBody());
+  EXPECT_EQ(keeper.odometry.Covariance(), plain.Covariance());
+  EXPECT_FALSE(KeepsPose(profile));
+  EXPECT_EQ(keeper.Share(), 1);
+}
+
+TEST(PoseKeeping, OneThatGrowsUnsureSlowsDownThenIsLostAndFoundByAFix) {
+  Keeper keeper(Fitted(0.1));
+  double share = 1;
+  bool slowed = false;
+  while (share > 0 && keeper.tick < 4000) {
+    keeper.Drive(kAhead);
+    share = keeper.Share();
+    slowed = slowed || (share > 0 && share < 1);
+    if (share == 1) {
+      EXPECT_LE(keeper.Sigma(), 0.6 * kUsualPoseLimit_m + 1e-9);
+    }
+  }
+  EXPECT_TRUE(slowed);
+  ASSERT_TRUE(keeper.keeping.lost);
+  EXPECT_GE(keeper.Sigma(), kUsualPoseLimit_m);
+  keeper.Drive({});
+  EXPECT_EQ(keeper.Share(), 0) << "standing finds nothing";
+  keeper.Give(keeper.NoisyFix());
+  keeper.Drive({});
+  EXPECT_EQ(keeper.Share(), 1);
+  EXPECT_FALSE(keeper.keeping.lost);
+}
+
+TEST(PoseKeeping, AtTheEdgeOfItsLimitItDoesNotFlutter) {
+  VehicleProfile profile = Fitted();
+  PoseKeeping keeping;
+  const auto share = [&](double sigma_m) {
+    return JudgeCertainty(profile, {.xx_m2 = sigma_m * sigma_m}, &keeping);
+  };
+  EXPECT_GT(share(0.29), 0);
+  EXPECT_EQ(share(0.31), 0);
+  EXPECT_EQ(share(0.29), 0);
+  EXPECT_EQ(share(0.24), 0);
+  EXPECT_GT(share(0.2), 0);
+}
+
+// Ten thousand fixes and turns: rounding must never make a variance negative.
+TEST(PoseKeeping, StaysUnsureWithinReason) {
+  VehicleProfile profile = Fitted(0.1);
+  profile.wheel_error = {.diameter = 0.01, .axle = 0.01};
+  Keeper keeper(profile);
+  Random random(2);
+  for (int i = 0; i < 10'000; ++i) {
+    keeper.Drive({random.Uniform(-5, 5), random.Uniform(-5, 5)});
+    if (i % 7 == 0) keeper.Give(keeper.NoisyFix());
+    const PoseCovariance c = keeper.odometry.Covariance();
+    ASSERT_TRUE(c.xx_m2 >= 0 && c.yy_m2 >= 0 && c.hh_rad2 >= 0) << i;
+    ASSERT_TRUE(keeper.Sigma() < 0.5) << i;
+    ASSERT_GE(c.xx_m2 * c.yy_m2 - c.xy_m2 * c.xy_m2, -1e-12) << i;
+  }
+}
+
+}  // namespace
+}  // namespace giveway
