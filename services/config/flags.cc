@@ -9,7 +9,7 @@
 #include "services/config/byte_size.h"
 #include "services/config/config_dir.h"
 #include "services/config/flag_values.h"
-#include "services/config/help_format.h"
+#include "services/config/help/help_format.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/text_file.h"

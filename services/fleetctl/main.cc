@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "services/config/help_format.h"
+#include "services/config/help/help_format.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/help/help_verbs.h"
 #include "services/fleetctl/help/usage_error.h"

@@ -69,6 +69,17 @@ std::optional<FieldFault> FaultOf(const CameraScan& scan) {
   return ranges.Fault();
 }
 
+std::optional<FieldFault> FaultOf(const PoseFix& fix) {
+  FieldRanges ranges;
+  HoldOrigin(fix, &ranges);
+  ranges.HoldPlace("x_m", fix.world_from_body.position_world.x);
+  ranges.HoldPlace("y_m", fix.world_from_body.position_world.y);
+  ranges.HoldBearing("heading_rad", fix.world_from_body.heading_rad);
+  ranges.Hold("sigma_position_m", fix.sigma_position_m, 0, kMostRange_m);
+  ranges.Hold("sigma_heading_rad", fix.sigma_heading_rad, 0, kPi);
+  return ranges.Fault();
+}
+
 std::optional<FieldFault> FaultOf(const SignalState& state) {
   FieldRanges ranges;
   ranges.Hold("signal", Number(state.id), 1, kMost32);

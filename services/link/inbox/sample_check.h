@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "services/types/motor_command.h"
+#include "services/types/pose_sensing.h"
 #include "services/types/range_scan.h"
 #include "services/types/refusal.h"
 #include "services/types/sensor_scan.h"
@@ -18,6 +19,7 @@ std::optional<FieldFault> FaultOf(const RangeScan& scan);
 std::optional<FieldFault> FaultOf(const RadarScan& scan);
 std::optional<FieldFault> FaultOf(const LidarScan& scan);
 std::optional<FieldFault> FaultOf(const CameraScan& scan);
+std::optional<FieldFault> FaultOf(const PoseFix& fix);
 std::optional<FieldFault> FaultOf(const SignalState& state);
 std::optional<FieldFault> FaultOf(const MotorCommand& command);
 

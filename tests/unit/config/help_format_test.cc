@@ -1,4 +1,4 @@
-#include "services/config/help_format.h"
+#include "services/config/help/help_format.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

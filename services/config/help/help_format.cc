@@ -1,4 +1,4 @@
-#include "services/config/help_format.h"
+#include "services/config/help/help_format.h"
 
 #include <sys/ioctl.h>
 #include <unistd.h>
