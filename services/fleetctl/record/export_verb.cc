@@ -23,6 +23,17 @@ const std::set<std::string> kTopics{"fleet/beacon", "fleet/motor_command", "flee
                                     "world/event",  "world/figures",       "world/ranges",
                                     "world/roster", "world/signal",        "world/truth"};
 
+std::string TopicNames() {
+  std::string names;
+  for (const std::string& topic : kTopics) names += (names.empty() ? "" : ", ") + topic;
+  return names;
+}
+
+std::string CheckExported(const std::string& topic) {
+  if (kTopics.contains(topic)) return {};
+  return "there is no topic \"" + topic + "\" to export; there are " + TopicNames();
+}
+
 }  // namespace
 
 void AddExportVerb(CLI::App* fleetctl, int* exit_code) {
@@ -31,9 +42,10 @@ void AddExportVerb(CLI::App* fleetctl, int* exit_code) {
       fleetctl->add_subcommand("export", "One topic of an MCAP recording as JSON or CSV");
   verb->footer(kExportFooter);
   verb->add_option("FILE", options->file, "The recording")->required()->check(CheckNotEmpty);
-  verb->add_option("--topic", options->topic, "Which topic")
+  verb->add_option("--topic", options->topic, "One of " + TopicNames())
+      ->type_name("TOPIC")
       ->required()
-      ->check(CLI::IsMember(kTopics));
+      ->check(CheckExported);
   CLI::Option* csv = verb->add_flag("--csv", options->csv, "Lines of CSV under a head");
   verb->add_flag("--json", options->json, "Lines of JSON; the default")->excludes(csv);
   verb->callback([options, exit_code] { *exit_code = RunExport(*options); });
