@@ -23,7 +23,7 @@ const std::set<std::string> kTopics{"fleet/beacon", "fleet/motor_command", "flee
                                     "world/event",  "world/figures",       "world/ranges",
                                     "world/roster", "world/signal",        "world/truth"};
 
-std::string TopicNames() {
+std::string ExportedNames() {
   std::string names;
   for (const std::string& topic : kTopics) names += (names.empty() ? "" : ", ") + topic;
   return names;
@@ -31,7 +31,7 @@ std::string TopicNames() {
 
 std::string CheckExported(const std::string& topic) {
   if (kTopics.contains(topic)) return {};
-  return "there is no topic \"" + topic + "\" to export; there are " + TopicNames();
+  return "there is no topic \"" + topic + "\" to export; there are " + ExportedNames();
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ void AddExportVerb(CLI::App* fleetctl, int* exit_code) {
       fleetctl->add_subcommand("export", "One topic of an MCAP recording as JSON or CSV");
   verb->footer(kExportFooter);
   verb->add_option("FILE", options->file, "The recording")->required()->check(CheckNotEmpty);
-  verb->add_option("--topic", options->topic, "One of " + TopicNames())
+  verb->add_option("--topic", options->topic, "One of " + ExportedNames())
       ->type_name("TOPIC")
       ->required()
       ->check(CheckExported);

@@ -21,7 +21,7 @@ constexpr double kHeadingGate = 10.8;
 constexpr std::uint32_t kAgreeing = 5;
 // One of twenty true fixes is farther off than this: of more the pose may have a share that no
 // noise explains, as of an encoder that counts wrongly.
-constexpr double kSuspicious = 6;
+constexpr double kSuspiciousBeyond = 6;
 // How much of what fixes say may have come by turning wrongly.
 constexpr double kDoubtedHeading_rad = 0.3;
 // It slows down from this share of its limit on, and having been lost goes on from this one.
@@ -74,7 +74,7 @@ std::optional<Innovation> InnovationOf(const PoseFix& fix, const Odometry& odome
 
 bool IsSuspicious(const Innovation& innovation, const Odometry& odometry) {
   return Mahalanobis(innovation.off_world, odometry.Covariance(), innovation.position_m2) >
-         kSuspicious;
+         kSuspiciousBeyond;
 }
 
 bool Fits(const Innovation& innovation, const Odometry& odometry) {
