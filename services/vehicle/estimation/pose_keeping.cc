@@ -11,17 +11,14 @@ namespace {
 
 // A vehicle that is fitted with fixes does not take its encoders for exact, whatever its profile
 // says: their errors would never be noticed. Share of a wheel's speed, each tick by itself; over a
-// second at 0.4 m/s 4 mm and 1 degree.
-constexpr double kLeastWheelError = 0.05;
+// second at 0.4 m/s 9 mm and 2 degrees.
+constexpr double kLeastWheelError = 0.1;
 // Of a thousand true fixes one is farther off, by both its own deviation and the pose's: chi-square
 // of two numbers, and of one.
 constexpr double kGate = 13.8;
 constexpr double kHeadingGate = 10.8;
 // So many that do not fit must agree before they are believed against the wheels.
 constexpr std::uint32_t kAgreeing = 5;
-// One of twenty true fixes is farther off than this: of more the pose may have a share that no
-// noise explains, as of an encoder that counts wrongly.
-constexpr double kSuspiciousBeyond = 6;
 // How much of what fixes say may have come by turning wrongly.
 constexpr double kDoubtedHeading_rad = 0.3;
 // It slows down from this share of its limit on, and having been lost goes on from this one.
@@ -29,8 +26,6 @@ constexpr double kUnsureFrom = 0.6;
 constexpr double kFoundFrom = 0.75;
 // It drives no slower than this share of its cruise speed up to the limit, so that it gets there.
 constexpr double kSlowest = 0.2;
-
-enum class Belief : std::uint8_t { kPlain, kSuspicious, kAgainstWheels };
 
 struct Innovation {
   Vec2 off_world;
@@ -72,11 +67,6 @@ std::optional<Innovation> InnovationOf(const PoseFix& fix, const Odometry& odome
       .of_heading = fix.sigma_heading_rad > 0};
 }
 
-bool IsSuspicious(const Innovation& innovation, const Odometry& odometry) {
-  return Mahalanobis(innovation.off_world, odometry.Covariance(), innovation.position_m2) >
-         kSuspiciousBeyond;
-}
-
 bool Fits(const Innovation& innovation, const Odometry& odometry) {
   const PoseCovariance c = odometry.Covariance();
   if (Mahalanobis(innovation.off_world, c, innovation.position_m2) > kGate) return false;
@@ -99,15 +89,13 @@ void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometr
   }
 }
 
-void Believe(const Innovation& innovation, Tick tick, Belief how, Odometry* odometry,
+void Believe(const Innovation& innovation, Tick tick, bool doubted, Odometry* odometry,
              PoseKeeping* keeping) {
   PoseFilter filter(*odometry, keeping->calibration);
-  if (how != Belief::kPlain) filter.Doubt(innovation.off_world, kDoubtedHeading_rad);
+  if (doubted) filter.Doubt(innovation.off_world, kDoubtedHeading_rad);
   Correct(innovation, &filter, odometry, keeping);
   keeping->agreed = tick;
-  // Until another fix fits it may as well be where it took itself to be before.
   keeping->disagreement = {};
-  if (how == Belief::kSuspicious) keeping->disagreement = {-1.0 * filter.Moved(), 1};
   ++keeping->fixes_used;
 }
 
@@ -133,9 +121,7 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
     return;
   }
   if (Fits(*innovation, *odometry)) {
-    const bool suspicious = IsSuspicious(*innovation, *odometry);
-    Believe(*innovation, fix.tick, suspicious ? Belief::kSuspicious : Belief::kPlain, odometry,
-            keeping);
+    Believe(*innovation, fix.tick, false, odometry, keeping);
     return;
   }
   ++keeping->fixes_refused;
@@ -147,7 +133,7 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
   disagreement = {innovation->off_world, same ? disagreement.fixes + 1 : 1};
   if (disagreement.fixes < kAgreeing) return;
   --keeping->fixes_refused;
-  Believe(*innovation, fix.tick, Belief::kAgainstWheels, odometry, keeping);
+  Believe(*innovation, fix.tick, true, odometry, keeping);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ VirtualPlan PlanOf(faults::Kind kind, const faults::Parameters& parameters) {
 }
 
 TEST(PoseFleet, AnEncoderThatCountsWronglyIsNoticedByFixes) {
-  const VirtualPlan plan = PlanOf(faults::Kind::kEncoderWrong, {.factor = 1.1});
+  const VirtualPlan plan = PlanOf(faults::Kind::kEncoderWrong, {.factor = 1.04});
   std::uint32_t wrong_without = 0;
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     wrong_without += Of(RunVirtually(Swarm(6, seed, {}), plan), Invariant::kPose);
