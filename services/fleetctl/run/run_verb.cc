@@ -106,10 +106,9 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
       ->type_name("FILE")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_ADMIN_KEY");
-  verb->add_option(
-          "--impair", options->fleet.impair,
-          "Impair what every vehicle receives, instead of the scenario: "
-          "loss=10%,delay=20ms, or none; link/impairment/README.md lists the keys")
+  verb->add_option("--impair", options->fleet.impair,
+                   "Impair what every vehicle receives, instead of the scenario: "
+                   "loss=10%,delay=20ms, or none; link/impairment/README.md lists the keys")
       ->check(CheckImpairment)
       ->envname("GIVEWAY_IMPAIR");
 }
