@@ -61,6 +61,7 @@ class CommandLine {
       AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
       AddSwitch("--hang-on-signal",
                 "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
+      AddSwitch("--no-watchdog", "a drill: a control loop that hangs does not end the process");
     } else {
       Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
       Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
@@ -253,6 +254,7 @@ ServiceFlags Read(Service service, FlagValues* values) {
     flags.stay = values->Switch("--stay");
     flags.partition_free = values->Switch("--partition-free");
     flags.hang_on_signal = values->Switch("--hang-on-signal");
+    flags.watchdog = !values->Switch("--no-watchdog");
   }
   if (service == Service::kWorld) {
     flags.threads = values->Whole("--threads", {1, 256}).value_or(flags.threads);

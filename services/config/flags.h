@@ -39,6 +39,7 @@ struct ServiceFlags {
   std::string former_qos;   // the set it had before an order's; with it, it comes back if it must
   std::string rolled_back;  // why it came back with that
   bool hang_on_signal = false;       // vehicle only; a drill, see HangSignal
+  bool watchdog = true;              // false: vehicle only, a drill; see Watchdog
   bool admin = false;                // takes orders of any operator; with a key only sealed ones
   std::string admin_key;             // the key's file; empty: none
   std::optional<Impairment> impair;  // vehicle only; instead of the scenario's

@@ -20,6 +20,7 @@ class HealthService {
  public:
   // Serves nobody where the flags name no port. Throws InputError.
   explicit HealthService(const ServiceFlags& flags) {
+    if (flags.watchdog) watchdog_.emplace();
     Tell();
     if (flags.health_port == 0) return;
     server_.emplace(flags.health_address, static_cast<std::uint16_t>(flags.health_port),
@@ -37,7 +38,7 @@ class HealthService {
     board_.Publish(now_);
     const HealthStage stage = now_.loop.stage;
     const bool watched = stage == HealthStage::kJoining || stage == HealthStage::kUnderWay;
-    watched ? watchdog_.Feed() : watchdog_.Rest();
+    if (watchdog_) watched ? watchdog_->Feed() : watchdog_->Rest();
   }
 
  private:
@@ -57,7 +58,7 @@ class HealthService {
 
   Health now_;
   HealthBoard<Health> board_;
-  Watchdog watchdog_;
+  std::optional<Watchdog> watchdog_;
   std::optional<HealthServer> server_;  // last: gone before what it reads
 };
 

@@ -44,17 +44,17 @@ constexpr std::array kVariables = {
              "unset it outside of experiments"},
 };
 
-constexpr std::array<std::string_view, 28> kOurs = {
-    "GIVEWAY_DOMAIN",         "GIVEWAY_INTERFACE",    "GIVEWAY_QOS",
-    "GIVEWAY_SCENARIO",       "GIVEWAY_ID",           "GIVEWAY_SEED",
-    "GIVEWAY_BEHAVIOUR",      "GIVEWAY_DURATION",     "GIVEWAY_THREADS",
-    "GIVEWAY_VEHICLES",       "GIVEWAY_CHECKPOINT",   "GIVEWAY_FAULTS",
-    "GIVEWAY_RECORD",         "GIVEWAY_LOCKSTEP",     "GIVEWAY_LOG_LEVEL",
-    "GIVEWAY_LOG_FORMAT",     "GIVEWAY_CONFIG_DIR",   "GIVEWAY_IMPAIR",
-    "GIVEWAY_PARTITION_FREE", "GIVEWAY_RESUME",       "GIVEWAY_HANG_ON_SIGNAL",
-    "GIVEWAY_STAY",           "GIVEWAY_RECORD_SPLIT", "GIVEWAY_DISCOVERY_SERVER",
-    "GIVEWAY_HEALTH",         "GIVEWAY_HEALTH_PORT",  "GIVEWAY_HEALTH_ADDRESS",
-    "GIVEWAY_RECORD_RING"};
+constexpr std::array<std::string_view, 29> kOurs = {
+    "GIVEWAY_DOMAIN",           "GIVEWAY_INTERFACE",  "GIVEWAY_QOS",
+    "GIVEWAY_SCENARIO",         "GIVEWAY_ID",         "GIVEWAY_SEED",
+    "GIVEWAY_BEHAVIOUR",        "GIVEWAY_DURATION",   "GIVEWAY_THREADS",
+    "GIVEWAY_VEHICLES",         "GIVEWAY_CHECKPOINT", "GIVEWAY_FAULTS",
+    "GIVEWAY_RECORD",           "GIVEWAY_LOCKSTEP",   "GIVEWAY_LOG_LEVEL",
+    "GIVEWAY_LOG_FORMAT",       "GIVEWAY_CONFIG_DIR", "GIVEWAY_IMPAIR",
+    "GIVEWAY_PARTITION_FREE",   "GIVEWAY_RESUME",     "GIVEWAY_HANG_ON_SIGNAL",
+    "GIVEWAY_NO_WATCHDOG",      "GIVEWAY_STAY",       "GIVEWAY_RECORD_SPLIT",
+    "GIVEWAY_DISCOVERY_SERVER", "GIVEWAY_HEALTH",     "GIVEWAY_HEALTH_PORT",
+    "GIVEWAY_HEALTH_ADDRESS",   "GIVEWAY_RECORD_RING"};
 
 // Letters to change, add or leave out to make one of the other.
 std::size_t Distance(std::string_view a, std::string_view b) {

@@ -19,7 +19,7 @@ std::vector<MemberCommand> CommandsOf(FleetSpec spec, const DomainLock& lock,
   spec.hands_on_lines = true;
   for (const auto& [vehicle, rules] : impair) {
     auto& words = spec.extra_words[MemberOf(vehicle)];
-    words = {"--log-format", "json", "--hang-on-signal"};
+    words = {"--log-format", "json", "--hang-on-signal", "--no-watchdog"};
     if (!rules.empty()) words.insert(words.end(), {"--impair", rules});
   }
   return MakeCommands(spec, LoadScenario(spec.scenario_file, {}));

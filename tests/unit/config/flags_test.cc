@@ -185,6 +185,9 @@ TEST(Flags, OnlyAVehicleBeaconsWithoutAPartitionAndOnlyIfAsked) {
   words.push_back("--hang-on-signal");
   EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).partition_free);
   EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).hang_on_signal);
+  EXPECT_TRUE(std::get<ServiceFlags>(Vehicle(words)).watchdog);
+  words.push_back("--no-watchdog");
+  EXPECT_FALSE(std::get<ServiceFlags>(Vehicle(words)).watchdog);
   CaptureStderr();
   EXPECT_EQ(std::get<int>(World(words)), 2);
   EXPECT_THAT(GetCapturedStderr(), HasSubstr("--partition-free"));

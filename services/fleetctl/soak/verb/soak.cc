@@ -174,7 +174,8 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
   spec.extra_words[kTheWorld] = {"--checkpoint", (folder / "world.checkpoint").string(), "--faults",
                                  prepared.faults_file};
   for (const VehicleId vehicle : prepared.fleet) {
-    spec.extra_words[MemberOf(vehicle)] = {"--stay", "--hang-on-signal", "--log-format", "json"};
+    spec.extra_words[MemberOf(vehicle)] = {"--stay", "--hang-on-signal", "--no-watchdog",
+                                           "--log-format", "json"};
   }
   return spec;
 }
