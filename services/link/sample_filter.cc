@@ -11,6 +11,8 @@
 
 #if __has_include(<fastrtps/config.h>)
 #include <fastdds/rtps/common/CacheChange.h>
+#else
+#include <fastdds/rtps/common/CacheChange.hpp>
 #endif
 
 namespace giveway::link {
@@ -172,9 +174,8 @@ const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
   return world == 0 || world == ParticipantOf(writer) ? nullptr : "its writer is not the world's";
 }
 
-#if __has_include(<fastrtps/config.h>)
-// What 2.9.1 passes for the sample's identity is that of the sample it answers. But it asks about
-// the payload within a change, which has the writer.
+// What either release passes for the sample's identity is not that of a received sample. But both
+// ask about the payload within a change, which has the writer.
 rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
                       const dds::IContentFilter::FilterSampleInfo&) {
   static const std::ptrdiff_t payload_at = [] {
@@ -185,12 +186,6 @@ rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
   const char* const change = reinterpret_cast<const char*>(&payload) - payload_at;
   return reinterpret_cast<const rtps::CacheChange_t*>(change)->writerGUID;
 }
-#else
-rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload&,
-                      const dds::IContentFilter::FilterSampleInfo& info) {
-  return info.sample_identity.writer_guid();
-}
-#endif
 
 std::string FilterFactory::Add(SampleFilter* filter) {
   filters_.emplace_back(filter);
