@@ -311,7 +311,7 @@ stage_asan() {
   prepare asan unit_tests golden_tests link_tests
   run_ctest asan unit "$(nproc)"
   run_ctest asan golden "$(nproc)"
-  run_ctest asan link 4
+  run_ctest asan link 2
 }
 
 stage_fuzz() { prepare asan fuzz_tests && run_ctest asan fuzz "$(nproc)"; }
@@ -329,7 +329,7 @@ tsan_crossing() {
 stage_tsan() {
   prepare release fleetctl
   prepare tsan link_tests giveway-vehicle giveway-world
-  run_ctest tsan link 4
+  run_ctest tsan link 2
   check "a crossing under the thread sanitizer" tsan_crossing
 }
 

@@ -95,7 +95,7 @@ qos 2 "an unknown scenario" check --scenario no_such --json
 says "an unknown scenario" '.findings[0].rule == "could_not_run"'
 
 qos 0 "show" show --json
-says "show" '(.endpoints | length) == 31
+says "show" '(.endpoints | length) == 33
   and any(.endpoints[]; .profile == "fleet_beacon_writer" and any(.values[];
     .policy == "deadline" and .value == "100 ms" and .origin == "profile" and .line > 0))
   and any(.endpoints[].values[]; .policy == "heartbeat_period" and .origin == "code")
