@@ -36,6 +36,9 @@ run_manual() { # MANUAL
   folder=$SCRATCH/run/$(tr '/' '-' <<<"$1")
   mkdir -p "$folder"
   cd "$folder"
+  # Where fleetctl run keeps the keys of its fleets, by domain.
+  XDG_RUNTIME_DIR=$(mktemp -d -p "$SCRATCH")
+  export XDG_RUNTIME_DIR
   awk -F '\t' -v file="$1" '$1 == file && $3 == "-" {print $2 "\t" $4 "\t" $5}' "$SCRATCH/commands" |
     timeout --kill-after 5 180 "${isolate[@]}" bash "$here/one_manual.sh" "$1" ||
     echo "FAILED  $1: did not end in 180 s"
