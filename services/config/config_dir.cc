@@ -32,16 +32,6 @@ bool HoldsConfig(const fs::path& folder) {
   return fs::is_directory(folder / "scenarios", error);
 }
 
-std::vector<std::string> ShippedNames(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == kEnding) names.push_back(entry.path().stem());
-  }
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 // The file itself if it is one, else the one of that name in `folder`, which holds those of `what`.
 std::string Resolve(const std::string& argument, const char* folder, const char* what) {
   std::error_code error;
@@ -49,7 +39,7 @@ std::string Resolve(const std::string& argument, const char* folder, const char*
   const fs::path shipped = fs::path(ConfigDir()) / folder;
   const fs::path named = shipped / (argument + kEnding);
   if (!argument.empty() && fs::exists(named, error)) return named;
-  const auto names = ShippedNames(shipped);
+  const auto names = ShippedNames(folder);
   throw InputError({{argument.empty() ? "\"\"" : argument, 0, "", "",
                      fmt::format("no such file, and no shipped {} {}{}", what, named.string(),
                                  DidYouMean(argument, names)),
@@ -72,6 +62,20 @@ std::string ConfigDir() {
   }
   throw InputError({{"config", 0, "", "", fmt::format("not found in {}", fmt::join(tried, ", ")),
                      "set GIVEWAY_CONFIG_DIR to the folder with qos/ and scenarios/"}});
+}
+
+std::vector<std::string> ShippedNames(const std::string& folder) {
+  std::vector<std::string> names;
+  std::error_code error;
+  try {
+    const fs::path shipped = fs::path(ConfigDir()) / folder;
+    for (fs::directory_iterator at(shipped, error), end; !error && at != end; at.increment(error)) {
+      if (at->path().extension() != ".md") names.push_back(at->path().stem());
+    }
+  } catch (const InputError&) {  // nothing is shipped
+  }
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 std::string ResolveScenario(const std::string& argument) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace giveway {
 
@@ -18,5 +19,9 @@ std::string ResolveCampaign(const std::string& argument);
 // The folder holding qos/ and scenarios/: $GIVEWAY_CONFIG_DIR, else beside the installed binary
 // (../share/giveway), else the source tree the binary was built in. Throws InputError.
 std::string ConfigDir();
+
+// The names of what is shipped in a folder of ConfigDir(), without their endings, sorted; none
+// where nothing is shipped.
+std::vector<std::string> ShippedNames(const std::string& folder);
 
 }  // namespace giveway

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # A composed fleet that anything may happen to: kill -9 of a vehicle, the world, one discovery server
-# and both, a pause, a cut network, more and fewer vehicles. No bodies touch anybody, whoever returns
+# and both, a pause, a cut network, more and fewer vehicles. No two bodies touch, whoever returns
 # drives again within five seconds, and nobody lends a hand.
 #
 #   bash tests/containers/drills.sh multicast|servers

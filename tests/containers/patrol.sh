@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A fleet as the README starts it, for as long as wanted: it drives until it is asked to stop, whatever
 # happens meanwhile. Its world is restarted three times, two vehicles are killed, one network is cut;
-# after each every vehicle drives again, no bodies touch anybody, and in the quiet last third nobody's
+# after each every vehicle drives again, no two bodies touch, and in the quiet last third nobody's
 # memory grows.
 #
 #   bash tests/containers/patrol.sh [MINUTES [VEHICLES]]   default: each of the three once, at once

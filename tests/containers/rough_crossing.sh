@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Eight containers cross while things happen to them: kill -9 of a vehicle, a pause, a cut network, and
 # kill -9 of the world. Unlike in the lanes of the drills they are in each other's way all the time; who
-# arrives is not asked, that no bodies touch is, by the world's verdict over the whole run. How long the
+# arrives is not asked, that no two bodies touch is, by the world's verdict over the whole run. How long the
 # engine takes is not asked either: the waits are as long as a busy machine may make them.
 #
 #   bash tests/containers/rough_crossing.sh multicast|servers

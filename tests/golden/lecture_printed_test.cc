@@ -1,6 +1,6 @@
 // The ten flaws of the printed scripts, in the lecture's order, one row each: a scenario, and what
 // the flaw looks like in it. The printed behaviour shows it. lecture_yield and cooperative drive
-// the same scenario without it: no bodies touch, and whoever lives arrives.
+// the same scenario without it: no two bodies touch, and whoever lives arrives.
 #include <gtest/gtest.h>
 
 #include <map>

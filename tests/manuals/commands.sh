@@ -64,7 +64,7 @@ wrong_with() { # WORD...
       [[ ${#verbs[@]} -gt 0 ]] || { echo "no verb in '$*'"; return; }
       help=$(fleetctl help "${verbs[@]}")
       ;;
-    giveway-vehicle | giveway-world) help=$("${1##*/}" --help) && shift ;;
+    giveway-observer | giveway-vehicle | giveway-world) help=$("${1##*/}" --help) && shift ;;
     bash)
       [[ -f ${2:-} ]] || { echo "there is no ${2:-script}"; return; }
       help=$(<"$2")

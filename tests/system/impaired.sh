@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# A crossing heard through an impaired channel: the vehicles pass, no bodies touch, and what was
+# A crossing heard through an impaired channel: the vehicles pass, no two bodies touch, and what was
 # injected is what was asked for.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 # count VEHICLE NAME: a number of the line with which the vehicle's log tells what was injected.
 count() { sed -n "s/.* impairment: .*\b$2=\([0-9]*\).*/\1/p" "$SCRATCH/logs/vehicle-$1.log"; }
 
-# crosses NAME ARGUMENTS...: the run passes, and no bodies touch.
+# crosses NAME ARGUMENTS...: the run passes, and no two bodies touch.
 crosses() {
   local name=$1 code=0
   shift

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Vehicles come and go in a running world: one that was killed with -9 drives again within five
 # seconds of its restart, as itself or as another; a fleet grows from two to four and shrinks again;
-# and no bodies touch anybody.
+# and no two bodies touch.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The world is killed with -9 and started again, with a checkpoint, with a damaged one and without,
 # is asked to stop, and comes to the end of its run: the same vehicle processes drive again within five
-# seconds, and no bodies touch anybody. Who was not told to stay ends with its run.
+# seconds, and no two bodies touch. A vehicle without --stay ends with its run.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 checkpoint=$SCRATCH/world.checkpoint

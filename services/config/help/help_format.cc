@@ -68,8 +68,11 @@ std::string Kept(const std::string& line, std::size_t columns) {
   const std::size_t comment = line.find("  #");
   if (comment != std::string::npos && comment > indent) {
     const std::size_t text = line.find('#', comment) + 1;
-    return Wrapped(margin + "# ", line.substr(text), indent, columns) +
-           Kept(line.substr(0, line.find_last_not_of(' ', comment) + 1), columns);
+    std::string lines;
+    for (const auto& one : Lines(Wrapped("", line.substr(text), 0, columns - indent - 2))) {
+      lines += margin + "# " + one + "\n";
+    }
+    return lines + Kept(line.substr(0, line.find_last_not_of(' ', comment) + 1), columns);
   }
   const bool is_command = line.find("fleetctl ") != std::string::npos;
   return Wrapped(margin, line, indent + kHanging, columns, is_command ? " \\" : "");

@@ -25,25 +25,20 @@ std::optional<double> ParseDuration_s(std::string_view text) {
   return duration_s;
 }
 
-CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* duration_s,
-                             const std::string& description) {
-  return verb
-      ->add_option_function<std::string>(
-          name,
-          [duration_s](const std::string& text) {
-            *duration_s = ParseDuration_s(text).value_or(0);
-          },
-          description)
-      ->type_name("TIME")
-      ->check([](const std::string& text) {
-        return ParseDuration_s(text) ? std::string()
-                                     : "must be a time of 0 to 30 days, such as 90s, 30m, 8h or 2d";
-      });
-}
+namespace {
 
-CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,
-                         std::function<void(double)> take_s, const std::string& description) {
-  constexpr double kMostSeconds = 1e6;  // eleven days; beyond 2^33 the clock's arithmetic ends
+struct TimeRange {
+  bool with_zero;
+  double most_s;
+  const char* text;
+};
+constexpr TimeRange kDurations{true, kLongestDuration_s,
+                               "of 0 to 30 days, such as 90s, 30m, 8h or 2d"};
+// Eleven days; beyond 2^33 the clock's arithmetic ends.
+constexpr TimeRange kTimes{false, 1e6, "above 0 and up to 1000000 s, such as 5, 90s or 30m"};
+
+CLI::Option* AddFlag(CLI::App* verb, const std::string& name, std::function<void(double)> take_s,
+                     const std::string& description, const TimeRange& range) {
   return verb
       ->add_option_function<std::string>(
           name,
@@ -52,12 +47,24 @@ CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,
           },
           description)
       ->type_name("TIME")
-      ->check([](const std::string& text) {
-        const double duration_s = ParseDuration_s(text).value_or(0);
-        if (duration_s > 0 && duration_s <= kMostSeconds) return std::string();
-        return "must be a time above 0 and up to 1000000 s, such as 5, 90s or 30m, not '" + text +
-               "'";
+      ->check([&range](const std::string& text) {
+        const auto time_s = ParseDuration_s(text);
+        const bool fits = time_s && *time_s <= range.most_s && (range.with_zero || *time_s > 0);
+        return fits ? "" : std::string("must be a time ") + range.text + ", not '" + text + "'";
       });
+}
+
+}  // namespace
+
+CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* duration_s,
+                             const std::string& description) {
+  return AddFlag(
+      verb, name, [duration_s](double value_s) { *duration_s = value_s; }, description, kDurations);
+}
+
+CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,
+                         std::function<void(double)> take_s, const std::string& description) {
+  return AddFlag(verb, name, std::move(take_s), description, kTimes);
 }
 
 CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name, double* duration_s,

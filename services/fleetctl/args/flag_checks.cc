@@ -1,22 +1,9 @@
 #include "services/fleetctl/args/flag_checks.h"
 
-#include <exception>
-
 namespace giveway::fleetctl {
 
 std::string CheckNotEmpty(const std::string& text) {
   return text.empty() ? "must not be empty" : "";
-}
-
-std::string CheckSeconds(const std::string& text) {
-  constexpr double kMostSeconds = 1e6;  // eleven days; beyond 2^33 the clock's arithmetic ends
-  try {
-    std::size_t end = 0;
-    const double value = std::stod(text, &end);
-    if (end == text.size() && value > 0 && value <= kMostSeconds) return {};
-  } catch (const std::exception&) {
-  }
-  return "must be a number of seconds above 0 and up to 1000000, not '" + text + "'";
 }
 
 void AddDiscoveryFlag(CLI::App* verb, std::vector<DiscoveryServer>* servers) {

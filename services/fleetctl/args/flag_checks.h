@@ -11,8 +11,6 @@
 namespace giveway::fleetctl {
 
 std::string CheckNotEmpty(const std::string& text);
-// Above 0 and up to 1 000 000: CLI11's own range check lets "nan" pass.
-std::string CheckSeconds(const std::string& text);
 
 void AddInterfaceFlag(CLI::App* verb, std::string* interface);
 // Servers as HOST[:PORT],...

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <exception>
 #include <filesystem>
 #include <fstream>
 
@@ -33,15 +32,7 @@ qos::Finding Unreadable(const std::string& path, std::string why) {
 // "; did you mean 'lossy_radio'?" of what may be the name of a shipped set.
 std::string NearestSet(const std::string& argument) {
   if (argument.find('/') != std::string::npos) return "";
-  std::vector<std::string> names;
-  try {
-    for (const std::string& file : NamesIn(fs::path(ConfigDir()) / "qos")) {
-      if (file.ends_with(".xml")) names.push_back(fs::path(file).stem().string());
-    }
-  } catch (const std::exception&) {  // nothing is shipped here
-  }
-  std::ranges::sort(names);
-  return DidYouMean(fs::path(argument).stem().string(), names);
+  return DidYouMean(fs::path(argument).stem().string(), ShippedNames("qos"));
 }
 
 }  // namespace

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
-#include <filesystem>
 #include <regex>
 
 #include "services/config/config_dir.h"
@@ -11,21 +9,6 @@
 
 namespace giveway::fleetctl {
 namespace {
-
-// The files in a folder of what is shipped, without their ending.
-std::vector<std::string> ShippedNames(const std::string& folder) {
-  std::vector<std::string> names;
-  std::error_code error;
-  try {
-    const std::filesystem::path shipped = std::filesystem::path(ConfigDir()) / folder;
-    for (std::filesystem::directory_iterator at(shipped, error), end; !error && at != end;
-         at.increment(error)) {
-      if (at->path().extension() != ".md") names.push_back(at->path().stem().string());
-    }
-  } catch (const std::exception&) {  // nothing is shipped here: nothing to complete
-  }
-  return names;
-}
 
 // Where what an argument names is shipped; empty: nowhere.
 std::string FolderOf(const CLI::App& verb, const std::string& argument) {

@@ -1,5 +1,5 @@
 // Vehicles in a world with every tier of ultrasonics, and with radar, lidar and camera switched on:
-// nobody touches anybody, and everybody arrives.
+// no two bodies touch, and everybody arrives.
 #include <gtest/gtest.h>
 
 #include "tests/support/crossing.h"

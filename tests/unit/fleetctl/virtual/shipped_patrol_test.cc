@@ -1,5 +1,5 @@
 // The shipped fleets that drive until they are asked to stop, in virtual time with every place
-// taken: in each minute each vehicle gets on, no bodies touch anybody, and no invariant is broken.
+// taken: in each minute each vehicle gets on, no two bodies touch, and no invariant is broken.
 #include <gtest/gtest.h>
 
 #include <map>
