@@ -33,19 +33,7 @@ with mismatch.xml fleet_beacon_writer 's/<nanosec>250000000/<nanosec>500000000/'
 printf '<dds><profiles>' >cut.xml
 
 
-# Four on rounds of their own, in earshot of each other and never near.
-{
-  printf 'name: "rounds"\nduration_s: 600\nemission_radius_m: 100\n'
-  for id in 1 2 3 4; do
-    x=$((id * 6))
-    printf 'vehicle { id: %d start { x_m: %d y_m: 0 heading_deg: 0 } cruise_m_s: 0.3\n' "$id" "$x"
-    for corner in "$((x + 2)) 0" "$((x + 2)) 2" "$x 2" "$x 0"; do
-      printf '  waypoint { x_m: %d y_m: %d }\n' "${corner% *}" "${corner#* }"
-    done
-    printf '  loop: true }\n'
-  done
-  printf 'expect { contacts: 0 }\n'
-} >rounds.textproto
+cp "$REPOSITORY/tests/system/rounds.textproto" .
 
 # With one beacon in ten lost, a deadline of little more than a period is missed again and again.
 "$FLEETCTL" run rounds.textproto --impair loss=0.1 --json --logs logs >run.json 2>run.err &
