@@ -6,7 +6,7 @@ cd "$SCRATCH"
 
 # The commands of services/fleetctl/faults/README.md.
 "$FLEETCTL" faults list >kinds || fail "list: exit code $?"
-[[ $(grep -c '^  [a-z]' kinds) -eq 41 ]] || fail "not 41 kinds: $(<kinds)"
+[[ $(grep -c '^  [a-z]' kinds) -eq 43 ]] || fail "not 43 kinds: $(<kinds)"
 "$FLEETCTL" faults expand everything --seed 1 --duration 30m --vehicles 20 >list.textproto ||
   fail "expand everything: exit code $?"
 "$FLEETCTL" faults expand list.textproto --duration 30m --vehicles 20 >again.textproto ||
