@@ -49,6 +49,13 @@ bool IsSecured(const dds::DomainParticipantQos& qos) {
   });
 }
 
+// Whether all that a participant says, and its announcements by itself, pass the transport.
+bool HearsLeases(const LinkOptions& options, const dds::DomainParticipantQos& qos) {
+  const auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  return options.discovery_servers.empty() && discovery.discoveryProtocol == Discovery::SIMPLE &&
+         qos.transport().user_transports.size() == 1;
+}
+
 FilteredTransportOptions FilterOf(const LinkOptions& options,
                                   const dds::DomainParticipantQos& qos) {
   return {.filter = {.largest_sample = LargestSample(),
@@ -56,7 +63,8 @@ FilteredTransportOptions FilterOf(const LinkOptions& options,
                      .loopback_only = IsLoopback(options.interface),
                      .secured = IsSecured(qos),
                      .seed = 0},
-          .joined_interfaces_only = options.interface != "any"};
+          .joined_interfaces_only = options.interface != "any",
+          .says_farewell = HearsLeases(options, qos)};
 }
 
 // UDP, and beside it shared memory if the profile names it: the profile says how, the options say

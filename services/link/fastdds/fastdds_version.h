@@ -245,6 +245,9 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 
   bool HasFoundAnybody() const { return has_found_anybody_.load(std::memory_order_relaxed); }
 
+  // Participants whose lease the library saw end: of each writer of theirs it keeps a record.
+  std::uint32_t Dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
 #if __has_include(<fastrtps/config.h>)
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) final {
     const bool gone = found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
@@ -255,8 +258,9 @@ class DiscoveryListener : public dds::DomainParticipantListener {
   void on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) final {
     if (found.status != rtps::ReaderDiscoveryInfo::REMOVED_READER) NoteEndpoint(false, found.info);
   }
-  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&&) final {
-    has_found_anybody_.store(true, std::memory_order_relaxed);
+  void on_participant_discovery(dds::DomainParticipant*,
+                                rtps::ParticipantDiscoveryInfo&& found) final {
+    NoteParticipant(found.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT);
   }
 #else
   void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus status,
@@ -269,13 +273,18 @@ class DiscoveryListener : public dds::DomainParticipantListener {
                                 const dds::SubscriptionBuiltinTopicData& found, bool&) final {
     if (status != rtps::ReaderDiscoveryStatus::REMOVED_READER) NoteEndpoint(false, found);
   }
-  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus,
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus status,
                                 const dds::ParticipantBuiltinTopicData&, bool&) final {
-    has_found_anybody_.store(true, std::memory_order_relaxed);
+    NoteParticipant(status == rtps::ParticipantDiscoveryStatus::DROPPED_PARTICIPANT);
   }
 #endif
 
  private:
+  void NoteParticipant(bool dropped) {
+    has_found_anybody_.store(true, std::memory_order_relaxed);
+    if (dropped) dropped_.fetch_add(1, std::memory_order_relaxed);
+  }
+
 #if __has_include(<fastrtps/config.h>)
   template <typename ProxyData>
   void NoteEndpoint(bool writes, const ProxyData& found) {
@@ -295,6 +304,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 
   EndpointQueue endpoints_;
   std::atomic<bool> has_found_anybody_{false};
+  std::atomic<std::uint32_t> dropped_{0};
 };
 
 // A chaining transport that sends as the one below it does.
