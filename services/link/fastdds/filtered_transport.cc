@@ -9,7 +9,6 @@
 #include <mutex>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "services/link/fastdds/joined_groups.h"
 #include "services/link/fastdds/packets_of_process.h"
@@ -74,7 +73,7 @@ class FilteredTransport final : public ForwardingTransport {
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    std::optional<std::vector<std::uint8_t>> farewell;
+    std::optional<Farewell> farewell;
     const PacketVerdict verdict = Judge({bytes, size}, Ipv4Of(remote), &farewell);
     counted[static_cast<std::size_t>(verdict.drop)].fetch_add(1, std::memory_order_relaxed);
     if (verdict.drop != PacketDrop::kNone) return;
@@ -87,8 +86,7 @@ class FilteredTransport final : public ForwardingTransport {
 
  private:
   // Only the port that announcements reach has the reader of farewells.
-  PacketVerdict Judge(Bytes packet, std::uint32_t source,
-                      std::optional<std::vector<std::uint8_t>>* farewell) {
+  PacketVerdict Judge(Bytes packet, std::uint32_t source, std::optional<Farewell>* farewell) {
     const SteadyTime now(steady_clock::now().time_since_epoch());
     const std::scoped_lock lock(mutex_);
     const PacketVerdict verdict = filter_.Judge(packet, source, now);

@@ -35,16 +35,20 @@ Submessage ParametersOf(const Submessage& announcement) {
   return list;
 }
 
+// From there on; returns where it ends.
 template <std::size_t size>
-void Append(const std::array<std::uint8_t, size>& bytes, std::vector<std::uint8_t>* to) {
-  to->insert(to->end(), bytes.begin(), bytes.end());
+std::size_t Put(const std::array<std::uint8_t, size>& bytes, std::size_t at, Farewell* to) {
+  std::copy_n(bytes.begin(), size, to->begin() + static_cast<std::ptrdiff_t>(at));
+  return at + size;
 }
 
 // High word first, each in big-endian order.
-void AppendNumber(std::int64_t number, std::vector<std::uint8_t>* to) {
-  for (int shift = 56; shift >= 0; shift -= 8) {
-    to->push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> shift));
+std::array<std::uint8_t, 8> BigEndian(std::int64_t number) {
+  std::array<std::uint8_t, 8> bytes;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> (56 - 8 * i));
   }
+  return bytes;
 }
 
 }  // namespace
@@ -74,23 +78,27 @@ std::int64_t AnnouncementNumber(const Submessage& announcement) {
   return announcement.SequenceNumber(kAnnouncementNumberAt);
 }
 
-std::vector<std::uint8_t> FarewellOf(const PrefixBytes& participant, std::int64_t number) {
-  std::vector<std::uint8_t> body = {
-      0, 0, 0, kAnnouncementNumberAt + 8 - kAnnouncementReaderAt};  // to the inline QoS
-  Append(kListener, &body);
-  Append(kAnnouncer, &body);
-  AppendNumber(number, &body);
-  body.insert(body.end(), {0, kKeyHash, 0, 16});
-  Append(participant, &body);
-  Append(kParticipantEntity, &body);
-  body.insert(body.end(), {0, kStatusInfo, 0, 4, 0, 0, 0, kDisposedAndUnregistered});
-  body.insert(body.end(), {0, kEndOfList, 0, 0});
-
-  std::vector<std::uint8_t> packet = {'R', 'T', 'P', 'S', 2, 3, 0x01, 0x0f};
-  Append(participant, &packet);
-  packet.insert(packet.end(), {static_cast<std::uint8_t>(SubmessageKind::kData), kInlineQosFlag, 0,
-                               static_cast<std::uint8_t>(body.size())});
-  packet.insert(packet.end(), body.begin(), body.end());
+Farewell FarewellOf(const PrefixBytes& participant, std::int64_t number) {
+  constexpr std::uint8_t kToInlineQos = kAnnouncementNumberAt + 8 - kAnnouncementReaderAt;
+  Farewell packet;
+  std::size_t at =
+      Put(std::array<std::uint8_t, 8>{'R', 'T', 'P', 'S', 2, 3, 0x01, 0x0f}, 0, &packet);
+  at = Put(participant, at, &packet);
+  constexpr std::size_t kBodyAt = kRtpsHeaderBytes + kSubmessageHeaderBytes;
+  constexpr std::uint8_t kBytes = std::tuple_size_v<Farewell> - kBodyAt;
+  at = Put(std::to_array<std::uint8_t>(
+               {static_cast<std::uint8_t>(SubmessageKind::kData), kInlineQosFlag, 0, kBytes}),
+           at, &packet);
+  at = Put(std::to_array<std::uint8_t>({0, 0, 0, kToInlineQos}), at, &packet);
+  at = Put(kListener, at, &packet);
+  at = Put(kAnnouncer, at, &packet);
+  at = Put(BigEndian(number), at, &packet);
+  at = Put(std::to_array<std::uint8_t>({0, kKeyHash, 0, 16}), at, &packet);
+  at = Put(participant, at, &packet);
+  at = Put(kParticipantEntity, at, &packet);
+  at = Put(std::to_array<std::uint8_t>({0, kStatusInfo, 0, 4, 0, 0, 0, kDisposedAndUnregistered}),
+           at, &packet);
+  Put(std::to_array<std::uint8_t>({0, kEndOfList, 0, 0}), at, &packet);
   return packet;
 }
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "services/link/packet_filter/rtps_bytes.h"
 #include "services/types/time.h"
@@ -24,7 +23,8 @@ std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement);
 std::optional<Nanoseconds> AnnouncedLease(const Submessage& announcement);
 std::int64_t AnnouncementNumber(const Submessage& announcement);
 
+using Farewell = std::array<std::uint8_t, 76>;
 // The packet by which a participant ends, with the number that follows its last announcement.
-std::vector<std::uint8_t> FarewellOf(const PrefixBytes& participant, std::int64_t number);
+Farewell FarewellOf(const PrefixBytes& participant, std::int64_t number);
 
 }  // namespace giveway::link

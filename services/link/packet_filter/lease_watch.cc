@@ -52,13 +52,13 @@ void LeaseWatch::MakeRoom() {
       participants_, {}, [](const auto& participant) { return participant.second.heard; }));
 }
 
-std::optional<std::vector<std::uint8_t>> LeaseWatch::TakeFarewell(SteadyTime now) {
+std::optional<Farewell> LeaseWatch::TakeFarewell(SteadyTime now) {
   const auto lapsed = std::ranges::find_if(participants_, [now](const auto& participant) {
     const Announced& announced = participant.second;
     return now - announced.heard >= announced.lease / 10 * 9;
   });
   if (lapsed == participants_.end()) return std::nullopt;
-  std::vector<std::uint8_t> farewell = FarewellOf(lapsed->first, lapsed->second.number + 1);
+  const Farewell farewell = FarewellOf(lapsed->first, lapsed->second.number + 1);
   participants_.erase(lapsed);
   return farewell;
 }

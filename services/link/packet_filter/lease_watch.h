@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
-#include <vector>
 
 #include "services/link/packet_filter/announcement.h"
 #include "services/link/packet_filter/rtps_bytes.h"
@@ -29,7 +28,7 @@ class LeaseWatch {
 
   // The farewell of one participant whose silence has lasted nine tenths of its lease: a packet as
   // it would have sent it, once. Nothing if all were heard.
-  std::optional<std::vector<std::uint8_t>> TakeFarewell(SteadyTime now);
+  std::optional<Farewell> TakeFarewell(SteadyTime now);
 
   std::size_t Participants() const { return participants_.size(); }
 
