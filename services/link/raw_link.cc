@@ -13,6 +13,7 @@ template <typename Wire>
 struct RawTopicOf {
   static constexpr const char* kName = TopicOf<Wire>::kName;
   static constexpr const char* kReader = TopicOf<Wire>::kReader;
+  static constexpr std::size_t kKeyNumbers = TopicOf<Wire>::kKeyNumbers;
 };
 
 #define GIVEWAY_RAW_TOPIC(wire_type)                                    \

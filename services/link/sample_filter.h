@@ -3,11 +3,15 @@
 // threads, for each sample; what is refused is counted, and the last few refused are kept for the
 // log.
 //
-// A key stands first in every wire type: the vehicle's id, or the 128 bits of a session.
+// A key stands first in every wire type: the vehicle's id, or the 128 bits of a session. What the
+// library stores a sample under may come with it, as a hash of the key: a sample whose hash is of
+// another key is refused by every filter.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -24,18 +28,38 @@
 
 namespace giveway::link {
 
-// The numbers a sample begins with; nothing if it is too short, or has only a hash of its key.
+class SampleFilter;
+
+// A filter at work for the readers of one topic.
+struct FilterOfTopic {
+  SampleFilter* filter = nullptr;  // none: everything passes
+  std::size_t key_numbers = 1;     // see topics.h
+  // Where payloads are encrypted the library stores samples under a digest of the key, from which
+  // the key cannot be read. Only participants with certificates are heard there.
+  bool digests = false;
+};
+
+// The key of a change: of its payload, or where it has none, of the instance it names.
 class KeyReader {
  public:
-  explicit KeyReader(const rtps::SerializedPayload_t& payload) : payload_(payload) {}
+  KeyReader(const rtps::CacheChange_t& change, const FilterOfTopic& topic);
+
+  // Why what the library would store it under is not the key of what it says; null if it is.
+  // Empty where nothing is to be said of it.
+  const char* WhyNot() const { return why_not_; }
+  // Nothing where the key is of another kind, or only a digest is known.
   std::optional<VehicleId> Vehicle() const;
   std::optional<SessionId> Session() const;
 
  private:
-  bool Has(std::size_t numbers) const;
-  std::uint32_t Number32(std::size_t i) const;
+  static constexpr std::size_t kMostNumbers = 4;
+  bool ReadPayload(const rtps::SerializedPayload_t& payload);
+  bool ReadInstance(const rtps::InstanceHandle_t& instance);
 
-  const rtps::SerializedPayload_t& payload_;
+  std::size_t size_;                                   // numbers of the topic's keys
+  bool known_ = false;                                 // whether `numbers_` are read
+  std::array<std::uint32_t, kMostNumbers> numbers_{};  // 0 beyond `size_`
+  const char* why_not_ = nullptr;
 };
 
 class SampleFilter {
@@ -48,7 +72,7 @@ class SampleFilter {
   SampleFilter& operator=(const SampleFilter&) = delete;
 
   // On the library's threads.
-  bool Passes(const rtps::GUID_t& writer, const rtps::SerializedPayload_t& payload);
+  bool Passes(const rtps::CacheChange_t& change, const FilterOfTopic& topic);
 
   std::uint32_t Refused() const { return refused_.load(std::memory_order_relaxed); }
   // The first few since the last call.
@@ -184,16 +208,15 @@ class WorldFilter final : public SampleFilter {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
 
-// Who wrote what a filter is asked about.
-rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
-                      const dds::IContentFilter::FilterSampleInfo& info);
+// What a filter is asked about. `payload` is the one that the library asks a filter with.
+const rtps::CacheChange_t& ChangeOf(const dds::IContentFilter::SerializedPayload& payload);
 
 // Hands the filters of a participant's readers to the library. Its name is the participant's own:
 // writers elsewhere know no such filter, and send all.
 class FilterFactory final : public dds::IContentFilterFactory {
  public:
   // The expression that stands for the filter.
-  std::string Add(SampleFilter* filter);
+  std::string Add(const FilterOfTopic& filter);
 
   ReturnCode create_content_filter(const char* filter_class, const char* type,
                                    const dds::TopicDataType* support, const char* expression,
@@ -205,12 +228,12 @@ class FilterFactory final : public dds::IContentFilterFactory {
 
  private:
   struct Asked final : dds::IContentFilter {
-    explicit Asked(SampleFilter* asked) : filter(asked) {}
-    bool evaluate(const SerializedPayload& payload, const FilterSampleInfo& info,
+    explicit Asked(const FilterOfTopic& asked) : topic(asked) {}
+    bool evaluate(const SerializedPayload& payload, const FilterSampleInfo&,
                   const GUID_t&) const override {
-      return filter->Passes(WriterOf(payload, info), payload);
+      return topic.filter->Passes(ChangeOf(payload), topic);
     }
-    SampleFilter* filter;
+    FilterOfTopic topic;
     bool given = false;
   };
 
