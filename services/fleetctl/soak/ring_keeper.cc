@@ -38,6 +38,7 @@ std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
 RingKeeper::RingKeeper(const link::LinkOptions& options, const std::string& key,
                        std::span<const VehicleId> fleet, fs::path folder, Nanoseconds ring)
     : link_(options, key),
+      orders_(!key.empty()),
       fleet_(fleet.begin(), fleet.end()),
       folder_(std::move(folder)),
       ring_(ring) {
@@ -57,7 +58,7 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
     const AdminOrder order{.vehicle = vehicle,
                            .number = link::OperatorLink::NextNumber(),
                            .kind = OrderKind::kKeepRing};
-    orders_.emplace(order.number, kept_.size());
+    orders_.Add(order, kept_.size());
     if (link_.Send(order)) ++kept.ordered;
   }
   kept_.push_back(kept);
@@ -65,10 +66,7 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
 
 void RingKeeper::Turn(SteadyTime now) {
   for (const AdminAnswer& answer : link_.Take()) {
-    const auto order = orders_.find(answer.order);
-    if (order == orders_.end()) continue;
-    if (answer.state == AnswerState::kInEffect) ++kept_[order->second].kept;
-    orders_.erase(order);
+    if (const auto keep = orders_.Take(answer)) ++kept_[*keep].kept;
   }
   if (now < next_prune_) return;
   next_prune_ = now + kPruneEvery;

@@ -5,12 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "services/fleetctl/soak/ring_orders.h"
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/link/operator_link.h"
 #include "services/types/time.h"
@@ -39,11 +39,11 @@ class RingKeeper {
   void Prune();
 
   link::OperatorLink link_;
+  RingOrders orders_;
   std::vector<VehicleId> fleet_;
   std::filesystem::path folder_;
   Nanoseconds ring_;
   std::vector<KeptRings> kept_;
-  std::map<std::uint64_t, std::size_t> orders_;  // which of kept_ each is for, by number
   std::set<std::string> kept_files_;
   SteadyTime ordered_{0};
   SteadyTime next_prune_{0};
