@@ -33,7 +33,9 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   SteadyClock clock;
   const Resumed resumed = flags.resume.value_or(Resumed{});
   const auto session = flags.resume ? std::optional(resumed.session) : std::nullopt;
-  const auto entry = Join(&link, &clock, stop, VehicleId{flags.id}, session, &health);
+  const auto entry = Join(
+      {.link = &link, .clock = &clock, .health = &health, .scenario = &scenario},
+      [&] { return stop.IsSet(); }, VehicleId{flags.id}, session);
   if (!entry) return {};
   if (!entry->accepted) return {2, {}};
   PublishIdentity({entry->vehicle, link.ParticipantText()});
