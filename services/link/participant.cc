@@ -174,6 +174,9 @@ dds::DataWriterQos WriterQos(dds::Publisher& publisher, const std::string& profi
   // as it fills with events, which in a quiet fleet is hours.
   if (depth != Participant::kProfileDepth) qos.resource_limits().allocated_samples = depth;
   SetHeartbeatPeriod(qos, kHeartbeatPeriod);
+  // A reader may ask its writers to filter for it, with an expression of its own: a stranger's
+  // would be parsed here, and asked for each sample.
+  qos.writer_resource_limits().reader_filters_allocation.maximum = 0;
   return qos;
 }
 

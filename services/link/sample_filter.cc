@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "services/link/inbox/participant_of.h"
+#include "services/link/inbox/silence_limit.h"
 
 namespace giveway::link {
 namespace {
@@ -29,6 +30,12 @@ std::uint32_t Number32(const std::uint8_t* bytes, bool little) {
     number = number << 8U | bytes[little ? 3 - byte : byte];
   }
   return number;
+}
+
+void Follow(std::uint64_t participant, SteadyTime now, Speaker* speaker) {
+  if (speaker->participant != participant) speaker->before = speaker->participant;
+  speaker->participant = participant;
+  speaker->heard = now;
 }
 
 }  // namespace
@@ -83,11 +90,12 @@ std::optional<SessionId> KeyReader::Session() const {
   return SessionId{numbers_};
 }
 
-bool SampleFilter::Passes(const rtps::CacheChange_t& change, const FilterOfTopic& topic) {
+bool SampleFilter::Passes(const rtps::CacheChange_t& change, const FilterOfTopic& topic,
+                          SteadyTime now) {
   const std::scoped_lock lock(mutex_);
   const KeyReader key(change, topic);
   const char* const wrong_key = key.WhyNot();
-  const char* const why = wrong_key != nullptr ? wrong_key : WhyNot(change.writerGUID, key);
+  const char* const why = wrong_key != nullptr ? wrong_key : WhyNot(change.writerGUID, key, now);
   if (why == nullptr) return true;
   if (*why == '\0') return false;
   refused_.fetch_add(1, std::memory_order_relaxed);
@@ -120,7 +128,7 @@ bool KeysBySource::Admits(std::uint64_t source, std::uint64_t key) {
   return admits;
 }
 
-const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime) {
   std::uint64_t named = 0;
   if (key_ == Key::kVehicle) {
     const auto vehicle = key.Vehicle();
@@ -150,7 +158,7 @@ std::uint64_t OwnerFilter::OwnerOf(VehicleId vehicle) {
   return owner == owners_.end() ? 0 : owner->second;
 }
 
-const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime) {
   const auto vehicle = key.Vehicle();
   if (!vehicle) return nullptr;
   const auto owner = owners_.find(*vehicle);
@@ -161,29 +169,51 @@ const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key
   return unowned_.Admits(Identity(writer), Number(*vehicle)) ? nullptr : kTooMany;
 }
 
-const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+void FirstComerFilter::SetTickPeriod(Nanoseconds period) {
+  const std::scoped_lock lock(Mutex());
+  silence_ = SilenceLimit(kSilence, period);
+}
+
+bool FirstComerFilter::Spoke(VehicleId vehicle, std::uint64_t participant) {
+  const std::scoped_lock lock(Mutex());
+  const auto speaker = speakers_.find(vehicle);
+  return speaker != speakers_.end() && speaker->second.Spoke(participant);
+}
+
+const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key,
+                                     SteadyTime now) {
   const auto vehicle = key.Vehicle();
   if (!vehicle) return nullptr;
   if (!named_.Admits(Identity(writer), Number(*vehicle))) return kTooMany;
-  const auto now = std::chrono::steady_clock::now();
   const std::uint64_t participant = ParticipantOf(writer);
-  const auto [speaker, is_new] = speakers_.try_emplace(*vehicle, Speaker{participant, now});
-  if (speaker->second.participant != participant && now - speaker->second.heard <= kSilence) {
+  const auto [known, is_new] = speakers_.try_emplace(*vehicle);
+  Speaker& speaker = known->second;
+  if (!is_new && speaker.participant != participant && now - speaker.heard <= silence_) {
     return "another participant speaks for this id";
   }
-  speaker->second = {participant, now};
+  Follow(participant, now, &speaker);
   if (is_new) oldest_.push_back(*vehicle);
   for (; oldest_.size() > kMostSpeakers; oldest_.pop_front()) speakers_.erase(oldest_.front());
   return nullptr;
 }
 
-const char* FirstWorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
-  const auto now = std::chrono::steady_clock::now();
+void FirstWorldFilter::SetTickPeriod(Nanoseconds period) {
+  const std::scoped_lock lock(Mutex());
+  silence_ = SilenceLimit(kSilence, period);
+}
+
+bool FirstWorldFilter::Spoke(std::uint64_t participant) {
+  const std::scoped_lock lock(Mutex());
+  return world_.Spoke(participant);
+}
+
+const char* FirstWorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&, SteadyTime now) {
   const std::uint64_t participant = ParticipantOf(writer);
-  const bool other = world_ != 0 && world_ != participant;
-  if (other && now - heard_ <= kSilence && is_there_(world_)) return "another world is there";
-  world_ = participant;
-  heard_ = now;
+  const bool other = world_.participant != 0 && world_.participant != participant;
+  if (other && now - world_.heard <= silence_ && is_there_(world_.participant)) {
+    return "another world is there";
+  }
+  Follow(participant, now, &world_);
   return nullptr;
 }
 
@@ -193,12 +223,12 @@ void SessionFilter::Follow(const SessionId& session) {
 }
 
 // Entries of other sessions are no fault of anybody: they are not counted.
-const char* SessionFilter::WhyNot(const rtps::GUID_t&, const KeyReader& key) {
+const char* SessionFilter::WhyNot(const rtps::GUID_t&, const KeyReader& key, SteadyTime) {
   const auto session = key.Session();
   return !session || *session == session_ ? nullptr : "";
 }
 
-const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
+const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&, SteadyTime) {
   const std::uint64_t world = world_.load(std::memory_order_relaxed);
   return world == 0 || world == ParticipantOf(writer) ? nullptr : "its writer is not the world's";
 }
@@ -216,15 +246,16 @@ const rtps::CacheChange_t& ChangeOf(const dds::IContentFilter::SerializedPayload
 }
 
 std::string FilterFactory::Add(const FilterOfTopic& filter) {
+  const std::scoped_lock lock(mutex_);
   filters_.emplace_back(filter);
   return std::string(kExpression) + std::to_string(filters_.size() - 1);
 }
 
-// Each once, for its reader. A writer of the same participant would ask for the same again, to
-// leave out what the reader refuses anyhow: it is not given one.
+// Each once, for its reader.
 ReturnCode FilterFactory::create_content_filter(const char*, const char*, const dds::TopicDataType*,
                                                 const char* expression, const ParameterSeq&,
                                                 dds::IContentFilter*& filter) {
+  const std::scoped_lock lock(mutex_);
   const std::string_view text = expression == nullptr ? "" : expression;
   std::size_t number = filters_.size();
   if (text.starts_with(kExpression)) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ class OfAnOwner : public ::testing::Test {
  protected:
   OfAnOwner() { filter_.SetOwner(kSeven, ParticipantOf(WriterOf(1))); }
   bool Passes(const Received& received, bool digests = false) {
-    return filter_.Passes(received.change, {&filter_, 1, digests});
+    return filter_.Passes(received.change, {&filter_, 1, digests}, SteadyTime{0});
   }
   std::string WhyNot() {
     std::vector<Refusal> refusals;
@@ -110,6 +111,56 @@ TEST_F(OfAnOwner, WhereHashesAreDigestsTheKeyIsThatOfThePayload) {
   EXPECT_TRUE(Passes(received, true));
   received.change.writerGUID = WriterOf(2);
   EXPECT_FALSE(Passes(received, true));
+}
+
+constexpr SteadyTime kBegun = std::chrono::seconds(100);
+constexpr SteadyTime kAMoment = std::chrono::milliseconds(1);
+
+TEST(FirstComerFilter, OneThatIsSilentForAFewTicksKeepsTheWord) {
+  FirstComerFilter filter("status");
+  const FilterOfTopic topic{&filter, 1, false};
+  const auto passes = [&](std::uint8_t participant, SteadyTime now) {
+    return filter.Passes(Received(kSeven, participant).change, topic, now);
+  };
+  EXPECT_TRUE(passes(1, kBegun));
+  EXPECT_FALSE(passes(2, kBegun + FirstComerFilter::kSilence));
+  filter.SetTickPeriod(std::chrono::milliseconds(500));
+  EXPECT_FALSE(passes(2, kBegun + std::chrono::milliseconds(2500)));
+  EXPECT_TRUE(passes(2, kBegun + std::chrono::milliseconds(2500) + kAMoment));
+  EXPECT_FALSE(passes(1, kBegun + std::chrono::milliseconds(2500) + kAMoment));
+}
+
+TEST(FirstComerFilter, KnowsWhoSpoke) {
+  FirstComerFilter filter("status");
+  const auto spoke = [&](std::uint8_t participant) {
+    return filter.Spoke(kSeven, ParticipantOf(WriterOf(participant)));
+  };
+  EXPECT_FALSE(spoke(1));
+  filter.Passes(Received(kSeven, 1).change, {&filter, 1, false}, kBegun);
+  EXPECT_TRUE(spoke(1));
+  EXPECT_FALSE(spoke(2));
+  filter.Passes(Received(kSeven, 2).change, {&filter, 1, false}, kBegun + std::chrono::seconds(2));
+  EXPECT_TRUE(spoke(1)) << "what it said last may not have been read yet";
+  EXPECT_TRUE(spoke(2));
+  EXPECT_FALSE(filter.Spoke(kEight, ParticipantOf(WriterOf(1))));
+}
+
+TEST(FirstWorldFilter, OneThatIsThereAndSilentForAFewTicksKeepsTheWord) {
+  bool is_there = true;
+  FirstWorldFilter filter("sample of a world", [&](std::uint64_t) { return is_there; });
+  const FilterOfTopic topic{&filter, 1, false};
+  const auto passes = [&](std::uint8_t participant, SteadyTime now) {
+    return filter.Passes(Received(kSeven, participant).change, topic, now);
+  };
+  EXPECT_TRUE(passes(1, kBegun));
+  EXPECT_FALSE(passes(2, kBegun + FirstWorldFilter::kSilence));
+  EXPECT_FALSE(filter.Spoke(ParticipantOf(WriterOf(2))));
+  filter.SetTickPeriod(std::chrono::milliseconds(200));
+  EXPECT_FALSE(passes(2, kBegun + std::chrono::seconds(1)));
+  EXPECT_TRUE(passes(2, kBegun + std::chrono::seconds(1) + kAMoment));
+  EXPECT_TRUE(filter.Spoke(ParticipantOf(WriterOf(2))));
+  is_there = false;
+  EXPECT_TRUE(passes(3, kBegun + std::chrono::seconds(1) + kAMoment)) << "the other has left";
 }
 
 template <typename Wire>
