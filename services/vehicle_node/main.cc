@@ -6,6 +6,7 @@
 
 #include "services/config/scenario_file.h"
 #include "services/link/fastdds/library_release.h"
+#include "services/link/vehicle_link.h"
 #include "services/node/admin_access.h"
 #include "services/node/server_wait.h"
 #include "services/node/service_main.h"
