@@ -35,6 +35,20 @@ std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
 
 }  // namespace
 
+void RingOrders::Add(const AdminOrder& order, std::size_t keep) {
+  orders_.emplace(order.number, Waiting{order.vehicle, keep});
+}
+
+std::optional<std::size_t> RingOrders::Take(const AdminAnswer& answer) {
+  const auto order = orders_.find(answer.order);
+  if (order == orders_.end() || order->second.vehicle != answer.vehicle) return std::nullopt;
+  if (has_key_ && answer.seal == Seal{}) return std::nullopt;
+  const std::size_t keep = order->second.keep;
+  orders_.erase(order);
+  if (answer.state != AnswerState::kInEffect) return std::nullopt;
+  return keep;
+}
+
 RingKeeper::RingKeeper(const link::LinkOptions& options, const std::string& key,
                        std::span<const VehicleId> fleet, fs::path folder, Nanoseconds ring)
     : link_(options, key),

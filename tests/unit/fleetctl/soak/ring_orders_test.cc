@@ -1,5 +1,5 @@
 // Which answers end the wait for a ring to be kept.
-#include "services/fleetctl/soak/ring_orders.h"
+#include "services/fleetctl/soak/ring_keeper.h"
 
 #include <gtest/gtest.h>
 
