@@ -87,7 +87,7 @@ struct ObserverLink::Impl {
   FirstWorldFilter worlds{"sample of a world",
                           [this](std::uint64_t one) { return names.IsWorld(one); }};
   TickPeriod tick_period;
-  std::uint32_t refused_by_filters = 0;  // told of so far
+  std::uint32_t refused_by_filters = 0;  // in Observed::refused so far
   Participant participant;
   Reader<wire::Status> status_reader;
   BeaconInbox beacons;

@@ -40,8 +40,8 @@ void Follow(std::uint64_t participant, SteadyTime now, Speaker* speaker) {
 
 }  // namespace
 
-// A 2.9.1 that receives the good-bye of another vendor's writer takes the bytes of its key for a
-// hash, which then is of no key: dropped without a word.
+// A 2.9.1 that receives a dispose of another vendor's writer takes the bytes of its key for a
+// hash, which then is of no key: dropped, and not counted.
 KeyReader::KeyReader(const rtps::CacheChange_t& change, const FilterOfTopic& topic)
     : size_(std::min(topic.key_numbers, kMostNumbers)) {
   if (size_ == 0) return;  // one instance for all

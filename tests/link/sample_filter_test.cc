@@ -91,14 +91,14 @@ TEST_F(OfAnOwner, ASampleTooShortForAKeyIsRefused) {
   EXPECT_FALSE(Passes(received));
 }
 
-TEST_F(OfAnOwner, AGoodByeIsJudgedByTheInstanceThatItNames) {
-  Received good_bye(kEight, 2);
-  good_bye.change.kind = rtps::NOT_ALIVE_DISPOSED;
-  good_bye.SetKeyHash(kSeven);
-  EXPECT_FALSE(Passes(good_bye));
+TEST_F(OfAnOwner, ADisposeIsJudgedByTheInstanceThatItNames) {
+  Received dispose(kEight, 2);
+  dispose.change.kind = rtps::NOT_ALIVE_DISPOSED;
+  dispose.SetKeyHash(kSeven);
+  EXPECT_FALSE(Passes(dispose));
   EXPECT_EQ(WhyNot(), "writer: another participant joined with this id");
-  good_bye.change.writerGUID = WriterOf(1);
-  EXPECT_TRUE(Passes(good_bye));
+  dispose.change.writerGUID = WriterOf(1);
+  EXPECT_TRUE(Passes(dispose));
   Received without_payload(2);
   without_payload.change.kind = rtps::NOT_ALIVE_UNREGISTERED;
   without_payload.SetKeyHash(kSeven);

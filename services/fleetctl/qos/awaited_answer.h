@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 #include "services/types/admin.h"
@@ -16,8 +17,8 @@ class AwaitedAnswer {
   static constexpr Nanoseconds kUnsealedPatience = std::chrono::seconds(1);
 
   // `has_key`: answers are sealed, but for refusals.
-  AwaitedAnswer(const AdminOrder& order, bool has_key)
-      : vehicle_(order.vehicle), order_(order.number), has_key_(has_key) {}
+  AwaitedAnswer(VehicleId vehicle, std::uint64_t order, bool has_key)
+      : vehicle_(vehicle), order_(order), has_key_(has_key) {}
 
   void Take(const AdminAnswer& answer, SteadyTime now);
   // Nothing more needs to be waited for.

@@ -45,7 +45,7 @@ std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
 std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience,
                                         bool insist) {
   order.number = link::OperatorLink::NextNumber();
-  AwaitedAnswer answer(order, has_key_);
+  AwaitedAnswer answer(order.vehicle, order.number, has_key_);
   if (!link_.Send(order)) return std::nullopt;
   WaitUntil(patience, insist ? 2 : 1, [&] {
     const SteadyTime now = SteadyNow();

@@ -35,8 +35,8 @@ std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
 
 }  // namespace
 
-void RingOrders::Add(const AdminOrder& order, std::size_t keep) {
-  orders_.emplace(order.number, Waiting{order.vehicle, keep});
+void RingOrders::Add(std::uint64_t number, VehicleId vehicle, std::size_t keep) {
+  orders_.emplace(number, Waiting{vehicle, keep});
 }
 
 std::optional<std::size_t> RingOrders::Take(const AdminAnswer& answer) {
@@ -72,7 +72,7 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
     const AdminOrder order{.vehicle = vehicle,
                            .number = link::OperatorLink::NextNumber(),
                            .kind = OrderKind::kKeepRing};
-    orders_.Add(order, kept_.size());
+    orders_.Add(order.number, vehicle, kept_.size());
     if (link_.Send(order)) ++kept.ordered;
   }
   kept_.push_back(kept);

@@ -27,7 +27,7 @@ class RingOrders {
   explicit RingOrders(bool has_key) : has_key_(has_key) {}
 
   // `keep`: what the order is part of.
-  void Add(const AdminOrder& order, std::size_t keep);
+  void Add(std::uint64_t number, VehicleId vehicle, std::size_t keep);
   // The `keep` of an order that the vehicle says it carried out. A refusal without a seal may be of
   // an intruder: the order stays, and may still be answered.
   std::optional<std::size_t> Take(const AdminAnswer& answer);

@@ -93,8 +93,8 @@ class ScriptedLink final : public link::DriveLink {
   void SendLeave(const SessionId& session) override {
     said_.push_back(session == kSession ? "leave" : "leave as another");
   }
-  // What it is told as it joins, one at a look.
-  void Tell(const RosterEntry& entry) { entries_.push_back(entry); }
+  // Entries for TakeRoster, one a call.
+  void Answer(const RosterEntry& entry) { entries_.push_back(entry); }
   std::optional<RosterEntry> TakeRoster(const SessionId& /*session*/) override {
     if (entries_.empty()) return std::nullopt;
     const RosterEntry entry = entries_.front();

@@ -37,25 +37,25 @@ class Joining : public ::testing::Test {
 };
 
 TEST_F(Joining, TakesThePlaceThatItIsGiven) {
-  link_.Tell(At(1));
+  link_.Answer(At(1));
   const auto entry = JoinAs(kOne);
   ASSERT_TRUE(entry);
   EXPECT_EQ(entry->start_world.position_world.x, 1);
 }
 
 TEST_F(Joining, APlaceFarOffIsNotTakenAndAskedForAgain) {
-  link_.Tell(At(1000));
+  link_.Answer(At(1000));
   EXPECT_EQ(JoinAs(kOne), std::nullopt);
-  EXPECT_GE(link_.Joins().size(), 2U);
-  link_.Tell(At(1000));
-  link_.Tell(At(2));
+  EXPECT_GE(link_.SaidBesides().size(), 2U);
+  link_.Answer(At(1000));
+  link_.Answer(At(2));
   const auto entry = JoinAs(kNobody);
   ASSERT_TRUE(entry);
   EXPECT_EQ(entry->start_world.position_world.x, 2);
 }
 
 TEST_F(Joining, AnotherIdThanTheOneWantedIsNotTaken) {
-  link_.Tell(At(0));
+  link_.Answer(At(0));
   scenario_.vehicles.push_back(DefaultOptions());
   scenario_.vehicles.back().id = VehicleId{2};
   EXPECT_EQ(JoinAs(VehicleId{2}), std::nullopt);
@@ -64,7 +64,7 @@ TEST_F(Joining, AnotherIdThanTheOneWantedIsNotTaken) {
 TEST_F(Joining, AWorldWithAnotherScenarioIsAnErrorAtStart) {
   RosterEntry entry = At(0);
   entry.spawn = 3;
-  link_.Tell(entry);
+  link_.Answer(entry);
   EXPECT_THROW(JoinAs(kOne), link::LinkError);
 }
 
@@ -72,7 +72,7 @@ TEST_F(Joining, ARefusalIsTheLastWord) {
   RosterEntry entry = At(1000);
   entry.accepted = false;
   entry.reason = "full";
-  link_.Tell(entry);
+  link_.Answer(entry);
   const auto last = JoinAs(kOne);
   ASSERT_TRUE(last);
   EXPECT_FALSE(last->accepted);

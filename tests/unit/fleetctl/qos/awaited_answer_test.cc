@@ -8,24 +8,24 @@ namespace {
 
 constexpr SteadyTime kSent = std::chrono::seconds(100);
 constexpr VehicleId kSeven{7};
-const AdminOrder kOrder{.vehicle = kSeven, .number = 5, .profiles = {}};
+constexpr std::uint64_t kOrder = 5;
 
 AdminAnswer Answer(AnswerState state, bool sealed) {
   AdminAnswer answer{
-      .vehicle = kSeven, .order = 5, .state = state, .interface = "", .profiles = {}};
+      .vehicle = kSeven, .order = kOrder, .state = state, .interface = "", .profiles = {}};
   if (sealed) answer.seal[0] = 1;
   return answer;
 }
 
 TEST(AwaitedAnswer, ASealedOneCountsAtOnce) {
-  AwaitedAnswer awaited(kOrder, true);
+  AwaitedAnswer awaited(kSeven, kOrder, true);
   awaited.Take(Answer(AnswerState::kInEffect, true), kSent);
   EXPECT_TRUE(awaited.IsThere(kSent));
   EXPECT_EQ(awaited.Get()->state, AnswerState::kInEffect);
 }
 
 TEST(AwaitedAnswer, OneOfAnotherVehicleOrToAnotherOrderDoesNotCount) {
-  AwaitedAnswer awaited(kOrder, true);
+  AwaitedAnswer awaited(kSeven, kOrder, true);
   AdminAnswer other = Answer(AnswerState::kInEffect, true);
   other.vehicle = VehicleId{8};
   awaited.Take(other, kSent);
@@ -37,7 +37,7 @@ TEST(AwaitedAnswer, OneOfAnotherVehicleOrToAnotherOrderDoesNotCount) {
 }
 
 TEST(AwaitedAnswer, ARefusalWithoutASealCountsAfterAWhile) {
-  AwaitedAnswer awaited(kOrder, true);
+  AwaitedAnswer awaited(kSeven, kOrder, true);
   awaited.Take(Answer(AnswerState::kRefused, false), kSent);
   const SteadyTime counts = kSent + AwaitedAnswer::kUnsealedPatience;
   EXPECT_FALSE(awaited.IsThere(counts));
@@ -49,7 +49,7 @@ TEST(AwaitedAnswer, ARefusalWithoutASealCountsAfterAWhile) {
 
 TEST(AwaitedAnswer, ARefusalWithoutASealCountsNeverOnceTheServiceSealedAnAnswer) {
   for (const bool refused_first : {true, false}) {
-    AwaitedAnswer awaited(kOrder, true);
+    AwaitedAnswer awaited(kSeven, kOrder, true);
     if (refused_first) awaited.Take(Answer(AnswerState::kRefused, false), kSent);
     awaited.Take(Answer(AnswerState::kRestarting, true), kSent);
     if (!refused_first) awaited.Take(Answer(AnswerState::kRefused, false), kSent);
@@ -61,7 +61,7 @@ TEST(AwaitedAnswer, ARefusalWithoutASealCountsNeverOnceTheServiceSealedAnAnswer)
 }
 
 TEST(AwaitedAnswer, WithoutAKeyTheFirstCounts) {
-  AwaitedAnswer awaited(kOrder, false);
+  AwaitedAnswer awaited(kSeven, kOrder, false);
   awaited.Take(Answer(AnswerState::kRestarting, false), kSent);
   EXPECT_FALSE(awaited.IsThere(kSent));
   awaited.Take(Answer(AnswerState::kRefused, false), kSent);

@@ -1,7 +1,7 @@
 // Which answers end the wait for a ring to be kept.
-#include "services/fleetctl/soak/ring_keeper.h"
-
 #include <gtest/gtest.h>
+
+#include "services/fleetctl/soak/ring_keeper.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -19,7 +19,7 @@ class RingOrdersOfSeven : public ::testing::Test {
  protected:
   static RingOrders Ordered(bool has_key) {
     RingOrders orders(has_key);
-    orders.Add({.vehicle = kSeven, .number = 5, .profiles = {}}, 2);
+    orders.Add(5, kSeven, 2);
     return orders;
   }
 };
