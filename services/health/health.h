@@ -75,7 +75,9 @@ struct WorldHealth {
   std::uint32_t commands_wrong_name = 0;
   std::uint32_t commands_unbound = 0;
   std::uint32_t commands_not_finite = 0;
-  std::uint32_t joins_refused = 0;  // unread: without a session, or too many of one writer
+  std::uint32_t commands_strangers = 0;  // not of the participant that joined as the vehicle
+  std::uint32_t joins_refused = 0;       // unread: without a session, or too many of one writer
+  std::uint32_t orders_refused = 0;      // of a writer that names too many vehicles
   std::uint32_t write_failures = 0;
   PacketCounters packets;  // of this process
 };

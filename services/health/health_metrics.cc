@@ -272,8 +272,11 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
   metrics.Add({{"reason", "wrong_name"}}, world.commands_wrong_name);
   metrics.Add({{"reason", "unbound"}}, world.commands_unbound);
   metrics.Add({{"reason", "not_finite"}}, world.commands_not_finite);
+  metrics.Add({{"reason", "stranger"}}, world.commands_strangers);
   metrics.Counter("joins_rejected", "Requests to join that were not looked at.",
                   world.joins_refused);
+  metrics.Counter("orders_rejected", "Orders of a writer that names too many vehicles.",
+                  world.orders_refused);
   metrics.Counter("write_failures", "Samples the middleware did not take.", world.write_failures);
   AddPackets(world.packets, &metrics);
   AddLog(process, &metrics);

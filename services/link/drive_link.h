@@ -75,6 +75,11 @@ class DriveLink {
   virtual void SendJoin(const JoinRequest& request) = 0;
   // Waits until every matched world has the last request, or `timeout`.
   virtual void FlushJoin(Nanoseconds timeout) = 0;
+  // The newest roster entry of this session, if one has come since the last call. `session` is that
+  // of the last request. Before the loop.
+  virtual std::optional<RosterEntry> TakeRoster(const SessionId& session) = 0;
+  // One sentence while discovery servers are to be used and none has answered; else empty.
+  virtual std::string WhyNobodyIsFound() const = 0;
   // Gives the id back. Closing the link waits for a world to have heard it, but not later than a
   // moment after this call.
   virtual void SendLeave(const SessionId& session) = 0;

@@ -1,8 +1,13 @@
 #include "services/link/observer_link.h"
 
+#include <initializer_list>
+#include <utility>
+
 #include "services/link/convert/convert.h"
 #include "services/link/fastdds/reader_events.h"
 #include "services/link/inbox/beacon_inbox.h"
+#include "services/link/inbox/participant_of.h"
+#include "services/link/inbox/tick_period.h"
 #include "services/link/participant.h"
 #include "services/link/participant_names.h"
 
@@ -10,15 +15,6 @@ namespace giveway::link {
 namespace {
 
 constexpr std::int32_t kBeaconDepth = 32;  // an observer that looks once a second misses none
-
-// Appends every sample that this build can read.
-template <typename Wire, typename Ours>
-void Append(Reader<Wire>& reader, std::vector<Ours>& list) {
-  reader.TakeEach([&](const Wire& sample, const dds::SampleInfo&) {
-    Ours value;
-    if (FromWire(sample, value)) list.push_back(std::move(value));
-  });
-}
 
 }  // namespace
 
@@ -44,15 +40,44 @@ struct ObserverLink::Impl {
 
   void TakeStatuses(Observed& observed) {
     status_reader.TakeEach([&](const wire::Status& sample, const dds::SampleInfo& info) {
-      const WriterEntry* const entry = names.Writers().Find(info.sample_identity.writer_guid());
+      const rtps::GUID_t& writer = info.sample_identity.writer_guid();
+      const WriterEntry* const entry = names.Writers().Find(writer);
       VehicleStatus status;
       if (entry == nullptr || entry->vehicle == kNobody ||
-          entry->vehicle != VehicleId{sample.vehicle()}) {
+          entry->vehicle != VehicleId{sample.vehicle()} ||
+          !status_owners.Spoke(entry->vehicle, ParticipantOf(writer))) {
         ++observed.refused;
       } else if (FromWire(sample, status)) {
         observed.statuses.push_back(status);
       }
     });
+  }
+  // Appends every sample of the world that this build can read.
+  template <typename Wire, typename Ours>
+  void Append(Reader<Wire>& reader, std::vector<Ours>& list, Observed& observed) {
+    reader.TakeEach([&](const Wire& sample, const dds::SampleInfo& info) {
+      Ours value;
+      if (!worlds.Spoke(ParticipantOf(info.sample_identity.writer_guid()))) {
+        ++observed.refused;
+      } else if (FromWire(sample, value)) {
+        list.push_back(std::move(value));
+      }
+    });
+  }
+  // Of a world whose ticks are slow, and of its vehicles, longer silences are none.
+  void FollowTicks(const std::vector<Truth>& truths) {
+    for (const Truth& truth : truths) tick_period.Hear(truth);
+    worlds.SetTickPeriod(tick_period.Get());
+    status_owners.SetTickPeriod(tick_period.Get());
+  }
+  void TakeRefusals(Observed& observed) {
+    std::uint32_t refused = 0;
+    for (SampleFilter* const filter :
+         std::initializer_list<SampleFilter*>{&beacon_ids, &status_owners, &worlds}) {
+      filter->TakeRefusals(&observed.refusals);
+      refused += filter->Refused();
+    }
+    observed.refused += refused - std::exchange(refused_by_filters, refused);
   }
 
   ParticipantNames names;  // the library calls these two until the participant is gone
@@ -61,6 +86,8 @@ struct ObserverLink::Impl {
   FirstComerFilter status_owners{"status"};
   FirstWorldFilter worlds{"sample of a world",
                           [this](std::uint64_t one) { return names.IsWorld(one); }};
+  TickPeriod tick_period;
+  std::uint32_t refused_by_filters = 0;  // in Observed::refused so far
   Participant participant;
   Reader<wire::Status> status_reader;
   BeaconInbox beacons;
@@ -81,14 +108,16 @@ Observed ObserverLink::Take() {
   Observed observed;
   impl_->TakeStatuses(observed);
   impl_->beacons.Drain(SteadyTime{0}, observed.beacons);
-  Append(impl_->truth_reader, observed.truths);
-  Append(impl_->event_reader, observed.events);
-  Append(impl_->roster_reader, observed.roster);
-  Append(impl_->signal_reader, observed.signals);
-  if (impl_->ranges_reader) Append(*impl_->ranges_reader, observed.ranges);
+  impl_->Append(impl_->truth_reader, observed.truths, observed);
+  impl_->Append(impl_->event_reader, observed.events, observed);
+  impl_->Append(impl_->roster_reader, observed.roster, observed);
+  impl_->Append(impl_->signal_reader, observed.signals, observed);
+  if (impl_->ranges_reader) impl_->Append(*impl_->ranges_reader, observed.ranges, observed);
   std::vector<RunFigures> figures;
-  Append(impl_->figures_reader, figures);
+  impl_->Append(impl_->figures_reader, figures, observed);
   if (!figures.empty()) observed.figures = figures.back();
+  impl_->FollowTicks(observed.truths);
+  impl_->TakeRefusals(observed);
   return observed;
 }
 

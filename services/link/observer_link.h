@@ -10,6 +10,7 @@
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/range_scan.h"
+#include "services/types/refusal.h"
 #include "services/types/signal.h"
 
 namespace giveway::link {
@@ -23,7 +24,10 @@ struct Observed {
   std::vector<SignalState> signals;
   std::optional<RunFigures> figures;
   std::vector<RangeScan> ranges;  // only where they are asked for
-  std::uint32_t refused = 0;      // statuses whose id is not the one of their writer's partition
+  // Statuses whose id is not the one of their writer's partition, and samples of a participant that
+  // may not say that, or of ids too many; and the first few of the latter.
+  std::uint32_t refused = 0;
+  std::vector<Refusal> refusals;
 };
 
 class ObserverLink {

@@ -9,11 +9,17 @@
 
 #include "services/auth/seals.h"
 #include "services/link/convert/convert.h"
+#include "services/link/inbox/participant_of.h"
 #include "services/link/participant.h"
 #include "services/link/participant_names.h"
 #include "services/types/check.h"
 
 namespace giveway::link {
+namespace {
+
+constexpr std::size_t kMostRefusals = 4;  // kept for the log; the counter has all
+
+}  // namespace
 
 struct OperatorLink::Impl {
   Impl(const LinkOptions& options, std::string admin_key)
@@ -27,6 +33,24 @@ struct OperatorLink::Impl {
     answer->seal = {};
     return answer->state == AnswerState::kRefused;
   }
+  void Refuse(const AdminAnswer& answer, const rtps::GUID_t& writer, const char* field,
+              const char* why) {
+    ++refused;
+    if (refusals.size() == kMostRefusals) return;
+    refusals.push_back({.sample = "answer",
+                        .vehicle = answer.vehicle,
+                        .writer = Identity(writer),
+                        .counter = "strangers",
+                        .field = field,
+                        .why = why});
+  }
+  // As with a status: who speaks for another vehicle than its partition's, or than it drives as, is
+  // not believed.
+  bool MaySpeak(const AdminAnswer& answer, const rtps::GUID_t& writer) {
+    const WriterEntry* const entry = names.Writers().Find(writer);
+    return entry != nullptr && entry->vehicle == answer.vehicle &&
+           names.Owns(entry->vehicle, writer);
+  }
   Writer<wire::Order>& To(VehicleId vehicle) {
     const auto found = writers.find(vehicle);
     GIVEWAY_CHECK(found != writers.end(), Number(vehicle));
@@ -39,6 +63,8 @@ struct OperatorLink::Impl {
   Participant participant;
   Reader<wire::Answer> answers;
   std::map<VehicleId, Writer<wire::Order>> writers;
+  std::vector<Refusal> refusals;
+  std::uint32_t refused = 0;  // by this side; the filter has its own
 };
 
 OperatorLink::OperatorLink(const LinkOptions& options, std::string key)
@@ -84,18 +110,26 @@ std::vector<AdminAnswer> OperatorLink::Take() {
   impl_->names.Writers().Update();
   std::vector<AdminAnswer> taken;
   impl_->answers.TakeEach([&](const wire::Answer& sample, const dds::SampleInfo& info) {
-    // As with a status: who speaks for another vehicle than its partition's, or than it drives as,
-    // is not believed.
-    const rtps::GUID_t& guid = info.sample_identity.writer_guid();
-    const WriterEntry* const writer = impl_->names.Writers().Find(guid);
+    const rtps::GUID_t& writer = info.sample_identity.writer_guid();
     AdminAnswer answer;
-    if (writer != nullptr && writer->vehicle == VehicleId{sample.vehicle()} &&
-        impl_->names.Owns(writer->vehicle, guid) && FromWire(sample, answer) &&
-        impl_->IsBelieved(&answer)) {
+    if (!FromWire(sample, answer)) return;
+    if (!impl_->MaySpeak(answer, writer)) {
+      impl_->Refuse(answer, writer, "writer", "another participant speaks for this id");
+    } else if (!impl_->IsBelieved(&answer)) {
+      impl_->Refuse(answer, writer, "seal", "it is not sealed with the key of this fleet");
+    } else {
       taken.push_back(std::move(answer));
     }
   });
   return taken;
+}
+
+std::uint32_t OperatorLink::Refused() const { return impl_->refused + impl_->strangers.Refused(); }
+
+std::vector<Refusal> OperatorLink::TakeRefusals() {
+  std::vector<Refusal> refusals = std::exchange(impl_->refusals, {});
+  impl_->strangers.TakeRefusals(&refusals);
+  return refusals;
 }
 
 }  // namespace giveway::link

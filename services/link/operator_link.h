@@ -8,6 +8,7 @@
 
 #include "services/link/fastdds/link_options.h"
 #include "services/types/admin.h"
+#include "services/types/refusal.h"
 
 namespace giveway::link {
 
@@ -34,6 +35,10 @@ class OperatorLink {
   // Everything that came since the last call. With a key, a refusal may come without a seal: of a
   // service that has another key, or finds the order's number used. Its seal is then 0.
   std::vector<AdminAnswer> Take();
+  // Answers that were not believed: of a participant that does not speak for the vehicle, of ids
+  // too many, or without the seal of the key; and the first few since the last call.
+  std::uint32_t Refused() const;
+  std::vector<Refusal> TakeRefusals();
 
  private:
   struct Impl;

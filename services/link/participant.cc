@@ -182,6 +182,9 @@ dds::DataWriterQos WriterQos(dds::Publisher& publisher, const std::string& profi
   // as it fills with events, which in a quiet fleet is hours.
   if (depth != Participant::kProfileDepth) qos.resource_limits().allocated_samples = depth;
   SetHeartbeatPeriod(qos, kHeartbeatPeriod);
+  // A reader may ask its writers to filter for it, with an expression of its own: a stranger's
+  // would be parsed here, and asked for each sample.
+  qos.writer_resource_limits().reader_filters_allocation.maximum = 0;
   return qos;
 }
 
@@ -213,6 +216,7 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
   listener_ = listener;
   const dds::DomainParticipantQos qos = MakeQos(options, name, true, impairer_);
   servers_ = ServersOf(qos, options);
+  secured_ = IsSecured(qos);
   // No status reaches the participant's listener, only discovery: in 2.9.1 an offered deadline
   // missed by a writer without a listener of its own crashes there.
   participant_.reset(dds::DomainParticipantFactory::get_instance()->create_participant(
@@ -296,7 +300,8 @@ void Participant::Delete(dds::DataWriter& writer) {
   participant_->delete_publisher(publisher);
 }
 
-dds::TopicDescription& Participant::Filtered(dds::Topic& topic, SampleFilter* filter) {
+dds::TopicDescription& Participant::Filtered(dds::Topic& topic, FilterOfTopic filter) {
+  filter.digests = secured_;
   const std::string filter_class = "giveway " + PrefixText();
   if (participant_->lookup_content_filter_factory(filter_class.c_str()) == nullptr &&
       !Ok(participant_->register_content_filter_factory(filter_class.c_str(), &filters_))) {
@@ -312,18 +317,18 @@ dds::TopicDescription& Participant::Filtered(dds::Topic& topic, SampleFilter* fi
 dds::DataReader& Participant::MakeReader(dds::Topic& topic, const std::string& profile,
                                          const std::string& partition, std::int32_t depth,
                                          dds::DataReaderListener* listener,
-                                         const dds::StatusMask& mask, SampleFilter* filter) {
+                                         const dds::StatusMask& mask, const FilterOfTopic& filter) {
   dds::SubscriberQos subscriber_qos;
   subscriber_qos.partition().push_back(partition.c_str());
   auto* subscriber =
       participant_->create_subscriber(subscriber_qos, nullptr, dds::StatusMask::none());
   if (subscriber == nullptr) ThrowNotMade("subscriber for partition " + partition);
-  dds::TopicDescription& read = filter == nullptr ? topic : Filtered(topic, filter);
+  dds::TopicDescription& read = filter.filter == nullptr ? topic : Filtered(topic, filter);
   auto* reader =
       subscriber->create_datareader(&read, ReaderQos(*subscriber, profile, depth), listener, mask);
   if (reader == nullptr) ThrowNotMade("reader of profile \"" + profile + "\"");
   readers_.emplace_back(profile, reader);
-  if (filter != nullptr) read_topics_.emplace(reader, topic.get_name());
+  if (filter.filter != nullptr) read_topics_.emplace(reader, topic.get_name());
   return *reader;
 }
 

@@ -44,7 +44,7 @@ class Participant {
                           const dds::StatusMask& mask = dds::StatusMask::none(),
                           SampleFilter* filter = nullptr) {
     return Reader<Wire>(MakeReader(MakeTopic<Wire>(), TopicOf<Wire>::kReader, partition, depth,
-                                   listener, mask, filter));
+                                   listener, mask, {filter, TopicOf<Wire>::kKeyNumbers}));
   }
   template <typename Wire>
   Reader<Wire> MakeReader(const std::string& partition, SampleFilter* filter) {
@@ -88,8 +88,8 @@ class Participant {
   dds::DataReader& MakeReader(dds::Topic& topic, const std::string& profile,
                               const std::string& partition, std::int32_t depth,
                               dds::DataReaderListener* listener, const dds::StatusMask& mask,
-                              SampleFilter* filter);
-  dds::TopicDescription& Filtered(dds::Topic& topic, SampleFilter* filter);
+                              const FilterOfTopic& filter);
+  dds::TopicDescription& Filtered(dds::Topic& topic, FilterOfTopic filter);
 
   FilterFactory filters_;  // the library asks it until the participant is gone
   std::shared_ptr<Impairer> impairer_;
@@ -97,6 +97,7 @@ class Participant {
   DiscoveryListener* listener_ = nullptr;      // the one that the library tells
   std::string topic_prefix_;
   std::string servers_;  // of a client, as they were named; else empty
+  bool secured_ = false;
   std::unique_ptr<dds::DomainParticipant, DeleteAll> participant_;
   std::vector<std::pair<std::string, dds::DataWriter*>> writers_;  // by profile, as they were made
   std::vector<std::pair<std::string, dds::DataReader*>> readers_;

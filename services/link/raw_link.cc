@@ -1,6 +1,7 @@
 #include "services/link/raw_link.h"
 
 #include <functional>
+#include <type_traits>
 
 #include "services/link/fastdds/raw_type.h"
 #include "services/link/fastdds/writer_names.h"
@@ -13,28 +14,15 @@ template <typename Wire>
 struct RawTopicOf {
   static constexpr const char* kName = TopicOf<Wire>::kName;
   static constexpr const char* kReader = TopicOf<Wire>::kReader;
+  static constexpr std::size_t kKeyNumbers = TopicOf<Wire>::kKeyNumbers;
 };
 
-#define GIVEWAY_RAW_TOPIC(wire_type)                                    \
+#define GIVEWAY_RAW_TOPIC(wire_type, name, profile, key_numbers)        \
   template <>                                                           \
   struct TopicOf<Raw<wire::wire_type>> : RawTopicOf<wire::wire_type> {  \
     using Type = RawType<wire::wire_type, wire::wire_type##PubSubType>; \
-  }
-
-GIVEWAY_RAW_TOPIC(Beacon);
-GIVEWAY_RAW_TOPIC(MotorCommand);
-GIVEWAY_RAW_TOPIC(Status);
-GIVEWAY_RAW_TOPIC(Join);
-GIVEWAY_RAW_TOPIC(RangeScan);
-GIVEWAY_RAW_TOPIC(RadarScan);
-GIVEWAY_RAW_TOPIC(LidarScan);
-GIVEWAY_RAW_TOPIC(CameraScan);
-GIVEWAY_RAW_TOPIC(Roster);
-GIVEWAY_RAW_TOPIC(SignalState);
-GIVEWAY_RAW_TOPIC(Truth);
-GIVEWAY_RAW_TOPIC(Event);
-GIVEWAY_RAW_TOPIC(Figures);
-
+  };
+GIVEWAY_TOPICS(GIVEWAY_RAW_TOPIC)
 #undef GIVEWAY_RAW_TOPIC
 
 namespace {
@@ -72,27 +60,44 @@ OpenTopic OpenAs(Participant& participant, std::size_t topic, const std::string&
 
 using Open = OpenTopic (*)(Participant&, std::size_t, const LinkOptions&);
 
+struct Where {
+  std::string partition;
+  std::int32_t depth;
+};
+
+// By the type of the topic: one without a line here does not compile.
+Where Of(const wire::Beacon*, const LinkOptions& options) {
+  return {options.area + "/*", kRawDepth};
+}
+Where Of(const wire::MotorCommand*, const LinkOptions&) { return {kAllVehicles, kRawDepth}; }
+Where Of(const wire::Status*, const LinkOptions&) { return {kAllVehicles, kRawDepth}; }
+Where Of(const wire::Join*, const LinkOptions&) {
+  return {kFleetPartition, Participant::kProfileDepth};
+}
+Where Of(const wire::RangeScan*, const LinkOptions&) { return {kAllVehicles, kRawDepth}; }
+Where Of(const wire::RadarScan*, const LinkOptions&) { return {kAllVehicles, kRawDepth}; }
+Where Of(const wire::LidarScan*, const LinkOptions&) { return {kAllVehicles, kRawDepth}; }
+Where Of(const wire::CameraScan*, const LinkOptions&) { return {kAllVehicles, kRawDepth}; }
+Where Of(const wire::PoseFix*, const LinkOptions&) { return {kAllVehicles, kRawDepth}; }
+Where Of(const wire::Truth*, const LinkOptions&) { return {kWorldPartition, kRawDepth}; }
+Where Of(const wire::Event*, const LinkOptions& options) {
+  return {kWorldPartition, EventDepth(options.fleet_size)};
+}
+// Reliable, and few: as the profile says.
+Where Of(const wire::Roster*, const LinkOptions&) {
+  return {kWorldPartition, Participant::kProfileDepth};
+}
+Where Of(const wire::SignalState*, const LinkOptions&) {
+  return {kWorldPartition, Participant::kProfileDepth};
+}
+Where Of(const wire::Figures*, const LinkOptions&) {
+  return {kWorldPartition, Participant::kProfileDepth};
+}
+
 template <typename Wire>
-OpenTopic OpenOfVehicles(Participant& participant, std::size_t topic, const LinkOptions&) {
-  return OpenAs<Wire>(participant, topic, kAllVehicles, kRawDepth);
-}
-template <typename Wire>
-OpenTopic OpenOfWorld(Participant& participant, std::size_t topic, const LinkOptions&) {
-  return OpenAs<Wire>(participant, topic, kWorldPartition, kRawDepth);
-}
-OpenTopic OpenBeacons(Participant& participant, std::size_t topic, const LinkOptions& options) {
-  return OpenAs<wire::Beacon>(participant, topic, options.area + "/*", kRawDepth);
-}
-OpenTopic OpenJoins(Participant& participant, std::size_t topic, const LinkOptions&) {
-  return OpenAs<wire::Join>(participant, topic, kFleetPartition, Participant::kProfileDepth);
-}
-OpenTopic OpenEvents(Participant& participant, std::size_t topic, const LinkOptions& options) {
-  return OpenAs<wire::Event>(participant, topic, kWorldPartition, EventDepth(options.fleet_size));
-}
-// Reliable, and few: as its profile says.
-template <typename Wire>
-OpenTopic OpenAsProfiled(Participant& participant, std::size_t topic, const LinkOptions&) {
-  return OpenAs<Wire>(participant, topic, kWorldPartition, Participant::kProfileDepth);
+OpenTopic OpenRaw(Participant& participant, std::size_t topic, const LinkOptions& options) {
+  const Where where = Of(static_cast<const Wire*>(nullptr), options);
+  return OpenAs<Wire>(participant, topic, where.partition, where.depth);
 }
 
 struct KnownTopic {
@@ -100,22 +105,26 @@ struct KnownTopic {
   Open open;
 };
 
+// Orders and answers carry what is between an operator and a vehicle.
+template <typename Wire>
+constexpr bool kIsRecorded =
+    !std::is_same_v<Wire, wire::Order> && !std::is_same_v<Wire, wire::Answer>;
+
+template <typename Wire>
+void AddTopic(std::vector<KnownTopic>* known) {
+  if constexpr (kIsRecorded<Wire>) {
+    known->push_back({{TopicOf<Wire>::kName, TopicOf<Wire>::kType}, OpenRaw<Wire>});
+  }
+}
+
 const std::vector<KnownTopic>& Known() {
-  static const std::vector<KnownTopic> known{
-      {{"fleet/beacon", "giveway::wire::Beacon"}, OpenBeacons},
-      {{"fleet/motor_command", "giveway::wire::MotorCommand"}, OpenOfVehicles<wire::MotorCommand>},
-      {{"fleet/status", "giveway::wire::Status"}, OpenOfVehicles<wire::Status>},
-      {{"fleet/join", "giveway::wire::Join"}, OpenJoins},
-      {{"world/ranges", "giveway::wire::RangeScan"}, OpenOfVehicles<wire::RangeScan>},
-      {{"world/radar", "giveway::wire::RadarScan"}, OpenOfVehicles<wire::RadarScan>},
-      {{"world/lidar", "giveway::wire::LidarScan"}, OpenOfVehicles<wire::LidarScan>},
-      {{"world/camera", "giveway::wire::CameraScan"}, OpenOfVehicles<wire::CameraScan>},
-      {{"world/roster", "giveway::wire::Roster"}, OpenAsProfiled<wire::Roster>},
-      {{"world/signal", "giveway::wire::SignalState"}, OpenAsProfiled<wire::SignalState>},
-      {{"world/truth", "giveway::wire::Truth"}, OpenOfWorld<wire::Truth>},
-      {{"world/event", "giveway::wire::Event"}, OpenEvents},
-      {{"world/figures", "giveway::wire::Figures"}, OpenAsProfiled<wire::Figures>},
-  };
+  static const std::vector<KnownTopic> known = [] {
+    std::vector<KnownTopic> all;
+#define GIVEWAY_ADD_TOPIC(wire_type, name, profile, key_numbers) AddTopic<wire::wire_type>(&all);
+    GIVEWAY_TOPICS(GIVEWAY_ADD_TOPIC)
+#undef GIVEWAY_ADD_TOPIC
+    return all;
+  }();
   return known;
 }
 

@@ -8,12 +8,7 @@
 #include <string_view>
 
 #include "services/link/inbox/participant_of.h"
-
-#if __has_include(<fastrtps/config.h>)
-#include <fastdds/rtps/common/CacheChange.h>
-#else
-#include <fastdds/rtps/common/CacheChange.hpp>
-#endif
+#include "services/link/inbox/silence_limit.h"
 
 namespace giveway::link {
 namespace {
@@ -29,45 +24,87 @@ std::uint64_t HashOf(const SessionId& session) {
   return hash;
 }
 
-}  // namespace
-
-bool KeyReader::Has(std::size_t numbers) const {
-  return payload_.data != nullptr && payload_.length >= kEncapsulation + 4 * numbers;
-}
-
-std::uint32_t KeyReader::Number32(std::size_t i) const {
-  const bool little = (payload_.data[1] & 1U) != 0;
+std::uint32_t Number32(const std::uint8_t* bytes, bool little) {
   std::uint32_t number = 0;
   for (std::size_t byte = 0; byte < 4; ++byte) {
-    const std::size_t at = little ? 3 - byte : byte;
-    number = number << 8U | payload_.data[kEncapsulation + 4 * i + at];
+    number = number << 8U | bytes[little ? 3 - byte : byte];
   }
   return number;
 }
 
+void Follow(std::uint64_t participant, SteadyTime now, Speaker* speaker) {
+  if (speaker->participant != participant) speaker->before = speaker->participant;
+  speaker->participant = participant;
+  speaker->heard = now;
+}
+
+}  // namespace
+
+// A 2.9.1 that receives a dispose of another vendor's writer takes the bytes of its key for a
+// hash, which then is of no key: dropped, and not counted.
+KeyReader::KeyReader(const rtps::CacheChange_t& change, const FilterOfTopic& topic)
+    : size_(std::min(topic.key_numbers, kMostNumbers)) {
+  if (size_ == 0) return;  // one instance for all
+  const bool has_instance = change.instanceHandle.isDefined() && !topic.digests;
+  if (change.kind != rtps::ALIVE && has_instance) {
+    known_ = ReadInstance(change.instanceHandle);
+    if (!known_) why_not_ = "";
+    return;
+  }
+  known_ = ReadPayload(change.serializedPayload);
+  if (!known_) {
+    if (change.kind == rtps::ALIVE) why_not_ = "it is too short for a key";
+    return;
+  }
+  const std::array<std::uint32_t, kMostNumbers> own = numbers_;
+  if (has_instance && (!ReadInstance(change.instanceHandle) || numbers_ != own)) {
+    why_not_ = "its key hash is not of its key";
+    numbers_ = own;
+  }
+}
+
+bool KeyReader::ReadPayload(const rtps::SerializedPayload_t& payload) {
+  if (payload.data == nullptr || payload.length < kEncapsulation + 4 * size_) return false;
+  const bool little = (payload.data[1] & 1U) != 0;
+  for (std::size_t i = 0; i < size_; ++i) {
+    numbers_[i] = Number32(payload.data + kEncapsulation + 4 * i, little);
+  }
+  return true;
+}
+
+// The key in big-endian order, and zeros: keys of up to 16 bytes are no more than that.
+bool KeyReader::ReadInstance(const rtps::InstanceHandle_t& instance) {
+  const std::uint8_t* const bytes = instance.value;
+  for (std::size_t i = 0; i < size_; ++i) numbers_[i] = Number32(bytes + 4 * i, false);
+  return std::all_of(bytes + 4 * size_, bytes + 4 * kMostNumbers,
+                     [](std::uint8_t byte) { return byte == 0; });
+}
+
 std::optional<VehicleId> KeyReader::Vehicle() const {
-  if (!Has(1)) return std::nullopt;
-  return VehicleId{Number32(0)};
+  if (!known_ || size_ != 1) return std::nullopt;
+  return VehicleId{numbers_[0]};
 }
 
 std::optional<SessionId> KeyReader::Session() const {
-  if (!Has(4)) return std::nullopt;
-  return SessionId{Number32(0), Number32(1), Number32(2), Number32(3)};
+  if (!known_ || size_ != kMostNumbers) return std::nullopt;
+  return SessionId{numbers_};
 }
 
-bool SampleFilter::Passes(const rtps::GUID_t& writer, const rtps::SerializedPayload_t& payload) {
+bool SampleFilter::Passes(const rtps::CacheChange_t& change, const FilterOfTopic& topic,
+                          SteadyTime now) {
   const std::scoped_lock lock(mutex_);
-  const KeyReader key(payload);
-  const char* const why = WhyNot(writer, key);
+  const KeyReader key(change, topic);
+  const char* const wrong_key = key.WhyNot();
+  const char* const why = wrong_key != nullptr ? wrong_key : WhyNot(change.writerGUID, key, now);
   if (why == nullptr) return true;
   if (*why == '\0') return false;
   refused_.fetch_add(1, std::memory_order_relaxed);
   if (kept_.size() < kMostKept) {
     kept_.push_back({.sample = sample_,
                      .vehicle = by_vehicle_ ? key.Vehicle().value_or(kNobody) : kNobody,
-                     .writer = Identity(writer),
+                     .writer = Identity(change.writerGUID),
                      .counter = "strangers",
-                     .field = "writer",
+                     .field = wrong_key != nullptr ? "key" : "writer",
                      .why = why});
   }
   return false;
@@ -91,7 +128,7 @@ bool KeysBySource::Admits(std::uint64_t source, std::uint64_t key) {
   return admits;
 }
 
-const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+const char* KeyQuota::WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime) {
   std::uint64_t named = 0;
   if (key_ == Key::kVehicle) {
     const auto vehicle = key.Vehicle();
@@ -121,7 +158,7 @@ std::uint64_t OwnerFilter::OwnerOf(VehicleId vehicle) {
   return owner == owners_.end() ? 0 : owner->second;
 }
 
-const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime) {
   const auto vehicle = key.Vehicle();
   if (!vehicle) return nullptr;
   const auto owner = owners_.find(*vehicle);
@@ -132,29 +169,51 @@ const char* OwnerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key
   return unowned_.Admits(Identity(writer), Number(*vehicle)) ? nullptr : kTooMany;
 }
 
-const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key) {
+void FirstComerFilter::SetTickPeriod(Nanoseconds period) {
+  const std::scoped_lock lock(Mutex());
+  silence_ = SilenceLimit(kSilence, period);
+}
+
+bool FirstComerFilter::Spoke(VehicleId vehicle, std::uint64_t participant) {
+  const std::scoped_lock lock(Mutex());
+  const auto speaker = speakers_.find(vehicle);
+  return speaker != speakers_.end() && speaker->second.Spoke(participant);
+}
+
+const char* FirstComerFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader& key,
+                                     SteadyTime now) {
   const auto vehicle = key.Vehicle();
   if (!vehicle) return nullptr;
   if (!named_.Admits(Identity(writer), Number(*vehicle))) return kTooMany;
-  const auto now = std::chrono::steady_clock::now();
   const std::uint64_t participant = ParticipantOf(writer);
-  const auto [speaker, is_new] = speakers_.try_emplace(*vehicle, Speaker{participant, now});
-  if (speaker->second.participant != participant && now - speaker->second.heard <= kSilence) {
+  const auto [known, is_new] = speakers_.try_emplace(*vehicle);
+  Speaker& speaker = known->second;
+  if (!is_new && speaker.participant != participant && now - speaker.heard <= silence_) {
     return "another participant speaks for this id";
   }
-  speaker->second = {participant, now};
+  Follow(participant, now, &speaker);
   if (is_new) oldest_.push_back(*vehicle);
   for (; oldest_.size() > kMostSpeakers; oldest_.pop_front()) speakers_.erase(oldest_.front());
   return nullptr;
 }
 
-const char* FirstWorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
-  const auto now = std::chrono::steady_clock::now();
+void FirstWorldFilter::SetTickPeriod(Nanoseconds period) {
+  const std::scoped_lock lock(Mutex());
+  silence_ = SilenceLimit(kSilence, period);
+}
+
+bool FirstWorldFilter::Spoke(std::uint64_t participant) {
+  const std::scoped_lock lock(Mutex());
+  return world_.Spoke(participant);
+}
+
+const char* FirstWorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&, SteadyTime now) {
   const std::uint64_t participant = ParticipantOf(writer);
-  const bool other = world_ != 0 && world_ != participant;
-  if (other && now - heard_ <= kSilence && is_there_(world_)) return "another world is there";
-  world_ = participant;
-  heard_ = now;
+  const bool other = world_.participant != 0 && world_.participant != participant;
+  if (other && now - world_.heard <= silence_ && is_there_(world_.participant)) {
+    return "another world is there";
+  }
+  Follow(participant, now, &world_);
   return nullptr;
 }
 
@@ -164,39 +223,39 @@ void SessionFilter::Follow(const SessionId& session) {
 }
 
 // Entries of other sessions are no fault of anybody: they are not counted.
-const char* SessionFilter::WhyNot(const rtps::GUID_t&, const KeyReader& key) {
+const char* SessionFilter::WhyNot(const rtps::GUID_t&, const KeyReader& key, SteadyTime) {
   const auto session = key.Session();
   return !session || *session == session_ ? nullptr : "";
 }
 
-const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&) {
+const char* WorldFilter::WhyNot(const rtps::GUID_t& writer, const KeyReader&, SteadyTime) {
   const std::uint64_t world = world_.load(std::memory_order_relaxed);
   return world == 0 || world == ParticipantOf(writer) ? nullptr : "its writer is not the world's";
 }
 
 // What either release passes for the sample's identity is not that of a received sample. But both
-// ask about the payload within a change, which has the writer.
-rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
-                      const dds::IContentFilter::FilterSampleInfo&) {
+// ask about the payload within a change, which has the writer and the instance.
+const rtps::CacheChange_t& ChangeOf(const dds::IContentFilter::SerializedPayload& payload) {
   static const std::ptrdiff_t payload_at = [] {
     const rtps::CacheChange_t change;
     return reinterpret_cast<const char*>(&change.serializedPayload) -
            reinterpret_cast<const char*>(&change);
   }();
   const char* const change = reinterpret_cast<const char*>(&payload) - payload_at;
-  return reinterpret_cast<const rtps::CacheChange_t*>(change)->writerGUID;
+  return *reinterpret_cast<const rtps::CacheChange_t*>(change);
 }
 
-std::string FilterFactory::Add(SampleFilter* filter) {
+std::string FilterFactory::Add(const FilterOfTopic& filter) {
+  const std::scoped_lock lock(mutex_);
   filters_.emplace_back(filter);
   return std::string(kExpression) + std::to_string(filters_.size() - 1);
 }
 
-// Each once, for its reader. A writer of the same participant would ask for the same again, to
-// leave out what the reader refuses anyhow: it is not given one.
+// Each once, for its reader.
 ReturnCode FilterFactory::create_content_filter(const char*, const char*, const dds::TopicDataType*,
                                                 const char* expression, const ParameterSeq&,
                                                 dds::IContentFilter*& filter) {
+  const std::scoped_lock lock(mutex_);
   const std::string_view text = expression == nullptr ? "" : expression;
   std::size_t number = filters_.size();
   if (text.starts_with(kExpression)) {

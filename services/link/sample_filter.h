@@ -3,11 +3,15 @@
 // threads, for each sample; what is refused is counted, and the last few refused are kept for the
 // log.
 //
-// A key stands first in every wire type: the vehicle's id, or the 128 bits of a session.
+// A key stands first in every wire type: the vehicle's id, or the 128 bits of a session. What the
+// library stores a sample under may come with it, as a hash of the key: a sample whose hash is of
+// another key is refused by every filter.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -19,23 +23,45 @@
 #include <vector>
 
 #include "services/link/fastdds/fastdds_version.h"
+#include "services/link/link_clock.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/refusal.h"
+#include "services/types/time.h"
 
 namespace giveway::link {
 
-// The numbers a sample begins with; nothing if it is too short, or has only a hash of its key.
+class SampleFilter;
+
+// A filter at work for the readers of one topic.
+struct FilterOfTopic {
+  SampleFilter* filter = nullptr;  // none: everything passes
+  std::size_t key_numbers = 1;     // see topics.h
+  // Where payloads are encrypted the library stores samples under a digest of the key, from which
+  // the key cannot be read. Only participants with certificates are heard there.
+  bool digests = false;
+};
+
+// The key of a change: of its payload, or where it has none, of the instance it names.
 class KeyReader {
  public:
-  explicit KeyReader(const rtps::SerializedPayload_t& payload) : payload_(payload) {}
+  KeyReader(const rtps::CacheChange_t& change, const FilterOfTopic& topic);
+
+  // Why what the library would store it under is not the key of what it says; null if it is.
+  // Empty where nothing is to be said of it.
+  const char* WhyNot() const { return why_not_; }
+  // Nothing where the key is of another kind, or only a digest is known.
   std::optional<VehicleId> Vehicle() const;
   std::optional<SessionId> Session() const;
 
  private:
-  bool Has(std::size_t numbers) const;
-  std::uint32_t Number32(std::size_t i) const;
+  static constexpr std::size_t kMostNumbers = 4;
+  bool ReadPayload(const rtps::SerializedPayload_t& payload);
+  bool ReadInstance(const rtps::InstanceHandle_t& instance);
 
-  const rtps::SerializedPayload_t& payload_;
+  std::size_t size_;                                   // numbers of the topic's keys
+  bool known_ = false;                                 // whether `numbers_` are read
+  std::array<std::uint32_t, kMostNumbers> numbers_{};  // 0 beyond `size_`
+  const char* why_not_ = nullptr;
 };
 
 class SampleFilter {
@@ -47,8 +73,8 @@ class SampleFilter {
   SampleFilter(const SampleFilter&) = delete;
   SampleFilter& operator=(const SampleFilter&) = delete;
 
-  // On the library's threads.
-  bool Passes(const rtps::GUID_t& writer, const rtps::SerializedPayload_t& payload);
+  // On the library's threads. `now` is of the clock that worlds are watched by.
+  bool Passes(const rtps::CacheChange_t& change, const FilterOfTopic& topic, SteadyTime now);
 
   std::uint32_t Refused() const { return refused_.load(std::memory_order_relaxed); }
   // The first few since the last call.
@@ -56,7 +82,7 @@ class SampleFilter {
 
  protected:
   // Why it does not pass, empty where that is nothing to be said of, or null. One call at a time.
-  virtual const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) = 0;
+  virtual const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime now) = 0;
   std::mutex& Mutex() { return mutex_; }  // held during WhyNot
 
  private:
@@ -95,7 +121,7 @@ class KeyQuota final : public SampleFilter {
       : SampleFilter(sample, key == Key::kVehicle), key_(key), of_(of), known_(most) {}
 
  private:
-  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime now) override;
 
   const Key key_;
   const Of of_;
@@ -112,28 +138,42 @@ class OwnerFilter final : public SampleFilter {
   std::uint64_t OwnerOf(VehicleId vehicle);
 
  private:
-  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime now) override;
 
   std::unordered_map<VehicleId, std::uint64_t> owners_;
   KeysBySource unowned_{kMostIdsOfWriter};
 };
 
-// Of those who speak for a vehicle the first, until it has been silent for a second.
+// Who speaks for something: the first, until it has been silent. A packet may pretend that its
+// writer has asked the filter already; the library then does not ask it. So what is read from a
+// reader must be of one that Spoke.
+struct Speaker {
+  std::uint64_t participant = 0;
+  std::uint64_t before = 0;  // whose place it took: what that one said may not have been read yet
+  SteadyTime heard{0};
+
+  bool Spoke(std::uint64_t one) const { return one != 0 && (one == participant || one == before); }
+};
+
+// Of those who speak for a vehicle the first, until it has been silent for a second, or for a few
+// ticks where they are slow.
 class FirstComerFilter final : public SampleFilter {
  public:
   explicit FirstComerFilter(const char* sample) : SampleFilter(sample) {}
-  static constexpr std::chrono::milliseconds kSilence{1000};
+  static constexpr Nanoseconds kSilence = std::chrono::seconds(1);
+
+  // From one tick of the world to the next; 0: not known.
+  void SetTickPeriod(Nanoseconds period);
+  // Whether the participant is the one that passes for the vehicle, or was before that.
+  bool Spoke(VehicleId vehicle, std::uint64_t participant);
 
  private:
-  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime now) override;
 
-  struct Speaker {
-    std::uint64_t participant = 0;
-    std::chrono::steady_clock::time_point heard;
-  };
   static constexpr std::size_t kMostSpeakers = 4096;  // beyond, the oldest are forgotten
 
   KeysBySource named_{kMostIdsOfWriter};
+  Nanoseconds silence_ = kSilence;
   std::unordered_map<VehicleId, Speaker> speakers_;
   std::deque<VehicleId> oldest_;  // of speakers_
 };
@@ -145,14 +185,17 @@ class FirstWorldFilter final : public SampleFilter {
   using IsThere = std::function<bool(std::uint64_t participant)>;
   FirstWorldFilter(const char* sample, IsThere is_there)
       : SampleFilter(sample, false), is_there_(std::move(is_there)) {}
-  static constexpr std::chrono::milliseconds kSilence{500};
+  static constexpr Nanoseconds kSilence = std::chrono::milliseconds(500);
+
+  void SetTickPeriod(Nanoseconds period);  // as above
+  bool Spoke(std::uint64_t participant);   // as the world
 
  private:
-  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime now) override;
 
   const IsThere is_there_;
-  std::uint64_t world_ = 0;
-  std::chrono::steady_clock::time_point heard_;
+  Nanoseconds silence_ = kSilence;
+  Speaker world_;
 };
 
 // Only entries of one session.
@@ -162,7 +205,7 @@ class SessionFilter final : public SampleFilter {
   void Follow(const SessionId& session);
 
  private:
-  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime now) override;
 
   SessionId session_{};
 };
@@ -175,7 +218,7 @@ class WorldFilter final : public SampleFilter {
       : SampleFilter(sample, false), world_(world) {}
 
  private:
-  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key) override;
+  const char* WhyNot(const rtps::GUID_t& writer, const KeyReader& key, SteadyTime now) override;
 
   const std::atomic<std::uint64_t>& world_;
 };
@@ -184,16 +227,16 @@ class WorldFilter final : public SampleFilter {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wnon-virtual-dtor"
 
-// Who wrote what a filter is asked about.
-rtps::GUID_t WriterOf(const dds::IContentFilter::SerializedPayload& payload,
-                      const dds::IContentFilter::FilterSampleInfo& info);
+// What a filter is asked about. `payload` is the one that the library asks a filter with.
+const rtps::CacheChange_t& ChangeOf(const dds::IContentFilter::SerializedPayload& payload);
 
 // Hands the filters of a participant's readers to the library. Its name is the participant's own:
-// writers elsewhere know no such filter, and send all.
+// writers elsewhere know no such filter, and send all. Those of this participant are not to ask for
+// one, see WriterQos; where one does all the same it gets none, on whatever thread.
 class FilterFactory final : public dds::IContentFilterFactory {
  public:
   // The expression that stands for the filter.
-  std::string Add(SampleFilter* filter);
+  std::string Add(const FilterOfTopic& filter);
 
   ReturnCode create_content_filter(const char* filter_class, const char* type,
                                    const dds::TopicDataType* support, const char* expression,
@@ -205,16 +248,17 @@ class FilterFactory final : public dds::IContentFilterFactory {
 
  private:
   struct Asked final : dds::IContentFilter {
-    explicit Asked(SampleFilter* asked) : filter(asked) {}
-    bool evaluate(const SerializedPayload& payload, const FilterSampleInfo& info,
+    explicit Asked(const FilterOfTopic& asked) : topic(asked) {}
+    bool evaluate(const SerializedPayload& payload, const FilterSampleInfo&,
                   const GUID_t&) const override {
-      return filter->Passes(WriterOf(payload, info), payload);
+      return topic.filter->Passes(ChangeOf(payload), topic, LinkNow());
     }
-    SampleFilter* filter;
+    FilterOfTopic topic;
     bool given = false;
   };
 
-  std::deque<Asked> filters_;  // at stable addresses
+  std::mutex mutex_;
+  std::deque<Asked> filters_;  // at stable addresses; guarded by mutex_
 };
 
 #pragma GCC diagnostic pop

@@ -193,8 +193,13 @@ struct VehicleLink::Impl {
     if (heard_by) join_writer.WaitUntilHeard(*heard_by);
   }
 
+  // One that asks again may not have the secret at hand, which must still be there to leave with.
   void SendJoin(const JoinRequest& request) {
+    const bool again = joined && joined->session == request.session;
+    const SessionId secret =
+        again && request.secret == SessionId{} ? joined->secret : request.secret;
     joined = request;
+    joined->secret = secret;
     roster.Follow(request.session);
     filters.roster.Follow(request.session);
     JoinRequest said = request;
@@ -212,7 +217,7 @@ struct VehicleLink::Impl {
 
   LinkOptions options;
   ServiceOptions service;
-  WorldBinding world;
+  WorldBinding world{service.tick_period};
   Filters filters{world};  // the library asks them until the participant is gone
   InterfaceWatch interfaces{options.interface};  // before the participant binds to them
   WriterNames names;  // the library calls these three until the participant is gone, so they are
@@ -294,10 +299,11 @@ std::optional<RosterEntry> VehicleLink::TakeRoster(const SessionId& session) {
 void VehicleLink::SendLeave(const SessionId& session) {
   const std::optional<JoinRequest>& joined = impl_->joined;
   const bool knows = joined && joined->session == session;
+  const SessionId secret = knows ? joined->secret : SessionId{};
   impl_->SendJoin({.session = session,
                    .wanted = joined ? joined->wanted : kNobody,
                    .leaving = true,
-                   .secret = knows ? joined->secret : SessionId{}});
+                   .secret = secret});
   impl_->heard_by = std::chrono::steady_clock::now() + kLeaveTimeout;
 }
 

@@ -30,15 +30,12 @@ class VehicleLink final : public AdminLink, public DriveLink {
 
   // The first twelve bytes of the GUIDs of all that is made here, hexadecimal.
   std::string ParticipantText() const;
-  // One sentence while discovery servers are to be used and none has answered; else empty.
-  std::string WhyNobodyIsFound() const;
+  std::string WhyNobodyIsFound() const override;
 
   void SendJoin(const JoinRequest& request) override;
   void FlushJoin(Nanoseconds timeout) override;
   void SendLeave(const SessionId& session) override;
-  // The newest roster entry of this session, if one has come since the last call. `session` is that
-  // of the last request.
-  std::optional<RosterEntry> TakeRoster(const SessionId& session);
+  std::optional<RosterEntry> TakeRoster(const SessionId& session) override;
 
   // Makes every other endpoint, named after `id`: readers for the sensors the profile is fitted
   // with, and for signals if there are any. Once. Throws LinkError. From now on the join request

@@ -35,7 +35,7 @@ constexpr std::size_t kMostRefusals = 8;  // kept for the log; the counters have
 struct WorldLink::Impl {
   Impl(const LinkOptions& options, const ServiceOptions& service)
       : participant(options, "giveway-world", names),
-        joins(participant.MakeReader<wire::Join>("fleet", &join_quota)),
+        joins(participant.MakeReader<wire::Join>("fleet", &join_quota), service.tick_period),
         command_reader(participant.MakeReader<wire::MotorCommand>(
             "v*", Participant::kProfileDepth, &events,
             dds::StatusMask::subscription_matched() << dds::StatusMask::requested_deadline_missed(),
@@ -213,6 +213,7 @@ std::vector<Refusal> WorldLink::TakeRefusals() {
   std::vector<Refusal> refusals = std::exchange(impl_->refusals, {});
   impl_->command_owners.TakeRefusals(&refusals);
   impl_->join_quota.TakeRefusals(&refusals);
+  impl_->order_ids.TakeRefusals(&refusals);
   return refusals;
 }
 
@@ -289,6 +290,7 @@ WorldLinkCounters WorldLink::Counters() const {
   WorldLinkCounters counters = impl_->counters;
   counters.joins_refused = impl_->joins.Refused() + impl_->join_quota.Refused();
   counters.commands_strangers = impl_->command_owners.Refused() + impl_->strangers;
+  counters.orders_refused = impl_->order_ids.Refused();
   return counters;
 }
 

@@ -27,6 +27,7 @@ struct WorldLinkCounters {
   std::uint32_t commands_not_finite = 0;  // or out of range, or with an enumerator unknown here
   std::uint32_t commands_strangers = 0;   // not of the participant that joined as the vehicle
   std::uint32_t joins_refused = 0;        // without a session, of another's, or too many
+  std::uint32_t orders_refused = 0;       // of a writer that names too many vehicles
   std::uint32_t write_failures = 0;
 };
 
@@ -61,7 +62,8 @@ class WorldLink final : public AdminLink {
   // Everything that came since the last call, each vehicle's in order of arrival; the span holds
   // until the next call. For a vehicle that was accepted only its owner commands.
   std::span<const MotorCommand> TakeCommands();
-  // The first few requests and commands refused since the last call, with what is wrong with them.
+  // The first few requests, commands and orders refused since the last call, with what is wrong
+  // with them.
   std::vector<Refusal> TakeRefusals();
   // Of endpoints found about a second ago, those that should match one of ours and do not, and why:
   // a line each. Meant for the log.

@@ -209,7 +209,7 @@ void AddObserver(const ObserverHealth& observer, Families* to) {
   add("giveway_observer_requests_refused_total", "Requests refused.", MetricType::Counter,
       static_cast<double>(observer.refused_requests));
   add("giveway_observer_samples_refused_total",
-      "Statuses whose id is not the one of their writer's partition.", MetricType::Counter,
+      "Samples of a participant that may not say that, or of another id.", MetricType::Counter,
       static_cast<double>(observer.refused_samples));
   add("process_cpu_seconds_total", "Processor time used.", MetricType::Counter, observer.cpu_s);
   add("process_resident_memory_bytes", "Resident memory.", MetricType::Gauge,

@@ -15,7 +15,7 @@ struct ObserverHealth {
   std::uint64_t frames = 0;  // made so far
   int streams = 0;           // clients that follow now
   std::uint64_t refused_requests = 0;
-  std::uint64_t refused_samples = 0;  // statuses whose id is not the one of their writer
+  std::uint64_t refused_samples = 0;  // see Observed::refused
   double cpu_s = 0;
   double resident_bytes = 0;
 };

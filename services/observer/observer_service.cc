@@ -113,6 +113,7 @@ std::optional<PageAnswer> ObserverService::Get(const std::string& path) {
 void ObserverService::Turn() {
   const link::Observed observed = link_.Take();
   const SteadyTime now = SteadyNow();
+  LogNews(observed.refusals, {}, now, &refusal_log_);
   const std::lock_guard lock(mutex_);
   view_.Fold(observed, now);
   refused_samples_ += observed.refused;

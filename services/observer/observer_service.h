@@ -14,6 +14,7 @@
 #include "services/observer/observer_flags.h"
 #include "services/observer/server/page_server.h"
 #include "services/runtime/process.h"
+#include "services/runtime/refusal_log.h"
 
 namespace giveway {
 
@@ -33,6 +34,7 @@ class ObserverService {
   std::mutex mutex_;
   FleetView view_;                     // guarded by mutex_
   std::uint64_t refused_samples_ = 0;  // guarded by mutex_
+  RefusalLog refusal_log_;             // of the loop
   std::atomic<std::uint64_t> frames_{0};
   std::atomic<std::int64_t> turned_ns_{0};
   FrameBoard board_;

@@ -6,6 +6,7 @@
 
 #include "services/config/scenario_file.h"
 #include "services/link/fastdds/library_release.h"
+#include "services/link/vehicle_link.h"
 #include "services/node/admin_access.h"
 #include "services/node/server_wait.h"
 #include "services/node/service_main.h"
@@ -33,7 +34,9 @@ LifeEnd Live(const ServiceFlags& flags, const Scenario& scenario, link::LinkOpti
   SteadyClock clock;
   const Resumed resumed = flags.resume.value_or(Resumed{});
   const auto session = flags.resume ? std::optional(resumed.session) : std::nullopt;
-  const auto entry = Join(&link, &clock, stop, VehicleId{flags.id}, session, &health);
+  const auto entry = Join(
+      {.link = &link, .clock = &clock, .health = &health, .scenario = &scenario},
+      [&] { return stop.IsSet(); }, VehicleId{flags.id}, session);
   if (!entry) return {};
   if (!entry->accepted) return {2, {}};
   PublishIdentity({entry->vehicle, link.ParticipantText()});

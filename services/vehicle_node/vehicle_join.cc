@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "services/runtime/process.h"
+#include "services/runtime/refusal_log.h"
 #include "services/vehicle_node/asking.h"
 #include "services/vehicle_node/vehicle_place.h"
 
@@ -34,20 +36,37 @@ bool IsNear(const Scenario& scenario, Vec2 place_world) {
          place_world.y >= low.y - kBeyond_m && place_world.y <= high.y + kBeyond_m;
 }
 
+// What the vehicle of the entry drives by; null where the scenario has no such place.
+const VehicleOptions* PlaceOf(const Scenario& scenario, const RosterEntry& entry) {
+  if (entry.spawn != 0) {
+    return entry.spawn <= scenario.spawns.size() ? &scenario.spawns[entry.spawn - 1] : nullptr;
+  }
+  const auto own = std::ranges::find(scenario.vehicles, entry.vehicle, &VehicleOptions::id);
+  return own == scenario.vehicles.end() ? nullptr : &*own;
+}
+
+bool IsPlace(const RosterEntry& entry, VehicleId wanted, const JoinParts& parts,
+             RefusalLog* refusals) {
+  if (!entry.accepted) return true;
+  OptionsOf(*parts.scenario, entry);  // throws where the world has another scenario
+  const std::string why = WhyNoPlace(*parts.scenario, entry, wanted);
+  if (why.empty()) return true;
+  const Refusal refusal = RefusalOf(entry, why);
+  LogNews({&refusal, 1}, {}, parts.clock->Now(), refusals);
+  return false;
+}
+
 }  // namespace
 
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
-  const auto& known = entry.spawn == 0 ? scenario.vehicles : scenario.spawns;
-  const auto found = entry.spawn == 0 ? std::ranges::find(known, entry.vehicle, &VehicleOptions::id)
-                                      : known.begin() + std::min<std::ptrdiff_t>(entry.spawn - 1,
-                                                                                 std::ssize(known));
-  if (found == known.end()) {
+  const VehicleOptions* const place = PlaceOf(scenario, entry);
+  if (place == nullptr) {
     throw link::LinkError("the world gave this vehicle a place its scenario does not have: id " +
                           std::to_string(Number(entry.vehicle)) +
                           (entry.spawn == 0 ? "" : ", spawn " + std::to_string(entry.spawn)) +
                           "; start both with the same scenario file");
   }
-  VehicleOptions options = *found;
+  VehicleOptions options = *place;
   options.id = entry.vehicle;
   options.start_world = entry.start_world;
   return options;
@@ -55,42 +74,53 @@ VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry) {
 
 std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, VehicleId own) {
   if (!entry.accepted) return {};
-  if (entry.vehicle != own) return "vehicle is " + std::to_string(Number(entry.vehicle));
-  const bool known = entry.spawn == 0
-                         ? std::ranges::find(scenario.vehicles, own, &VehicleOptions::id) !=
-                               scenario.vehicles.end()
-                         : entry.spawn <= scenario.spawns.size();
-  if (!known) return "the scenario has no such place: spawn " + std::to_string(entry.spawn);
+  if (own != kNobody && entry.vehicle != own) {
+    return "vehicle is " + std::to_string(Number(entry.vehicle)) + ", must be " +
+           std::to_string(Number(own));
+  }
+  if (PlaceOf(scenario, entry) == nullptr) {
+    return "the scenario has no such place: spawn " + std::to_string(entry.spawn);
+  }
   if (IsNear(scenario, entry.start_world.position_world)) return {};
   return "start_world is far from all places of the scenario";
 }
 
-std::optional<RosterEntry> Join(link::VehicleLink* link, Clock* clock, const StopSignal& stop,
-                                VehicleId wanted, const std::optional<SessionId>& session,
-                                VehicleHealthTeller* health) {
-  Asking asking(link, clock, wanted, session);
-  SteadyTime remind = clock->Now() + kReminder;
-  while (!stop.IsSet()) {
-    const auto entry = link->TakeRoster(asking.Session());
-    if (entry && asking.IsFinal(*entry)) {
+Refusal RefusalOf(const RosterEntry& entry, const std::string& why) {
+  return {.sample = "roster entry",
+          .vehicle = entry.vehicle,
+          .counter = "not followed",
+          .field = "start_world",
+          .why = why};
+}
+
+std::optional<RosterEntry> Join(const JoinParts& parts, const std::function<bool()>& is_stopped,
+                                VehicleId wanted, const std::optional<SessionId>& session) {
+  link::DriveLink& link = *parts.link;
+  Clock& clock = *parts.clock;
+  Asking asking(&link, &clock, wanted, session);
+  RefusalLog refusals;
+  SteadyTime remind = clock.Now() + kReminder;
+  while (!is_stopped()) {
+    const auto entry = link.TakeRoster(asking.Session());
+    if (entry && IsPlace(*entry, wanted, parts, &refusals) && asking.IsFinal(*entry)) {
       if (!entry->accepted) LogRefusal(*entry);
       return entry;
     }
     asking.AskAgainIfDue();
     const std::string& answer = asking.WaitsFor();
-    health->Joins(answer.empty() ? link->WhyNobodyIsFound() : answer);
-    clock->SleepUntil(clock->Now() + kPoll);
-    if (clock->Now() < remind) continue;
+    parts.health->Joins(answer.empty() ? link.WhyNobodyIsFound() : answer);
+    clock.SleepUntil(clock.Now() + kPoll);
+    if (clock.Now() < remind) continue;
     remind += kReminder;
-    const std::string change = link->InterfaceChange();
+    const std::string change = link.InterfaceChange();
     if (!change.empty()) throw link::LinkError(change + "; ends, to be started again");
     if (asking.Answered()) continue;
-    const std::string no_servers = link->WhyNobodyIsFound();
+    const std::string no_servers = link.WhyNobodyIsFound();
     LogWarning(!no_servers.empty()
                    ? no_servers
                    : "no answer from a world yet: is giveway-world running in this domain?");
   }
-  link->SendLeave(asking.Session());
+  link.SendLeave(asking.Session());
   return std::nullopt;
 }
 

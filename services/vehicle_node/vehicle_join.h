@@ -1,12 +1,13 @@
 // How a vehicle gets its first place, and by what it drives there.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
-#include "services/link/vehicle_link.h"
+#include "services/link/drive_link.h"
 #include "services/runtime/clock.h"
-#include "services/runtime/process.h"
+#include "services/types/refusal.h"
 #include "services/types/scenario.h"
 #include "services/vehicle_node/vehicle_health.h"
 
@@ -16,14 +17,23 @@ namespace giveway {
 // has another scenario.
 VehicleOptions OptionsOf(const Scenario& scenario, const RosterEntry& entry);
 
-// Why the vehicle `own` cannot be where the entry says: the scenario has no such place, or it is
-// far from all the scenario has; empty if it can.
+// Why the vehicle `own` (kNobody: any) cannot be where the entry says: the scenario has no such
+// place, or it is far from all the scenario has; empty if it can, or where the entry gives none.
 std::string WhyNoPlace(const Scenario& scenario, const RosterEntry& entry, VehicleId own);
+// Of an entry that is not followed for that.
+Refusal RefusalOf(const RosterEntry& entry, const std::string& why);
+
+struct JoinParts {
+  link::DriveLink* link = nullptr;
+  Clock* clock = nullptr;
+  VehicleHealthTeller* health = nullptr;
+  const Scenario* scenario = nullptr;
+};
 
 // Asks, as `session` if the process had one before, and waits for the last word; a refusal is
-// logged. Empty if asked to stop meanwhile.
-std::optional<RosterEntry> Join(link::VehicleLink* link, Clock* clock, const StopSignal& stop,
-                                VehicleId wanted, const std::optional<SessionId>& session,
-                                VehicleHealthTeller* health);
+// logged. A place that cannot be is logged and not taken, and asked for again. Empty if asked to
+// stop meanwhile. Throws LinkError where the world has another scenario.
+std::optional<RosterEntry> Join(const JoinParts& parts, const std::function<bool()>& is_stopped,
+                                VehicleId wanted, const std::optional<SessionId>& session);
 
 }  // namespace giveway

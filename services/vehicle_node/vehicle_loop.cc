@@ -140,11 +140,7 @@ void VehicleLoop::KeepPlace(const link::Taken& taken, SteadyTime woke) {
 void VehicleLoop::Follow(const RosterEntry& entry) {
   const std::string why = WhyNoPlace(scenario_, entry, Id());
   if (!why.empty()) {
-    const Refusal refusal{.sample = "roster entry",
-                          .vehicle = entry.vehicle,
-                          .counter = "not followed",
-                          .field = "start_world",
-                          .why = why};
+    const Refusal refusal = RefusalOf(entry, why);
     log_.TellOfLink({&refusal, 1}, {}, clock_.Now());
     return;
   }

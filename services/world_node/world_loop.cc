@@ -367,7 +367,9 @@ void WorldLoop::TellHealth(HealthStage stage) {
   now.commands_wrong_name = link.commands_wrong_name;
   now.commands_unbound = link.commands_unbound;
   now.commands_not_finite = link.commands_not_finite;
+  now.commands_strangers = link.commands_strangers;
   now.joins_refused = link.joins_refused;
+  now.orders_refused = link.orders_refused;
   now.write_failures = link.write_failures;
   now.packets = link::PacketsOfProcess();
   health_.Tell();

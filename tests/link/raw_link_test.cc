@@ -1,11 +1,14 @@
 // What a recorder hears: the bytes that came, of every vehicle, with both times.
 #include "services/link/raw_link.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
+#include <algorithm>
 #include <map>
 
+#include "services/link/fastdds/topics.h"
 #include "services/link/sample_codec.h"
+#include "services/link/world_link.h"
 #include "tests/link/fleet.h"
 
 namespace giveway::test {
@@ -59,6 +62,40 @@ TEST(RawLink, SaysWhatItsReadersAskFor) {
   const DomainLock domain;
   const link::RawLink recorder(OptionsIn(domain), {kBeacons});
   EXPECT_EQ(recorder.QosText(kBeacons), "BEST_EFFORT, VOLATILE, deadline 150 ms");
+}
+
+// Issue 25: pose fixes were in no recording.
+TEST(RawLink, KnowsEveryTopicButThoseOfOperators) {
+  std::vector<std::string> names;
+  for (const link::RawTopic& topic : link::RawTopics()) names.emplace_back(topic.name);
+  std::vector<std::string> all;
+#define GIVEWAY_ADD_NAME(wire_type, name, profile, key_numbers) all.emplace_back(name);
+  GIVEWAY_TOPICS(GIVEWAY_ADD_NAME)
+#undef GIVEWAY_ADD_NAME
+  EXPECT_EQ(std::erase(all, "fleet/admin") + std::erase(all, "fleet/answer"), 2U);
+  EXPECT_THAT(names, ::testing::ElementsAreArray(all));
+}
+
+TEST(RawLink, HearsThePoseFixesOfAVehicle) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  VehicleProfile profile;
+  profile.pose_fix.every_s = 0.1;
+  ASSERT_TRUE(profile.pose_fix.Fitted());
+  world.OpenVehicle(VehicleId{7}, profile);
+  const auto& topics = link::RawTopics();
+  const auto fixes = std::ranges::find(topics, "world/pose_fix", &link::RawTopic::name);
+  ASSERT_NE(fixes, topics.end());
+  EXPECT_EQ(fixes->type, "giveway::wire::PoseFix");
+  link::RawLink recorder(OptionsIn(domain), {static_cast<std::size_t>(fixes - topics.begin())});
+  bool heard = false;
+  EXPECT_TRUE(Eventually([&] {
+    PoseFix fix;
+    fix.vehicle = VehicleId{7};
+    world.SendPoseFix(fix);
+    recorder.Take([&](const link::RawSample& sample) { heard = !sample.bytes.empty(); });
+    return heard;
+  }));
 }
 
 TEST(SampleCodec, WhatWasEncodedIsDecodedToTheSame) {

@@ -158,11 +158,19 @@ TEST_F(Strangers, AreNotHeardAsTheStatusOfAVehicleThatSpeaks) {
   stranger.Open(kSeven);
   VehicleStatus lie = status;
   lie.peers_heard = 99;
+  std::uint32_t refused = 0;
+  std::vector<Refusal> refusals;
   Repeat(milliseconds(2500), [&] {
     vehicle_.SendStatus(status);
     stranger.SendStatus(lie);
-    for (const VehicleStatus& one : observer.Take().statuses) EXPECT_EQ(one.peers_heard, 1U);
+    const link::Observed observed = observer.Take();
+    for (const VehicleStatus& one : observed.statuses) EXPECT_EQ(one.peers_heard, 1U);
+    refused += observed.refused;
+    refusals.insert(refusals.end(), observed.refusals.begin(), observed.refusals.end());
   });
+  EXPECT_GT(refused, 10U);
+  ASSERT_FALSE(refusals.empty());
+  EXPECT_EQ(refusals[0].why, "another participant speaks for this id");
 }
 
 TEST_F(Strangers, DoNotAnswerForAVehicle) {
@@ -177,6 +185,8 @@ TEST_F(Strangers, DoNotAnswerForAVehicle) {
   };
   stranger.SendAnswer(answer(1));
   Repeat(milliseconds(1500), [&] { EXPECT_TRUE(chief.Take().empty()); });
+  EXPECT_GT(chief.Refused(), 0U);
+  EXPECT_FALSE(chief.TakeRefusals().empty());
   vehicle_.SendAnswer(answer(2));
   std::vector<AdminAnswer> got;
   ASSERT_TRUE(Eventually([&] {
@@ -184,6 +194,44 @@ TEST_F(Strangers, DoNotAnswerForAVehicle) {
     return !got.empty();
   }));
   EXPECT_EQ(got[0].order, 2U);
+}
+
+TEST_F(Strangers, ThatOrderInTheNamesOfManyAreCounted) {
+  Unnamed listener;
+  link::Participant flood(OptionsIn(domain_), "flood", listener);
+  auto orders = flood.MakeWriter<wire::Order>(link::VehiclePartition(kNobody));
+  ASSERT_TRUE(Eventually([&] { return orders.HasReader(); }));
+  for (std::uint32_t id = 1000; id < 1020; ++id) {
+    wire::Order order;
+    order.vehicle(id);
+    orders.Write(order);
+  }
+  EXPECT_TRUE(Eventually([&] { return world_.Counters().orders_refused == 16; }))
+      << world_.Counters().orders_refused;
+  const auto refusals = world_.TakeRefusals();
+  EXPECT_TRUE(std::ranges::any_of(refusals, [](const Refusal& refusal) {
+    return std::string(refusal.sample) == "order" && refusal.vehicle == VehicleId{1004};
+  }));
+}
+
+// It asks again for a place as the same session, and has no secret then.
+TEST(Leaving, ShowsTheSecretOfItsFirstRequest) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  link::VehicleLink vehicle(OptionsIn(domain));
+  const SessionId secret{9, 8, 7, 6};
+  vehicle.SendJoin({.session = kSession, .wanted = kSeven, .secret = secret});
+  vehicle.SendJoin({.session = kSession, .wanted = kSeven});
+  ASSERT_TRUE(Eventually([&] { return !world.TakeJoins().empty(); }));
+  vehicle.SendLeave(kSession);
+  ASSERT_TRUE(Eventually([&] {
+    for (const JoinRequest& request : world.TakeJoins()) {
+      if (!request.leaving) continue;
+      EXPECT_EQ(request.secret, secret);
+      return true;
+    }
+    return false;
+  }));
 }
 
 TEST(Admin, AVehicleThatTakesNoOrdersCannotBeReached) {

@@ -7,15 +7,13 @@
 
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
+#include "services/fleetctl/qos/awaited_answer.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
-// A refusal without a seal is of another key, or of a clock that is behind; or the order was said
-// again by an intruder, and what the service answered to the operator is on its way.
-constexpr auto kUnsealedPatience = std::chrono::seconds(1);
 
 // Calls done() again and again. Whether it was true before `patience` was over, or the operator's
 // after so many Ctrl-C.
@@ -47,26 +45,22 @@ std::vector<VehicleId> Orders::Seek(const std::vector<VehicleId>& vehicles,
 std::optional<AdminAnswer> Orders::Give(AdminOrder order, std::chrono::milliseconds patience,
                                         bool insist) {
   order.number = link::OperatorLink::NextNumber();
-  std::optional<AdminAnswer> last;
-  std::optional<AdminAnswer> unsealed;
-  SteadyTime unsealed_counts{0};
-  bool restarts = false;
-  if (!link_.Send(order)) return last;
+  AwaitedAnswer answer(order.vehicle, order.number, has_key_);
+  if (!link_.Send(order)) return std::nullopt;
   WaitUntil(patience, insist ? 2 : 1, [&] {
-    for (AdminAnswer& answer : link_.Take()) {
-      if (answer.vehicle != order.vehicle || answer.order != order.number) continue;
-      if (answer.state == AnswerState::kRestarting) {
-        restarts = true;
-      } else if (!has_key_ || answer.seal != Seal{}) {
-        last = std::move(answer);
-      } else if (!unsealed) {
-        unsealed = std::move(answer);
-        unsealed_counts = SteadyNow() + kUnsealedPatience;
-      }
-    }
-    return last || (unsealed && !restarts && SteadyNow() > unsealed_counts);
+    const SteadyTime now = SteadyNow();
+    for (const AdminAnswer& taken : link_.Take()) answer.Take(taken, now);
+    SayRefusals();
+    return answer.IsThere(now);
   });
-  return last ? last : unsealed;
+  return answer.Get();
+}
+
+void Orders::SayRefusals() {
+  for (const Refusal& refusal : link_.TakeRefusals()) {
+    const auto line = refusal_log_.Note(refusal, SteadyNow());
+    if (line) std::fprintf(stderr, "%s\n", line->c_str());
+  }
 }
 
 int SayNotReached(VehicleId vehicle, std::uint32_t domain) {

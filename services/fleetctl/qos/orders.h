@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "services/link/operator_link.h"
+#include "services/runtime/refusal_log.h"
 #include "services/types/admin.h"
 
 namespace giveway::fleetctl {
@@ -33,9 +34,13 @@ class Orders {
                                   bool insist = false);
 
  private:
+  // On stderr, answers that are not believed, each writer's once.
+  void SayRefusals();
+
   link::OperatorLink link_;
   const bool has_key_;
   std::set<VehicleId> sought_;
+  RefusalLog refusal_log_;
 };
 
 // Say on stderr why there is no answer of the vehicle: it is not reached or does not speak, or the

@@ -35,9 +35,24 @@ std::map<std::string, std::vector<RingFile>> FilesIn(const fs::path& folder) {
 
 }  // namespace
 
+void RingOrders::Add(std::uint64_t number, VehicleId vehicle, std::size_t keep) {
+  orders_.emplace(number, Waiting{vehicle, keep});
+}
+
+std::optional<std::size_t> RingOrders::Take(const AdminAnswer& answer) {
+  const auto order = orders_.find(answer.order);
+  if (order == orders_.end() || order->second.vehicle != answer.vehicle) return std::nullopt;
+  if (has_key_ && answer.seal == Seal{}) return std::nullopt;
+  const std::size_t keep = order->second.keep;
+  orders_.erase(order);
+  if (answer.state != AnswerState::kInEffect) return std::nullopt;
+  return keep;
+}
+
 RingKeeper::RingKeeper(const link::LinkOptions& options, const std::string& key,
                        std::span<const VehicleId> fleet, fs::path folder, Nanoseconds ring)
     : link_(options, key),
+      orders_(!key.empty()),
       fleet_(fleet.begin(), fleet.end()),
       folder_(std::move(folder)),
       ring_(ring) {
@@ -57,7 +72,7 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
     const AdminOrder order{.vehicle = vehicle,
                            .number = link::OperatorLink::NextNumber(),
                            .kind = OrderKind::kKeepRing};
-    orders_.emplace(order.number, kept_.size());
+    orders_.Add(order.number, vehicle, kept_.size());
     if (link_.Send(order)) ++kept.ordered;
   }
   kept_.push_back(kept);
@@ -65,10 +80,7 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
 
 void RingKeeper::Turn(SteadyTime now) {
   for (const AdminAnswer& answer : link_.Take()) {
-    const auto order = orders_.find(answer.order);
-    if (order == orders_.end()) continue;
-    if (answer.state == AnswerState::kInEffect) ++kept_[order->second].kept;
-    orders_.erase(order);
+    if (const auto keep = orders_.Take(answer)) ++kept_[*keep].kept;
   }
   if (now < next_prune_) return;
   next_prune_ = now + kPruneEvery;

@@ -3,9 +3,11 @@
 // thousands of lives. At the edge.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -13,9 +15,31 @@
 
 #include "services/fleetctl/soak/soak_result.h"
 #include "services/link/operator_link.h"
+#include "services/types/admin.h"
 #include "services/types/time.h"
 
 namespace giveway::fleetctl {
+
+// Orders to keep a ring that are not answered yet, and which answers count. Pure.
+class RingOrders {
+ public:
+  // `has_key`: answers are sealed, but for refusals.
+  explicit RingOrders(bool has_key) : has_key_(has_key) {}
+
+  // `keep`: what the order is part of.
+  void Add(std::uint64_t number, VehicleId vehicle, std::size_t keep);
+  // The `keep` of an order that the vehicle says it carried out. A refusal without a seal may be of
+  // an intruder: the order stays, and may still be answered.
+  std::optional<std::size_t> Take(const AdminAnswer& answer);
+
+ private:
+  struct Waiting {
+    VehicleId vehicle = kNobody;
+    std::size_t keep = 0;
+  };
+  bool has_key_;
+  std::map<std::uint64_t, Waiting> orders_;  // by number
+};
 
 class RingKeeper {
  public:
@@ -39,11 +63,11 @@ class RingKeeper {
   void Prune();
 
   link::OperatorLink link_;
+  RingOrders orders_;
   std::vector<VehicleId> fleet_;
   std::filesystem::path folder_;
   Nanoseconds ring_;
   std::vector<KeptRings> kept_;
-  std::map<std::uint64_t, std::size_t> orders_;  // which of kept_ each is for, by number
   std::set<std::string> kept_files_;
   SteadyTime ordered_{0};
   SteadyTime next_prune_{0};

@@ -43,6 +43,7 @@ struct Respelt {
 }  // namespace giveway::link
 
 #if __has_include(<fastrtps/config.h>)
+#include <fastdds/rtps/common/CacheChange.h>
 #include <fastdds/rtps/common/Guid.h>
 #include <fastdds/rtps/common/InstanceHandle.h>
 #include <fastdds/rtps/network/SenderResource.h>
@@ -100,6 +101,10 @@ inline bool Deserialize(dds::TopicDataType& type, rtps::SerializedPayload_t& fro
 inline std::uint32_t SerializedSize(dds::TopicDataType& type, void* sample) {
   return type.getSerializedSizeProvider(sample)();
 }
+// The instance that a sample is of. False for a type without a key.
+inline bool ComputeInstance(dds::TopicDataType& type, void* sample, rtps::InstanceHandle_t* to) {
+  return type.m_isGetKeyDefined && type.getKey(sample, to, false);
+}
 inline std::uint32_t LargestSize(const dds::TopicDataType& type) { return type.m_typeSize; }
 // Whether a sample that was deserialized is all of it: what ends early is an exception here.
 inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*) { return true; }
@@ -113,6 +118,7 @@ inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*
 #include <fastdds/config.hpp>
 #include <fastdds/rtps/builtin/data/PublicationBuiltinTopicData.hpp>
 #include <fastdds/rtps/builtin/data/SubscriptionBuiltinTopicData.hpp>
+#include <fastdds/rtps/common/CacheChange.hpp>
 #include <fastdds/rtps/common/Guid.hpp>
 #include <fastdds/rtps/common/InstanceHandle.hpp>
 #include <fastdds/rtps/transport/ChainingTransport.hpp>
@@ -168,6 +174,10 @@ inline bool Deserialize(dds::TopicDataType& type, rtps::SerializedPayload_t& fro
 }
 inline std::uint32_t SerializedSize(dds::TopicDataType& type, void* sample) {
   return type.calculate_serialized_size(sample, dds::XCDR_DATA_REPRESENTATION);
+}
+inline bool ComputeInstance(dds::TopicDataType& type, void* sample, rtps::InstanceHandle_t* to) {
+  return type.is_compute_key_provided &&
+         type.compute_key(static_cast<const void*>(sample), *to, false);
 }
 inline std::uint32_t LargestSize(const dds::TopicDataType& type) {
   return type.max_serialized_type_size;

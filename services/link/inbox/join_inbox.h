@@ -16,7 +16,9 @@ namespace giveway::link {
 
 class JoinInbox {
  public:
-  explicit JoinInbox(Reader<wire::Join> reader) : reader_(reader) {}
+  // `tick_period`: of the world that this is for.
+  JoinInbox(Reader<wire::Join> reader, Nanoseconds tick_period)
+      : reader_(reader), owners_(tick_period) {}
 
   // The newest request of each session, those that leave first: a newcomer may want their ids.
   // `names` must be updated first. Appends the first few that were refused to `refusals`.

@@ -1,6 +1,5 @@
 #include "services/link/inbox/roster_inbox.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "services/link/convert/convert.h"
@@ -8,12 +7,22 @@
 #include "services/link/inbox/participant_of.h"
 
 namespace giveway::link {
+namespace {
+
+WorldCandidates::Found FoundIn(const WriterNames& names) {
+  return [&names](std::uint64_t identity) -> std::uint64_t {
+    const WriterEntry* const writer = names.Find(identity);
+    return writer == nullptr || writer->gone ? 0 : writer->found;
+  };
+}
+
+}  // namespace
 
 std::optional<RosterEntry> RosterInbox::NewestAfter(Mark& mark, const WriterNames& names,
                                                     SteadyTime now) {
   reader_.TakeEach([&](const wire::Roster& sample, const dds::SampleInfo& info) {
     if (sample.session() != session_) return;
-    Receive(sample, info.sample_identity.writer_guid(), now);
+    Receive(sample, info.sample_identity.writer_guid(), names, now);
   });
   FollowWorlds(names, now);
   CountOthers();
@@ -21,7 +30,8 @@ std::optional<RosterEntry> RosterInbox::NewestAfter(Mark& mark, const WriterName
   return newest_;
 }
 
-void RosterInbox::Receive(const wire::Roster& sample, const rtps::GUID_t& writer, SteadyTime now) {
+void RosterInbox::Receive(const wire::Roster& sample, const rtps::GUID_t& writer,
+                          const WriterNames& names, SteadyTime now) {
   RosterEntry entry;
   if (!FromWire(sample, entry)) {
     ++unreadable_;
@@ -33,7 +43,11 @@ void RosterInbox::Receive(const wire::Roster& sample, const rtps::GUID_t& writer
     return;
   }
   if (!world_.IsWorld(ParticipantOf(writer))) {
-    Keep({ParticipantOf(writer), Identity(writer), std::move(entry)});
+    auto gone = candidates_.Keep({ParticipantOf(writer), Identity(writer), std::move(entry)},
+                                 FoundIn(names));
+    for (WorldCandidate& other : gone) {
+      if (other.participant != ParticipantOf(writer)) CountOther(other);
+    }
     return;
   }
   newest_ = std::move(entry);
@@ -41,40 +55,25 @@ void RosterInbox::Receive(const wire::Roster& sample, const rtps::GUID_t& writer
   world_.Heard(now);
 }
 
-// The newest of each; of too many the first to come goes.
-void RosterInbox::Keep(Candidate candidate) {
-  const auto same = std::ranges::find(candidates_, candidate.participant, &Candidate::participant);
-  if (same != candidates_.end()) candidates_.erase(same);
-  if (candidates_.size() == kMostCandidates) candidates_.erase(candidates_.begin());
-  candidates_.push_back(std::move(candidate));
-}
-
 void RosterInbox::CountOthers() {
-  for (Candidate& other : candidates_) {
-    if (!std::exchange(other.is_new, false)) continue;
-    ++from_other_worlds_;
-    Refuse(other.entry, other.writer, "old_world_entries", "writer",
-           "another world is there and is the one that is believed, until it ends");
-  }
+  for (WorldCandidate& other : candidates_.All()) CountOther(other);
 }
 
-// Of several that may be the world the one found last: a world that was started again.
+void RosterInbox::CountOther(WorldCandidate& other) {
+  if (!std::exchange(other.is_new, false)) return;
+  ++from_other_worlds_;
+  Refuse(other.entry, other.writer, "old_world_entries", "writer",
+         "another world is there and is the one that is believed, until it ends");
+}
+
 void RosterInbox::FollowWorlds(const WriterNames& names, SteadyTime now) {
-  if (candidates_.empty() || !world_.MayBeFollowed(now, !WorldIsThere(names))) return;
-  const Candidate* best = nullptr;
-  std::uint64_t best_found = 0;
-  for (const Candidate& candidate : candidates_) {
-    const WriterEntry* const writer = names.Find(candidate.writer);
-    if (writer == nullptr || writer->gone || writer->found <= best_found) continue;
-    best = &candidate;
-    best_found = writer->found;
-  }
+  if (candidates_.All().empty() || !world_.MayBeFollowed(now, !WorldIsThere(names))) return;
+  const WorldCandidate* const best = candidates_.Best(FoundIn(names));
   if (best == nullptr) return;
   world_.Bind(best->participant, best->writer, now);
   newest_ = best->entry;
   ++entries_;
-  const std::uint64_t bound = best->participant;
-  std::erase_if(candidates_, [bound](const Candidate& one) { return one.participant == bound; });
+  candidates_.Remove(best->participant);
 }
 
 bool RosterInbox::WorldIsThere(const WriterNames& names) const {

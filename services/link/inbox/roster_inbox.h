@@ -10,6 +10,7 @@
 #include "services/link/fastdds/endpoint.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/inbox/world_binding.h"
+#include "services/link/inbox/world_candidates.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/refusal.h"
 
@@ -41,18 +42,11 @@ class RosterInbox {
   void TakeRefusals(std::vector<Refusal>* refusals);
 
  private:
-  // A participant that speaks as a world and is not believed, yet.
-  struct Candidate {
-    std::uint64_t participant = 0;
-    std::uint64_t writer = 0;
-    RosterEntry entry;
-    bool is_new = true;  // since the last look
-  };
-  static constexpr std::size_t kMostCandidates = 4;
   static constexpr std::size_t kMostRefusals = 4;
 
-  void Receive(const wire::Roster& sample, const rtps::GUID_t& writer, SteadyTime now);
-  void Keep(Candidate candidate);
+  void Receive(const wire::Roster& sample, const rtps::GUID_t& writer, const WriterNames& names,
+               SteadyTime now);
+  void CountOther(WorldCandidate& other);
   void Refuse(const RosterEntry& entry, std::uint64_t writer, const char* counter,
               const char* field, std::string why);
   void FollowWorlds(const WriterNames& names, SteadyTime now);
@@ -64,7 +58,7 @@ class RosterInbox {
   VehicleId own_ = kNobody;
   RosterEntry newest_;
   Mark entries_ = 0;
-  std::vector<Candidate> candidates_;  // in order of arrival
+  WorldCandidates candidates_;
   std::vector<Refusal> refusals_;
   std::uint32_t unreadable_ = 0;
   std::uint32_t implausible_ = 0;

@@ -1,7 +1,5 @@
 #include "services/link/inbox/session_owners.h"
 
-#include <algorithm>
-
 #include "services/auth/digest.h"
 
 namespace giveway::link {
@@ -10,23 +8,25 @@ SessionOwners::Verdict SessionOwners::MayAsk(const JoinRequest& request, std::ui
                                              std::uint64_t writer, SteadyTime now,
                                              const std::function<bool(std::uint64_t)>& left) {
   const auto known = sessions_.find(request.session);
-  if (known != sessions_.end() && known->second.participant != participant) {
-    const Nanoseconds patience = HasPlace(request.session) ? kSilence : kSilenceOfAWaiting;
+  const bool is_known = known != sessions_.end();
+  if (is_known && known->second.participant != participant) {
     const Owner& owner = known->second;
+    const Nanoseconds patience =
+        owner.commands ? silence_ : std::max(silence_, kSilenceBeforeCommands);
     if (!left(owner.writer) && now - owner.heard <= patience) return Verdict::kOfAnother;
   }
-  const bool counts =
-      known != sessions_.end() && !known->second.over && known->second.participant == participant;
+  const bool counts = is_known && !known->second.over && known->second.participant == participant;
   const auto count = counts_.find(participant);
   if (!counts && count != counts_.end() && count->second >= kMostOfOne) return Verdict::kTooMany;
-  if (known != sessions_.end()) {
-    Count(known->second, -1);
-  } else {
-    oldest_.push_back(request.session);
-  }
-  const Owner owner{participant, writer, now};
+  if (is_known) Count(known->second, -1);
+  const Owner owner{.participant = participant,
+                    .writer = writer,
+                    .heard = now,
+                    .age = is_known ? known->second.age : ++last_age_};
   Count(owner, 1);
   sessions_.insert_or_assign(request.session, owner);
+  if (is_known) return Verdict::kYes;
+  List(request.session);
   BoundSessions();
   return Verdict::kYes;
 }
@@ -46,7 +46,25 @@ SessionOwners::Verdict SessionOwners::MayLeave(const JoinRequest& request,
 }
 
 void SessionOwners::Accept(VehicleId vehicle, const SessionId& session) {
-  vehicles_[vehicle] = session;
+  const auto known = vehicles_.find(vehicle);
+  if (known != vehicles_.end() && known->second == session) return;
+  Close(vehicle);
+  Unlist(session);
+  vehicles_.emplace(vehicle, session);
+  places_[session].push_back(vehicle);
+  List(session);
+}
+
+void SessionOwners::Close(VehicleId vehicle) {
+  const auto known = vehicles_.find(vehicle);
+  if (known == vehicles_.end()) return;
+  const SessionId session = known->second;
+  vehicles_.erase(known);
+  Unlist(session);
+  const auto places = places_.find(session);
+  std::erase(places->second, vehicle);
+  if (places->second.empty()) places_.erase(places);
+  List(session);
 }
 
 std::uint64_t SessionOwners::OwnerOf(VehicleId vehicle) const {
@@ -60,24 +78,21 @@ void SessionOwners::Heard(VehicleId vehicle, SteadyTime now) {
   const auto session = vehicles_.find(vehicle);
   if (session == vehicles_.end()) return;
   const auto owner = sessions_.find(session->second);
-  if (owner != sessions_.end()) owner->second.heard = now;
+  if (owner == sessions_.end()) return;
+  owner->second.heard = now;
+  owner->second.commands = true;
 }
 
-std::vector<VehicleId> SessionOwners::VehiclesOf(const SessionId& session) const {
-  std::vector<VehicleId> vehicles;
-  for (const auto& [vehicle, of] : vehicles_) {
-    if (of == session) vehicles.push_back(vehicle);
-  }
-  return vehicles;
+const std::vector<VehicleId>& SessionOwners::VehiclesOf(const SessionId& session) const {
+  static const std::vector<VehicleId> none;
+  const auto places = places_.find(session);
+  return places == places_.end() ? none : places->second;
 }
 
 void SessionOwners::Forget(const std::function<bool(std::uint64_t)>& left) {
-  const std::deque<SessionId> all = oldest_;
-  for (const SessionId& session : all) {
-    const auto known = sessions_.find(session);
-    if (known != sessions_.end() && left(known->second.writer) && !HasPlace(session)) {
-      Remove(session);
-    }
+  for (auto next = to_go_.begin(); next != to_go_.end() && !next->first.first;) {
+    const auto known = sessions_.find((next++)->second);
+    if (left(known->second.writer)) Remove(known);
   }
 }
 
@@ -88,23 +103,26 @@ void SessionOwners::Count(const Owner& owner, int change) {
   if (count->second == 0) counts_.erase(count);
 }
 
-void SessionOwners::Remove(const SessionId& session) {
-  const auto known = sessions_.find(session);
-  if (known == sessions_.end()) return;
+void SessionOwners::Remove(Known::iterator known) {
+  Unlist(known->first);
   Count(known->second, -1);
   sessions_.erase(known);
-  std::erase(oldest_, session);
 }
 
 void SessionOwners::BoundSessions() {
   if (sessions_.size() <= kMostSessions) return;
-  const auto free = std::ranges::find_if(
-      oldest_, [this](const SessionId& session) { return !HasPlace(session); });
-  Remove(free == oldest_.end() ? oldest_.front() : SessionId(*free));
+  Remove(sessions_.find(to_go_.begin()->second));
 }
 
-bool SessionOwners::HasPlace(const SessionId& session) const {
-  return std::ranges::any_of(vehicles_, [&](const auto& of) { return of.second == session; });
+void SessionOwners::Unlist(const SessionId& session) {
+  const auto known = sessions_.find(session);
+  if (known != sessions_.end()) to_go_.erase({HasPlace(session), known->second.age});
+}
+
+void SessionOwners::List(const SessionId& session) {
+  const auto known = sessions_.find(session);
+  if (known == sessions_.end()) return;
+  to_go_.emplace(std::pair{HasPlace(session), known->second.age}, session);
 }
 
 }  // namespace giveway::link

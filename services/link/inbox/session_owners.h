@@ -1,17 +1,19 @@
 // Which participant each session is of, and each vehicle's id with it: the one that asked first.
 // The session goes to another only when its own has left or has been silent: it was restarted. Who
 // knows the secret that a session is made of may end it from anywhere. Bounded: the oldest sessions
-// that have no place go first. Knows no DDS, has no clock.
+// that have no place go first. Each call takes logarithmic time but Forget, which looks at every
+// session without a place. Knows no DDS, has no clock.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "services/link/inbox/silence_limit.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/time.h"
 
@@ -21,9 +23,13 @@ class SessionOwners {
  public:
   static constexpr std::size_t kMostSessions = 4096;
   static constexpr std::size_t kMostOfOne = 8;  // a process has one, or a test a few
-  // A vehicle in the world sends a command a tick; one that waits asks again every second.
+  // A vehicle in the world sends a command a tick, once it has begun; one that waits for a place,
+  // or has just got one, asks again every second. The first is never less than a few ticks.
   static constexpr Nanoseconds kSilence = std::chrono::milliseconds(750);
-  static constexpr Nanoseconds kSilenceOfAWaiting = std::chrono::seconds(3);
+  static constexpr Nanoseconds kSilenceBeforeCommands = std::chrono::seconds(3);
+
+  explicit SessionOwners(Nanoseconds tick_period = Nanoseconds{0})
+      : silence_(SilenceLimit(kSilence, tick_period)) {}
 
   enum class Verdict : std::uint8_t { kYes, kTooMany, kOfAnother };
 
@@ -35,7 +41,7 @@ class SessionOwners {
 
   // The session has the vehicle's id, until Close.
   void Accept(VehicleId vehicle, const SessionId& session);
-  void Close(VehicleId vehicle) { vehicles_.erase(vehicle); }
+  void Close(VehicleId vehicle);
   // 0 where the vehicle is of none, or its owner is not known.
   std::uint64_t OwnerOf(VehicleId vehicle) const;
   // Its owner sent a command.
@@ -44,26 +50,38 @@ class SessionOwners {
   // Forgets sessions without a place whose writer `left`.
   void Forget(const std::function<bool(std::uint64_t writer)>& left);
   std::size_t Sessions() const { return sessions_.size(); }
-  // The vehicles of a session; most often none or one.
-  std::vector<VehicleId> VehiclesOf(const SessionId& session) const;
+  // The vehicles of a session; most often none or one. Valid until the next Accept or Close.
+  const std::vector<VehicleId>& VehiclesOf(const SessionId& session) const;
 
  private:
   struct Owner {
     std::uint64_t participant = 0;
     std::uint64_t writer = 0;  // of its requests
     SteadyTime heard{0};
-    bool over = false;  // it left; it may say so again
+    bool commands = false;  // it sent a command since it asked
+    bool over = false;      // it left; it may say so again
+    std::uint64_t age = 0;  // 1, 2, 3 ... in the order in which sessions became known
   };
-  void Count(const Owner& owner, int change);
-  void Remove(const SessionId& session);
-  void BoundSessions();
-  bool HasPlace(const SessionId& session) const;
+  using Known = std::map<SessionId, Owner>;
 
-  std::map<SessionId, Owner> sessions_;
-  std::deque<SessionId> oldest_;  // of sessions_
+  void Count(const Owner& owner, int change);
+  void Remove(Known::iterator known);
+  void BoundSessions();
+  bool HasPlace(const SessionId& session) const { return places_.contains(session); }
+  // To be called before and after a session gets its first place, or loses its last.
+  void Unlist(const SessionId& session);
+  void List(const SessionId& session);
+
+  const Nanoseconds silence_;
+  Known sessions_;
+  // Of sessions_, in the order in which they are to go: those without a place, then the others; the
+  // oldest of each first.
+  std::map<std::pair<bool, std::uint64_t>, SessionId> to_go_;
   std::unordered_map<std::uint64_t, std::size_t>
       counts_;  // of sessions_ that are not over, by participant
   std::unordered_map<VehicleId, SessionId> vehicles_;
+  std::map<SessionId, std::vector<VehicleId>> places_;  // those of vehicles_, none is empty
+  std::uint64_t last_age_ = 0;
 };
 
 }  // namespace giveway::link

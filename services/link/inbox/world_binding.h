@@ -8,16 +8,20 @@
 #include <chrono>
 #include <cstdint>
 
+#include "services/link/inbox/silence_limit.h"
 #include "services/types/time.h"
 
 namespace giveway::link {
 
 class WorldBinding {
  public:
-  // Of a vehicle that it sends scans to, every tick; and of one that still waits for a place, to
-  // which it has nothing to say.
+  // Of a vehicle that it sends scans to, every tick (never less than a few ticks); and of one that
+  // still waits for a place, to which it has nothing to say.
   static constexpr Nanoseconds kSilence = std::chrono::seconds(1);
   static constexpr Nanoseconds kSilenceToAWaiting = std::chrono::seconds(5);
+
+  explicit WorldBinding(Nanoseconds tick_period = Nanoseconds{0})
+      : silence_(SilenceLimit(kSilence, tick_period)) {}
 
   // 0: none yet. The filters of the library's threads read it.
   const std::atomic<std::uint64_t>& Participant() const { return participant_; }
@@ -33,7 +37,7 @@ class WorldBinding {
   }
   // Whether another one may be the world. `left`: the world's writer of the roster has.
   bool MayBeFollowed(SteadyTime now, bool left) const {
-    const Nanoseconds patience = expects_scans_ ? kSilence : kSilenceToAWaiting;
+    const Nanoseconds patience = expects_scans_ ? silence_ : kSilenceToAWaiting;
     return participant_ == 0 || left || now - heard_ > patience;
   }
   void Bind(std::uint64_t participant, std::uint64_t roster_writer, SteadyTime now) {
@@ -43,6 +47,7 @@ class WorldBinding {
   }
 
  private:
+  const Nanoseconds silence_;
   std::atomic<std::uint64_t> participant_{0};
   std::uint64_t roster_writer_ = 0;
   SteadyTime heard_{0};

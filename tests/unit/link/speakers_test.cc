@@ -53,12 +53,37 @@ TEST_F(Sessions, ASessionIsOfTheParticipantThatAskedFirstWhileItIsHeard) {
 TEST_F(Sessions, ASessionGoesToAnotherParticipantOnceItsOwnHasLeftOrIsSilent) {
   AskBy(1, 5);
   owners_.Accept(kSeven, Ask(5).session);
+  owners_.Heard(kSeven, kBegun);
   EXPECT_EQ(AskBy(2, 5, kBegun + SessionOwners::kSilence), Verdict::kOfAnother);
   EXPECT_EQ(AskBy(2, 5, kBegun + SessionOwners::kSilence + milliseconds(1)), Verdict::kYes);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 2U);
   left_ = 102;
   EXPECT_EQ(AskBy(3, 5, kBegun + seconds(1)), Verdict::kYes);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 3U);
+}
+
+// It was 0.75 s from the moment it was given its place, in which it may not have found its scans.
+TEST_F(Sessions, OneThatJustGotItsPlaceIsGivenTimeUntilItsFirstCommand) {
+  AskBy(1, 5);
+  owners_.Accept(kSeven, Ask(5).session);
+  const SteadyTime later = kBegun + SessionOwners::kSilenceBeforeCommands;
+  EXPECT_EQ(AskBy(2, 5, later), Verdict::kOfAnother);
+  owners_.Heard(kSeven, later);
+  EXPECT_EQ(AskBy(2, 5, later + SessionOwners::kSilence), Verdict::kOfAnother);
+  AskBy(1, 5, later + SessionOwners::kSilence);
+  EXPECT_EQ(AskBy(2, 5, later + SessionOwners::kSilenceBeforeCommands), Verdict::kOfAnother)
+      << "one that asks again is given the time again";
+  EXPECT_EQ(AskBy(2, 5, later + seconds(4)), Verdict::kYes);
+}
+
+TEST_F(Sessions, OfSlowTicksAFewMayGoByInSilence) {
+  SessionOwners owners(milliseconds(200));
+  const auto stays = [](std::uint64_t) { return false; };
+  owners.MayAsk(Ask(5), 1, 101, kBegun, stays);
+  owners.Accept(kSeven, Ask(5).session);
+  owners.Heard(kSeven, kBegun);
+  EXPECT_EQ(owners.MayAsk(Ask(5), 2, 102, kBegun + seconds(1), stays), Verdict::kOfAnother);
+  EXPECT_EQ(owners.MayAsk(Ask(5), 2, 102, kBegun + milliseconds(1001), stays), Verdict::kYes);
 }
 
 TEST_F(Sessions, OnlyTheOwnerLeavesOrWhoKnowsTheSecret) {
@@ -103,6 +128,41 @@ TEST_F(Sessions, AreBoundedAndTheOldestWithoutAPlaceGoFirst) {
   EXPECT_EQ(owners_.Sessions(), SessionOwners::kMostSessions);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 1U);
   EXPECT_EQ(AskBy(4, 2), Verdict::kYes) << "it was forgotten: anybody may ask with it";
+}
+
+TEST_F(Sessions, OfOneEveryVehicleIsKnownUntilItsPlaceEnds) {
+  AskBy(1, 5);
+  AskBy(2, 6);
+  owners_.Accept(kSeven, Ask(5).session);
+  owners_.Accept(VehicleId{8}, Ask(5).session);
+  owners_.Accept(kSeven, Ask(5).session);
+  EXPECT_THAT(owners_.VehiclesOf(Ask(5).session), ::testing::ElementsAre(kSeven, VehicleId{8}));
+  owners_.Accept(VehicleId{8}, Ask(6).session);
+  owners_.Close(kSeven);
+  owners_.Close(kSeven);
+  EXPECT_THAT(owners_.VehiclesOf(Ask(5).session), ::testing::IsEmpty());
+  EXPECT_THAT(owners_.VehiclesOf(Ask(6).session), ::testing::ElementsAre(VehicleId{8}));
+  EXPECT_EQ(owners_.OwnerOf(VehicleId{8}), 2U);
+}
+
+// Of 256 vehicles the world looked through all, for each session, each 32 ticks.
+TEST_F(Sessions, WithAPlaceAreNotLookedAtToBeForgotten) {
+  for (std::uint32_t i = 1; i <= 256; ++i) {
+    AskBy(i, i);
+    owners_.Accept(VehicleId{i}, Ask(i).session);
+  }
+  AskBy(1000, 1000);
+  AskBy(1001, 1001);
+  std::vector<std::uint64_t> asked;
+  owners_.Forget([&](std::uint64_t writer) {
+    asked.push_back(writer);
+    return writer == 1100;
+  });
+  EXPECT_THAT(asked, ::testing::ElementsAre(1100U, 1101U));
+  EXPECT_EQ(owners_.Sessions(), 257U);
+  owners_.Close(kSeven);
+  owners_.Forget([](std::uint64_t) { return true; });
+  EXPECT_EQ(owners_.Sessions(), 255U);
 }
 
 TEST(TickGate, RefusesTicksThatNoTimeHasPassedFor) {

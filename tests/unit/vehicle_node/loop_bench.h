@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -92,6 +93,15 @@ class ScriptedLink final : public link::DriveLink {
   void SendLeave(const SessionId& session) override {
     said_.push_back(session == kSession ? "leave" : "leave as another");
   }
+  // Entries for TakeRoster, one a call.
+  void Answer(const RosterEntry& entry) { entries_.push_back(entry); }
+  std::optional<RosterEntry> TakeRoster(const SessionId& /*session*/) override {
+    if (entries_.empty()) return std::nullopt;
+    const RosterEntry entry = entries_.front();
+    entries_.pop_front();
+    return entry;
+  }
+  std::string WhyNobodyIsFound() const override { return {}; }
   std::string InterfaceChange() const override { return interface_change_; }
   bool WorldSpeaks() const override { return world_speaks_; }
   bool LacksBody() const override { return lacks_body_; }
@@ -110,6 +120,7 @@ class ScriptedLink final : public link::DriveLink {
   std::vector<std::string> said_;
   std::vector<Outputs> sent_;
   std::vector<JoinRequest> joins_;
+  std::deque<RosterEntry> entries_;
   std::vector<Nanoseconds> waits_;
   VehicleStatus last_status_;
   std::string interface_change_;

@@ -1,0 +1,40 @@
+// Which of the answers that come counts as the one to an order. Pure.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "services/types/admin.h"
+#include "services/types/time.h"
+
+namespace giveway::fleetctl {
+
+class AwaitedAnswer {
+ public:
+  // A refusal without a seal is of another key, or of a clock that is behind; or the order was said
+  // again by an intruder, and what the service answered to the operator is on its way.
+  static constexpr Nanoseconds kUnsealedPatience = std::chrono::seconds(1);
+
+  // `has_key`: answers are sealed, but for refusals.
+  AwaitedAnswer(VehicleId vehicle, std::uint64_t order, bool has_key)
+      : vehicle_(vehicle), order_(order), has_key_(has_key) {}
+
+  void Take(const AdminAnswer& answer, SteadyTime now);
+  // Nothing more needs to be waited for.
+  bool IsThere(SteadyTime now) const;
+  // What counts at the end of the waiting. One that has sealed an answer has the key: a refusal
+  // without a seal is not its own.
+  std::optional<AdminAnswer> Get() const;
+
+ private:
+  VehicleId vehicle_;
+  std::uint64_t order_;
+  bool has_key_;
+  bool restarts_ = false;  // it said, with its seal, that it does
+  std::optional<AdminAnswer> last_;
+  std::optional<AdminAnswer> unsealed_;
+  SteadyTime unsealed_counts_{0};
+};
+
+}  // namespace giveway::fleetctl

@@ -1,0 +1,82 @@
+// The first place of a vehicle: which entries of the roster it takes.
+#include "services/vehicle_node/vehicle_join.h"
+
+#include <gmock/gmock.h>
+
+#include "services/link/fastdds/link_options.h"
+#include "tests/unit/vehicle_node/loop_bench.h"
+
+namespace giveway::test {
+namespace {
+
+constexpr VehicleId kOne{1};
+
+// One that is stopped after so many looks at the clock.
+class Joining : public ::testing::Test {
+ protected:
+  Joining() {
+    scenario_.vehicles = {DefaultOptions()};
+    scenario_.vehicles.front().id = kOne;
+  }
+  RosterEntry At(double x_m) {
+    RosterEntry entry = Entry(RunState::kRunning);
+    entry.start_world.position_world.x = x_m;
+    return entry;
+  }
+  std::optional<RosterEntry> JoinAs(VehicleId wanted) {
+    int looks = 0;
+    return Join(
+        {.link = &link_, .clock = &clock_, .health = &health_, .scenario = &scenario_},
+        [&looks] { return ++looks > 200; }, wanted, kSession);
+  }
+
+  HandClock clock_;
+  ScriptedLink link_{&clock_, [](std::uint32_t) { return Arrival{}; }};
+  VehicleHealthTeller health_{ServiceFlags{}};
+  Scenario scenario_;
+};
+
+TEST_F(Joining, TakesThePlaceThatItIsGiven) {
+  link_.Answer(At(1));
+  const auto entry = JoinAs(kOne);
+  ASSERT_TRUE(entry);
+  EXPECT_EQ(entry->start_world.position_world.x, 1);
+}
+
+TEST_F(Joining, APlaceFarOffIsNotTakenAndAskedForAgain) {
+  link_.Answer(At(1000));
+  EXPECT_EQ(JoinAs(kOne), std::nullopt);
+  EXPECT_GE(link_.SaidBesides().size(), 2U);
+  link_.Answer(At(1000));
+  link_.Answer(At(2));
+  const auto entry = JoinAs(kNobody);
+  ASSERT_TRUE(entry);
+  EXPECT_EQ(entry->start_world.position_world.x, 2);
+}
+
+TEST_F(Joining, AnotherIdThanTheOneWantedIsNotTaken) {
+  link_.Answer(At(0));
+  scenario_.vehicles.push_back(DefaultOptions());
+  scenario_.vehicles.back().id = VehicleId{2};
+  EXPECT_EQ(JoinAs(VehicleId{2}), std::nullopt);
+}
+
+TEST_F(Joining, AWorldWithAnotherScenarioIsAnErrorAtStart) {
+  RosterEntry entry = At(0);
+  entry.spawn = 3;
+  link_.Answer(entry);
+  EXPECT_THROW(JoinAs(kOne), link::LinkError);
+}
+
+TEST_F(Joining, ARefusalIsTheLastWord) {
+  RosterEntry entry = At(1000);
+  entry.accepted = false;
+  entry.reason = "full";
+  link_.Answer(entry);
+  const auto last = JoinAs(kOne);
+  ASSERT_TRUE(last);
+  EXPECT_FALSE(last->accepted);
+}
+
+}  // namespace
+}  // namespace giveway::test
