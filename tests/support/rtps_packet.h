@@ -91,9 +91,10 @@ class RtpsPacket {
     return Add(0x08, 0, body);
   }
   RtpsPacket& AckNack(std::uint32_t writer, std::int64_t base, std::uint32_t bits,
-                      std::size_t words, std::uint32_t count = 1) {
+                      std::size_t words, std::uint32_t count = 1,
+                      std::uint32_t reader = kAnyReader) {
     PacketBytes body;
-    AppendEntity(kAnyReader, &body);
+    AppendEntity(reader, &body);
     AppendEntity(writer, &body);
     AppendNumber(base, &body);
     Append(bits, 4, &body);

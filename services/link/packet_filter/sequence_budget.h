@@ -66,7 +66,8 @@ class SequenceBudget {
 
   std::int64_t highest_ = 0;     // believed
   SteadyTime started_{0};        // when the first number came, or the last confirmed jump
-  SteadyTime heard_{0};          // when any number came that was plausible
+  SteadyTime advanced_{0};       // when `highest_` came
+  SteadyTime heard_{0};          // when any number came that says where the writer is
   double budget_ = kYoungSlack;  // when it did
   double pace_hz_ = 0;           // of this and the last window of kYoung; 0: not known
   double last_window_hz_ = 0;
