@@ -82,6 +82,10 @@ bool WriterTable::IsNew(const Line& line, Statement by, SteadyTime now) {
 bool WriterTable::Takes(Line* line, std::int64_t number, Statement by, SteadyTime now) const {
   if (by == Statement::kCount) return line->budget.Takes(number, now, count_limits_);
   if (by == Statement::kRange && IsNew(*line, by, now)) line->is_reliable = true;
+  if (line->is_reliable || by == Statement::kRange) {
+    const std::int64_t known = line->budget.Highest();
+    if (number - known > (known == 0 ? kMostOfOld : kMostAtFirst)) return false;
+  }
   if (line->is_reliable) return line->budget.Takes(number, now, kReliableLimits);
   if (by == Statement::kRange) return line->budget.MayReach(number, now, kRangeLimits);
   return line->budget.Takes(number, now, kSampleLimits);

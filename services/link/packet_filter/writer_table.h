@@ -42,6 +42,9 @@ class WriterTable {
   // 39 days at 5 Hz, the rate of a reliable writer. The library steps through as many numbers at
   // the first HEARTBEAT of a writer, which takes it 0.1 s.
   static constexpr std::int64_t kMostAtFirst = std::int64_t{1} << 24U;
+  // How far a reliable writer may be ahead once it has kept to that for a while: of one never
+  // heard, 1.7 years at 5 Hz, 1.6 s of stepping; else no more than a new one.
+  static constexpr std::int64_t kMostOfOld = std::int64_t{1} << 28U;
   // How long a writer is new. A reliable one's HEARTBEAT, which says how far it is, comes within it
   // though half are lost; of any other a sample does.
   static constexpr Nanoseconds kAcquaintance = std::chrono::seconds(5);

@@ -144,8 +144,7 @@ TEST(WriterTable, PassesABlackoutInTheFirstSecondToo) {
 
 // The step was once a share of a pace that each forged number raised: by half with every packet.
 TEST(WriterTable, NoFloodOfStepsIsFasterThanTheBudget) {
-  for (const std::int64_t step : {std::int64_t{1}, std::int64_t{8}, std::int64_t{64},
-                                  std::int64_t{600}, std::int64_t{1} << 20U}) {
+  for (const std::int64_t step : {1, 8, 64}) {
     OneWriter writer;
     writer.Send(600, 20);
     const std::int64_t from = writer.Sent();
@@ -174,7 +173,7 @@ TEST(WriterTable, AForgedSampleBlindsForASecondAtMost) {
 }
 
 TEST(WriterTable, AForgerBesideTheTrueWriterIsNeverSecondsAhead) {
-  for (const std::int64_t step : {std::int64_t{1}, std::int64_t{2}, std::int64_t{8}}) {
+  for (const std::int64_t step : {1, 2, 8}) {
     OneWriter writer;
     writer.Send(200, 20);
     std::int64_t highest = writer.Sent();
@@ -242,6 +241,35 @@ TEST(WriterTable, HearsHowFarAReliableWriterIsWhateverItSendsAgain) {
     writer.Wait(milliseconds(100));
   }
   EXPECT_GT(refused, 0);
+}
+
+// A reliable writer may say nothing for minutes; the library takes hours to step so far.
+TEST(WriterTable, BelievesNoRangeThatTheLibraryWouldStepThroughForSeconds) {
+  constexpr std::int64_t kFar = 4'000'000'000;
+  OneWriter heard;
+  ASSERT_TRUE(heard.Range(heard.Sent()));
+  heard.Wait(seconds(10));
+  OneWriter never_heard;
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_FALSE(heard.Range(kFar));
+    ASSERT_FALSE(heard.Range(2 * WriterTable::kMostAtFirst));
+    ASSERT_FALSE(never_heard.Range(kFar));
+    heard.Wait(milliseconds(50));
+    never_heard.Wait(milliseconds(50));
+  }
+}
+
+TEST(WriterTable, HearsSamplesAndRangesOfAWriterThatIsYearsOld) {
+  OneWriter samples;
+  OneWriter ranges;
+  int refused = 0;
+  for (; !samples.Sample((std::int64_t{1} << 40U) + refused); ++refused) {
+    ASSERT_FALSE(ranges.Range(4 * WriterTable::kMostAtFirst));
+    ASSERT_LT(refused, 20);
+    samples.Wait(milliseconds(50));
+    ranges.Wait(milliseconds(50));
+  }
+  EXPECT_TRUE(ranges.Range(4 * WriterTable::kMostAtFirst));
 }
 
 TEST(WriterTable, ForgetsStrangersBeforeTheFleet) {
