@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -61,7 +62,7 @@ TEST_F(RunKeyTest, IsFoundByWhoHasARuntimeFolderThatTheRunDidNotHave) {
 TEST_F(RunKeyTest, TheNewestIsTakenWhereARunThatWasKilledLeftOne) {
   unsetenv("XDG_RUNTIME_DIR");
   const RunKey old("", Domain());
-  fs::last_write_time(old.File(), fs::file_time_type::clock::now() - std::chrono::hours(1));
+  fs::last_write_time(old.File(), fs::last_write_time(old.File()) - std::chrono::hours(1));
   HaveRuntimeFolder();
   const RunKey key("", Domain());
   ASSERT_NE(key.File(), old.File());
