@@ -14,7 +14,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr SteadyTime kStart = seconds(1000);
+constexpr SteadyTime kMeeting = seconds(1000);
 constexpr Nanoseconds kForgersPeriod = std::chrono::microseconds(500);
 
 WriterGuid Guid(std::uint32_t number) {
@@ -56,7 +56,7 @@ class OneWriter {
 
  private:
   WriterTable table_{64, 4711};
-  SteadyTime now_ = kStart;
+  SteadyTime now_ = kMeeting;
   std::int64_t sent_ = 100;
   std::int64_t believed_ = 0;
 };
@@ -274,7 +274,7 @@ TEST(WriterTable, HearsSamplesAndRangesOfAWriterThatIsYearsOld) {
 
 TEST(WriterTable, ForgetsStrangersBeforeTheFleet) {
   WriterTable table(64, 4711);
-  SteadyTime now = kStart;
+  SteadyTime now = kMeeting;
   for (std::uint32_t round = 0; round < WriterTable::kKnown + 1; ++round) {
     for (std::uint32_t own = 0; own < 16; ++own)
       table.IsPlausible(Guid(own), 1 + round, Statement::kSample, now);
