@@ -154,13 +154,14 @@ void Jumps(const Target& target, UdpSender* sender) {
   });
 }
 
-// As each writer that is heard often: what it said, under the numbers that it comes to meanwhile,
-// and a few more.
+// As each writer that is heard often: what it said, under the numbers that it comes to meanwhile
+// and a few more, and under numbers that climb with each packet.
 void Steps(const Target& target, UdpSender* sender) {
   constexpr std::size_t kOften = 10;   // times in what was captured
   constexpr double kCaptured_s = 0.6;  // ago, on average
   constexpr double kRate_hz = 20;
   constexpr std::uint32_t kAround = 48;  // numbers tried
+  constexpr std::uint32_t kStep = 40;
   std::vector<Heard> often;
   std::map<std::pair<PrefixBytes, std::uint32_t>, std::size_t> times;
   std::vector<Heard> all;
@@ -179,7 +180,8 @@ void Steps(const Target& target, UdpSender* sender) {
       const std::size_t number_at = heard.at + 4 + 16;  // its low half
       std::uint32_t number;
       std::memcpy(&number, &copy[number_at], sizeof number);
-      number += static_cast<std::uint32_t>(kRate_hz * since_s) + turn % kAround;
+      number += static_cast<std::uint32_t>(kRate_hz * since_s) +
+                (turn % 2 == 0 ? turn % kAround : turn * kStep);
       std::memcpy(&copy[number_at], &number, sizeof number);
       sender->Send(copy, heard.packet->to, heard.packet->port);
     }
