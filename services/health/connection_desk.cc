@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <csignal>
 #include <utility>
 
 #include "services/runtime/process.h"
+#include "services/runtime/signals_blocked.h"
 
 namespace giveway {
 namespace {
@@ -81,11 +81,8 @@ ConnectionDesk::ConnectionDesk(Answer answer) : answer_(std::move(answer)) {
   [[maybe_unused]] const int failed = pipe2(ends.data(), O_NONBLOCK | O_CLOEXEC);
   wake_read_ = ends[0];
   wake_write_ = ends[1];
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are the loop's
+  const SignalsBlocked blocked;
   thread_ = std::thread(&ConnectionDesk::Serve, this);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 ConnectionDesk::~ConnectionDesk() {
@@ -145,23 +142,23 @@ void ConnectionDesk::Admit(int socket) {
   if (!Read(&connections_.back())) Drop(connections_.size() - 1);
 }
 
+// Once a turn: a client that sends without end gets no more of them than others.
 bool ConnectionDesk::Read(Connection* connection) {
   if (SteadyNow() >= connection->until) return false;
   std::array<char, 2048> bytes;
-  for (;;) {
-    const ssize_t got = recv(connection->socket, bytes.data(), bytes.size(), 0);
-    if (got < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
-    if (got == 0) return false;
-    if (connection->answered) continue;  // what it says beyond its request
-    connection->request.append(bytes.data(), static_cast<std::size_t>(got));
-    if (!IsWhole(connection->request)) continue;
-    connection->request.resize(std::min(connection->request.size(), kLongestRequest));
-    answer_(connection->socket, connection->request);
-    // Closing over unread bytes would take the answer back.
-    shutdown(connection->socket, SHUT_WR);
-    connection->answered = true;
-    connection->until = std::min(connection->until, SteadyNow() + kGoodByeTime);
-  }
+  const ssize_t got = recv(connection->socket, bytes.data(), bytes.size(), 0);
+  if (got < 0) return errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR;
+  if (got == 0) return false;
+  if (connection->answered) return true;  // what it says beyond its request
+  connection->request.append(bytes.data(), static_cast<std::size_t>(got));
+  if (!IsWhole(connection->request)) return true;
+  connection->request.resize(std::min(connection->request.size(), kLongestRequest));
+  answer_(connection->socket, connection->request);
+  // Closing over unread bytes would take the answer back.
+  shutdown(connection->socket, SHUT_WR);
+  connection->answered = true;
+  connection->until = std::min(connection->until, SteadyNow() + kGoodByeTime);
+  return true;
 }
 
 void ConnectionDesk::Drop(std::size_t index) {

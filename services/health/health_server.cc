@@ -7,7 +7,6 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -18,6 +17,7 @@
 #include "services/config/problem.h"
 #include "services/health/connection_desk.h"
 #include "services/runtime/process.h"
+#include "services/runtime/signals_blocked.h"
 
 namespace giveway {
 namespace {
@@ -148,22 +148,6 @@ void Route(httplib::Server& server, const HealthPages& pages) {
   });
 }
 
-// Signals are the loop's: one that met the thread that accepts would end the server.
-class SignalsHeldOff {
- public:
-  SignalsHeldOff() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsHeldOff() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsHeldOff(const SignalsHeldOff&) = delete;
-  SignalsHeldOff& operator=(const SignalsHeldOff&) = delete;
-
- private:
-  sigset_t before_{};
-};
-
 // Without the library's SO_REUSEPORT, by which two vehicles would share a port in turns. With
 // SO_REUSEADDR a port is free again as soon as its process is gone.
 void OnlyOneListens(socket_t socket) {
@@ -213,7 +197,7 @@ HealthServer::HealthServer(const std::string& address, std::uint16_t port, Healt
                        .remedy = why == EADDRINUSE ? "give each service of a host a port of its own"
                                                    : "check --health-address and --health-port"}});
   }
-  const SignalsHeldOff held_off;
+  const SignalsBlocked blocked;  // one that met the thread that accepts would end the server
   impl_->listener = std::thread(&Impl::Listen, impl_.get(), address, port);
 }
 

@@ -4,22 +4,17 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <string_view>
 #include <utility>
+
+#include "services/runtime/signals_blocked.h"
 
 namespace giveway {
 namespace {
 
-// A thread that is given no signals: handlers run on threads that are not blocked in a write.
 std::thread WithoutSignals(std::function<void()> work) {
-  sigset_t all;
-  sigset_t before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
-  std::thread thread(std::move(work));
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
-  return thread;
+  const SignalsBlocked blocked;
+  return std::thread(std::move(work));
 }
 
 }  // namespace

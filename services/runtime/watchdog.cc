@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "services/runtime/process.h"
+#include "services/runtime/signals_blocked.h"
 
 namespace giveway {
 namespace {
@@ -86,11 +87,8 @@ void WriteAllStacks() {
 Watchdog::Watchdog(Nanoseconds limit) : limit_(static_cast<std::uint64_t>(limit / kWakeUp)) {
   std::array<void*, 1> frame;
   backtrace(frame.data(), 1);  // loads what it needs, which a handler must not
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);  // signals are the loop's
+  const SignalsBlocked blocked;
   thread_ = std::thread(&Watchdog::Watch, this);
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 Watchdog::~Watchdog() {

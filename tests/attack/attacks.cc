@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <random>
+#include <utility>
 
 #include "tests/support/rtps_packet.h"
 
@@ -152,6 +154,40 @@ void Jumps(const Target& target, UdpSender* sender) {
   });
 }
 
+// As each writer that is heard often: what it said, under the numbers that it comes to meanwhile
+// and a few more, and under numbers that climb with each packet.
+void Steps(const Target& target, UdpSender* sender) {
+  constexpr std::size_t kOften = 10;   // times in what was captured
+  constexpr double kCaptured_s = 0.6;  // ago, on average
+  constexpr double kRate_hz = 20;
+  constexpr std::uint32_t kAround = 48;  // numbers tried
+  constexpr std::uint32_t kStep = 40;
+  std::vector<Heard> often;
+  std::map<std::pair<PrefixBytes, std::uint32_t>, std::size_t> times;
+  std::vector<Heard> all;
+  for (const Packet& packet : target.captured) FindHeard(packet, &all);
+  for (const Heard& heard : all) ++times[{heard.prefix, heard.writer}];
+  for (const Heard& heard : WritersOf(target)) {
+    if (heard.kind == 0x15 && times[{heard.prefix, heard.writer}] >= kOften) often.push_back(heard);
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  for (std::uint32_t turn = 0; !often.empty() && !IsOver(begun, target); ++turn) {
+    const double since_s =
+        kCaptured_s +
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    for (const Heard& heard : often) {
+      PacketBytes copy = heard.packet->bytes;
+      const std::size_t number_at = heard.at + 4 + 16;  // its low half
+      std::uint32_t number;
+      std::memcpy(&number, &copy[number_at], sizeof number);
+      number += static_cast<std::uint32_t>(kRate_hz * since_s) +
+                (turn % 2 == 0 ? turn % kAround : turn * kStep);
+      std::memcpy(&copy[number_at], &number, sizeof number);
+      sender->Send(copy, heard.packet->to, heard.packet->port);
+    }
+  }
+}
+
 // What was said before, again.
 void Replay(const Target& target, UdpSender* sender) {
   const auto begun = std::chrono::steady_clock::now();
@@ -245,9 +281,10 @@ std::uint16_t UnicastPort(std::uint32_t domain, std::uint32_t participant, bool 
 
 const std::map<std::string, Attack>& Attacks() {
   static const std::map<std::string, Attack> kAttacks{
-      {"flood", Flood},   {"fragments", Fragments},   {"fuzz", Fuzz},
-      {"gaps", Gaps},     {"heartbeats", Heartbeats}, {"jumps", Jumps},
-      {"replay", Replay}, {"statistics", Statistics}, {"strangers", Strangers}};
+      {"flood", Flood},        {"fragments", Fragments},   {"fuzz", Fuzz},
+      {"gaps", Gaps},          {"heartbeats", Heartbeats}, {"jumps", Jumps},
+      {"replay", Replay},      {"statistics", Statistics}, {"steps", Steps},
+      {"strangers", Strangers}};
   return kAttacks;
 }
 

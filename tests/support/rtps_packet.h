@@ -91,14 +91,15 @@ class RtpsPacket {
     return Add(0x08, 0, body);
   }
   RtpsPacket& AckNack(std::uint32_t writer, std::int64_t base, std::uint32_t bits,
-                      std::size_t words) {
+                      std::size_t words, std::uint32_t count = 1,
+                      std::uint32_t reader = kAnyReader) {
     PacketBytes body;
-    AppendEntity(kAnyReader, &body);
+    AppendEntity(reader, &body);
     AppendEntity(writer, &body);
     AppendNumber(base, &body);
     Append(bits, 4, &body);
     body.resize(body.size() + 4 * words);
-    Append(1, 4, &body);  // count
+    Append(count, 4, &body);
     return Add(0x06, 0, body);
   }
   // As Fast DDS ends each packet it sends; always big-endian.

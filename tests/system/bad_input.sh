@@ -142,6 +142,7 @@ for program in "giveway-vehicle --scenario $good" "giveway-world --scenario $goo
     fail "$program with a set that hangs the library: exit code $code: $(head -c 600 "$SCRATCH/out")"
 done
 refused "unknown interface" 'nowhere0' intersection_yield --interface nowhere0
+refused "page without a name" 'html' intersection_yield --html ""
 refused "picture nowhere" 'no_such_folder' intersection_yield --picture no_such_folder/run.svg
 refused "picture that is a folder" "$SCRATCH" intersection_yield --picture "$SCRATCH"
 

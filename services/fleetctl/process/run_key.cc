@@ -5,6 +5,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <system_error>
+#include <vector>
 
 #include "services/auth/admin_key.h"
 #include "services/fleetctl/process/domain_lock.h"
@@ -14,12 +16,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path KeyFolder() {
+// Where keys may be: a run and who gives it orders need not have the same environment. sudo and
+// cron leave out XDG_RUNTIME_DIR, which is the second one then.
+std::vector<fs::path> KeyFolders() {
+  const std::string user = std::to_string(::getuid());
+  std::vector<fs::path> folders;
   const char* const runtime = std::getenv("XDG_RUNTIME_DIR");
-  if (runtime != nullptr && *runtime != '\0' && ::access(runtime, W_OK) == 0) {
-    return fs::path(runtime) / "giveway";
+  if (runtime != nullptr && *runtime != '\0') folders.push_back(fs::path(runtime) / "giveway");
+  folders.push_back(fs::path("/run/user") / user / "giveway");
+  folders.push_back(fs::path(P_tmpdir) / ("giveway-" + user));
+  return folders;
+}
+
+// Where a new one is made.
+fs::path KeyFolder() {
+  for (const fs::path& folder : KeyFolders()) {
+    if (::access(folder.parent_path().c_str(), W_OK) == 0) return folder;
   }
-  return fs::path(P_tmpdir) / ("giveway-" + std::to_string(::getuid()));
+  return KeyFolders().back();
 }
 
 // Of this user alone; another may have made one of this name.
@@ -29,8 +43,24 @@ bool IsPrivate(const fs::path& folder) {
          about.st_uid == ::getuid() && (about.st_mode & 077U) == 0;
 }
 
-std::string KeyFileOf(std::uint32_t domain) {
-  return KeyFolder() / ("domain-" + std::to_string(domain) + ".key");
+std::string KeyFileOf(const fs::path& folder, std::uint32_t domain) {
+  return folder / ("domain-" + std::to_string(domain) + ".key");
+}
+
+// The newest: one whose fleet is gone was left by a fleetctl that was killed. Empty: none.
+std::string FindKeyFile(std::uint32_t domain) {
+  std::string newest;
+  fs::file_time_type newest_time{};
+  for (const fs::path& folder : KeyFolders()) {
+    const std::string file = KeyFileOf(folder, domain);
+    if (!IsPrivate(folder) || ::access(file.c_str(), R_OK) != 0) continue;
+    std::error_code error;
+    const fs::file_time_type time = fs::last_write_time(file, error);
+    if (error || (!newest.empty() && time <= newest_time)) continue;
+    newest = file;
+    newest_time = time;
+  }
+  return newest;
 }
 
 }  // namespace
@@ -47,7 +77,7 @@ RunKey::RunKey(const std::string& given, std::uint32_t domain) : file_(given) {
                          ": must be a folder of this user that nobody else may enter, for the key "
                          "of the fleet; remove it, or give --admin-key");
   }
-  file_ = KeyFileOf(domain);
+  file_ = KeyFileOf(folder, domain);
   auth::MakeAdminKey(file_);
   is_own_ = true;
 }
@@ -58,10 +88,9 @@ RunKey::~RunKey() {
 
 std::string KeyToOrderWith(const std::string& given, std::uint32_t domain) {
   if (!given.empty()) return auth::ReadAdminKey(given);
-  const std::string file = KeyFileOf(domain);
-  // One whose fleet is gone was left by a fleetctl that was killed.
-  if (!IsTaken(domain) || !IsPrivate(KeyFolder()) || ::access(file.c_str(), R_OK) != 0) return {};
-  return auth::ReadAdminKey(file);
+  if (!IsTaken(domain)) return {};
+  const std::string file = FindKeyFile(domain);
+  return file.empty() ? std::string() : auth::ReadAdminKey(file);
 }
 
 }  // namespace giveway::fleetctl

@@ -115,7 +115,8 @@ void AddLinkFlags(CLI::App* verb, RunOptions* options) {
 
 void AddOutputFlags(CLI::App* verb, RunOptions* options) {
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
-  verb->add_option("--html", options->html_file, "Write a page that shows the run into this file");
+  verb->add_option("--html", options->html_file, "Write a page that shows the run into this file")
+      ->check(CheckNotEmpty);
   verb->add_option("--picture", options->picture_file, "Draw both paths as SVG into this file")
       ->check(CheckNotEmpty);
   verb->add_option("--logs", options->fleet.logs_folder,

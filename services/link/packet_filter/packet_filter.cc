@@ -21,16 +21,20 @@ constexpr std::array<std::uint8_t, 2> kEProsima = {0x01, 0x0f};
 constexpr std::uint8_t kStatisticsKind = 0x80;
 constexpr std::uint16_t kStatisticsBytes = 56;
 
-// Of whole fleets that start, and of each vehicle some twenty writers beside its announcements.
-constexpr std::size_t kWritersAVehicle = 24;
-constexpr std::size_t kWritersAtLeast = 2048;
-constexpr std::size_t kWritersAtMost = 65536;
+// Of whole fleets that start, and of each vehicle some twenty writers beside its announcements, and
+// as many readers and writers that count what they send.
+constexpr std::size_t kWritersAVehicle = 48;
+constexpr std::size_t kWritersAtLeast = 4096;
+constexpr std::size_t kWritersAtMost = 131072;
 
 // Where a writer's entity id and the number by which it goes stand in a body.
 constexpr std::size_t kWriterAtInData = 8;
 constexpr std::size_t kNumberAtInData = 12;
 constexpr std::size_t kWriterAt = 4;  // of HEARTBEAT and GAP
 constexpr std::size_t kLastNumberAt = 16;
+constexpr std::size_t kCountInHeartbeat = 24;
+constexpr std::size_t kBitsInAckNack = 16;  // how many; the bits, and behind them the count
+constexpr std::size_t kBitsInNackFrag = 20;
 constexpr std::size_t kPrefixInInfoSrc = 8;
 
 constexpr std::array<std::uint8_t, 4> kParticipant = {0x00, 0x00, 0x01, 0xc1};
@@ -54,11 +58,39 @@ WriterGuid GuidOf(const std::uint8_t* prefix, const std::uint8_t* entity) {
   return guid;
 }
 
+// Where the count of what is sent again and again stands; 0: it has none.
+std::size_t CountAt(const Submessage& submessage) {
+  const auto behind_bits = [&](std::size_t at) {
+    return at + 4 + 4 * ((submessage.U32(at) + std::size_t{31}) / 32);
+  };
+  switch (submessage.kind) {
+    case SubmessageKind::kHeartbeat:
+      return kCountInHeartbeat;
+    case SubmessageKind::kAckNack:
+      return behind_bits(kBitsInAckNack);
+    case SubmessageKind::kNackFrag:
+      return behind_bits(kBitsInNackFrag);
+    default:
+      return 0;
+  }
+}
+
+// Who counts: a writer, or a reader towards one writer. By kind, since each has a count of its own.
+WriterGuid CounterGuid(const Submessage& submessage, const std::uint8_t* prefix) {
+  WriterGuid guid = GuidOf(prefix, submessage.body.data() + kWriterAt);
+  guid[0] ^= static_cast<std::uint8_t>(submessage.kind);
+  if (submessage.kind == SubmessageKind::kHeartbeat) return guid;
+  for (std::size_t i = 0; i < 4; ++i) {  // turned, so that like ids do not cancel each other
+    guid[kPrefixBytes + i] ^= submessage.body[(i + 1) % 4];
+  }
+  return guid;
+}
+
 }  // namespace
 
 PacketFilter::PacketFilter(const PacketFilterOptions& options)
     : options_(options),
-      writers_(WritersOf(options.fleet_size), options.seed),
+      writers_(WritersOf(options.fleet_size), options.seed, options.fleet_size),
       tokens_(kStrangersAtOnce + 2 * std::int64_t{options.fleet_size}) {}
 
 PacketVerdict PacketFilter::Judge(Bytes packet, std::uint32_t source, SteadyTime now) {
@@ -104,6 +136,7 @@ PacketDrop PacketFilter::CheckWriters(Bytes packet, SteadyTime now) {
     if (part.kind == SubmessageKind::kInfoSrc) prefix = part.body.data() + kPrefixInInfoSrc;
     const PacketDrop drop = CheckWriter(part, prefix, now);
     if (drop != PacketDrop::kNone) return drop;
+    if (!IsNextCount(part, prefix, now)) return PacketDrop::kSequenceJump;
   }
   return PacketDrop::kNone;
 }
@@ -123,8 +156,19 @@ PacketDrop PacketFilter::CheckWriter(const Submessage& submessage, const std::ui
   std::int64_t number = submessage.SequenceNumber(is_data ? kNumberAtInData : kLastNumberAt);
   if (is_gap) --number;                       // the last one that will not come
   if (number <= 0) return PacketDrop::kNone;  // a writer that has written nothing
-  const bool plausible = writers_.IsPlausible(GuidOf(prefix, entity), number, now);
+  const Statement by = is_data ? Statement::kSample : Statement::kRange;
+  const bool plausible = writers_.IsPlausible(GuidOf(prefix, entity), number, by, now);
   return plausible ? PacketDrop::kNone : PacketDrop::kSequenceJump;
+}
+
+// The library ignores each HEARTBEAT, ACKNACK and NACK_FRAG whose count is not above all before:
+// one forged count of 2^32 - 1, and those of the true sender never count again.
+bool PacketFilter::IsNextCount(const Submessage& submessage, const std::uint8_t* prefix,
+                               SteadyTime now) {
+  const std::size_t at = CountAt(submessage);
+  const std::uint32_t count = at == 0 ? 0 : submessage.U32(at);
+  if (count == 0) return true;
+  return writers_.IsPlausible(CounterGuid(submessage, prefix), count, Statement::kCount, now);
 }
 
 // An announcement of a participant that is known, or of a new one while there is room. A discovery

@@ -47,6 +47,7 @@ class PacketFilter {
   PacketVerdict CheckParts(Bytes packet) const;
   PacketDrop CheckWriters(Bytes packet, SteadyTime now);
   PacketDrop CheckWriter(const Submessage& submessage, const std::uint8_t* prefix, SteadyTime now);
+  bool IsNextCount(const Submessage& submessage, const std::uint8_t* prefix, SteadyTime now);
   bool IsWelcome(const Submessage& announcement, SteadyTime now);
   bool TakeToken(SteadyTime now);
 

@@ -87,6 +87,7 @@ PacketDrop CheckDataFrag(const Submessage& frag, std::uint32_t largest_sample) {
   if (!IsNumber(frag.SequenceNumber(kWriterSeqAt))) return PacketDrop::kMalformed;
   const Fragments fragments{frag.U32(20), frag.U16(24), frag.U16(26), frag.U32(28)};
   if (fragments.sample > largest_sample) return PacketDrop::kSampleTooLarge;
+  if (fragments.sample < kLeastFragmented) return PacketDrop::kMalformed;
   const auto payload = EndOfInlineQos(frag, kDataFragFields);
   if (!payload) return PacketDrop::kListTooLong;
   const std::uint64_t wanted = BytesOf(fragments);

@@ -13,6 +13,10 @@ namespace giveway::link {
 // locks that all receiving threads need: CVE-2025-64438. These take it 10 ms.
 inline constexpr std::int64_t kLongestGap = 100'000;
 
+// Samples that are smaller are sent whole: UDP carries 65 kB, and no profile or vendor limits
+// messages to less than an Ethernet frame. Readers keep fragments until their sample is complete.
+inline constexpr std::uint32_t kLeastFragmented = 1024;  // bytes, encapsulation included
+
 // kNone if it is sound. `largest_sample` in bytes, encapsulation included.
 PacketDrop CheckSubmessage(const Submessage& submessage, std::uint32_t largest_sample);
 

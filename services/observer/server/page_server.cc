@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <csignal>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "services/observer/server/client_stream.h"
 #include "services/observer/server/request_rules.h"
 #include "services/runtime/process.h"
+#include "services/runtime/signals_blocked.h"
 
 namespace giveway {
 namespace {
@@ -80,22 +80,6 @@ class StreamServer : public httplib::Server {
   }
 
   std::atomic<bool> stops_{false};
-};
-
-// Signals are the loop's: one that met the thread that accepts would end the server.
-class SignalsBlocked {
- public:
-  SignalsBlocked() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  SignalsBlocked(const SignalsBlocked&) = delete;
-  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
-
- private:
-  sigset_t before_{};
 };
 
 void ListenAlone(socket_t socket) {
@@ -230,7 +214,7 @@ PageServer::PageServer(const std::string& address, std::uint16_t port, PageSourc
                       (errno != 0 ? std::strerror(errno) : "not an address of this host") +
                       "; choose another --port or --address");
   }
-  const SignalsBlocked blocked;
+  const SignalsBlocked blocked;  // one that met the thread that accepts would end the server
   impl_->listener = std::thread([this, address, port] { impl_->Listen(address, port); });
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <functional>
 
 #include "services/link/packet_filter/submessage_check.h"
 #include "tests/support/rtps_packet.h"
@@ -21,6 +22,7 @@ constexpr std::uint32_t kHere = 0x7f000001;
 constexpr std::uint32_t kElsewhere = 0x0a000001;
 constexpr std::int64_t kFar = 4'000'000'000;
 constexpr SteadyTime kStart = seconds(1000);
+constexpr std::int64_t kSlack = 8;  // of a writer at 20 Hz that sends samples alone
 constexpr test::PrefixBytes kPeer = {1, 15, 7};
 const PacketBytes kPayload = {0, 1, 0, 0, 1, 2, 3, 4};
 
@@ -149,6 +151,14 @@ TEST(PacketFilter, DropsFragmentsThatAreNotOfTheirSample) {
   EXPECT_EQ(fragment(1, 1, 0, 0), PacketDrop::kMalformed);
 }
 
+// Readers keep fragments until their sample is complete: of a beacon that never is.
+TEST(PacketFilter, DropsFragmentsOfSamplesThatAreSentWhole) {
+  EXPECT_EQ(Alone(FromPeer().DataFrag(test::kUserWriter, 1, 1, 1, 100, 200, 100)),
+            PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().DataFrag(test::kUserWriter, 1, 1, 1, 1000, kLeastFragmented, 1000)),
+            PacketDrop::kNone);
+}
+
 // CVE-2025-64438.
 TEST(PacketFilter, DropsGapsOfMoreSamplesThanAnyWriterKeeps) {
   for (const bool little : {true, false}) {
@@ -219,7 +229,7 @@ TEST(PacketFilter, DropsNumbersThatTheWritersRateDoesNotAllow) {
   receiver.Settle(200);
   receiver.Wait(milliseconds(50));
   EXPECT_EQ(receiver.Data(201 + (std::int64_t{1} << 40U)), PacketDrop::kSequenceJump);
-  EXPECT_EQ(receiver.Data(200 + WriterTable::kSlack + 20), PacketDrop::kSequenceJump);
+  EXPECT_EQ(receiver.Data(200 + kSlack + 20), PacketDrop::kSequenceJump);
   EXPECT_EQ(receiver.Heartbeat(kFar, kFar), PacketDrop::kSequenceJump);
   EXPECT_EQ(receiver.Data(201), PacketDrop::kNone) << "and the writer is heard on";
 }
@@ -229,9 +239,9 @@ TEST(PacketFilter, HandsOnWhatComesAgainOrAfterALoss) {
   receiver.Settle(200);
   EXPECT_EQ(receiver.Data(200), PacketDrop::kNone);
   EXPECT_EQ(receiver.Data(3), PacketDrop::kNone) << "sent again, or a restart";
-  EXPECT_EQ(receiver.Data(200 + WriterTable::kSlack), PacketDrop::kNone);
+  EXPECT_EQ(receiver.Data(200 + kSlack), PacketDrop::kNone);
   receiver.Wait(seconds(60));
-  EXPECT_EQ(receiver.Data(200 + WriterTable::kSlack + 60 * 20), PacketDrop::kNone) << "a blackout";
+  EXPECT_EQ(receiver.Data(200 + kSlack + 60 * 20), PacketDrop::kNone) << "a blackout";
 }
 
 // A vehicle that came to a world after 22 restarts of another heard no roster: of the packet that
@@ -297,6 +307,50 @@ TEST(PacketFilter, AllowsAFastWriterLargerSteps) {
   EXPECT_EQ(receiver.Data(number + 600 + 10'000), PacketDrop::kSequenceJump);
 }
 
+// The library ignores every HEARTBEAT and ACKNACK whose count is not above the highest: one forged
+// count, and those of the true sender would never count again.
+TEST(PacketFilter, DropsCountsThatJump) {
+  constexpr std::uint32_t kHighest = 0xffff'ffff;
+  const auto heartbeat = [](std::uint32_t count) {
+    return FromPeer().Heartbeat(test::kUserWriter, 1, 1, count).Bytes();
+  };
+  const auto acknack = [](std::uint32_t count) {
+    return FromPeer().AckNack(test::kUserWriter, 9, 40, 2, count).Bytes();
+  };
+  for (const auto& make : {std::function<PacketBytes(std::uint32_t)>(heartbeat),
+                           std::function<PacketBytes(std::uint32_t)>(acknack)}) {
+    PacketFilter filter({});
+    SteadyTime now = kStart;
+    EXPECT_EQ(filter.Judge(make(kHighest), kHere, now).drop, PacketDrop::kSequenceJump);
+    for (std::uint32_t count = 1; count < 100; ++count) {
+      EXPECT_EQ(filter.Judge(make(count), kHere, now).drop, PacketDrop::kNone) << count;
+      EXPECT_EQ(filter.Judge(make(kHighest), kHere, now).drop, PacketDrop::kSequenceJump);
+      now += milliseconds(200);
+    }
+    EXPECT_EQ(filter.Judge(make(7), kHere, now).drop, PacketDrop::kNone) << "a reader made anew";
+    now += seconds(60);
+    EXPECT_EQ(filter.Judge(make(400), kHere, now).drop, PacketDrop::kNone) << "sent to others";
+  }
+}
+
+TEST(PacketFilter, KeepsTheCountsOfReadersOfOneParticipantApart) {
+  PacketFilter filter({});
+  SteadyTime now = kStart;
+  for (std::uint32_t i = 1; i <= 60; ++i) {
+    for (const std::uint32_t reader : {0x000003c7U, 0x000004c7U}) {
+      const std::uint32_t count = reader == 0x000003c7U ? i : 100'000 + i;
+      const RtpsPacket packet = FromPeer().AckNack(test::kUserWriter, 9, 40, 2, count, reader);
+      EXPECT_EQ(filter.Judge(packet.Bytes(), kHere, now).drop, PacketDrop::kNone);
+    }
+    now += milliseconds(100);
+  }
+  EXPECT_EQ(filter
+                .Judge(FromPeer().AckNack(test::kUserWriter, 9, 40, 2, 1000, 0x000003c7).Bytes(),
+                       kHere, now)
+                .drop,
+            PacketDrop::kSequenceJump);
+}
+
 test::PrefixBytes Stranger(std::uint32_t number) {
   return {9, 9, static_cast<std::uint8_t>(number >> 8U), static_cast<std::uint8_t>(number), 1};
 }
@@ -331,27 +385,6 @@ TEST(PacketFilter, NamesParticipantsByWhatTheyAnnounceNotByWhoSendsIt) {
     let_in += filter.Judge(packet, kHere, kStart).drop == PacketDrop::kNone ? 1 : 0;
   }
   EXPECT_EQ(let_in, 256);
-}
-
-WriterGuid Guid(std::uint32_t number) {
-  return {static_cast<std::uint8_t>(number), static_cast<std::uint8_t>(number >> 8U),
-          static_cast<std::uint8_t>(number >> 16U), 5};
-}
-
-TEST(WriterTable, ForgetsStrangersBeforeTheFleet) {
-  WriterTable table(64, 4711);
-  SteadyTime now = kStart;
-  for (std::uint32_t round = 0; round < WriterTable::kKnown + 1; ++round) {
-    for (std::uint32_t own = 0; own < 16; ++own) table.IsPlausible(Guid(own), 1 + round, now);
-    now += milliseconds(50);
-  }
-  for (std::uint32_t stranger = 1000; stranger < 100'000; ++stranger) {
-    table.IsPlausible(Guid(stranger), 1, now += milliseconds(1));
-  }
-  for (std::uint32_t own = 0; own < 16; ++own) {
-    EXPECT_FALSE(table.IsPlausible(Guid(own), std::int64_t{1} << 20U, now))
-        << "of a writer that it forgot any first number is plausible: " << own;
-  }
 }
 
 }  // namespace
