@@ -125,6 +125,10 @@ await check("recording: export gives the same as CSV and JSON", async () => {
   const csv = start("fleetctl", "export", whole, "--topic", "fleet/beacon", "--csv");
   expect(await csv.ended === 0, csv.stderr);
   expect(csv.stdout.trim().split("\n").length === beacons.length + 1, "lines of CSV");
+  const events = start("fleetctl", "export", whole, "--topic", "world/event", "--csv");
+  expect(await events.ended === 0, events.stderr);
+  const names = events.stdout.split("\n")[0].split(",");
+  for (const name of ["vehicle", "other", "text"]) expect(names.includes(name), `no column ${name}: ${names}`);
   const json = start("fleetctl", "export", whole, "--topic", "world/event", "--json");
   expect(await json.ended === 0, json.stderr);
   expect(json.stdout.trim().split("\n").map((line) => JSON.parse(line)).some((e) => e.kind === "halted"), "halted");
