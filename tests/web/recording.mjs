@@ -134,8 +134,11 @@ await check("recording: export gives the same as CSV and JSON", async () => {
   expect(json.stdout.trim().split("\n").map((line) => JSON.parse(line)).some((e) => e.kind === "halted"), "halted");
 });
 await check("recording: a file that is there already is not overwritten", async () => {
-  const again = start("fleetctl", "record", whole, "--domain", domain, "--duration", "1s");
+  const again = start("fleetctl", "record", whole, "--domain", domain, "--duration", "60s", "--last", "1s");
+  const late = setTimeout(() => again.child.kill("SIGKILL"), 10000);
   const code = await again.ended;
-  expect(code !== 0, "it was");
+  clearTimeout(late);
+  expect(code === 2, `exit code ${code}, of the start`);
+  expect(again.stderr.includes("File exists"), again.stderr);
 });
 finish();

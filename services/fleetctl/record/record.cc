@@ -34,6 +34,10 @@ class Recording {
         began_(SteadyNow()) {}
 
   int Run() {
+    if (!files_.Start(began_)) {
+      std::fprintf(stderr, "%s\n", files_.Fault().c_str());
+      return kCouldNotRun;
+    }
     SteadyTime flush_at = began_ + kFlushPeriod;
     while (Interrupts::Count() == 0 && !IsOver() && files_.Fault().empty()) {
       SleepUntil(SteadyNow() + kRecordTurn);

@@ -1,5 +1,6 @@
 // The files of a recording: one, or parts by size or time of which the oldest go where there are
-// too many. A disk that is full ends the recording; what was flushed before can be read.
+// too many. One file without a split ends where its index has grown large, and another follows. A
+// disk that is full ends the recording; what was flushed before can be read.
 #pragma once
 
 #include <cstdint>
@@ -21,6 +22,7 @@ struct CaptureOptions {
   Nanoseconds split_time{0};             // 0: never
   std::vector<std::string> attachments;  // files put into the last part at its end
   std::uint64_t keep_bytes = 0;          // of all parts; 0: all are kept
+  std::size_t most_chunks = 100'000;     // of a part: the index of each is in memory; a day's
 };
 
 class CaptureFiles {
@@ -30,7 +32,11 @@ class CaptureFiles {
   CaptureFiles(const CaptureFiles&) = delete;
   CaptureFiles& operator=(const CaptureFiles&) = delete;
 
-  // Each is false once something could not be written; Fault() says what and why.
+  // All four are false once something could not be written; Fault() says what and why.
+  //
+  // Makes the first file now rather than with the first sample: a path that cannot be written is
+  // found out before anything is worth recording.
+  bool Start(SteadyTime now);
   bool Write(const link::RawSample& sample, SteadyTime now);
   bool Flush();
   bool Close();
@@ -43,7 +49,8 @@ class CaptureFiles {
   std::uint32_t Parts() const { return part_; }
 
  private:
-  bool IsSplit() const { return options_.split_bytes != 0 || options_.split_time.count() != 0; }
+  bool HasParts() const { return options_.split_bytes != 0 || options_.split_time.count() != 0; }
+  bool IsPartFull(SteadyTime now) const;
   bool Open(SteadyTime now);
   bool ClosePart();
   void Attach(const std::string& path);
