@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/output/output_file.h"
@@ -40,11 +41,11 @@ void Explain(const std::string& file, const RunRead& run) {
   }
 }
 
-int Serve(const PlaybackOptions& options, const std::string& page) {
+int Serve(const PlaybackOptions& options, std::string page) {
   const Interrupts interrupts;
   const PageServer server(options.address, options.port,
-                          {.page = page,
-                           .get = [](const std::string&) { return std::nullopt; },
+                          {.page = std::move(page),
+                           .get = [](const auto&, const auto&) { return std::nullopt; },
                            .scene = "",
                            .frames = nullptr,
                            .host_names = {}});
@@ -65,7 +66,7 @@ int RunPlayback(const PlaybackOptions& options) {
     return kCouldNotRun;
   }
   const std::string scene = SceneOf(options);
-  const RunRead run = ReadRun([&file](char* to, std::size_t most) {
+  RunRead run = ReadRun([&file](char* to, std::size_t most) {
     file.read(to, static_cast<std::streamsize>(most));
     return static_cast<std::size_t>(file.gcount());
   });
@@ -74,8 +75,9 @@ int RunPlayback(const PlaybackOptions& options) {
     std::fprintf(stderr, "%s: there is nothing of a fleet in it\n", options.file.c_str());
     return run.result.fault.empty() ? kNothingToShow : kCouldNotRun;
   }
-  const std::string page = PageWithRun(run.frames.RunJson(scene));
-  if (options.html_file.empty()) return Serve(options, page);
+  std::string page = PageWithRun(run.frames.RunJson(scene));
+  run.frames = {};
+  if (options.html_file.empty()) return Serve(options, std::move(page));
   WriteFile(options.html_file, page);
   return 0;
 }

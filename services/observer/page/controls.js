@@ -55,7 +55,9 @@ function seek(at) {
   if (!first) return;
   state.cursor = Math.min(last.at, Math.max(first.at, at));
 }
+// At the end of a run it plays it again.
 function togglePlay() {
+  if (state.isReplay && !state.playing && state.cursor >= state.frames.at(-1)?.at) return setLive();
   if (state.cursor === null) { seek(shownAt()); state.playing = false; return; }
   state.playing = !state.playing;
 }
@@ -131,9 +133,9 @@ const KEYS = {
   ArrowRight: () => { view.x += 80 / view.scale; setFollow(false); },
   ArrowUp: () => { view.y += 80 / view.scale; setFollow(false); },
   ArrowDown: () => { view.y -= 80 / view.scale; setFollow(false); },
-  "+": () => zoomAt(mapCanvas.clientWidth / 2, mapCanvas.clientHeight / 2, 1.25),
+  "+": () => zoomAt(view.width / 2, view.height / 2, 1.25),
   "=": () => KEYS["+"](),
-  "-": () => zoomAt(mapCanvas.clientWidth / 2, mapCanvas.clientHeight / 2, 0.8),
+  "-": () => zoomAt(view.width / 2, view.height / 2, 0.8),
   "0": () => { setFollow(false); view.isSet = false; },
   n: () => pickNext(1), p: () => pickNext(-1), f: () => setFollow(!state.follow),
   t: () => setTable(!state.showTable), d: toggleTheme, l: setLive, " ": togglePlay,

@@ -4,7 +4,7 @@ const STALE_MS = 2000;
 function follow() {
   const source = new EventSource("api/v1/stream");
   source.addEventListener("scene", (event) => {
-    state.scene = JSON.parse(event.data);
+    setScene(JSON.parse(event.data));
     clearStore();
     state.connected = true;
     document.title = "Giveway " + state.scene.title;
@@ -25,7 +25,8 @@ function follow() {
 function loadRun(text) {
   const run = JSON.parse(text);
   state.isReplay = true;
-  state.scene = run.scene;
+  setScene(run.scene);
+  for (const [at_ms, event] of run.events ?? []) noteEvents(at_ms, [event]);
   for (const frame of run.frames) addFrame(frame, frame);
   state.connected = true;
   document.title = "Giveway " + state.scene.title;
