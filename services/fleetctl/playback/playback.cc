@@ -22,7 +22,9 @@ namespace {
 constexpr int kNothingToShow = 1;
 
 std::string SceneOf(const PlaybackOptions& options) {
-  SceneSource source{"replay of " + options.file.substr(options.file.rfind('/') + 1), std::nullopt};
+  SceneSource source{
+      (options.report ? "" : "replay of ") + options.file.substr(options.file.rfind('/') + 1),
+      std::nullopt};
   if (!options.scenario.empty()) source.scenario = LoadScenario(options.scenario, {});
   return SceneJson(source);
 }
@@ -65,6 +67,7 @@ int RunPlayback(const PlaybackOptions& options) {
     std::fprintf(stderr, "%s: cannot be read: %s\n", options.file.c_str(), std::strerror(errno));
     return kCouldNotRun;
   }
+  if (!options.html_file.empty()) CheckWritable(options.html_file);
   const std::string scene = SceneOf(options);
   RunRead run = ReadRun([&file](char* to, std::size_t most) {
     file.read(to, static_cast<std::streamsize>(most));
@@ -75,7 +78,8 @@ int RunPlayback(const PlaybackOptions& options) {
     std::fprintf(stderr, "%s: there is nothing of a fleet in it\n", options.file.c_str());
     return run.result.fault.empty() ? kNothingToShow : kCouldNotRun;
   }
-  std::string page = PageWithRun(run.frames.RunJson(scene));
+  std::string page = PageWithRun(run.frames.RunJson(
+      scene, options.report ? RunFrames::Opens::kReport : RunFrames::Opens::kMap));
   run.frames = {};
   if (options.html_file.empty()) return Serve(options, std::move(page));
   WriteFile(options.html_file, page);

@@ -115,6 +115,10 @@ void CaptureFiles::Attach(const std::string& path) {
   capture_->Attach(path.substr(path.rfind('/') + 1), bytes, newest_ns_);
 }
 
+void CaptureFiles::AttachAtEnd(const std::vector<std::string>& files) {
+  options_.attachments.insert(options_.attachments.end(), files.begin(), files.end());
+}
+
 bool CaptureFiles::Close() {
   if (!Start(SteadyTime{0})) return false;
   if (capture_ == nullptr) return fault_.empty();

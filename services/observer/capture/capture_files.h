@@ -39,6 +39,8 @@ class CaptureFiles {
   bool Start(SteadyTime now);
   bool Write(const link::RawSample& sample, SteadyTime now);
   bool Flush();
+  // These, too; see CaptureOptions.
+  void AttachAtEnd(const std::vector<std::string>& files);
   bool Close();
 
   const std::string& Fault() const { return fault_; }
@@ -58,7 +60,7 @@ class CaptureFiles {
   bool Append(std::string_view bytes);
   bool Fail(const std::string& what);
 
-  const CaptureOptions options_;
+  CaptureOptions options_;
   const FleetCapture::QosOf qos_;
   int file_ = -1;
   std::string part_path_;

@@ -57,8 +57,9 @@ void RunFrames::Thin() {
   for (const std::string& frame : frames_) bytes_ += frame.size();
 }
 
-std::string RunFrames::RunJson(const std::string& scene) const {
-  std::string json = "{\"scene\":" + scene + ",\"events\":[";
+std::string RunFrames::RunJson(const std::string& scene, Opens opens) const {
+  std::string json = opens == Opens::kReport ? "{\"opens\":\"report\"," : "{\"opens\":\"map\",";
+  json += "\"scene\":" + scene + ",\"events\":[";
   AppendAll(events_, &json);
   json += "],\"frames\":[";
   json.reserve(json.size() + bytes_ + 2 * frames_.size() + 2);

@@ -18,12 +18,13 @@ class RunFrames {
   static constexpr std::size_t kMostFrames = 6000;  // ten minutes at ten a second
   static constexpr std::uint64_t kMostBytes = 256ULL << 20U;
   static constexpr std::size_t kMostEvents = 50'000;
+  enum class Opens : std::uint8_t { kMap, kReport };  // what the page shows first
 
   // Takes the events that came since the last call, and a frame if one is due.
   void Note(const FleetView& view, SteadyTime now);
   std::size_t Size() const { return frames_.size(); }
-  // {"scene":…,"events":[[at_ms,{…}],…],"frames":[…]}, for PageWithRun.
-  std::string RunJson(const std::string& scene) const;
+  // {"opens":"map","scene":…,"events":[[at_ms,{…}],…],"frames":[…]}, for PageWithRun.
+  std::string RunJson(const std::string& scene, Opens opens = Opens::kMap) const;
 
  private:
   void NoteEvents(const FleetView& view, SteadyTime now);

@@ -11,7 +11,7 @@ const state = {
   cursor: null,       // ms of the observer's clock; null: the newest
   playing: true, speed: 1, isReplay: false,
   arrivedAt: 0,       // performance.now() of the newest frame
-  connected: false, picked: null, follow: false, filter: "", showTable: false,
+  connected: false, picked: null, follow: false, filter: "", view: "map",
 };
 
 const decoded = new Map();  // of the last few frames that were looked at

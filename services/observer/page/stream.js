@@ -32,7 +32,9 @@ function loadRun(text) {
   document.title = "Giveway " + state.scene.title;
   byId("live").textContent = "Restart";
   byId("live").title = "From the start (L)";
+  byId("show-report").hidden = false;
   setLive();
+  if (run.opens === "report") { setView("report"); state.playing = false; }
 }
 
 function setChip(id, text, kind) {
@@ -92,10 +94,11 @@ function turn(now) {
   advance(now - lastTurn);
   lastTurn = now;
   const frame = shownFrame();
-  if (!state.showTable) drawMap(frame);
+  if (state.view === "map") drawMap(frame);
   if (now - lastWords > 150) {
     lastWords = now;
-    if (state.showTable) showTable(frame);
+    if (state.view === "table") showTable(frame);
+    if (state.view === "report") showReport();
     showPicked(frame);
     showEvents(frame);
     showStatus(frame);
