@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kNotAllRecorded = 1;
 constexpr Nanoseconds kRecordTurn = std::chrono::milliseconds(10);
-constexpr Nanoseconds kFlushPeriod = std::chrono::seconds(1);
 
 std::vector<std::size_t> TopicsOf(const RecordOptions& options) {
   std::vector<std::size_t> topics;

@@ -31,7 +31,7 @@ only the second names is worse without a test: a soak names one that is none onc
 Times must differ by 5 %. Both soaks must have one scenario, one fault file, as many vehicles.
 
 Of an MCAP recording, as fleetctl record and fleetctl run --record-topics write it, the report is a page
-that needs nothing else: figures of each vehicle, all ways on a map, who did what when, plots of the
+that needs nothing else: figures of each vehicle, all paths on a map, who did what when, plots of the
 fleet, and the run itself to look at. Without --page it is written beside the recording, as .html.
 
 Examples

@@ -10,8 +10,6 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr Nanoseconds kFlushPeriod = std::chrono::seconds(1);
-
 std::vector<std::size_t> AllTopics() {
   std::vector<std::size_t> topics(link::RawTopics().size());
   std::iota(topics.begin(), topics.end(), std::size_t{0});

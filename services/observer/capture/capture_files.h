@@ -16,6 +16,10 @@
 
 namespace giveway {
 
+// How often a recorder flushes, so that one that is killed loses a second at most: a turn and the
+// last sample's age come on top.
+inline constexpr Nanoseconds kFlushPeriod = std::chrono::milliseconds(900);
+
 struct CaptureOptions {
   std::string path;                      // OUT.mcap; of parts OUT-0001.mcap and so on
   std::uint64_t split_bytes = 0;         // 0: never

@@ -1,4 +1,4 @@
-// The whole of a run that is over: figures a vehicle, all ways on one map, who did what when, and plots
+// The whole of a run that is over: figures a vehicle, all paths on one map, who did what when, and plots
 // of the fleet. Nothing in it moves; a click on the timeline leads to that moment on the map.
 const PLOT_POINTS = 400;
 const TABLE_ROWS = 400;
@@ -43,15 +43,15 @@ function most(values) {
 }
 
 function figuresOf(id, series, spans) {
-  let way_m = 0;
+  let path_m = 0;
   for (let i = 1; i < series.x.length; ++i) {
     const step = Math.hypot(series.x[i] - series.x[i - 1], series.y[i] - series.y[i - 1]);
-    if (step < 2) way_m += step;  // more is another start, and no way
+    if (step < 2) path_m += step;  // more is another start
   }
   const spent_s = (doing) => (spans ?? []).filter((span) => span.doing === doing)
     .reduce((sum, span) => sum + span.to - span.from, 0) / 1000;
   return {
-    id, way_m, waits_s: spent_s("giveway"), apart_s: spent_s("sensor_only") + spent_s("halt") + spent_s("silent"),
+    id, path_m, waits_s: spent_s("giveway"), apart_s: spent_s("sensor_only") + spent_s("halt") + spent_s("silent"),
     speed: most(series.speed), nearest: -most(series.nearest.map((m) => -m)),
     beacon_age: most(series.beacon_age), reaction: most(series.reaction),
     contacts: state.contacts.filter((event) => event.vehicle === id || event.other === id).length,
@@ -84,7 +84,7 @@ function showFacts(run) {
   for (const event of state.events.values()) kinds.set(event.kind, (kinds.get(event.kind) ?? 0) + 1);
   const facts = {
     "length": `${secondsOf(run.to).toFixed(1)} s`, "vehicles": run.ids.length,
-    "way of all": `${run.vehicles.reduce((sum, v) => sum + v.way_m, 0).toFixed(1)} m`,
+    "distance of all": `${run.vehicles.reduce((sum, v) => sum + v.path_m, 0).toFixed(1)} m`,
     "waits of all": `${run.vehicles.reduce((sum, v) => sum + v.waits_s, 0).toFixed(1)} s`,
     "nearest two": run.least ? `${run.least.gap_m.toFixed(2)} m between ${run.least.a} and ${run.least.b}, at ` +
       `${secondsOf(run.least.at).toFixed(1)} s` : "-",
@@ -99,7 +99,7 @@ function showFacts(run) {
 }
 
 const REPORT_COLUMNS = [
-  ["vehicle", (v) => v.id], ["way, m", (v) => v.way_m.toFixed(1)], ["waits, s", (v) => v.waits_s.toFixed(1)],
+  ["vehicle", (v) => v.id], ["distance, m", (v) => v.path_m.toFixed(1)], ["waits, s", (v) => v.waits_s.toFixed(1)],
   ["not cooperative, s", (v) => v.apart_s.toFixed(1)], ["fastest, m/s", (v) => shown(v.speed, 2)],
   ["nearest echo, m", (v) => shown(v.nearest, 2)], ["oldest beacon, ms", (v) => shown(v.beacon_age, 0)],
   ["slowest reaction, ms", (v) => shown(v.reaction, 0)], ["contacts", (v) => v.contacts],
@@ -120,9 +120,9 @@ function showFigures(run) {
   byId("report-table").replaceChildren(row(REPORT_COLUMNS.map(([title]) => title), "th"), ...rows);
 }
 
-function wayColour(place, count) { return `hsl(${Math.round(place / Math.max(1, count) * 330)} 65% 50%)`; }
+function pathColour(place, count) { return `hsl(${Math.round(place / Math.max(1, count) * 330)} 65% 50%)`; }
 
-function drawWays(run) {
+function drawPaths(run) {
   const canvas = byId("report-map"), g = fitCanvas(canvas);
   const width = canvas.clientWidth, height = canvas.clientHeight;
   const box = extent({ vehicles: new Map() });
@@ -142,7 +142,7 @@ function drawWays(run) {
   g.font = "12px system-ui, sans-serif";
   run.ids.forEach((id, place) => {
     const series = state.series.get(id);
-    g.strokeStyle = g.fillStyle = wayColour(place, run.ids.length);
+    g.strokeStyle = g.fillStyle = pathColour(place, run.ids.length);
     line(g, series.x.map((x, i) => at(x, series.y[i])));
     const [x, y] = at(series.x.at(-1), series.y.at(-1));
     g.beginPath();
@@ -245,7 +245,7 @@ function showReport() {
   setText(document.getElementById("report-title"), `Report: ${state.scene.title}`);
   showFacts(run);
   showFigures(run);
-  drawWays(run);
+  drawPaths(run);
   drawTimeline(run);
   for (const canvas of document.querySelectorAll("#report-plots canvas")) {
     drawFleetPlot(canvas, PLOTS.find((plot) => plot.name === canvas.dataset.plot), run);
