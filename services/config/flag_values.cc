@@ -6,6 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
+
+#include "services/config/config_dir.h"
 
 namespace giveway {
 namespace {
@@ -94,6 +97,27 @@ void FlagValues::Complain(const std::string& flag, std::string message, std::str
 
 void FlagValues::Add(const std::vector<Problem>& problems) {
   problems_.insert(problems_.end(), problems.begin(), problems.end());
+}
+
+std::vector<DiscoveryServer> ReadDiscoveryServers(FlagValues* values) {
+  const auto text = values->Text("--discovery-server");
+  if (!text) return {};
+  ParsedDiscoveryServers parsed = ParseDiscoveryServers(*text);
+  if (!parsed.fault.empty()) {
+    values->Complain("--discovery-server", parsed.fault,
+                     "write HOST or HOST:PORT, several with commas between them");
+  }
+  return std::move(parsed.servers);
+}
+
+std::string ReadQosFlag(FlagValues* values) {
+  if (values->Text("--qos")) return values->TextOr("", "--qos");
+  try {
+    return ConfigDir() + "/qos/default.xml";
+  } catch (const InputError& error) {
+    values->Add(error.Problems());
+    return "";
+  }
 }
 
 }  // namespace giveway

@@ -12,6 +12,7 @@
 
 #include "services/config/problem.h"
 #include "services/config/section.h"
+#include "services/types/discovery_server.h"
 
 namespace giveway {
 
@@ -45,5 +46,12 @@ class FlagValues {
   std::map<std::string, std::string> given_;
   std::vector<Problem> problems_;
 };
+
+// Flags that several programs have.
+//
+// --discovery-server; none where it is not given.
+std::vector<DiscoveryServer> ReadDiscoveryServers(FlagValues* values);
+// --qos, or the shipped set where it is not given.
+std::string ReadQosFlag(FlagValues* values);
 
 }  // namespace giveway

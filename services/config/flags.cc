@@ -1,20 +1,15 @@
 #include "services/config/flags.h"
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
-#include <list>
-#include <memory>
 
 #include "services/config/byte_size.h"
-#include "services/config/config_dir.h"
+#include "services/config/command_line.h"
 #include "services/config/flag_values.h"
-#include "services/config/help/help_format.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/text_file.h"
 #include "services/runtime/restart.h"
-#include "services/types/nearest_name.h"
 
 namespace giveway {
 namespace {
@@ -29,136 +24,63 @@ empty variable counts as unset. GIVEWAY_CONFIG_DIR names the folder with qos/ an
 Exit code 2: a flag, a file or the network was not usable; stderr says which.
 )";
 
-// CLI11 splits the command line and prints the help. The values stay text: judging them is ours, so
-// that a flag and its twin are refused with the same words.
-class CommandLine {
- public:
-  CommandLine(Service service, const std::string& name, const std::string& description,
-              std::string_view library)
-      : app_(description, name) {
-    app_.set_version_flag("--version", name + " " + GIVEWAY_VERSION + ", " + std::string(library));
-    app_.formatter(std::make_shared<HelpFormat>());
-    app_.footer(kFooter);
-    Add("--scenario", "FILE|NAME", "scenario file, or the name of a shipped one (required)");
-    Add("--domain", "1..99", "DDS domain (required)");
-    Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
-    Add("--discovery-server", "HOST[:PORT],...",
-        "find everyone through these servers, and not by what --qos says; "
-        "the first has the id 0, the next 1 (port 11811)");
-    Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
-    if (service == Service::kVehicle) {
-      Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
-      Add("--record", "FILE",
-          "record all inputs and outputs of the brain, for fleetctl replay; where FILE is "
-          "there already, into the first free of FILE with a number");
-      Add("--record-split", "SIZE", "start another file of the recording at this size: 64MiB");
-      Add("--record-ring", "SECONDS",
-          "keep only the last so many seconds of the recording, in two files: 60");
-      Add("--impair", "RULES",
-          "impairs what it receives instead of the scenario: loss=0.1,delay=20ms, or "
-          "none, or @FILE; link/impairment/README.md lists the keys");
-      AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
-      AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
-      AddSwitch("--hang-on-signal",
-                "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
-      AddSwitch("--no-watchdog", "a drill: a control loop that hangs does not end the process");
-    } else {
-      Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
-      Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
-      Add("--faults", "FILE",
-          "carries out the world's faults of this list: ultrasonics, motors and "
-          "encoders; fleetctl faults expand writes one");
-    }
-    Add("--try-qos", "FILE",
-        "make every endpoint of this set once, say whether that succeeds, and end");
-    Add("--resume", "FILE",
-        "this and the next are given by a service to itself when an order "
-        "restarts it");
-    Add("--former-qos", "FILE", "the set it had before");
-    Add("--rolled-back", "TEXT", "why it came back with that");
-    if (service == Service::kWorld) Add("--go-on-from", "FILE", "the run as it was");
-    Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
-    Add("--behaviour", "NAME",
-        "cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
-        "lecture_printed, which shows the flaws of the printed scripts: it collides");
-    Add("--duration", "SECONDS", "end after this time instead of the scenario's");
-    Add("--admin-key", "FILE",
-        "takes orders (fleetctl qos apply) sealed with the key in this file:\n"
-        "openssl rand -hex 32 > FILE makes one. Without it no order is taken");
-    AddSwitch("--admin", "takes orders without a key, of anybody who reaches it");
-    AddSwitch("--lockstep", "the world waits for every command of a tick");
-    Add("--health-port", "0..65535", "serves /livez, /readyz, /metrics; 0, the default: nowhere");
-    Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
-    AddOptional("--health", "live|ready|metrics",
-                "asks the service at --health-port, prints the answer, and ends: "
-                "0 yes, 1 no, 2 no answer (ready if no value follows)");
-    Add("--log-format", "text|json", "of the lines on stderr (default text)");
-    Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
+void AddFlags(Service service, CommandLine* line) {
+  line->Add("--scenario", "FILE|NAME", "scenario file, or the name of a shipped one (required)");
+  line->Add("--domain", "1..99", "DDS domain (required)");
+  line->Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
+  line->Add("--discovery-server", "HOST[:PORT],...",
+            "find everyone through these servers, and not by what --qos says; "
+            "the first has the id 0, the next 1 (port 11811)");
+  line->Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
+  if (service == Service::kVehicle) {
+    line->Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
+    line->Add("--record", "FILE",
+              "record all inputs and outputs of the brain, for fleetctl replay; where FILE is "
+              "there already, into the first free of FILE with a number");
+    line->Add("--record-split", "SIZE", "start another file of the recording at this size: 64MiB");
+    line->Add("--record-ring", "SECONDS",
+              "keep only the last so many seconds of the recording, in two files: 60");
+    line->Add("--impair", "RULES",
+              "impairs what it receives instead of the scenario: loss=0.1,delay=20ms, or "
+              "none, or @FILE; link/impairment/README.md lists the keys");
+    line->AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
+    line->AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
+    line->AddSwitch("--hang-on-signal",
+                    "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
+    line->AddSwitch("--no-watchdog", "a drill: a control loop that hangs does not end the process");
+  } else {
+    line->Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
+    line->Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
+    line->Add("--faults", "FILE",
+              "carries out the world's faults of this list: ultrasonics, motors and "
+              "encoders; fleetctl faults expand writes one");
   }
-
-  // The flags given and their values. Throws CLI::ParseError.
-  std::map<std::string, std::string> Parse(int argc, const char* const* argv) {
-    app_.parse(argc, argv);
-    std::map<std::string, std::string> given;
-    for (const auto& [option, value] : options_) {
-      if (option->count() > 0) given.emplace(option->get_name(), value);
-    }
-    for (const CLI::Option* given_switch : switches_) {
-      if (given_switch->count() > 0) given.emplace(given_switch->get_name(), "1");
-    }
-    return given;
-  }
-
-  // Prints help or version and gives 0, or what is wrong and gives 2.
-  int Exit(const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app_.exit(error);
-    std::fprintf(stderr, "command line: %s%s; see %s --help\n", error.what(), Meant().c_str(),
-                 app_.get_name().c_str());
-    return kUsageError;
-  }
-
- private:
-  // "; did you mean --domain", of the first unknown flag.
-  std::string Meant() const {
-    std::vector<std::string> flags;
-    for (const CLI::Option* option : app_.get_options({})) {
-      for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
-    }
-    for (const std::string& word : app_.remaining()) {
-      if (word.starts_with("-")) return DidYouMean(word.substr(0, word.find('=')), flags);
-    }
-    return "";
-  }
-
-  void Add(const std::string& flag, const std::string& value_name, const std::string& help) {
-    auto& [option, value] = options_.emplace_back();
-    option = app_.add_option(flag, value, help)->type_name(value_name);
-  }
-
-  // Its value may be left out.
-  void AddOptional(const std::string& flag, const std::string& value_name,
-                   const std::string& help) {
-    Add(flag, value_name, help);
-    options_.back().first->expected(0, 1);
-  }
-
-  void AddSwitch(const std::string& flag, const std::string& help) {
-    switches_.push_back(app_.add_flag(flag));
-    switches_.back()->description(help);
-  }
-
-  CLI::App app_;
-  std::list<std::pair<CLI::Option*, std::string>> options_;  // a list: CLI11 keeps references
-  std::vector<CLI::Option*> switches_;
-};
-
-std::string DefaultQos(FlagValues* values) {
-  try {
-    return ConfigDir() + "/qos/default.xml";
-  } catch (const InputError& error) {
-    values->Add(error.Problems());
-    return "";
-  }
+  line->Add("--try-qos", "FILE",
+            "make every endpoint of this set once, say whether that succeeds, and end");
+  line->Add("--resume", "FILE",
+            "this and the next are given by a service to itself when an order "
+            "restarts it");
+  line->Add("--former-qos", "FILE", "the set it had before");
+  line->Add("--rolled-back", "TEXT", "why it came back with that");
+  if (service == Service::kWorld) line->Add("--go-on-from", "FILE", "the run as it was");
+  line->Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
+  line->Add("--behaviour", "NAME",
+            "cooperative, lecture_avoid, stock_avoid, lecture_yield, or "
+            "lecture_printed, which shows the flaws of the printed scripts: it collides");
+  line->Add("--duration", "SECONDS", "end after this time instead of the scenario's");
+  line->Add("--admin-key", "FILE",
+            "takes orders (fleetctl qos apply) sealed with the key in this file:\n"
+            "openssl rand -hex 32 > FILE makes one. Without it no order is taken");
+  line->AddSwitch("--admin", "takes orders without a key, of anybody who reaches it");
+  line->AddSwitch("--lockstep", "the world waits for every command of a tick");
+  line->Add("--health-port", "0..65535",
+            "serves /livez, /readyz, /metrics; 0, the default: nowhere");
+  line->Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
+  line->AddOptional("--health", "live|ready|metrics",
+                    "asks the service at --health-port, prints the answer, and ends: "
+                    "0 yes, 1 no, 2 no answer (ready if no value follows)");
+  line->Add("--log-format", "text|json", "of the lines on stderr (default text)");
+  line->Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
 }
 
 std::optional<Impairment> ReadImpairment(FlagValues* values) {
@@ -224,16 +146,6 @@ void ReadHealth(FlagValues* values, ServiceFlags* flags) {
   }
 }
 
-void ReadDiscoveryServers(FlagValues* values, ServiceFlags* flags) {
-  const auto text = values->Text("--discovery-server");
-  if (!text) return;
-  ParsedDiscoveryServers parsed = ParseDiscoveryServers(*text);
-  flags->discovery_servers = std::move(parsed.servers);
-  if (parsed.fault.empty()) return;
-  values->Complain("--discovery-server", parsed.fault,
-                   "write HOST or HOST:PORT, several with commas between them");
-}
-
 ServiceFlags Read(Service service, FlagValues* values) {
   constexpr double kMaxWhole = 4294967295.0;
   ServiceFlags flags;
@@ -245,8 +157,8 @@ ServiceFlags Read(Service service, FlagValues* values) {
   }
   flags.domain = values->Whole("--domain", {1, 99}).value_or(0);
   flags.interface = values->TextOr(flags.interface, "--interface");
-  ReadDiscoveryServers(values, &flags);
-  flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
+  flags.discovery_servers = ReadDiscoveryServers(values);
+  flags.qos = ReadQosFlag(values);
   if (service == Service::kVehicle) {
     flags.id = values->Whole("--id", {1, kMaxWhole}).value_or(0);
     ReadRecord(values, &flags);
@@ -284,7 +196,9 @@ ServiceFlags Read(Service service, FlagValues* values) {
 
 ParsedFlags ParseFlags(Service service, const std::string& name, const std::string& description,
                        std::string_view library, int argc, const char* const* argv) {
-  CommandLine line(service, name, description, library);
+  CommandLine line(name, description, name + " " + GIVEWAY_VERSION + ", " + std::string(library),
+                   kFooter);
+  AddFlags(service, &line);
   try {
     FlagValues values(line.Parse(argc, argv));
     ServiceFlags flags = Read(service, &values);

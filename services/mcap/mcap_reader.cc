@@ -13,6 +13,8 @@ namespace {
 
 // What a record or a chunk may take in memory: a writer's chunk is a megabyte or a few.
 constexpr std::uint64_t kMostBytes = 256ULL << 20U;
+// What schemas and channels may take, which are kept: a recording of ours has some hundred kB.
+constexpr std::uint64_t kMostKept = 32ULL << 20U;
 // Bytes of LZ4 give at most this many times as many.
 constexpr std::uint64_t kMostExpansion = 256;
 
@@ -29,6 +31,24 @@ bool Fill(const McapReader::Source& source, std::uint64_t size, std::string* to)
     if (got < most) return false;
   }
   return true;
+}
+
+bool Skip(const McapReader::Source& source, std::uint64_t size) {
+  constexpr std::uint64_t kStep = 1ULL << 16U;
+  std::string step(std::min(kStep, size), '\0');
+  while (size > 0) {
+    const std::size_t most = std::min<std::uint64_t>(step.size(), size);
+    if (source(step.data(), most) < most) return false;
+    size -= most;
+  }
+  return true;
+}
+
+// Of the others, such as attachments, which may be large, nothing is looked at.
+bool IsRead(std::uint8_t opcode) {
+  const auto kind = static_cast<Opcode>(opcode);
+  return kind == Opcode::kSchema || kind == Opcode::kChannel || kind == Opcode::kMessage ||
+         kind == Opcode::kChunk;
 }
 
 }  // namespace
@@ -66,6 +86,11 @@ void McapReader::Run() {
     FieldReader prefix(bytes);
     const auto opcode = prefix.Get<std::uint8_t>();
     const auto length = prefix.Get<std::uint64_t>();
+    if (!IsRead(opcode)) {
+      if (Take(opcode, {}, false) != Next::kGoOn) return;
+      if (!Skip(source_, length)) break;
+      continue;
+    }
     if (length > kMostBytes) {
       Fault(fmt::format("a record claims {} bytes; at most {} are read", length, kMostBytes));
       return;
@@ -94,6 +119,12 @@ McapReader::Next McapReader::Take(std::uint8_t opcode, std::string_view content,
   }
 }
 
+McapReader::Next McapReader::Keep(std::uint64_t size) {
+  kept_ += size;  // at most kMostBytes more than its limit
+  if (kept_ <= kMostKept) return Next::kGoOn;
+  return Fault(fmt::format("schemas and channels take more than {} bytes", kMostKept));
+}
+
 McapReader::Next McapReader::TakeSchema(std::string_view content) {
   FieldReader fields(content);
   Schema schema;
@@ -102,8 +133,8 @@ McapReader::Next McapReader::TakeSchema(std::string_view content) {
   schema.encoding = fields.GetText();
   schema.data = fields.GetText();
   if (!fields.Ok()) return Fault("a schema's record ends early");
-  schemas_.try_emplace(schema.id, std::move(schema));
-  return Next::kGoOn;
+  if (!schemas_.try_emplace(schema.id, std::move(schema)).second) return Next::kGoOn;
+  return Keep(content.size());
 }
 
 McapReader::Next McapReader::TakeChannel(std::string_view content) {
@@ -123,8 +154,8 @@ McapReader::Next McapReader::TakeChannel(std::string_view content) {
     return Fault(fmt::format("channel {} names schema {}, which the file has not", channel.topic,
                              channel.schema));
   }
-  channels_.try_emplace(channel.id, std::move(channel));
-  return Next::kGoOn;
+  if (!channels_.try_emplace(channel.id, std::move(channel)).second) return Next::kGoOn;
+  return Keep(content.size());
 }
 
 McapReader::Next McapReader::TakeMessage(std::string_view content) {

@@ -43,12 +43,14 @@ class McapReader {
   Next TakeMessage(std::string_view content);
   Next TakeChunk(std::string_view content);
   Next TakeRecords(std::string_view records);
+  Next Keep(std::uint64_t size);
   Next Fault(std::string why);
 
   const Source& source_;
   const Visit& visit_;
   std::map<std::uint16_t, Schema> schemas_;
   std::map<std::uint16_t, Channel> channels_;
+  std::uint64_t kept_ = 0;  // bytes of both
   ReadResult result_;
 };
 

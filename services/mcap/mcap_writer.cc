@@ -46,6 +46,20 @@ void McapWriter::Span::Add(std::uint64_t from, std::uint64_t to) {
   any = true;
 }
 
+std::string McapWriter::ChunkIndex::Content() const {
+  FieldWriter content;
+  content.Put(span.from_ns);
+  content.Put(span.to_ns);
+  content.Put(start);
+  content.Put(length);
+  PutCounts(message_indexes, &content);
+  content.Put(message_indexes_length);
+  content.PutText(compression);
+  content.Put(compressed);
+  content.Put(uncompressed);
+  return content.Bytes();
+}
+
 McapWriter::McapWriter(Sink sink, const std::string& library) : sink_(std::move(sink)) {
   FieldWriter header;
   header.PutText("");  // no profile
@@ -161,7 +175,7 @@ bool McapWriter::EndChunk() {
   index.length = size_ - index.start;
   if (!WriteMessageIndexes(&index)) return false;
   if (chunk_span_.any) span_.Add(chunk_span_.from_ns, chunk_span_.to_ns);
-  chunks_.push_back(std::move(index));
+  chunk_indexes_.push_back(index.Content());
   chunk_.Clear();
   chunk_span_ = {};
   chunk_entries_.clear();
@@ -192,7 +206,7 @@ std::string McapWriter::StatisticsContent() const {
   content.Put(static_cast<std::uint32_t>(channels_.size()));
   content.Put(static_cast<std::uint32_t>(attachments_.size()));
   content.Put(std::uint32_t{0});  // metadata records
-  content.Put(static_cast<std::uint32_t>(chunks_.size()));
+  content.Put(static_cast<std::uint32_t>(chunk_indexes_.size()));
   content.Put(span_.from_ns);
   content.Put(span_.to_ns);
   PutCounts(counts_, &content);
@@ -202,20 +216,6 @@ std::string McapWriter::StatisticsContent() const {
 // The records of the summary, which stands at `start`, in groups of one opcode each; and where the
 // groups are.
 std::string McapWriter::Summary(std::uint64_t start, std::string* offsets) {
-  std::vector<std::string> chunk_indexes;
-  for (const ChunkIndex& chunk : chunks_) {
-    FieldWriter content;
-    content.Put(chunk.span.from_ns);
-    content.Put(chunk.span.to_ns);
-    content.Put(chunk.start);
-    content.Put(chunk.length);
-    PutCounts(chunk.message_indexes, &content);
-    content.Put(chunk.message_indexes_length);
-    content.PutText(chunk.compression);
-    content.Put(chunk.compressed);
-    content.Put(chunk.uncompressed);
-    chunk_indexes.push_back(content.Bytes());
-  }
   FieldWriter summary;
   FieldWriter offset_records;
   const auto add_group = [&](Opcode opcode, const std::vector<std::string>& contents) {
@@ -231,7 +231,7 @@ std::string McapWriter::Summary(std::uint64_t start, std::string* offsets) {
   add_group(Opcode::kSchema, schemas_);
   add_group(Opcode::kChannel, channels_);
   add_group(Opcode::kStatistics, {StatisticsContent()});
-  add_group(Opcode::kChunkIndex, chunk_indexes);
+  add_group(Opcode::kChunkIndex, chunk_indexes_);
   add_group(Opcode::kAttachmentIndex, attachments_);
   *offsets = offset_records.Bytes();
   return summary.Bytes();

@@ -42,6 +42,7 @@ class McapWriter {
 
   std::uint64_t Size() const { return size_; }  // bytes the sink has taken
   std::uint64_t Messages() const { return messages_; }
+  std::size_t Chunks() const { return chunk_indexes_.size(); }  // each has an entry in memory
   // Bytes that wait for the chunk to end.
   std::uint64_t Pending() const { return chunk_.Bytes().size(); }
 
@@ -58,9 +59,10 @@ class McapWriter {
     std::uint64_t length = 0;
     std::map<std::uint16_t, std::uint64_t> message_indexes;
     std::uint64_t message_indexes_length = 0;
-    std::string compression;
+    std::string_view compression;
     std::uint64_t compressed = 0;
     std::uint64_t uncompressed = 0;
+    std::string Content() const;
   };
   using Entries = std::vector<std::pair<std::uint64_t, std::uint64_t>>;  // log time, offset
 
@@ -82,7 +84,7 @@ class McapWriter {
   std::vector<std::string> schemas_;   // contents of the records
   std::vector<std::string> channels_;  // of these, too
   std::vector<std::string> attachments_;
-  std::vector<ChunkIndex> chunks_;
+  std::vector<std::string> chunk_indexes_;
   std::map<std::uint16_t, std::uint64_t> counts_;  // messages by channel
   std::uint64_t messages_ = 0;
   Span span_;

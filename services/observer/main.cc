@@ -1,21 +1,27 @@
 // giveway-observer: shows a fleet that was started elsewhere. This file only wires: flags in, an
 // exit code out.
 #include <exception>
-#include <set>
 
-#include "services/fleetctl/survey/why_proc.h"
+#include "services/fleetctl/survey/local_fleets.h"
 #include "services/health/health_server.h"
 #include "services/link/fastdds/library_log.h"
 #include "services/link/fastdds/library_release.h"
 #include "services/observer/observer_service.h"
 
+namespace {
+
+giveway::OnlyFleet FindOnlyFleetHere() {
+  using namespace giveway::fleetctl;
+  const ChosenFleet chosen = ChooseFleet(LocalFleets(), OwnNetworkNamespace().value_or(0));
+  if (!chosen.fleet) return {0, "", chosen.why};
+  return {chosen.fleet->domain, chosen.fleet->interface, ""};
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace giveway;
-  std::set<std::uint32_t> running;
-  for (const fleetctl::FleetMember& member : fleetctl::FindFleet("/proc")) {
-    running.insert(member.domain);
-  }
-  const auto parsed = ParseObserverFlags(argc, argv, link::LibraryName(), running);
+  const auto parsed = ParseObserverFlags(argc, argv, link::LibraryName(), FindOnlyFleetHere);
   if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
   const auto& flags = std::get<ObserverFlags>(parsed);
   if (!flags.ask_health.empty()) {

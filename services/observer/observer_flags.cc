@@ -1,13 +1,9 @@
 #include "services/observer/observer_flags.h"
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <list>
-#include <map>
 #include <sstream>
-#include <utility>
 
-#include "services/config/config_dir.h"
+#include "services/config/command_line.h"
 #include "services/config/flag_values.h"
 #include "services/config/problem.h"
 
@@ -16,13 +12,17 @@ namespace {
 
 constexpr int kUsageError = 2;
 
-constexpr const char* kFooter =
-    "Reads only: nothing in the fleet waits for it. Page: http://ADDRESS:PORT/\n"
-    "Every flag has a twin in the environment: --port is also GIVEWAY_PORT. The flag wins; an "
-    "empty\n"
-    "variable counts as unset.\n\nExample\n  giveway-observer --domain 7 --scenario "
-    "intersection_yield\n\n"
-    "Exit code 2: a flag, a file, the port or the network was not usable; stderr says which.";
+constexpr const char* kFooter = R"(
+Reads only: nothing in the fleet waits for it. The page is http://ADDRESS:PORT/. Every flag has a twin
+in the environment: --port is also GIVEWAY_PORT. The flag wins; an empty variable counts as unset.
+
+Examples
+  giveway-observer                                # of the only fleet here
+  giveway-observer --domain 7 --scenario patrol   # with its walls
+  giveway-observer --address 0.0.0.0 --host-name fleet.example
+
+Exit code 2: a flag, a file, the port or the network was not usable; stderr says which.
+)";
 
 struct FlagHelp {
   const char* name;
@@ -55,35 +55,23 @@ std::vector<std::string> Split(const std::string& list) {
   return parts;
 }
 
-void ReadServers(FlagValues* values, ObserverFlags* flags) {
-  const auto text = values->Text("--discovery-server");
-  if (!text) return;
-  ParsedDiscoveryServers parsed = ParseDiscoveryServers(*text);
-  flags->discovery_servers = std::move(parsed.servers);
-  if (parsed.fault.empty()) return;
-  values->Complain("--discovery-server", parsed.fault,
-                   "write HOST or HOST:PORT, several with commas between them");
-}
-
-std::string DefaultQos(FlagValues* values) {
-  try {
-    return ConfigDir() + "/qos/default.xml";
-  } catch (const InputError& error) {
-    values->Add(error.Problems());
-    return "";
+void ReadFleet(FlagValues* values, const FindOnlyFleet& find, ObserverFlags* flags) {
+  const auto interface = values->Text("--interface");
+  if (interface) flags->interface = values->TextOr(flags->interface, "--interface");
+  if (values->Text("--domain")) {
+    flags->domain = values->Whole("--domain", {1, 99}).value_or(0);
+    return;
   }
+  const OnlyFleet fleet = find();
+  if (fleet.domain == 0) {
+    values->Complain("--domain", "is missing, and " + fleet.why, "fleetctl ls lists the fleets");
+    return;
+  }
+  flags->domain = fleet.domain;
+  if (!interface) flags->interface = fleet.interface;
 }
 
-std::uint32_t ReadDomain(FlagValues* values, const std::set<std::uint32_t>& running) {
-  if (values->Text("--domain")) return values->Whole("--domain", {1, 99}).value_or(0);
-  if (running.size() == 1) return *running.begin();
-  std::string found = running.empty() ? "no fleet was found on this machine" : "fleets run in";
-  for (const std::uint32_t domain : running) found += " " + std::to_string(domain);
-  values->Complain("--domain", "is missing, and " + found, "write --domain with a number 1..99");
-  return 0;
-}
-
-ObserverFlags Read(FlagValues* values, const std::set<std::uint32_t>& running) {
+ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   ObserverFlags flags;
   flags.address = values->TextOr(flags.address, "--address");
   flags.port = values->Whole("--port", {1, 65535}).value_or(flags.port);
@@ -92,10 +80,9 @@ ObserverFlags Read(FlagValues* values, const std::set<std::uint32_t>& running) {
         what->empty() ? "ready" : values->OneOf("--health", {"live", "ready"}).value_or("ready");
     return flags;  // what a service needs, a question does not
   }
-  flags.domain = ReadDomain(values, running);
-  flags.interface = values->TextOr(flags.interface, "--interface");
-  ReadServers(values, &flags);
-  flags.qos = values->Text("--qos") ? values->TextOr("", "--qos") : DefaultQos(values);
+  ReadFleet(values, find, &flags);
+  flags.discovery_servers = ReadDiscoveryServers(values);
+  flags.qos = ReadQosFlag(values);
   flags.scenario = values->Text("--scenario").value_or("");
   flags.area = values->Text("--area").value_or("");
   flags.host_names = Split(values->Text("--host-name").value_or(""));
@@ -109,37 +96,22 @@ ObserverFlags Read(FlagValues* values, const std::set<std::uint32_t>& running) {
 
 std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const* argv,
                                                     std::string_view library,
-                                                    const std::set<std::uint32_t>& running) {
-  CLI::App app("Shows a fleet live: a page, metrics, JSON.", "giveway-observer");
-  app.set_version_flag("--version",
-                       "giveway-observer " GIVEWAY_VERSION ", " + std::string(library));
-  app.footer(kFooter);
-  std::list<std::pair<CLI::Option*, std::string>> options;  // a list: CLI11 keeps references
-  for (const FlagHelp& flag : kFlags) {
-    auto& [option, value] = options.emplace_back();
-    option = app.add_option(flag.name, value, flag.help)->type_name(flag.value);
-  }
-  auto& [health, what] = options.emplace_back();
-  health =
-      app.add_option("--health", what,
-                     "asks the observer at --address and --port, prints the answer, and ends:\n"
-                     "0 yes, 1 no, 2 no answer");
-  health->type_name("live|ready")->expected(0, 1);
+                                                    const FindOnlyFleet& find) {
+  CommandLine line("giveway-observer", "Shows a fleet live: a page, metrics, JSON.",
+                   "giveway-observer " GIVEWAY_VERSION ", " + std::string(library), kFooter);
+  for (const FlagHelp& flag : kFlags) line.Add(flag.name, flag.value, flag.help);
+  line.AddOptional("--health", "live|ready",
+                   "asks the observer at --address and --port, prints the answer, and ends: "
+                   "0 yes, 1 no, 2 no answer (ready if no value follows)");
   try {
-    app.parse(argc, argv);
-    std::map<std::string, std::string> given;
-    for (const auto& [option, value] : options) {
-      if (option->count() > 0) given.emplace(option->get_name(), value);
-    }
-    FlagValues values(std::move(given));
-    ObserverFlags flags = Read(&values, running);
+    FlagValues values(line.Parse(argc, argv));
+    ObserverFlags flags = Read(&values, find);
     if (values.Problems().empty()) return flags;
     std::fprintf(stderr, "%s\n", Format(values.Problems()).c_str());
+    return kUsageError;
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "command line: %s; see giveway-observer --help\n", error.what());
+    return line.Exit(error);
   }
-  return kUsageError;
 }
 
 }  // namespace giveway

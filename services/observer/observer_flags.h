@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -28,11 +28,18 @@ struct ObserverFlags {
   std::string log_level = "info";
 };
 
+// The fleet to show where --domain is not given: the only one of this machine.
+struct OnlyFleet {
+  std::uint32_t domain = 0;  // 0: there is none, or there are several; `why` says so
+  std::string interface;
+  std::string why;
+};
+using FindOnlyFleet = std::function<OnlyFleet()>;
+
 // The flags, or the exit code to end with at once: 0 after --help or --version, 2 after stderr
-// names what is wrong. Without --domain it is the only one of `running`, the domains of this
-// machine's fleets.
+// names what is wrong. `find` is asked only where --domain is missing.
 std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const* argv,
                                                     std::string_view library,
-                                                    const std::set<std::uint32_t>& running);
+                                                    const FindOnlyFleet& find);
 
 }  // namespace giveway

@@ -28,21 +28,16 @@ std::optional<Scenario> ScenarioOf(const ObserverFlags& flags) {
   return LoadScenario(flags.scenario, {});
 }
 
-std::string AreaOf(const ObserverFlags& flags) {
-  if (!flags.area.empty()) return flags.area;
-  const auto scenario = ScenarioOf(flags);
-  return scenario ? scenario->area : "main";
-}
-
-link::LinkOptions LinkOptionsOf(const ObserverFlags& flags) {
+link::LinkOptions LinkOptionsOf(const ObserverFlags& flags,
+                                const std::optional<Scenario>& scenario) {
   Scenario unknown;
   unknown.tick_period = Nanoseconds{0};  // then no rule speaks of it
-  const Scenario scenario = ScenarioOf(flags).value_or(unknown);
   link::LinkOptions options;
   options.domain = flags.domain;
   options.interface = flags.interface;
-  options.qos = ReadSoundQos(flags.qos, scenario);
-  options.area = AreaOf(flags);
+  options.qos = ReadSoundQos(flags.qos, scenario.value_or(unknown));
+  options.area = flags.area;
+  if (options.area.empty()) options.area = scenario ? scenario->area : "main";
   options.fleet_size = kFleetSize;
   options.discovery_servers = flags.discovery_servers;
   return options;
@@ -55,17 +50,28 @@ PageAnswer Text(std::string body, int status = 200) {
 }  // namespace
 
 ObserverService::ObserverService(const ObserverFlags& flags)
-    : link_(LinkOptionsOf(flags), link::ObserverLink::Ranges::kYes) {
-  PageSources sources;
-  sources.page = PageText();
-  sources.scene = SceneJson({"domain " + std::to_string(flags.domain), ScenarioOf(flags)});
-  sources.frames = &board_;
-  sources.host_names = flags.host_names;
-  sources.get = [this](const std::string& path) { return Get(path); };
-  turned_ns_ = SteadyNow().count();
-  server_.emplace(flags.address, static_cast<std::uint16_t>(flags.port), std::move(sources));
+    : ObserverService(flags, ScenarioOf(flags)) {}
+
+ObserverService::ObserverService(const ObserverFlags& flags,
+                                 const std::optional<Scenario>& scenario)
+    : turned_ns_(SteadyNow().count()),
+      link_(LinkOptionsOf(flags, scenario), link::ObserverLink::Ranges::kYes),
+      server_(flags.address, static_cast<std::uint16_t>(flags.port), Sources(flags, scenario)) {
   LogInfo("serves http://" + flags.address + ":" + std::to_string(flags.port) + "/ of domain " +
           std::to_string(flags.domain));
+}
+
+PageSources ObserverService::Sources(const ObserverFlags& flags,
+                                     const std::optional<Scenario>& scenario) {
+  PageSources sources;
+  sources.page = PageText();
+  sources.scene = SceneJson({"domain " + std::to_string(flags.domain), scenario});
+  sources.frames = &board_;
+  sources.host_names = flags.host_names;
+  sources.get = [this](const std::string& path, const ServerFigures& server) {
+    return Get(path, server);
+  };
+  return sources;
 }
 
 ObserverService::~ObserverService() { board_.Close(); }
@@ -77,7 +83,20 @@ PageAnswer ObserverService::Ready() {
   return Text("not ready: no vehicle and no world was heard yet\n", kUnavailable);
 }
 
-std::optional<PageAnswer> ObserverService::Get(const std::string& path) {
+PageAnswer ObserverService::Metrics(const ServerFigures& server) {
+  const ProcessFigures process = ReadProcessFigures();
+  const std::lock_guard lock(mutex_);
+  const ObserverHealth health{.frames = frames_,
+                              .streams = server.streams,
+                              .refused_requests = server.refused,
+                              .refused_samples = refused_samples_,
+                              .cpu_s = process.cpu_s,
+                              .resident_bytes = process.resident_bytes};
+  return {FleetMetrics(view_, health, SteadyNow()), "text/plain; version=0.0.4; charset=utf-8"};
+}
+
+std::optional<PageAnswer> ObserverService::Get(const std::string& path,
+                                               const ServerFigures& server) {
   constexpr int kUnavailable = 503;
   const SteadyTime now = SteadyNow();
   if (path == "/livez") {
@@ -85,18 +104,7 @@ std::optional<PageAnswer> ObserverService::Get(const std::string& path) {
     return hangs ? Text("not live: the loop stands still\n", kUnavailable) : Text("live\n");
   }
   if (path == "/readyz") return Ready();
-  if (path == "/metrics") {
-    const ProcessFigures process = ReadProcessFigures();
-    ObserverHealth health{.frames = frames_,
-                          .streams = server_ ? server_->Streams() : 0,
-                          .refused_requests = server_ ? server_->Refused() : 0,
-                          .refused_samples = 0,
-                          .cpu_s = process.cpu_s,
-                          .resident_bytes = process.resident_bytes};
-    const std::lock_guard lock(mutex_);
-    health.refused_samples = refused_samples_;
-    return PageAnswer{FleetMetrics(view_, health, now), "text/plain; version=0.0.4; charset=utf-8"};
-  }
+  if (path == "/metrics") return Metrics(server);
   const std::lock_guard lock(mutex_);
   if (path == "/api/v1/fleet") return PageAnswer{FleetJson(view_, now) + "\n"};
   if (path == "/api/v1/events") return PageAnswer{EventsJson(view_) + "\n"};
@@ -120,18 +128,27 @@ void ObserverService::Turn() {
   turned_ns_ = now.count();
 }
 
+void ObserverService::Publish(SteadyTime now) {
+  std::string frame;
+  {
+    const std::lock_guard lock(mutex_);
+    frame = FrameJson(view_, now);
+  }
+  board_.Publish(std::move(frame));
+  ++frames_;
+}
+
 void ObserverService::Run(const StopSignal& stop) {
   SteadyTime next_frame = SteadyNow();
   while (!stop.IsSet()) {
     SleepUntil(SteadyNow() + kTurn);
     Turn();
     const SteadyTime now = SteadyNow();
-    if (now < next_frame) continue;
-    const std::lock_guard lock(mutex_);
+    if (now < next_frame || server_.Figures().streams == 0) continue;  // else: as soon as one comes
+    Publish(now);
+    // Only this thread changes the view.
     const bool large = view_.Heard().Vehicles().size() > kLargeFleet;
     next_frame = now + (large ? kFrameOfLargeFleet : kFrame);
-    board_.Publish(FrameJson(view_, now));
-    ++frames_;
   }
 }
 

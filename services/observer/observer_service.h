@@ -15,6 +15,7 @@
 #include "services/observer/server/page_server.h"
 #include "services/runtime/process.h"
 #include "services/runtime/refusal_log.h"
+#include "services/types/scenario.h"
 
 namespace giveway {
 
@@ -27,19 +28,23 @@ class ObserverService {
   void Run(const StopSignal& stop);
 
  private:
-  std::optional<PageAnswer> Get(const std::string& path);
+  ObserverService(const ObserverFlags& flags, const std::optional<Scenario>& scenario);
+  PageSources Sources(const ObserverFlags& flags, const std::optional<Scenario>& scenario);
+  std::optional<PageAnswer> Get(const std::string& path, const ServerFigures& server);
+  PageAnswer Metrics(const ServerFigures& server);
   PageAnswer Ready();
   void Turn();
+  void Publish(SteadyTime now);
 
   std::mutex mutex_;
   FleetView view_;                     // guarded by mutex_
   std::uint64_t refused_samples_ = 0;  // guarded by mutex_
   RefusalLog refusal_log_;             // of the loop
   std::atomic<std::uint64_t> frames_{0};
-  std::atomic<std::int64_t> turned_ns_{0};
+  std::atomic<std::int64_t> turned_ns_;
   FrameBoard board_;
   link::ObserverLink link_;
-  std::optional<PageServer> server_;  // last: gone before what it reads
+  PageServer server_;  // last: its threads read all of the above, from its constructor on
 };
 
 }  // namespace giveway

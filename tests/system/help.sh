@@ -30,7 +30,7 @@ for page in "${pages[@]}"; do
     [[ $wide -le $columns ]] || fail "$page --help: $wide columns on a terminal of $columns"
   done
 done
-for service in giveway-vehicle giveway-world; do
+for service in giveway-observer giveway-vehicle giveway-world; do
   "$programs/$service" --help >help || fail "$service --help: exit code $?"
   [[ $(wc -L <help) -le 80 ]] || fail "$service --help: $(wc -L <help) columns"
 done
@@ -53,6 +53,7 @@ meant "did you mean 'radio_storm'?" "$FLEETCTL" faults expand radiostorm --durat
 meant "did you mean 'lossy_radio'?" "$FLEETCTL" run intersection_yield --qos lossy-radio
 meant "did you mean 'lossy_radio'?" "$FLEETCTL" qos show --qos lossy-radio
 meant "did you mean '--domain'?" "$programs/giveway-vehicle" --domian 3
+meant "did you mean '--domain'?" "$programs/giveway-observer" --domian 3
 
 # A flag's former name does what its name does.
 "$FLEETCTL" plan 4 --cores 8 --memory-gib 8 >positional || fail "plan 4: exit code $?"
@@ -91,6 +92,8 @@ ip link set lo up
 "$1" ls >none 2>none.err && echo "ls of nothing succeeds"
 "$1" top --once 2>none.err && echo "top of nothing succeeds"
 grep -q 'no fleet runs' none.err || echo "top of nothing: $(<none.err)"
+"${1%fleetctl}giveway-observer" 2>none.err && echo "an observer of nothing starts"
+grep -q 'no fleet runs' none.err || echo "observer of nothing: $(<none.err)"
 "$1" run open_fleet --vehicles 2 --domain 7 --duration 60 >run.out 2>&1 &
 until "$1" ls >ls.out 2>&1 || ! kill -0 $!; do sleep 0.5; done # a run takes no domain that is listened to
 "$1" top --domain 7 --once --wait 30s >top.out || echo "top --domain: $?"
@@ -108,7 +111,7 @@ fi
 # Man pages, where help2man is installed.
 if command -v help2man >/dev/null; then
   bash "$REPOSITORY/services/fleetctl/help/man_pages.sh" "$programs" man || fail "man pages: exit code $?"
-  [[ $(find man -name '*.1' | wc -l) -ge 24 ]] || fail "man pages: $(ls man)"
+  [[ $(find man -name '*.1' | wc -l) -ge 25 ]] || fail "man pages: $(ls man)"
   grep -q 'intersection' man/fleetctl-run.1 || fail "fleetctl-run.1 has no example"
 fi
 

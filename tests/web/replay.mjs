@@ -24,20 +24,44 @@ await check("replay: all 190 vehicles of fleet_200 are shown and move", async ()
   await until("they move", async () => (await vehicles(page)).filter((v) =>
     Math.hypot(v.x - before.get(v.id).x, v.y - before.get(v.id).y) > 0.2).length > 20);
 });
-await check("replay: at least 30 frames a second", async () => {
-  const from = await page.evaluate(() => [window.giveway.drawn.frames, performance.now()]);
-  await page.waitForTimeout(3000);
-  const to = await page.evaluate(() => [window.giveway.drawn.frames, performance.now()]);
-  const rate = (to[0] - from[0]) / (to[1] - from[1]) * 1000;
-  console.log(`        ${rate.toFixed(1)} frames/s`);
+const playFromStart = () => page.evaluate(() => {
+  window.giveway.seek(window.giveway.state.frames[0].at);
+  window.giveway.state.playing = true;
+});
+const moment = () => page.evaluate(() => ({
+  drawn: window.giveway.drawn.frames, at_ms: performance.now(), cursor: window.giveway.state.cursor,
+  playing: window.giveway.state.playing, moving: window.giveway.vehicles().filter((v) => v.speed > 0.05).length,
+}));
+await check("replay: at least 30 frames a second while the fleet drives", async () => {
+  await playFromStart();
+  await until("half of the fleet drives", async () => (await moment()).moving > 95, 10000);
+  const from = await moment();
+  await page.waitForTimeout(4000);
+  const to = await moment();
+  const rate = (to.drawn - from.drawn) / (to.at_ms - from.at_ms) * 1000;
+  console.log(`        ${rate.toFixed(1)} frames/s, ${to.moving} vehicles drive`);
+  expect(to.playing && to.cursor - from.cursor > 3000, `shown: ${from.cursor} to ${to.cursor} ms`);
+  expect(to.moving > 50, `only ${to.moving} drive`);
   expect(rate >= 30, `${rate.toFixed(1)} frames/s`);
 });
+await check("replay: Play at the end starts again", async () => {
+  await page.evaluate(() => window.giveway.seek(window.giveway.state.frames.at(-1).at));
+  await until("it has ended", async () => !(await moment()).playing, 3000);
+  await page.locator("#play").click();
+  await page.waitForTimeout(500);
+  const { playing, cursor } = await moment();
+  const first = await page.evaluate(() => window.giveway.state.frames[0].at);
+  expect(playing && cursor - first < 3000, `playing ${playing}, ${cursor - first} ms after the start`);
+});
+await check("replay: the events of the whole run are there", async () => {
+  const [start, known] = await page.evaluate(() => [
+    [...window.giveway.state.events.values()].some((event) => event.kind === "started"),
+    window.giveway.state.events.size]);
+  console.log(`        ${known} events`);
+  expect(start, "no start signal");
+});
 await check("replay: pause, seek and speed", async () => {
-  // A short recording may have ended meanwhile.
-  await page.evaluate(() => {
-    window.giveway.seek(window.giveway.state.frames[0].at);
-    window.giveway.state.playing = true;
-  });
+  await playFromStart();
   await page.locator("#play").click();
   await page.waitForTimeout(200); // what was drawn before the click is shown until the next frame
   const paused = await text(page, "when");

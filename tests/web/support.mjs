@@ -55,8 +55,22 @@ export async function stop(started, signal = "SIGTERM") {
   return started.ended;
 }
 export function finish() {
-  for (const child of children) child.kill("SIGKILL");
   process.exit(failed ? 1 : 0);
+}
+// However a part ends, also by a fault of its own or its time limit, it leaves no process behind:
+// those of fleetctl end with it.
+process.on("exit", () => { for (const child of children) child.kill("SIGKILL"); });
+for (const signal of ["SIGTERM", "SIGINT", "SIGHUP"]) {
+  process.on(signal, () => {
+    report(`${process.argv[1].split("/").at(-1)}: ends by itself`, false, signal);
+    process.exit(1);
+  });
+}
+for (const fault of ["uncaughtException", "unhandledRejection"]) {
+  process.on(fault, (error) => {
+    report(`${process.argv[1].split("/").at(-1)}: goes on`, false, String(error?.message ?? error).split("\n")[0]);
+    process.exit(1);
+  });
 }
 
 export function freePort() {

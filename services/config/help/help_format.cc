@@ -1,16 +1,14 @@
 #include "services/config/help/help_format.h"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <regex>
 #include <vector>
 
+#include "services/runtime/terminal_size.h"
+
 namespace giveway {
 namespace {
 
-constexpr std::size_t kUsualColumns = 80;
 constexpr std::size_t kLeastColumns = 40;
 constexpr std::size_t kMostColumns = 120;  // longer lines are hard to read
 constexpr std::size_t kNameColumns = 26;   // of the left column, names of flags
@@ -182,9 +180,8 @@ std::string Usage(const CLI::App& app, const std::string& name) {
 }  // namespace
 
 std::size_t HelpColumns() {
-  winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsualColumns;
-  return std::clamp<std::size_t>(size.ws_col, kLeastColumns, kMostColumns);
+  const auto columns = static_cast<std::size_t>(SizeOfTerminal().columns);
+  return std::clamp(columns, kLeastColumns, kMostColumns);
 }
 
 std::string WrapParagraphs(std::string_view text, std::size_t columns) {

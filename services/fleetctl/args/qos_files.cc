@@ -7,10 +7,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "services/config/config_dir.h"
 #include "services/link/fastdds/link_options.h"
-#include "services/link/fastdds/profile_file.h"
 #include "services/qos/xml_tree.h"
 #include "services/types/nearest_name.h"
 
@@ -36,14 +36,6 @@ std::string NearestSet(const std::string& argument) {
 }
 
 }  // namespace
-
-void RequireQosFile(const std::string& path) {
-  std::error_code error;
-  if (fs::exists(path, error)) return;
-  const std::string nearest = NearestSet(path);
-  if (nearest.empty()) return;
-  throw link::LinkError("QoS file " + path + ": does not exist" + nearest);
-}
 
 std::string ResolveQosFile(const std::string& argument) {
   std::error_code error;
@@ -76,19 +68,17 @@ qos::Deployment DeploymentOf(const Scenario& scenario) {
           .tick_ns = scenario.tick_period.count()};
 }
 
-void RequireSoundQos(const std::string& path, const qos::Deployment& fleet) {
-  RequireQosFile(path);
-  const auto read = ReadQosFile(path);
-  const auto* const file = std::get_if<qos::ProfileFile>(&read);
-  if (file == nullptr) return;
-  const std::string why = qos::WhyRefused(*file, fleet);
-  if (!why.empty()) throw link::LinkError(why);
+QosProfiles ReadQosOrThrow(const std::string& path) {
+  auto read = ReadQosFile(path);
+  if (const auto* const finding = std::get_if<qos::Finding>(&read)) {
+    throw link::LinkError("QoS file " + path + ": " + finding->values + "; " + finding->remedy);
+  }
+  return {path, std::move(std::get<qos::ProfileFile>(read).bytes)};
 }
 
-QosProfiles ReadSoundQos(const std::string& path) {
-  RequireQosFile(path);
-  QosProfiles profiles = link::ReadProfileFile(path);
-  const std::string why = qos::WhyRefused({profiles.name, profiles.text}, UnknownFleet());
+QosProfiles ReadSoundQos(const std::string& path, const qos::Deployment& fleet) {
+  QosProfiles profiles = ReadQosOrThrow(path);
+  const std::string why = qos::WhyRefused({profiles.name, profiles.text}, fleet);
   if (!why.empty()) throw link::LinkError(why);
   return profiles;
 }

@@ -16,10 +16,6 @@ namespace giveway::fleetctl {
 // neither comes back as it is, for the code that opens it to refuse.
 std::string ResolveQosFile(const std::string& argument);
 
-// Throws LinkError if the file is not there and a shipped set has nearly this name: which. What is
-// missing otherwise is left to the code that opens it.
-void RequireQosFile(const std::string& path);
-
 // The file, or the finding that says why it cannot be read. A file over the limit is not read
 // whole.
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path);
@@ -27,12 +23,10 @@ std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path
 // The fleet of a verb that was started elsewhere: how large it is and how fast it ticks is not
 // known, and no rule about that speaks.
 inline qos::Deployment UnknownFleet() { return {.vehicles = 1, .tick_ns = 0}; }
-// Throws LinkError if the rules of `qos check` find an error in the set, before the library hangs
-// on it. A file that cannot be read is left to the code that opens it.
-void RequireSoundQos(const std::string& path, const qos::Deployment& fleet = UnknownFleet());
-// The set in the file, for a link of this process. Throws LinkError if it cannot be read, or as
-// RequireSoundQos.
-QosProfiles ReadSoundQos(const std::string& path);
+// The set in the file. Throws LinkError with that finding where it cannot be read.
+QosProfiles ReadQosOrThrow(const std::string& path);
+// And if the rules of `qos check` find an error in it, before the library hangs on it.
+QosProfiles ReadSoundQos(const std::string& path, const qos::Deployment& fleet = UnknownFleet());
 
 qos::Deployment DeploymentOf(const Scenario& scenario);
 

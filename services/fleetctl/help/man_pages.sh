@@ -19,6 +19,7 @@ page() {
 # verbs COMMAND...: those its help lists.
 verbs() { "$@" --help | sed -n '/^Verbs:/,/^$/s/^  \([a-z]\+\) .*/\1/p'; }
 
+page "$programs/giveway-observer"
 page "$programs/giveway-vehicle"
 page "$programs/giveway-world"
 for verb in $(verbs "$programs/fleetctl"); do

@@ -10,6 +10,7 @@
 #include "services/fleetctl/process/interrupts.h"
 #include "services/link/observer_link.h"
 #include "services/runtime/process.h"
+#include "services/runtime/terminal_size.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -1,6 +1,5 @@
 #include "services/fleetctl/output/live_screen.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -27,12 +26,6 @@ void Write(const std::string& text, std::FILE* stream) {
 }  // namespace
 
 bool IsTerminal() { return ::isatty(STDOUT_FILENO) == 1; }
-
-TerminalSize SizeOfTerminal() {
-  winsize size{};
-  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return {};
-  return {size.ws_col, size.ws_row};
-}
 
 LiveScreen::LiveScreen(bool in_place) : in_place_(in_place) {}
 

@@ -36,7 +36,5 @@ class LiveScreen {
 };
 
 bool IsTerminal();
-// The size of the terminal on stdout; 80 by 24 where there is none.
-TerminalSize SizeOfTerminal();
 
 }  // namespace giveway::fleetctl

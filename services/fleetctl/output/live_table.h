@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/runtime/terminal_size.h"
 #include "services/types/fleet_facts.h"
 
 namespace giveway::fleetctl {
@@ -20,11 +21,6 @@ struct TableView {
   std::vector<VehicleId> vehicles;  // every one the scenario names, heard of or not
   std::map<VehicleId, VehicleStatus> statuses;
   std::set<VehicleId> silent;  // their last status is history, not state
-};
-
-struct TerminalSize {
-  int columns = 80;
-  int rows = 24;
 };
 
 // The head and as many of the rows as fit: at most size.rows - 1 lines, each at most size.columns

@@ -1,7 +1,6 @@
 #include "services/fleetctl/output/terminal_text.h"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -100,13 +99,6 @@ std::string LineFolded(std::string_view line, std::size_t columns) {
   return folded + std::string(line);
 }
 
-std::size_t ColumnsOf(int descriptor) {
-  constexpr std::size_t kUsual = 80;
-  winsize size{};
-  if (::ioctl(descriptor, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
-  return size.ws_col;
-}
-
 std::optional<std::string_view> Environment(const char* name) {
   const char* value = std::getenv(name);
   if (value == nullptr || *value == '\0') return std::nullopt;
@@ -165,11 +157,13 @@ std::string ProgressLine(std::uint64_t done, std::uint64_t all, const std::strin
 
 std::string ForTerminal(const std::string& text) {
   if (::isatty(STDOUT_FILENO) != 1) return text;
-  const std::string folded = Folded(text, ColumnsOf(STDOUT_FILENO));
+  const std::string folded = Folded(text, static_cast<std::size_t>(SizeOfTerminal().columns));
   const bool forbidden = Environment("NO_COLOR") || Environment("TERM").value_or("dumb") == "dumb";
   return forbidden ? folded : InColour(folded);
 }
 
-std::size_t StderrColumns() { return ColumnsOf(STDERR_FILENO); }
+std::size_t StderrColumns() {
+  return static_cast<std::size_t>(SizeOfTerminal(STDERR_FILENO).columns);
+}
 
 }  // namespace giveway::fleetctl

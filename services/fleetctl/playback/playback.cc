@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "services/config/scenario_file.h"
 #include "services/fleetctl/output/output_file.h"
@@ -21,7 +22,9 @@ namespace {
 constexpr int kNothingToShow = 1;
 
 std::string SceneOf(const PlaybackOptions& options) {
-  SceneSource source{"replay of " + options.file.substr(options.file.rfind('/') + 1), std::nullopt};
+  SceneSource source{
+      (options.report ? "" : "replay of ") + options.file.substr(options.file.rfind('/') + 1),
+      std::nullopt};
   if (!options.scenario.empty()) source.scenario = LoadScenario(options.scenario, {});
   return SceneJson(source);
 }
@@ -40,11 +43,11 @@ void Explain(const std::string& file, const RunRead& run) {
   }
 }
 
-int Serve(const PlaybackOptions& options, const std::string& page) {
+int Serve(const PlaybackOptions& options, std::string page) {
   const Interrupts interrupts;
   const PageServer server(options.address, options.port,
-                          {.page = page,
-                           .get = [](const std::string&) { return std::nullopt; },
+                          {.page = std::move(page),
+                           .get = [](const auto&, const auto&) { return std::nullopt; },
                            .scene = "",
                            .frames = nullptr,
                            .host_names = {}});
@@ -64,8 +67,9 @@ int RunPlayback(const PlaybackOptions& options) {
     std::fprintf(stderr, "%s: cannot be read: %s\n", options.file.c_str(), std::strerror(errno));
     return kCouldNotRun;
   }
+  if (!options.html_file.empty()) CheckWritable(options.html_file);
   const std::string scene = SceneOf(options);
-  const RunRead run = ReadRun([&file](char* to, std::size_t most) {
+  RunRead run = ReadRun([&file](char* to, std::size_t most) {
     file.read(to, static_cast<std::streamsize>(most));
     return static_cast<std::size_t>(file.gcount());
   });
@@ -74,8 +78,10 @@ int RunPlayback(const PlaybackOptions& options) {
     std::fprintf(stderr, "%s: there is nothing of a fleet in it\n", options.file.c_str());
     return run.result.fault.empty() ? kNothingToShow : kCouldNotRun;
   }
-  const std::string page = PageWithRun(run.frames.RunJson(scene));
-  if (options.html_file.empty()) return Serve(options, page);
+  std::string page = PageWithRun(run.frames.RunJson(
+      scene, options.report ? RunFrames::Opens::kReport : RunFrames::Opens::kMap));
+  run.frames = {};
+  if (options.html_file.empty()) return Serve(options, std::move(page));
   WriteFile(options.html_file, page);
   return 0;
 }

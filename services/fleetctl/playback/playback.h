@@ -1,5 +1,6 @@
-// What `fleetctl replay` does with an MCAP recording: shows the run on the page, with seek, pause
-// and speed, or writes that page to a file. Values in; the exit code out.
+// What `fleetctl replay` and `report` do with an MCAP recording: show the run on the page, with
+// seek, pause and speed, or write that page to a file, for a report with its report open. Values
+// in; the exit code out.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,7 @@ struct PlaybackOptions {
   std::string file;
   std::string scenario;   // shows its walls; empty: none are shown
   std::string html_file;  // written instead of being served; empty: served
+  bool report = false;    // the page opens with the report of the whole run
   std::string address = "127.0.0.1";
   std::uint16_t port = 8080;
 };

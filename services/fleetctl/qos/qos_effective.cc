@@ -5,7 +5,6 @@
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/qos/qos_apart.h"
-#include "services/link/fastdds/profile_file.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
 
@@ -98,8 +97,7 @@ EffectiveSet EffectiveQosOfFile(const std::string& argument, const std::string& 
   options.interface = interface;
   options.fleet_size = vehicles;
   const std::string file = ResolveQosFile(argument);
-  RequireQosFile(file);
-  options.qos = link::ReadProfileFile(file);
+  options.qos = ReadQosOrThrow(file);
   EffectiveSet set{options.qos.name, EffectiveQos(ResolveQosApart(options), SetOf(options.qos))};
   set.endpoints.front().rows.push_back(InterfaceRow(interface));
   return set;

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <functional>
+#include <utility>
 
 #include "services/fleetctl/args/reading_along.h"
 #include "services/fleetctl/process/exit_codes.h"
@@ -26,26 +28,58 @@ class Exporting {
       std::fprintf(stderr, "%s: cannot be read: %s\n", options_.file.c_str(), std::strerror(errno));
       return kCouldNotRun;
     }
-    const mcap::ReadResult result = mcap::McapReader::Read(
-        [&file](char* to, std::size_t most) {
-          file.read(to, static_cast<std::streamsize>(most));
-          return static_cast<std::size_t>(file.gcount());
-        },
-        [this](const mcap::Message& message, const mcap::Channel& channel, const mcap::Schema&) {
-          return channel.topic != options_.topic || Take(message);
-        });
+    if (options_.csv && !ReadColumns(&file)) {
+      std::fprintf(stderr, "%s: cannot be read a second time, as CSV needs it; --json reads once\n",
+                   options_.file.c_str());
+      return kCouldNotRun;
+    }
+    if (options_.csv && samples_ > 0) told_ = Tell(columns_.Head());
+    const mcap::ReadResult result = Read(&file, [this](const JsonObject& sample) {
+      ++written_;
+      told_ = Tell(options_.csv ? columns_.Row(Flattened(sample.Text())) : sample.Text() + "\n");
+      // A file that grows may have further columns by now.
+      return told_ == Told::kYes && written_ != samples_;
+    });
     if (told_ != Told::kYes) return ExitCodeOf(told_);
     return Finish(result);
   }
 
  private:
+  using Use = std::function<bool(const JsonObject& sample)>;  // false: enough
+
+  // Optional fields come and go: every sample is looked at for names before the head is written.
+  bool ReadColumns(std::ifstream* file) {
+    Read(file, [this](const JsonObject& sample) {
+      ++samples_;
+      columns_.Add(Flattened(sample.Text()));
+      return true;
+    });
+    unreadable_ = 0;
+    file->clear();
+    file->seekg(0);
+    return file->good();
+  }
+
+  mcap::ReadResult Read(std::ifstream* file, Use use) {
+    use_ = std::move(use);
+    enough_ = false;
+    return mcap::McapReader::Read(
+        [file](char* to, std::size_t most) {
+          file->read(to, static_cast<std::streamsize>(most));
+          return static_cast<std::size_t>(file->gcount());
+        },
+        [this](const mcap::Message& message, const mcap::Channel& channel, const mcap::Schema&) {
+          return channel.topic != options_.topic || Take(message);
+        });
+  }
+
   bool Take(const mcap::Message& message) {
     link::Observed observed;
     const link::Decoded decoded = link::DecodeInto(options_.topic, message.data, &observed);
     if (decoded == link::Decoded::kUnreadable) ++unreadable_;
     if (decoded == link::Decoded::kYes) WriteAll(message, observed);
     if (options_.topic == "fleet/motor_command") TakeCommand(message);
-    return told_ == Told::kYes;
+    return !enough_;
   }
 
   void TakeCommand(const mcap::Message& message) {
@@ -74,8 +108,7 @@ class Exporting {
     object.Add("log_ns", message.log_ns);
     object.Add("publish_ns", message.publish_ns);
     AddFields(sample, &object);
-    ++written_;
-    told_ = Tell(options_.csv ? csv_.Add(Flattened(object.Text())) : object.Text() + "\n");
+    if (!enough_) enough_ = !use_(object);
   }
 
   int Finish(const mcap::ReadResult& result) const {
@@ -97,8 +130,11 @@ class Exporting {
   }
 
   const ExportOptions& options_;
-  CsvLines csv_;
+  CsvColumns columns_;
+  Use use_;
+  bool enough_ = false;
   Told told_ = Told::kYes;
+  std::uint64_t samples_ = 0;  // of the topic, as far as the columns are those of them all
   std::uint64_t written_ = 0;
   std::uint64_t unreadable_ = 0;
 };

@@ -77,17 +77,22 @@ FlatFields Flattened(std::string_view json) {
   return fields;
 }
 
-std::string CsvLines::Add(const FlatFields& fields) {
-  std::string text;
-  if (columns_.empty()) {
-    for (const auto& [name, value] : fields) {
-      columns_.push_back(name);
-      text += (text.empty() ? "" : ",") + Cell(name);
-    }
-    text += "\n";
+void CsvColumns::Add(const FlatFields& fields) {
+  for (const auto& [name, value] : fields) {
+    if (std::ranges::find(names_, name) == names_.end()) names_.push_back(name);
   }
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    const auto field = std::ranges::find(fields, columns_[i], &FlatFields::value_type::first);
+}
+
+std::string CsvColumns::Head() const {
+  std::string text;
+  for (const std::string& name : names_) text += (text.empty() ? "" : ",") + Cell(name);
+  return text + "\n";
+}
+
+std::string CsvColumns::Row(const FlatFields& fields) const {
+  std::string text;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const auto field = std::ranges::find(fields, names_[i], &FlatFields::value_type::first);
     if (i != 0) text += ",";
     if (field != fields.end()) text += Cell(field->second);
   }

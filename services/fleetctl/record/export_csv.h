@@ -13,15 +13,17 @@ using FlatFields = std::vector<std::pair<std::string, std::string>>;  // name, v
 // Of one of our own JSON objects. Arrays stay as they are written.
 FlatFields Flattened(std::string_view json);
 
-// Lines with the columns of the first; a field that a later line has and the first had not is left
-// out, one that it lacks is empty.
-class CsvLines {
+// The columns of a table whose rows do not all have the same fields: all of them, each after those
+// that came earlier. To be collected over all rows before the first is written.
+class CsvColumns {
  public:
-  // The head before the first line, and the line; each with its line feed.
-  std::string Add(const FlatFields& fields);
+  void Add(const FlatFields& fields);
+  std::string Head() const;
+  // A field that the row lacks is empty.
+  std::string Row(const FlatFields& fields) const;
 
  private:
-  std::vector<std::string> columns_;
+  std::vector<std::string> names_;
 };
 
 }  // namespace giveway::fleetctl

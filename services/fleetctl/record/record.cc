@@ -14,7 +14,6 @@ namespace {
 
 constexpr int kNotAllRecorded = 1;
 constexpr Nanoseconds kRecordTurn = std::chrono::milliseconds(10);
-constexpr Nanoseconds kFlushPeriod = std::chrono::seconds(1);
 
 std::vector<std::size_t> TopicsOf(const RecordOptions& options) {
   std::vector<std::size_t> topics;
@@ -34,6 +33,10 @@ class Recording {
         began_(SteadyNow()) {}
 
   int Run() {
+    if (!files_.Start(began_)) {
+      std::fprintf(stderr, "%s\n", files_.Fault().c_str());
+      return kCouldNotRun;
+    }
     SteadyTime flush_at = began_ + kFlushPeriod;
     while (Interrupts::Count() == 0 && !IsOver() && files_.Fault().empty()) {
       SleepUntil(SteadyNow() + kRecordTurn);

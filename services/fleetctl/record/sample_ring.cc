@@ -16,7 +16,7 @@ void SampleRing::Add(link::RawSample sample) {
   newest_ns_ = std::max(newest_ns_, sample.reception_ns);
   bytes_ += sample.bytes.size() + sizeof(link::RawSample);
   samples_.push_back(std::move(sample));
-  while (samples_.front().reception_ns + last_ns_ < newest_ns_) DropFirst();
+  while (newest_ns_ - samples_.front().reception_ns > last_ns_) DropFirst();
   while (bytes_ > kMostBytes) {
     DropFirst();
     ++dropped_;

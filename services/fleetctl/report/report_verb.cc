@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -5,6 +6,7 @@
 
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/output/terminal_text.h"
+#include "services/fleetctl/playback/playback.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/report/report_compare.h"
 #include "services/fleetctl/report/report_show.h"
@@ -28,21 +30,44 @@ only the second names is worse without a test: a soak names one that is none onc
   counts   violations, near misses, unplanned restarts by vehicle-hour (exact binomial)
 Times must differ by 5 %. Both soaks must have one scenario, one fault file, as many vehicles.
 
+Of an MCAP recording, as fleetctl record and fleetctl run --record-topics write it, the report is a page
+that needs nothing else: figures of each vehicle, all paths on a map, who did what when, plots of the
+fleet, and the run itself to look at. Without --page it is written beside the recording, as .html.
+
 Examples
+  fleetctl report run.mcap --scenario intersection_yield
   fleetctl report nightly --page nightly.html
   fleetctl report last-release nightly
   fleetctl report last-release nightly --json | jq -r '.figures[] | select(.change=="worse").what'
 
 Exit code: of two, 0 nothing worse, 1 something worse, 2 they could not be compared. Of one, that of
-its soak.
+its soak. Of a recording, 0 written, 1 there is nothing of a fleet in it, 2 it could not be read.
 )";
 
 struct ReportOptions {
   std::vector<std::string> reports;
   bool all = false;
   bool json = false;
-  std::string page_file;  // of a single report; empty: none
+  std::string page_file;  // of a single report; empty: none, or beside a recording
+  std::string scenario;   // of a recording: shows its walls
 };
+
+int ReportRecording(const ReportOptions& options) {
+  const std::string& file = options.reports.front();
+  if (options.json || options.all || options.reports.size() > 1) {
+    std::fprintf(stderr,
+                 "%s: of a recording there is a page alone; leave out --json, --all and "
+                 "other reports\n",
+                 file.c_str());
+    return kCouldNotRun;
+  }
+  PlaybackOptions page{.file = file, .scenario = options.scenario, .report = true};
+  page.html_file = options.page_file;
+  if (page.html_file.empty()) page.html_file = file.substr(0, file.rfind('.')) + ".html";
+  const int code = RunPlayback(page);
+  if (code == 0) std::printf("%s\n", page.html_file.c_str());
+  return code;
+}
 
 // Says on stderr what is wrong with any of them.
 bool ReadAllReports(const ReportOptions& options, std::vector<SoakResult>* results) {
@@ -59,6 +84,7 @@ bool ReadAllReports(const ReportOptions& options, std::vector<SoakResult>* resul
 }
 
 int RunReport(const ReportOptions& options) {
+  if (std::ranges::any_of(options.reports, IsMcapFile)) return ReportRecording(options);
   std::vector<SoakResult> results;
   if (!ReadAllReports(options, &results)) return kCouldNotRun;
   if (results.size() == 1) {
@@ -90,14 +116,18 @@ int RunReport(const ReportOptions& options) {
 void AddReportVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<ReportOptions>();
   CLI::App* verb = fleetctl->add_subcommand(
-      "report", "Show the report of a soak, or say what got worse between two");
+      "report",
+      "Show the report of a soak or of a recorded run, or say what got worse between two soaks");
   verb->footer(kFooter);
-  verb->add_option("REPORT", options->reports, "One report or two: before, after")
+  verb->add_option("REPORT", options->reports, "One report or two: before, after; or an MCAP file")
       ->required()
       ->expected(1, 2);
   verb->add_flag("--all", options->all, "Show also what stayed the same");
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
-  verb->add_option("--page", options->page_file, "Write the HTML page of the only report again");
+  verb->add_option("--page", options->page_file,
+                   "Write the HTML page of the only report into this file");
+  verb->add_option("--scenario", options->scenario,
+                   "Of an MCAP file: shows the walls of this scenario");
   verb->callback([options, exit_code] { *exit_code = RunReport(*options); });
 }
 

@@ -22,6 +22,7 @@
 #include "services/fleetctl/process/run_key.h"
 #include "services/fleetctl/run/run_session.h"
 #include "services/report/report.h"
+#include "services/runtime/terminal_size.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -102,7 +103,7 @@ int StartAndWatch(const RunOptions& options) {
   RefuseImpairedLockstep(options, scenario);
   RefuseRestartOfClosed(options, scenario);
   const std::string qos_file = ResolveQosFile(options.qos_file);
-  RequireSoundQos(qos_file, DeploymentOf(scenario));
+  static_cast<void>(ReadSoundQos(qos_file, DeploymentOf(scenario)));
   for (const std::string& file : {options.picture_file, options.html_file}) {
     if (!file.empty()) CheckWritable(file);
   }
@@ -123,12 +124,14 @@ int StartAndWatch(const RunOptions& options) {
   if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
   spec.options.admin_key = key.File();
   std::fprintf(stderr, "%s on domain %u\n", scenario.name.c_str(), lock.Domain());
+  const auto started = std::filesystem::file_time_type::clock::now();
   RunSession session(options, scenario, spec);
   const Report report = session.Run();
 
   const bool told = Print(options, report);
   if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
-  const int code = std::max(ExitCode(report.verdict), told ? 0 : 1);
+  const bool recorded = session.FinishTopics(BrainRecordings(options.fleet.record_folder, started));
+  const int code = std::max(ExitCode(report.verdict), told && recorded ? 0 : 1);
   if (options.picture_file.empty() && options.html_file.empty()) return code;
   Interrupts::AllowSeconds(kDrawing_s);
   return WriteAfterVerdict(code, [&] {

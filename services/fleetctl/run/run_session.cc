@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <utility>
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/run/run_ends.h"
@@ -78,8 +79,16 @@ RunSession::RunSession(const RunOptions& options, const Scenario& scenario, cons
       has_page_(!options.html_file.empty()),
       observer_(ObserverOptions(spec, scenario),
                 has_page_ ? link::ObserverLink::Ranges::kYes : link::ObserverLink::Ranges::kNo),
+      topics_(options.topics_file.empty()
+                  ? std::optional<TopicRecorder>()
+                  : std::optional<TopicRecorder>(std::in_place, ObserverOptions(spec, scenario),
+                                                 options.topics_file)),
       processes_(MakeCommands(spec, scenario)),
       screen_(!options.json && IsTerminal()) {}
+
+bool RunSession::FinishTopics(const std::vector<std::string>& attachments) {
+  return !topics_ || topics_->Finish(attachments);
+}
 
 Report RunSession::Run() {
   std::optional<Overruled> overruled = Supervise();
@@ -184,6 +193,7 @@ void RunSession::Drain() {
   const link::Observed observed = observer_.Take();
   watch_.Fold(observed);
   invariants_.Fold(observed);
+  if (topics_) topics_->Turn(SteadyNow());
   if (!has_page_) return;
   view_.Fold(observed, SteadyNow());
   frames_.Note(view_, SteadyNow());

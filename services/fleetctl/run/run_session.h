@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/fleetctl/output/live_screen.h"
 #include "services/fleetctl/process/fleet_processes.h"
@@ -12,6 +13,7 @@
 #include "services/fleetctl/run/fleet_watch.h"
 #include "services/fleetctl/run/invariant_watch.h"
 #include "services/fleetctl/run/run_options.h"
+#include "services/fleetctl/run/topic_recorder.h"
 #include "services/link/observer_link.h"
 #include "services/observer/capture/run_frames.h"
 #include "services/observer/fleet/fleet_view.h"
@@ -30,6 +32,8 @@ class RunSession {
   std::string DrawPicture() const { return watch_.DrawPicture(); }
   // With what was observed of the run inside, see RunOptions::html_file.
   std::string DrawPage() const;
+  // Ends the recording of what travelled, if there is one. False where it is not whole.
+  bool FinishTopics(const std::vector<std::string>& attachments);
 
  private:
   // Waits for the run's end. A value where the verdict is not the world's to give.
@@ -64,6 +68,7 @@ class RunSession {
   FleetView view_;  // kept for the page alone, as the frames are
   RunFrames frames_;
   link::ObserverLink observer_;
+  std::optional<TopicRecorder> topics_;
   FleetProcesses processes_;
   LiveScreen screen_;
   bool stopping_ = false;

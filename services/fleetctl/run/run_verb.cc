@@ -25,11 +25,12 @@ Examples
   fleetctl run intersection_yield --seed 7 --json | jq .min_separation_m
   fleetctl run open_fleet --vehicles 4 --restart
   fleetctl run intersection_yield --record tapes && fleetctl replay tapes/*
+  fleetctl run intersection_yield --record-topics run.mcap && fleetctl report run.mcap
   fleetctl run intersection_yield --impair loss=0.1,delay=20ms,jitter=5ms
   fleetctl run my_crossing.textproto --behaviour lecture_yield --logs logs
 
-Exit code: 0 passed, 1 failed or interrupted, or passed and the picture could not be written; 2 could
-not run.
+Exit code: 0 passed, 1 failed or interrupted, or passed and a picture or recording could not be
+written; 2 could not run.
 )";
 
 constexpr std::uint32_t kMostVehicles = 1024;
@@ -126,6 +127,12 @@ void AddOutputFlags(CLI::App* verb, RunOptions* options) {
                    "Every vehicle records its inputs and decisions in this folder; see replay")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_RECORD");
+  verb->add_option("--record-topics", options->topics_file,
+                   "Record every topic as it travels into this MCAP file, with the recordings of "
+                   "--record within it; it must not be there yet")
+      ->type_name("FILE")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_RECORD_TOPICS");
   verb->add_option("--record-split", options->fleet.record_split,
                    "Start another file of each recording at this size: 64MiB")
       ->check(CheckSplit)

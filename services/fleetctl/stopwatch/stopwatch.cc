@@ -178,7 +178,7 @@ int RunStopwatch(const StopwatchOptions& options) {
   WriteFile(scenario_file, StopwatchScenario(StopwatchVehicles(options.vehicles)));
   const std::string qos_file = ResolveQosFile(options.qos_file);
   const Scenario scenario = LoadScenario(scenario_file, {});
-  RequireSoundQos(qos_file, DeploymentOf(scenario));
+  static_cast<void>(ReadSoundQos(qos_file, DeploymentOf(scenario)));
   const Limits limits =
       ReadLimits(qos_file, options.interface, options.vehicles + 1, scenario.vehicles.front());
   if (options.table) {

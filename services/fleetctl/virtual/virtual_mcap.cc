@@ -33,7 +33,9 @@ VehicleStatus StatusOf(const Outputs& said, double forward_m_s, const RangeScan*
 
 }  // namespace
 
-VirtualRecording::VirtualRecording(const std::string& path) : files_({.path = path}, {}) {}
+VirtualRecording::VirtualRecording(const std::string& path) : files_({.path = path}, {}) {
+  if (!files_.Start(SteadyTime{0})) throw OutputError(files_.Fault());
+}
 
 void VirtualRecording::Write(const char* topic, std::string bytes) {
   files_.Write({.topic = RawTopicNamed(topic),

@@ -12,6 +12,7 @@ namespace giveway::fleetctl {
 
 class VirtualRecording {
  public:
+  // Makes the file. Throws OutputError.
   explicit VirtualRecording(const std::string& path);
 
   void Note(const sim::VirtualFleet& fleet);

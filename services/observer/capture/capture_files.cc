@@ -48,7 +48,7 @@ bool CaptureFiles::Append(std::string_view bytes) {
 
 bool CaptureFiles::Open(SteadyTime now) {
   ++part_;
-  part_path_ = IsSplit() ? PartPath(options_.path, part_) : options_.path;
+  part_path_ = HasParts() || part_ > 1 ? PartPath(options_.path, part_) : options_.path;
   // One that is there already is somebody's recording.
   constexpr mode_t kMode = 0644;
   file_ = ::open(part_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
@@ -59,17 +59,25 @@ bool CaptureFiles::Open(SteadyTime now) {
   return fault_.empty();
 }
 
+bool CaptureFiles::Start(SteadyTime now) { return part_ > 0 ? fault_.empty() : Open(now); }
+
+// Of what may be kept, one part takes half at most: then there is always an older one to remove.
+bool CaptureFiles::IsPartFull(SteadyTime now) const {
+  if (capture_->Chunks() >= options_.most_chunks) return true;
+  if (options_.split_time.count() != 0 && now - opened_ >= options_.split_time) return true;
+  if (options_.split_bytes != 0 && capture_->Size() >= options_.split_bytes) return true;
+  return options_.keep_bytes != 0 && capture_->Size() >= options_.keep_bytes / 2;
+}
+
 bool CaptureFiles::Write(const link::RawSample& sample, SteadyTime now) {
   if (!fault_.empty()) return false;
-  if (capture_ != nullptr && IsSplit()) {
-    const bool large = options_.split_bytes != 0 && capture_->Size() >= options_.split_bytes;
-    const bool old = options_.split_time.count() != 0 && now - opened_ >= options_.split_time;
-    if ((large || old) && !ClosePart()) return false;
-  }
+  if (capture_ != nullptr && IsPartFull(now) && !ClosePart()) return false;
   if (capture_ == nullptr && !Open(now)) return false;
   ++messages_;
   newest_ns_ = std::max(newest_ns_, sample.reception_ns);
-  return capture_->Write(sample);
+  const bool written = capture_->Write(sample);
+  RemoveOldest();
+  return written;
 }
 
 bool CaptureFiles::Flush() { return fault_.empty() && (capture_ == nullptr || capture_->Flush()); }
@@ -86,9 +94,10 @@ bool CaptureFiles::ClosePart() {
 
 void CaptureFiles::RemoveOldest() {
   if (options_.keep_bytes == 0) return;
-  std::uint64_t total = 0;
+  std::uint64_t total = capture_ == nullptr ? 0 : capture_->Size();
   for (const auto& [path, size] : closed_) total += size;
-  while (closed_.size() > 1 && total > options_.keep_bytes) {
+  const std::size_t newest = capture_ == nullptr ? 1 : 0;  // of closed_, and stays
+  while (closed_.size() > newest && total > options_.keep_bytes) {
     total -= closed_.front().second;
     ::unlink(closed_.front().first.c_str());
     closed_.pop_front();
@@ -106,8 +115,12 @@ void CaptureFiles::Attach(const std::string& path) {
   capture_->Attach(path.substr(path.rfind('/') + 1), bytes, newest_ns_);
 }
 
+void CaptureFiles::AttachAtEnd(const std::vector<std::string>& files) {
+  options_.attachments.insert(options_.attachments.end(), files.begin(), files.end());
+}
+
 bool CaptureFiles::Close() {
-  if (capture_ == nullptr && part_ == 0 && !Open(SteadyTime{0})) return false;
+  if (!Start(SteadyTime{0})) return false;
   if (capture_ == nullptr) return fault_.empty();
   for (const std::string& path : options_.attachments) Attach(path);
   return ClosePart();

@@ -1,5 +1,6 @@
 // The files of a recording: one, or parts by size or time of which the oldest go where there are
-// too many. A disk that is full ends the recording; what was flushed before can be read.
+// too many. One file without a split ends where its index has grown large, and another follows. A
+// disk that is full ends the recording; what was flushed before can be read.
 #pragma once
 
 #include <cstdint>
@@ -15,12 +16,17 @@
 
 namespace giveway {
 
+// How often a recorder flushes, so that one that is killed loses a second at most: a turn and the
+// last sample's age come on top.
+inline constexpr Nanoseconds kFlushPeriod = std::chrono::milliseconds(900);
+
 struct CaptureOptions {
   std::string path;                      // OUT.mcap; of parts OUT-0001.mcap and so on
   std::uint64_t split_bytes = 0;         // 0: never
   Nanoseconds split_time{0};             // 0: never
   std::vector<std::string> attachments;  // files put into the last part at its end
   std::uint64_t keep_bytes = 0;          // of all parts; 0: all are kept
+  std::size_t most_chunks = 100'000;     // of a part: the index of each is in memory; a day's
 };
 
 class CaptureFiles {
@@ -30,9 +36,15 @@ class CaptureFiles {
   CaptureFiles(const CaptureFiles&) = delete;
   CaptureFiles& operator=(const CaptureFiles&) = delete;
 
-  // Each is false once something could not be written; Fault() says what and why.
+  // All four are false once something could not be written; Fault() says what and why.
+  //
+  // Makes the first file now rather than with the first sample: a path that cannot be written is
+  // found out before anything is worth recording.
+  bool Start(SteadyTime now);
   bool Write(const link::RawSample& sample, SteadyTime now);
   bool Flush();
+  // These, too; see CaptureOptions.
+  void AttachAtEnd(const std::vector<std::string>& files);
   bool Close();
 
   const std::string& Fault() const { return fault_; }
@@ -43,7 +55,8 @@ class CaptureFiles {
   std::uint32_t Parts() const { return part_; }
 
  private:
-  bool IsSplit() const { return options_.split_bytes != 0 || options_.split_time.count() != 0; }
+  bool HasParts() const { return options_.split_bytes != 0 || options_.split_time.count() != 0; }
+  bool IsPartFull(SteadyTime now) const;
   bool Open(SteadyTime now);
   bool ClosePart();
   void Attach(const std::string& path);
@@ -51,7 +64,7 @@ class CaptureFiles {
   bool Append(std::string_view bytes);
   bool Fail(const std::string& what);
 
-  const CaptureOptions options_;
+  CaptureOptions options_;
   const FleetCapture::QosOf qos_;
   int file_ = -1;
   std::string part_path_;

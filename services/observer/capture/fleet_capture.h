@@ -30,6 +30,7 @@ class FleetCapture {
   bool Close() { return writer_.Close(); }
 
   std::uint64_t Messages() const { return writer_.Messages(); }
+  std::size_t Chunks() const { return writer_.Chunks(); }
   std::uint64_t Size() const { return writer_.Size() + writer_.Pending(); }
 
  private:

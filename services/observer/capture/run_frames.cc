@@ -1,20 +1,55 @@
 #include "services/observer/capture/run_frames.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "services/link/sample_codec.h"
 #include "services/observer/fleet/frame_json.h"
+#include "services/observer/fleet/sample_json.h"
 
 namespace giveway {
 
+namespace {
+
+// The page shows durations of hours, not of centuries: sums of such times and periods do not wrap.
+constexpr std::uint64_t kLatest_ns = std::uint64_t{1} << 62U;
+constexpr Nanoseconds kLongestPeriod = std::chrono::hours(24);
+
+void AppendAll(const std::vector<std::string>& parts, std::string* json) {
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i != 0) *json += ",\n";
+    *json += parts[i];
+  }
+}
+
+}  // namespace
+
+void RunFrames::NoteEvents(const FleetView& view, SteadyTime now) {
+  const auto& events = view.Events();
+  const std::uint64_t fresh =
+      std::min<std::uint64_t>(view.EventCount() - events_noted_, events.size());
+  events_noted_ = view.EventCount();
+  const auto at_ms = static_cast<std::int64_t>(Milliseconds(now));
+  for (std::size_t i = events.size() - fresh; i < events.size(); ++i) {
+    if (events_.size() >= kMostEvents) return;
+    JsonObject object;
+    AddFields(events[i], &object);
+    events_.push_back(fmt::format("[{},{}]", at_ms, object.Text()));
+  }
+}
+
 void RunFrames::Note(const FleetView& view, SteadyTime now) {
+  NoteEvents(view, now);
   if (now < due_ || !view.Heard().Anybody()) return;
   due_ = now + period_;
-  frames_.push_back(FrameJson(view, now));
+  frames_.push_back(FrameJson(view, now, 0));
   bytes_ += frames_.back().size();
   if (frames_.size() > kMostFrames || bytes_ > kMostBytes) Thin();
 }
 
 void RunFrames::Thin() {
-  period_ *= 2;
+  period_ = std::min(2 * period_, kLongestPeriod);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < frames_.size(); i += 2) std::swap(frames_[kept++], frames_[i]);
   frames_.resize(kept);
@@ -22,13 +57,13 @@ void RunFrames::Thin() {
   for (const std::string& frame : frames_) bytes_ += frame.size();
 }
 
-std::string RunFrames::RunJson(const std::string& scene) const {
-  std::string json = "{\"scene\":" + scene + ",\"frames\":[";
-  json.reserve(json.size() + bytes_ + frames_.size() + 16);
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (i != 0) json += ",\n";
-    json += frames_[i];
-  }
+std::string RunFrames::RunJson(const std::string& scene, Opens opens) const {
+  std::string json = opens == Opens::kReport ? "{\"opens\":\"report\"," : "{\"opens\":\"map\",";
+  json += "\"scene\":" + scene + ",\"events\":[";
+  AppendAll(events_, &json);
+  json += "],\"frames\":[";
+  json.reserve(json.size() + bytes_ + 2 * frames_.size() + 2);
+  AppendAll(frames_, &json);
   return json + "]}";
 }
 
@@ -41,7 +76,7 @@ RunRead ReadRun(const mcap::McapReader::Source& source) {
   SteadyTime folded{0};
   run.result = mcap::McapReader::Read(
       source, [&](const mcap::Message& message, const mcap::Channel& channel, const mcap::Schema&) {
-        const SteadyTime at{static_cast<std::int64_t>(message.log_ns)};
+        const SteadyTime at{static_cast<std::int64_t>(std::min(message.log_ns, kLatest_ns))};
         if (at > now) now = at;
         if (now - folded >= kStep) {
           view.Fold(pending, folded.count() == 0 ? now : now - kStep);

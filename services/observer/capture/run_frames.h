@@ -11,24 +11,29 @@
 
 namespace giveway {
 
-// Collects frames of a run that goes on. Bounded: of a run longer than that every second frame
-// goes.
+// Collects frames of a run that goes on, and its events. Bounded: of a run longer than that every
+// second frame goes; of more events the first stay.
 class RunFrames {
  public:
   static constexpr std::size_t kMostFrames = 6000;  // ten minutes at ten a second
   static constexpr std::uint64_t kMostBytes = 256ULL << 20U;
+  static constexpr std::size_t kMostEvents = 50'000;
+  enum class Opens : std::uint8_t { kMap, kReport };  // what the page shows first
 
-  // Takes a frame if one is due.
+  // Takes the events that came since the last call, and a frame if one is due.
   void Note(const FleetView& view, SteadyTime now);
   std::size_t Size() const { return frames_.size(); }
-  // {"scene":…,"frames":[…]}, for PageWithRun.
-  std::string RunJson(const std::string& scene) const;
+  // {"opens":"map","scene":…,"events":[[at_ms,{…}],…],"frames":[…]}, for PageWithRun.
+  std::string RunJson(const std::string& scene, Opens opens = Opens::kMap) const;
 
  private:
+  void NoteEvents(const FleetView& view, SteadyTime now);
   void Thin();
 
   std::vector<std::string> frames_;
   std::uint64_t bytes_ = 0;
+  std::vector<std::string> events_;
+  std::uint64_t events_noted_ = 0;
   Nanoseconds period_{100'000'000};
   SteadyTime due_{0};
 };

@@ -28,9 +28,10 @@ std::string RowJson(VehicleId id, const HeardVehicle& heard, const VehicleView* 
   row.Add("hearing", Name(heard.HearingAt(now)));
   AddAge("beacon_age_ms", heard.beacon_at, now, &row);
   AddAge("status_age_ms", heard.status_at, now, &row);
-  if (view != nullptr && view->truth) {
-    row.AddRaw("world_from_body", PoseJson(view->truth->world_from_body));
-    row.Add("arrived", view->truth->arrived);
+  const Truth* body = view != nullptr ? view->Body() : nullptr;
+  if (body != nullptr) {
+    row.AddRaw("world_from_body", PoseJson(body->world_from_body));
+    row.Add("arrived", body->arrived);
   } else if (heard.beacon) {
     row.AddRaw("world_from_body", PoseJson(heard.beacon->world_from_body));
   }

@@ -64,6 +64,7 @@ void FleetView::Fold(const link::Observed& observed, SteadyTime now) {
     }
   }
   for (const WorldEvent& event : observed.events) events_.push_back(event);
+  event_count_ += observed.events.size();
   while (events_.size() > kMostEvents) events_.pop_front();
   if (observed.figures) figures_ = observed.figures;
   std::erase_if(vehicles_,

@@ -41,6 +41,8 @@ class FigureHistogram {
 
 struct VehicleView {
   std::optional<Truth> truth;  // of the world that is there now
+  // Null once the world has taken the body out.
+  const Truth* Body() const { return truth && truth->present ? &*truth : nullptr; }
   std::optional<RangeScan> ranges;
   SteadyTime ranges_at{0};
   FigureHistogram beacon_age;
@@ -59,6 +61,7 @@ class FleetView {
   const std::map<SignalId, SignalState>& Signals() const { return signals_; }
   // The newest, in order; an epoch's numbers start again with the next world.
   const std::deque<WorldEvent>& Events() const { return events_; }
+  std::uint64_t EventCount() const { return event_count_; }  // all that came, also those gone
   const std::optional<RunFigures>& Figures() const { return figures_; }
 
  private:
@@ -68,6 +71,7 @@ class FleetView {
   std::map<VehicleId, VehicleView> vehicles_;
   std::map<SignalId, SignalState> signals_;
   std::deque<WorldEvent> events_;
+  std::uint64_t event_count_ = 0;
   std::optional<RunFigures> figures_;
   WorldEpoch epoch_ = kNoEpoch;
 };

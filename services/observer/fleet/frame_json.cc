@@ -13,7 +13,6 @@
 namespace giveway {
 namespace {
 
-constexpr std::size_t kEventsInFrame = 24;
 constexpr std::int64_t kNone = -1;
 
 // A thousandth of the unit; what is not finite or absurd is at the limit, for the page draws it.
@@ -57,8 +56,7 @@ Decision DecisionOf(const HeardVehicle& heard) {
 
 void AddRow(VehicleId id, const HeardVehicle& heard, const VehicleView* view, SteadyTime now,
             std::string* json) {
-  const Truth* truth = view != nullptr && view->truth ? &*view->truth : nullptr;
-  if (truth != nullptr && !truth->present) truth = nullptr;
+  const Truth* truth = view != nullptr ? view->Body() : nullptr;
   const Beacon beacon = heard.beacon.value_or(Beacon{});
   const Pose pose = PoseOf(heard, truth);
   const Decision decision = DecisionOf(heard);
@@ -142,9 +140,9 @@ std::string SignalsJson(const FleetView& view) {
   });
 }
 
-std::string NewestEventsJson(const FleetView& view) {
+std::string NewestEventsJson(const FleetView& view, std::size_t most) {
   const auto& events = view.Events();
-  const std::size_t skipped = events.size() > kEventsInFrame ? events.size() - kEventsInFrame : 0;
+  const std::size_t skipped = events.size() > most ? events.size() - most : 0;
   std::string json;
   for (auto event = events.begin() + static_cast<std::ptrdiff_t>(skipped); event != events.end();
        ++event) {
@@ -157,14 +155,14 @@ std::string NewestEventsJson(const FleetView& view) {
 
 }  // namespace
 
-std::string FrameJson(const FleetView& view, SteadyTime now) {
+std::string FrameJson(const FleetView& view, SteadyTime now, std::size_t most_events) {
   JsonObject frame;
   frame.Add("at_ms", static_cast<std::int64_t>(Milliseconds(now)));
   frame.AddRaw("world", WorldJson(view.Heard().World(), now));
   frame.AddRaw("vehicles", RowsJson(view, now));
   frame.AddRaw("ranges", RangesJson(view, now));
   frame.AddRaw("signals", SignalsJson(view));
-  frame.AddRaw("events", NewestEventsJson(view));
+  frame.AddRaw("events", NewestEventsJson(view, most_events));
   return frame.Text();
 }
 

@@ -31,6 +31,10 @@ inline constexpr std::array<std::string_view, 25> kVehicleColumns{
 // Of a fleet larger than this the ranges stay out: a client gets at most 300 kB/s.
 inline constexpr std::size_t kMostWithRanges = 200;
 
-std::string FrameJson(const FleetView& view, SteadyTime now);
+// Many enough that a client which misses frames misses no event.
+inline constexpr std::size_t kEventsInFrame = 24;
+
+std::string FrameJson(const FleetView& view, SteadyTime now,
+                      std::size_t most_events = kEventsInFrame);
 
 }  // namespace giveway

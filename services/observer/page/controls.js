@@ -9,11 +9,14 @@ function setFollow(on) {
   state.follow = on && state.picked !== null;
   byId("follow").setAttribute("aria-pressed", state.follow);
 }
-function setTable(on) {
-  state.showTable = on;
-  byId("table-view").hidden = !on;
-  byId("map-view").hidden = on;
-  byId("show-table").setAttribute("aria-pressed", on);
+function setView(name) {
+  state.view = name;
+  for (const view of ["map", "table", "report"]) byId(view + "-view").hidden = view !== name;
+  for (const view of ["table", "report"]) byId("show-" + view).setAttribute("aria-pressed", view === name);
+}
+function toggleView(name) {
+  if (name === "report" && !state.isReplay) return;
+  setView(state.view === name ? "map" : name);
 }
 function setTheme(theme) {
   document.documentElement.dataset.theme = theme;
@@ -55,7 +58,9 @@ function seek(at) {
   if (!first) return;
   state.cursor = Math.min(last.at, Math.max(first.at, at));
 }
+// At the end of a run it plays it again.
 function togglePlay() {
+  if (state.isReplay && !state.playing && state.cursor >= state.frames.at(-1)?.at) return setLive();
   if (state.cursor === null) { seek(shownAt()); state.playing = false; return; }
   state.playing = !state.playing;
 }
@@ -108,7 +113,8 @@ mapCanvas.addEventListener("wheel", (event) => {
 
 addEventListener("resize", () => { if (!state.follow) view.isSet = false; });
 
-byId("show-table").addEventListener("click", () => setTable(!state.showTable));
+byId("show-table").addEventListener("click", () => toggleView("table"));
+byId("show-report").addEventListener("click", () => toggleView("report"));
 byId("fit").addEventListener("click", () => { setFollow(false); view.isSet = false; });
 byId("follow").addEventListener("click", () => setFollow(!state.follow));
 byId("theme").addEventListener("click", toggleTheme);
@@ -131,12 +137,12 @@ const KEYS = {
   ArrowRight: () => { view.x += 80 / view.scale; setFollow(false); },
   ArrowUp: () => { view.y += 80 / view.scale; setFollow(false); },
   ArrowDown: () => { view.y -= 80 / view.scale; setFollow(false); },
-  "+": () => zoomAt(mapCanvas.clientWidth / 2, mapCanvas.clientHeight / 2, 1.25),
+  "+": () => zoomAt(view.width / 2, view.height / 2, 1.25),
   "=": () => KEYS["+"](),
-  "-": () => zoomAt(mapCanvas.clientWidth / 2, mapCanvas.clientHeight / 2, 0.8),
+  "-": () => zoomAt(view.width / 2, view.height / 2, 0.8),
   "0": () => { setFollow(false); view.isSet = false; },
   n: () => pickNext(1), p: () => pickNext(-1), f: () => setFollow(!state.follow),
-  t: () => setTable(!state.showTable), d: toggleTheme, l: setLive, " ": togglePlay,
+  t: () => toggleView("table"), r: () => toggleView("report"), d: toggleTheme, l: setLive, " ": togglePlay,
   "[": () => { seek(shownAt() - 1000); state.playing = false; },
   "]": () => { seek(shownAt() + 1000); state.playing = false; },
   "/": () => byId("filter").focus(), Escape: () => pick(null), "?": () => byId("help").showModal(),

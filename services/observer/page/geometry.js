@@ -1,14 +1,21 @@
 // Metres to pixels and back, and the colours of the theme.
-const view = { x: 0, y: 0, scale: 40, isSet: false };  // centre, world frame; pixels a metre
 const mapCanvas = document.getElementById("map");
+// Centre, world frame; pixels a metre; pixels of the map, for to ask the page costs a layout.
+const view = { x: 0, y: 0, scale: 40, isSet: false, width: 0, height: 0 };
+function measureMap() {
+  view.width = mapCanvas.clientWidth;
+  view.height = mapCanvas.clientHeight;
+}
+measureMap();
+new ResizeObserver(measureMap).observe(mapCanvas);
 
 function toScreen(x, y) {
-  return [mapCanvas.clientWidth / 2 + (x - view.x) * view.scale,
-          mapCanvas.clientHeight / 2 - (y - view.y) * view.scale];
+  return [view.width / 2 + (x - view.x) * view.scale,
+          view.height / 2 - (y - view.y) * view.scale];
 }
 function toWorld(px, py) {
-  return [view.x + (px - mapCanvas.clientWidth / 2) / view.scale,
-          view.y - (py - mapCanvas.clientHeight / 2) / view.scale];
+  return [view.x + (px - view.width / 2) / view.scale,
+          view.y - (py - view.height / 2) / view.scale];
 }
 function zoomAt(px, py, factor) {
   const [x, y] = toWorld(px, py);
@@ -35,8 +42,8 @@ function fitAll(frame) {
   const margin = 1.2;
   view.x = (box.left + box.right) / 2;
   view.y = (box.low + box.high) / 2;
-  view.scale = Math.min(140, mapCanvas.clientWidth / (box.right - box.left + 2 * margin),
-                        mapCanvas.clientHeight / (box.high - box.low + 2 * margin));
+  view.scale = Math.min(140, view.width / (box.right - box.left + 2 * margin),
+                        view.height / (box.high - box.low + 2 * margin));
   view.isSet = true;
 }
 
@@ -65,9 +72,9 @@ function markOf(vehicle) {
   return "arrow";
 }
 
-function fitCanvas(canvas) {
+function fitCanvas(canvas, of_width = canvas.clientWidth, of_height = canvas.clientHeight) {
   const ratio = window.devicePixelRatio || 1;
-  const width = Math.round(canvas.clientWidth * ratio), height = Math.round(canvas.clientHeight * ratio);
+  const width = Math.round(of_width * ratio), height = Math.round(of_height * ratio);
   if (canvas.width !== width || canvas.height !== height) {
     canvas.width = width;
     canvas.height = height;

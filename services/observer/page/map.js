@@ -101,15 +101,26 @@ function drawTrail(g, vehicle, at) {
   if (!series) return;
   const from = lastBefore(series.at, at - TRAIL_MS, (t) => t) + 1;
   const to = lastBefore(series.at, at, (t) => t);
+  if (to <= from) return;
   const step = Math.max(1, Math.floor((to - from) / 60));
-  const points = [];
-  for (let i = from; i <= to; i += step) points.push(toScreen(series.x[i], series.y[i]));
-  if (points.length < 2) return;
-  points.push(toScreen(vehicle.x, vehicle.y));
+  const left = view.width / 2 - view.x * view.scale, low = view.height / 2 + view.y * view.scale;
+  const near = 1.5 / view.scale;  // a step of less shows nothing
+  let x = series.x[from], y = series.y[from], steps = 0;
+  g.beginPath();
+  g.moveTo(left + x * view.scale, low - y * view.scale);
+  for (let i = from + step; i <= to; i += step) {
+    if (Math.abs(series.x[i] - x) + Math.abs(series.y[i] - y) < near) continue;
+    x = series.x[i];
+    y = series.y[i];
+    g.lineTo(left + x * view.scale, low - y * view.scale);
+    ++steps;
+  }
+  if (steps === 0) return;  // it stands
+  g.lineTo(...toScreen(vehicle.x, vehicle.y));
   g.strokeStyle = colourOf(vehicle);
   g.globalAlpha = 0.35;
   g.lineWidth = 1.5;
-  line(g, points);
+  g.stroke();
   g.globalAlpha = 1;
 }
 
@@ -169,14 +180,13 @@ function drawLink(g, a, b) {
 function drawLinks(g, vehicles) {
   const reach = state.scene.emission_radius_m;
   const bodies = vehicles.filter((v) => v.has_body && v.hearing !== "left");
-  const all = bodies.length <= MOST_WITH_LINKS;
-  for (let i = 0; i < bodies.length; ++i) {
-    for (let j = i + 1; j < bodies.length; ++j) {
-      const a = bodies[i], b = bodies[j];
-      if (!all && a.id !== state.picked && b.id !== state.picked) continue;
-      if (Math.hypot(a.x - b.x, a.y - b.y) <= reach) drawLink(g, a, b);
-    }
+  const link = (a, b) => { if (Math.hypot(a.x - b.x, a.y - b.y) <= reach) drawLink(g, a, b); };
+  if (bodies.length > MOST_WITH_LINKS) {
+    const picked = bodies.find((v) => v.id === state.picked);
+    for (const other of picked ? bodies : []) if (other !== picked) link(picked, other);
+    return;
   }
+  for (let i = 0; i < bodies.length; ++i) for (let j = i + 1; j < bodies.length; ++j) link(bodies[i], bodies[j]);
 }
 
 function drawGivesWay(g, vehicle, peer) {
@@ -222,7 +232,7 @@ function drawMark(g, mark, size) {
 function drawVehicle(g, vehicle, labels) {
   const [x, y] = toScreen(vehicle.x, vehicle.y);
   const radius = Math.max(4, vehicle.radius * view.scale);
-  const box = (state.scene.fleet ?? []).find((one) => one.id === vehicle.id)?.box_half_m;
+  const box = state.boxes.get(vehicle.id);
   const heard = vehicle.hearing === "heard";
   g.globalAlpha = matches(vehicle) ? 1 : 0.18;
   g.save();
@@ -259,9 +269,9 @@ function drawContacts(g, frame) {
   const now_s = (frame.world.time_ms ?? 0) / 1000;
   g.strokeStyle = colours.bad;
   g.lineWidth = 3;
-  for (const event of state.events.values()) {
-    if (event.kind !== "contact" || event.world_epoch !== frame.world.epoch) continue;
-    if (event.time_s > now_s || event.time_s < now_s - 15 || !event.other_position_world) continue;
+  for (const event of state.contacts) {
+    if (event.world_epoch !== frame.world.epoch) continue;
+    if (event.time_s > now_s || event.time_s < now_s - 15) continue;
     const [x, y] = toScreen((event.position_world.x_m + event.other_position_world.x_m) / 2,
                             (event.position_world.y_m + event.other_position_world.y_m) / 2);
     g.beginPath();
@@ -276,8 +286,9 @@ function inView(vehicle, width, height) {
 }
 
 function drawMap(frame) {
-  const g = fitCanvas(mapCanvas);
-  const width = mapCanvas.clientWidth, height = mapCanvas.clientHeight;
+  const { width, height } = view;
+  if (width === 0 || height === 0) return;  // not laid out yet
+  const g = fitCanvas(mapCanvas, width, height);
   g.fillStyle = colours.ground;
   g.fillRect(0, 0, width, height);
   if (!frame) return;

@@ -2,13 +2,16 @@
 // when they are looked at; what trails and plots need is kept as numbers.
 const KEEP_MS = 300000;
 const MOST_BYTES = 96 * 1024 * 1024;
+const MOST_EVENTS = 600;  // of a live fleet; of a run its file limits them
 
 const state = {
   scene: null, frames: [], bytes: 0, series: new Map(), events: new Map(),
+  contacts: [],       // those of the events
+  boxes: new Map(),   // half lengths of the scenario's boxes by id
   cursor: null,       // ms of the observer's clock; null: the newest
   playing: true, speed: 1, isReplay: false,
   arrivedAt: 0,       // performance.now() of the newest frame
-  connected: false, picked: null, follow: false, filter: "", showTable: false,
+  connected: false, picked: null, follow: false, filter: "", view: "map",
 };
 
 const decoded = new Map();  // of the last few frames that were looked at
@@ -29,10 +32,16 @@ function asVehicle(row) {
   return vehicle;
 }
 
-function decode(entry) {
+function setScene(scene) {
+  state.scene = scene;
+  state.boxes = new Map((scene.fleet ?? []).filter((one) => one.box_half_m).map((one) => [one.id, one.box_half_m]));
+}
+
+// `raw` is what the entry's data say, where that is known.
+function decode(entry, raw) {
   let frame = decoded.get(entry);
   if (frame) return frame;
-  const raw = typeof entry.data === "string" ? JSON.parse(entry.data) : entry.data;
+  raw ??= typeof entry.data === "string" ? JSON.parse(entry.data) : entry.data;
   frame = { at: raw.at_ms, world: raw.world, ranges: raw.ranges, signals: raw.signals, vehicles: new Map() };
   for (const row of raw.vehicles) {
     const vehicle = asVehicle(row);
@@ -65,16 +74,22 @@ function noteSeries(raw) {
   }
 }
 
-function noteEvents(raw) {
-  for (const event of raw.events) {
-    const key = event.world_epoch * 1e6 + event.seq;
-    if (!state.events.has(key)) state.events.set(key, { at: raw.at_ms, ...event });
+function noteEvents(at_ms, events) {
+  for (const event of events) {
+    const key = event.world_epoch + "." + event.seq;
+    if (state.events.has(key)) continue;
+    const noted = { at: at_ms, ...event };
+    state.events.set(key, noted);
+    if (event.kind === "contact" && event.other_position_world) state.contacts.push(noted);
   }
-  while (state.events.size > 600) state.events.delete(state.events.keys().next().value);
+  if (state.isReplay) return;
+  while (state.events.size > MOST_EVENTS) state.events.delete(state.events.keys().next().value);
+  if (state.contacts.length > MOST_EVENTS) state.contacts.shift();
 }
 
 function clearStore() {
   state.frames = []; state.bytes = 0; state.series.clear(); state.events.clear(); decoded.clear();
+  state.contacts = [];
   state.cursor = null;
 }
 
@@ -82,11 +97,13 @@ function addFrame(data, raw) {
   const newest = state.frames.at(-1);
   if (newest && raw.at_ms < newest.at) clearStore();  // another machine's clock, or a new observer
   const size = typeof data === "string" ? data.length : 0;
-  state.frames.push({ at: raw.at_ms, data, size });
+  const entry = { at: raw.at_ms, data, size };
+  state.frames.push(entry);
   state.bytes += size;
   noteSeries(raw);
-  noteEvents(raw);
+  noteEvents(raw.at_ms, raw.events);
   if (state.isReplay) return;
+  decode(entry, raw);  // it is looked at next
   let drop = 0;
   while (drop < state.frames.length - 2 &&
          (state.frames[drop].at < raw.at_ms - KEEP_MS || state.bytes > MOST_BYTES)) {
@@ -124,6 +141,21 @@ function turned(from, to, share) {
   return from + angle * share;
 }
 
+// The vehicles of a frame that move on to a later one: made once, and moved at each turn.
+let between = { frame: null, later: null, vehicles: new Map(), moving: [] };
+function vehiclesBetween(frame, later) {
+  if (between.frame === frame && between.later === later) return between;
+  between = { frame, later, vehicles: new Map(), moving: [] };
+  for (const [id, vehicle] of frame.vehicles) {
+    const then = later.vehicles.get(id);
+    const moves = then && Math.hypot(then.x - vehicle.x, then.y - vehicle.y) <= 2;
+    const shown = moves ? { ...vehicle } : vehicle;
+    between.vehicles.set(id, shown);
+    if (moves) between.moving.push([shown, vehicle, then]);
+  }
+  return between;
+}
+
 // What is drawn: the frame at the time shown, its vehicles moved on towards the next.
 function shownFrame() {
   if (!state.scene || state.frames.length === 0) return null;
@@ -134,16 +166,11 @@ function shownFrame() {
   if (!next || next.at - frame.at > 1000 || at <= frame.at) return frame;
   const later = decode(next);
   const share = (at - frame.at) / (later.at - frame.at);
-  const vehicles = new Map();
-  for (const [id, vehicle] of frame.vehicles) {
-    const then = later.vehicles.get(id);
-    if (!then || Math.hypot(then.x - vehicle.x, then.y - vehicle.y) > 2) {
-      vehicles.set(id, vehicle);
-      continue;
-    }
-    vehicles.set(id, { ...vehicle,
-      x: vehicle.x + (then.x - vehicle.x) * share, y: vehicle.y + (then.y - vehicle.y) * share,
-      heading: turned(vehicle.heading, then.heading, share) });
+  const { vehicles, moving } = vehiclesBetween(frame, later);
+  for (const [shown, vehicle, then] of moving) {
+    shown.x = vehicle.x + (then.x - vehicle.x) * share;
+    shown.y = vehicle.y + (then.y - vehicle.y) * share;
+    shown.heading = turned(vehicle.heading, then.heading, share);
   }
   return { ...frame, at, vehicles };
 }

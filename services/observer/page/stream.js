@@ -4,7 +4,7 @@ const STALE_MS = 2000;
 function follow() {
   const source = new EventSource("api/v1/stream");
   source.addEventListener("scene", (event) => {
-    state.scene = JSON.parse(event.data);
+    setScene(JSON.parse(event.data));
     clearStore();
     state.connected = true;
     document.title = "Giveway " + state.scene.title;
@@ -25,13 +25,16 @@ function follow() {
 function loadRun(text) {
   const run = JSON.parse(text);
   state.isReplay = true;
-  state.scene = run.scene;
+  setScene(run.scene);
+  for (const [at_ms, event] of run.events ?? []) noteEvents(at_ms, [event]);
   for (const frame of run.frames) addFrame(frame, frame);
   state.connected = true;
   document.title = "Giveway " + state.scene.title;
   byId("live").textContent = "Restart";
   byId("live").title = "From the start (L)";
+  byId("show-report").hidden = false;
   setLive();
+  if (run.opens === "report") { setView("report"); state.playing = false; }
 }
 
 function setChip(id, text, kind) {
@@ -91,10 +94,11 @@ function turn(now) {
   advance(now - lastTurn);
   lastTurn = now;
   const frame = shownFrame();
-  if (!state.showTable) drawMap(frame);
+  if (state.view === "map") drawMap(frame);
   if (now - lastWords > 150) {
     lastWords = now;
-    if (state.showTable) showTable(frame);
+    if (state.view === "table") showTable(frame);
+    if (state.view === "report") showReport();
     showPicked(frame);
     showEvents(frame);
     showStatus(frame);

@@ -85,7 +85,7 @@ function eventText(event) {
 let eventsShown = "";
 function showEvents(frame) {
   const list = document.getElementById("events");
-  const at = frame ? frame.at : Infinity;
+  const at = frame && state.view !== "report" ? frame.at : Infinity;  // a report is of the whole run
   const events = [...state.events.values()].filter((event) => event.at <= at + 200).slice(-80).reverse();
   const key = events.map((event) => event.world_epoch + "." + event.seq).join();
   if (key === eventsShown) return;

@@ -1,5 +1,7 @@
 #include "services/observer/server/client_stream.h"
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -18,13 +20,28 @@ constexpr std::size_t kLongestRequest = 8192;  // bytes: a browser sends some hu
 constexpr Nanoseconds kRequestTime = std::chrono::seconds(2);
 // A client that takes nothing for this long is gone, or might as well be.
 constexpr Nanoseconds kWriteTime = std::chrono::seconds(5);
+// And one that takes an answer by drops holds a thread.
+constexpr Nanoseconds kAnswerTime = std::chrono::seconds(60);
+constexpr std::size_t kPiece = 64UL << 10U;  // bytes given to the kernel at once
 constexpr Nanoseconds kDrainTime = milliseconds(100);
 constexpr Nanoseconds kSlice = milliseconds(50);  // how soon a server that stops is noticed
+
+// The kernel would keep megabytes for a slow client, and it would be shown frames of a minute ago:
+// it is writable only while little waits to be sent. And a client whose machine is gone ends, also
+// after we have closed.
+void BoundKernel(int socket) {
+  const int most_unsent = 16 << 10;  // bytes
+  const int most_unheard_ms = 10'000;
+  setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent, sizeof(most_unsent));
+  setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &most_unheard_ms, sizeof(most_unheard_ms));
+}
 
 }  // namespace
 
 ClientStream::ClientStream(int socket, const std::atomic<bool>& stops)
-    : socket_(socket), stops_(stops), read_until_(SteadyNow() + kRequestTime) {}
+    : socket_(socket), stops_(stops), read_until_(SteadyNow() + kRequestTime) {
+  BoundKernel(socket);
+}
 
 bool ClientStream::Wait(short what, SteadyTime until) const {
   while (!stops_ && SteadyNow() < until) {
@@ -51,9 +68,11 @@ ssize_t ClientStream::read(char* to, std::size_t size) {
 // All of it, or an error: the library takes what was written of a page for the whole of it.
 ssize_t ClientStream::write(const char* from, std::size_t size) {
   std::size_t written = 0;
+  const SteadyTime until = SteadyNow() + kAnswerTime;
   while (written < size) {
-    if (!is_writable()) return -1;
-    const ssize_t sent = send(socket_, from + written, size - written, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (!Wait(POLLOUT, std::min(until, SteadyNow() + kWriteTime))) return -1;
+    const std::size_t piece = std::min(size - written, kPiece);
+    const ssize_t sent = send(socket_, from + written, piece, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent < 0 && errno != EAGAIN && errno != EINTR) return -1;
     written += static_cast<std::size_t>(std::max<ssize_t>(sent, 0));
   }

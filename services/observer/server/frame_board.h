@@ -38,6 +38,12 @@ class FrameBoard {
     return closed_;
   }
 
+  // Of the newest frame; 0: there was none yet.
+  std::uint64_t Number() const {
+    const std::lock_guard lock(mutex_);
+    return number_;
+  }
+
   // The newest frame and its number once there is one other than `after`; null after `timeout`.
   std::pair<Text, std::uint64_t> Wait(std::uint64_t after, Nanoseconds timeout) const {
     std::unique_lock lock(mutex_);

@@ -112,6 +112,8 @@ struct PageServer::Impl {
   std::atomic<bool> ended{false};
   std::thread listener;
 
+  ServerFigures Figures() const { return {streams, refused}; }
+
   // Before the library's own routing, which matches paths by regular expressions.
   void Answer(const httplib::Request& request, httplib::Response& response) {
     constexpr int kNotAllowed = 405;
@@ -144,7 +146,8 @@ struct PageServer::Impl {
     response.set_header("Cache-Control", "no-store");
     response.set_chunked_content_provider(
         "text/event-stream",
-        [this, after = std::uint64_t{0}](std::size_t offset, httplib::DataSink& sink) mutable {
+        [this, after = sources.frames->Number()](std::size_t offset,
+                                                 httplib::DataSink& sink) mutable {
           return WriteNext(offset == 0, &after, sink);
         },
         [this](auto&&...) { --streams; });
@@ -170,11 +173,16 @@ struct PageServer::Impl {
                           "'unsafe-inline'; connect-src 'self'; img-src data:; "
                           "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
       response.set_header("X-Content-Type-Options", "nosniff");
-      response.set_content(sources.page, "text/html; charset=utf-8");
+      // From where it is: a run's page may have 100 MB.
+      response.set_content_provider(
+          sources.page.size(), "text/html; charset=utf-8",
+          [this](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+            return sink.write(sources.page.data() + offset, length);
+          });
       return;
     }
     if (request.path == "/api/v1/stream" && sources.frames != nullptr) return Stream(response);
-    auto answer = sources.get(request.path);
+    auto answer = sources.get(request.path, Figures());
     if (!answer) {
       constexpr int kNotFound = 404;
       Refuse(kNotFound,
@@ -228,7 +236,6 @@ PageServer::~PageServer() {
   impl_->listener.join();
 }
 
-int PageServer::Streams() const { return impl_->streams; }
-std::uint64_t PageServer::Refused() const { return impl_->refused; }
+ServerFigures PageServer::Figures() const { return impl_->Figures(); }
 
 }  // namespace giveway

@@ -27,12 +27,19 @@ struct PageAnswer {
   int status = 200;
 };
 
+struct ServerFigures {
+  int streams = 0;            // clients that follow the stream now
+  std::uint64_t refused = 0;  // streams turned away, foreign hosts, other methods
+};
+
 struct PageSources {
   std::string page;  // of /
-  // Any other path; nothing: 404. Called on the server's threads.
-  std::function<std::optional<PageAnswer>(const std::string& path)> get;
-  std::string scene;                    // first on every stream; without line feeds
-  const FrameBoard* frames = nullptr;   // of /api/v1/stream; null: there is none
+  // Any other path; nothing: 404. Called on the server's threads, as soon as it listens.
+  std::function<std::optional<PageAnswer>(const std::string& path, const ServerFigures& server)>
+      get;
+  std::string scene;  // first on every stream; without line feeds
+  const FrameBoard* frames =
+      nullptr;  // later ones go to streams, of /api/v1/stream; null: there is none
   std::vector<std::string> host_names;  // beside localhost and addresses
 };
 
@@ -47,8 +54,7 @@ class PageServer {
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
-  int Streams() const;            // clients that follow the stream now
-  std::uint64_t Refused() const;  // streams turned away, foreign hosts, other methods
+  ServerFigures Figures() const;
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <string>
 #include <vector>
@@ -138,6 +139,47 @@ TEST(Mcap, OtherBytesAreRefusedInWords) {
   const std::string magic(kMagic);
   const std::string huge = magic + '\x06' + std::string(8, '\x7f');
   EXPECT_THAT(ReadAll(huge).result.fault, HasSubstr("claims"));
+}
+
+TEST(Mcap, ALargeAttachmentIsPassedOver) {
+  FieldWriter head;
+  head.PutBytes(kMagic);
+  head.Put(static_cast<std::uint8_t>(Opcode::kAttachment));
+  head.Put(std::uint64_t{300} << 20U);
+  std::uint64_t left = head.Bytes().size() + (std::uint64_t{300} << 20U);
+  std::size_t most_at_once = 0;
+  const ReadResult result = McapReader::Read(
+      [&, rest = std::string_view(head.Bytes())](char* to, std::size_t most) mutable {
+        most_at_once = std::max(most_at_once, most);
+        const std::size_t got = std::min<std::uint64_t>(most, left);
+        rest.remove_prefix(rest.copy(to, got));
+        left -= got;
+        return got;
+      },
+      [](const auto&, const auto&, const auto&) { return true; });
+  EXPECT_EQ(result.fault, "");
+  EXPECT_TRUE(result.cut_off);
+  EXPECT_EQ(left, 0U);
+  EXPECT_LE(most_at_once, std::size_t{1} << 20U);
+}
+
+TEST(Mcap, SchemasWithoutEndAreRefused) {
+  std::string bytes;
+  McapWriter writer(
+      [&bytes](std::string_view more) {
+        bytes += more;
+        return true;
+      },
+      "test");
+  const std::string data(std::size_t{1} << 20U, 'x');
+  std::uint16_t schema = 0;
+  for (int n = 0; n < 40; ++n) schema = writer.AddSchema({.name = "T", .data = data});
+  const std::uint16_t channel = writer.AddChannel({.schema = schema, .topic = "t"});
+  writer.Write({.channel = channel, .data = "x"});
+  writer.Close();
+  const Told told = ReadAll(bytes);
+  EXPECT_THAT(told.result.fault, HasSubstr("schemas and channels take more than"));
+  EXPECT_TRUE(told.data.empty());
 }
 
 TEST(Mcap, ADamagedChunkIsNoticed) {

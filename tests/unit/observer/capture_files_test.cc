@@ -9,6 +9,7 @@
 #include <random>
 
 #include "services/mcap/mcap_reader.h"
+#include "tests/support/full_disk.h"
 
 namespace giveway {
 namespace {
@@ -52,7 +53,7 @@ TEST_F(CaptureFilesTest, OneFileWithoutASplit) {
 }
 
 TEST_F(CaptureFilesTest, PartsBySizeAndTheOldestGo) {
-  CaptureFiles files({.path = Path("run.mcap"), .split_bytes = 1'000'000, .keep_bytes = 100'000},
+  CaptureFiles files({.path = Path("run.mcap"), .split_bytes = 1'000'000, .keep_bytes = 3'000'000},
                      {});
   for (int n = 0; n < 100; ++n) EXPECT_TRUE(files.Write(Sample(100'000), SteadyTime{0}));
   EXPECT_TRUE(files.Close());
@@ -82,10 +83,75 @@ TEST_F(CaptureFilesTest, WhatIsThereIsNotOverwritten) {
   EXPECT_EQ(fs::file_size(Path("run.mcap")), 8U);
 }
 
-TEST_F(CaptureFilesTest, AFullDiskEndsItInWords) {
-  CaptureFiles files({.path = "/dev/full/run.mcap"}, {});
+TEST_F(CaptureFilesTest, APathThatIsTakenIsKnownAtTheStart) {
+  std::ofstream(Path("run.mcap")) << "precious";
+  CaptureFiles files({.path = Path("run.mcap")}, {});
+  EXPECT_FALSE(files.Start(SteadyTime{0}));
+  EXPECT_THAT(files.Fault(), HasSubstr("run.mcap: cannot be made: File exists"));
+}
+
+TEST_F(CaptureFilesTest, TheFileOfALaterSampleIsThereFromTheStart) {
+  CaptureFiles files({.path = Path("run.mcap")}, {});
+  EXPECT_TRUE(files.Start(SteadyTime{0}));
+  EXPECT_TRUE(fs::exists(Path("run.mcap")));
+  EXPECT_TRUE(files.Write(Sample(1), SteadyTime{0}));
+  EXPECT_TRUE(files.Close());
+  EXPECT_EQ(files.Parts(), 1U);
+  EXPECT_EQ(MessagesIn(Path("run.mcap")), 1U);
+}
+
+TEST_F(CaptureFilesTest, AllPartsTogetherStayWithinWhatIsKept) {
+  constexpr std::uint64_t kKeep = 2'500'000;
+  CaptureFiles files({.path = Path("run.mcap"), .split_bytes = 10'000'000, .keep_bytes = kKeep},
+                     {});
+  const auto taken = [this] {
+    std::uint64_t bytes = 0;
+    for (const auto& file : fs::directory_iterator(folder_)) bytes += file.file_size();
+    return bytes;
+  };
+  for (int n = 0; n < 100; ++n) {
+    EXPECT_TRUE(files.Write(Sample(100'000), SteadyTime{0}));
+    EXPECT_TRUE(files.Flush());
+    EXPECT_LE(taken(), kKeep);
+  }
+  EXPECT_TRUE(files.Close());
+  EXPECT_LE(taken(), kKeep);
+  EXPECT_GT(taken(), kKeep / 2);
+}
+
+TEST_F(CaptureFilesTest, APartWhoseIndexHasGrownLargeIsFollowedByAnother) {
+  CaptureFiles files({.path = Path("run.mcap"), .most_chunks = 10}, {});
+  for (int n = 0; n < 25; ++n) {
+    EXPECT_TRUE(files.Write(Sample(1), SteadyTime{0}));
+    EXPECT_TRUE(files.Flush());
+  }
+  EXPECT_TRUE(files.Close());
+  EXPECT_EQ(files.Parts(), 3U);
+  EXPECT_EQ(MessagesIn(Path("run.mcap")), 10U);
+  EXPECT_EQ(MessagesIn(Path("run-0002.mcap")), 10U);
+  EXPECT_EQ(MessagesIn(Path("run-0003.mcap")), 5U);
+}
+
+TEST_F(CaptureFilesTest, AFolderThatIsNoneIsSaid) {
+  CaptureFiles files({.path = Path("none/run.mcap")}, {});
   EXPECT_FALSE(files.Write(Sample(1), SteadyTime{0}));
   EXPECT_THAT(files.Fault(), HasSubstr("cannot be made"));
+}
+
+TEST_F(CaptureFilesTest, AFullDiskEndsItInWordsAndLeavesWhatWasFlushed) {
+  CaptureFiles files({.path = Path("run.mcap")}, {});
+  {
+    const test::FullDisk full(500'000);
+    for (int n = 0; n < 4; ++n) EXPECT_TRUE(files.Write(Sample(100'000), SteadyTime{0}));
+    EXPECT_TRUE(files.Flush());
+    EXPECT_TRUE(files.Write(Sample(200'000), SteadyTime{0}));
+    EXPECT_FALSE(files.Flush());
+    EXPECT_THAT(files.Fault(), HasSubstr("cannot be written; the recording ends here"));
+    EXPECT_FALSE(files.Write(Sample(1), SteadyTime{0}));
+    EXPECT_FALSE(files.Close());
+  }
+  EXPECT_EQ(fs::file_size(Path("run.mcap")), 500'000U);
+  EXPECT_EQ(MessagesIn(Path("run.mcap")), 4U);
 }
 
 TEST_F(CaptureFilesTest, FilesAreAttachedAndOneThatIsMissingIsNamed) {

@@ -15,10 +15,21 @@ TEST(ExportCsv, FieldsWithinOthersAreJoinedByDots) {
                           Pair("l", "[1,2]"), Pair("t", "a,b"), Pair("f", "true")));
 }
 
-TEST(ExportCsv, TheHeadComesOnceAndMissingFieldsAreEmpty) {
-  CsvLines lines;
-  EXPECT_EQ(lines.Add({{"a", "1"}, {"b", "x,\"y\""}}), "a,b\n1,\"x,\"\"y\"\"\"\n");
-  EXPECT_EQ(lines.Add({{"b", "2"}, {"c", "3"}}), ",2\n");
+TEST(ExportCsv, AFieldThatOnlyLaterRowsHaveKeepsItsColumn) {
+  const FlatFields first{{"a", "1"}};
+  const FlatFields second{{"a", "2"}, {"c", "3"}};
+  CsvColumns columns;
+  columns.Add(first);
+  columns.Add(second);
+  EXPECT_EQ(columns.Head(), "a,c\n");
+  EXPECT_EQ(columns.Row(first), "1,\n");
+  EXPECT_EQ(columns.Row(second), "2,3\n");
+}
+
+TEST(ExportCsv, CellsWithCommasAndQuotesAreQuoted) {
+  CsvColumns columns;
+  columns.Add({{"a", "1"}, {"b", "x"}});
+  EXPECT_EQ(columns.Row({{"b", "x,\"y\""}}), ",\"x,\"\"y\"\"\"\n");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "services/observer/fleet/fleet_json.h"
+
 namespace giveway {
 namespace {
 
@@ -25,6 +27,18 @@ Truth TruthOf(WorldEpoch epoch) {
   truth.vehicle = kSeven;
   truth.epoch = epoch;
   return truth;
+}
+
+TEST(FleetView, ABodyThatTheWorldHasTakenOutIsNone) {
+  FleetView view;
+  Truth truth = TruthOf(kFirst);
+  truth.present = true;
+  view.Fold({.truths = {truth}, .statuses = {StatusWith(0)}}, seconds(1));
+  ASSERT_NE(view.Find(kSeven)->Body(), nullptr);
+  truth.present = false;
+  view.Fold({.truths = {truth}}, seconds(2));
+  EXPECT_EQ(view.Find(kSeven)->Body(), nullptr);
+  EXPECT_EQ(FleetJson(view, seconds(2)).find("world_from_body"), std::string::npos);
 }
 
 TEST(FigureHistogram, CountsEachValueOfAReportOnce) {

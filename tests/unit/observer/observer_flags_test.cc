@@ -1,5 +1,6 @@
 #include "services/observer/observer_flags.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -8,11 +9,14 @@
 namespace giveway {
 namespace {
 
+using ::testing::HasSubstr;
+
 std::variant<ObserverFlags, int> Parse(std::initializer_list<const char*> flags,
-                                       const std::set<std::uint32_t>& running = {}) {
+                                       const OnlyFleet& only = {0, "", "no fleet runs"}) {
   std::vector<const char*> argv{"giveway-observer"};
   argv.insert(argv.end(), flags);
-  return ParseObserverFlags(static_cast<int>(argv.size()), argv.data(), "Fast DDS", running);
+  return ParseObserverFlags(static_cast<int>(argv.size()), argv.data(), "Fast DDS",
+                            [&only] { return only; });
 }
 
 TEST(ObserverFlags, HaveDefaultsAndReadWhatIsGiven) {
@@ -37,12 +41,27 @@ TEST(ObserverFlags, AreRefusedInWords) {
   }
 }
 
-TEST(ObserverFlags, TakeTheDomainOfTheOnlyFleet) {
-  const auto parsed = Parse({}, {42});
+TEST(ObserverFlags, TakeDomainAndInterfaceOfTheOnlyFleet) {
+  const OnlyFleet only{42, "eth7", ""};
+  const auto parsed = Parse({}, only);
   ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
   EXPECT_EQ(std::get<ObserverFlags>(parsed).domain, 42U);
-  EXPECT_TRUE(std::holds_alternative<int>(Parse({}, {42, 43})));
-  EXPECT_EQ(std::get<ObserverFlags>(Parse({"--domain", "7"}, {42})).domain, 7U);
+  EXPECT_EQ(std::get<ObserverFlags>(parsed).interface, "eth7");
+  EXPECT_EQ(std::get<ObserverFlags>(Parse({"--interface", "lo"}, only)).interface, "lo");
+  EXPECT_EQ(std::get<ObserverFlags>(Parse({"--domain", "7"}, only)).domain, 7U);
+  EXPECT_EQ(std::get<ObserverFlags>(Parse({"--domain", "7"}, only)).interface, "127.0.0.1");
+}
+
+TEST(ObserverFlags, SayWhyThereIsNoFleetToTake) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_TRUE(std::holds_alternative<int>(Parse({}, {0, "", "several fleets run here"})));
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("several fleets run here"));
+}
+
+TEST(ObserverFlags, AFlagThatWasProbablyMeantIsNamed) {
+  ::testing::internal::CaptureStderr();
+  EXPECT_TRUE(std::holds_alternative<int>(Parse({"--domian", "7"})));
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("did you mean '--domain'?"));
 }
 
 TEST(ObserverFlags, AHealthQuestionNeedsNoDomain) {

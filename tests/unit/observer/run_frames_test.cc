@@ -94,6 +94,47 @@ TEST(RunFrames, ALongRunKeepsABoundedNumber) {
   EXPECT_GT(frames.Size(), RunFrames::kMostFrames / 4);
 }
 
+TEST(RunFrames, EveryEventOfALongRunIsKeptOnce) {
+  RunFrames frames;
+  FleetView view;
+  WorldEvent event;
+  event.epoch = WorldEpoch{1};
+  for (std::uint32_t n = 1; n <= 2000; ++n) {
+    event.seq = n;
+    view.Fold({.events = {event}}, SteadyTime{std::int64_t{1'000'000} * n});
+    frames.Note(view, SteadyTime{std::int64_t{1'000'000} * n});
+  }
+  const std::string json = frames.RunJson("{}");
+  std::size_t count = 0;
+  for (std::size_t at = 0; (at = json.find("\"seq\":", at)) != std::string::npos; ++at) ++count;
+  EXPECT_EQ(count, 2000U);
+  EXPECT_THAT(json, HasSubstr("[1,{"));
+  EXPECT_THAT(json, HasSubstr("[2000,{"));
+}
+
+TEST(RunFrames, TimesAtTheEndOfTimeDoNotWrap) {
+  std::string bytes;
+  FleetCapture capture(
+      [&bytes](std::string_view more) {
+        bytes += more;
+        return true;
+      },
+      {});
+  for (const std::uint64_t time : {std::uint64_t{1}, ~std::uint64_t{0}, ~std::uint64_t{0} / 2}) {
+    capture.Write({.topic = RawTopicNamed("fleet/beacon"),
+                   .source_ns = time,
+                   .reception_ns = time,
+                   .sequence = 1,
+                   .bytes = link::Encode(BeaconAt(1.5))});
+  }
+  capture.Close();
+  const RunRead run = ReadRun(SourceOf(bytes));
+  EXPECT_EQ(run.result.messages, 3U);
+  EXPECT_EQ(run.frames.Size(), 2U);
+  const std::string json = run.frames.RunJson("{}");
+  EXPECT_THAT(json, HasSubstr("\"at_ms\":4611686018427"));
+}
+
 TEST(FleetCapture, EveryChannelHasTheIdlAsItsSchema) {
   const std::string file = Recorded("world/truth", link::Encode(Truth{}), 1);
   std::string schema;

