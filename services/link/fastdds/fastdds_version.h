@@ -67,6 +67,10 @@ inline constexpr char kLibraryName[] = "Fast DDS " FASTRTPS_VERSION_STR;
 inline constexpr int kLibraryMajor = FASTRTPS_VERSION_MAJOR;
 inline constexpr std::array<Respelt, 0> kRespelt{};
 inline constexpr bool kServersByPrefix = true;  // in discoveryServersList
+// Whether readers of a writer may be removed while it sends to others. 2.9.1 holds the locks of its
+// senders while it removes one, and may wait for the thread that sends, which waits for them: where
+// an instance was unregistered that the removed reader had not acknowledged.
+inline constexpr bool kRemovesWhileItSends = false;
 
 inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
 // The result of DataWriter::write: true is good in 2.9.1, and 0 is good in 3.1.2.
@@ -146,6 +150,7 @@ inline constexpr std::array kRespelt = {
     Respelt{"heartbeatResponseDelay", "heartbeat_response_delay"},
     Respelt{"expectsInlineQos", "expects_inline_qos"},
 };
+inline constexpr bool kRemovesWhileItSends = true;
 inline constexpr bool kServersByPrefix = false;
 
 inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
