@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "services/config/byte_size.h"
-#include "services/config/command_line.h"
 #include "services/config/flag_values.h"
+#include "services/config/help/command_line.h"
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/text_file.h"

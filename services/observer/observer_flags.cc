@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <sstream>
 
-#include "services/config/command_line.h"
 #include "services/config/flag_values.h"
+#include "services/config/help/command_line.h"
 #include "services/config/problem.h"
 
 namespace giveway {

@@ -5,7 +5,7 @@ import { check, expect, finish, openBrowser, openPage, shots, start, text, until
 
 const recording = join(work, "topics.mcap");  // of recording.mjs
 const file = join(work, "topics.html");
-await check("report: a recording becomes a page beside it", async () => {
+await check("report: a recording becomes a page", async () => {
   const report = start("fleetctl", "report", recording, "--scenario", "intersection_yield");
   const code = await report.ended;
   expect(code === 0 && report.stdout.trim() === file && existsSync(file), `exit code ${code}: ${report.stderr}`);

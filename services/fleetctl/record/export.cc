@@ -33,14 +33,14 @@ class Exporting {
                    options_.file.c_str());
       return kCouldNotRun;
     }
-    if (options_.csv && samples_ > 0) told_ = Tell(columns_.Head());
+    if (options_.csv && samples_ > 0) output_ = Tell(columns_.Head());
     const mcap::ReadResult result = Read(&file, [this](const JsonObject& sample) {
       ++written_;
-      told_ = Tell(options_.csv ? columns_.Row(Flattened(sample.Text())) : sample.Text() + "\n");
+      output_ = Tell(options_.csv ? columns_.Row(Flattened(sample.Text())) : sample.Text() + "\n");
       // A file that grows may have further columns by now.
-      return told_ == Told::kYes && written_ != samples_;
+      return output_ == Told::kYes && written_ != samples_;
     });
-    if (told_ != Told::kYes) return ExitCodeOf(told_);
+    if (output_ != Told::kYes) return ExitCodeOf(output_);
     return Finish(result);
   }
 
@@ -133,7 +133,7 @@ class Exporting {
   CsvColumns columns_;
   Use use_;
   bool enough_ = false;
-  Told told_ = Told::kYes;
+  Told output_ = Told::kYes;
   std::uint64_t samples_ = 0;  // of the topic, as far as the columns are those of them all
   std::uint64_t written_ = 0;
   std::uint64_t unreadable_ = 0;

@@ -32,7 +32,7 @@ Times must differ by 5 %. Both soaks must have one scenario, one fault file, as 
 
 Of an MCAP recording, as fleetctl record and fleetctl run --record-topics write it, the report is a page
 that needs nothing else: figures of each vehicle, all paths on a map, who did what when, plots of the
-fleet, and the run itself to look at. Without --page it is written beside the recording, as .html.
+fleet, and the run itself to look at. Without --page run.mcap gives run.html.
 
 Examples
   fleetctl report run.mcap --scenario intersection_yield
@@ -48,7 +48,7 @@ struct ReportOptions {
   std::vector<std::string> reports;
   bool all = false;
   bool json = false;
-  std::string page_file;  // of a single report; empty: none, or beside a recording
+  std::string page_file;  // of a single report; empty: none, or run.html of run.mcap
   std::string scenario;   // of a recording: shows its walls
 };
 

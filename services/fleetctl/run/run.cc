@@ -128,10 +128,10 @@ int StartAndWatch(const RunOptions& options) {
   RunSession session(options, scenario, spec);
   const Report report = session.Run();
 
-  const bool told = Print(options, report);
-  if (!told) std::fprintf(stderr, "cannot write the verdict to stdout\n");
+  const bool printed = Print(options, report);
+  if (!printed) std::fprintf(stderr, "cannot write the verdict to stdout\n");
   const bool recorded = session.FinishTopics(BrainRecordings(options.fleet.record_folder, started));
-  const int code = std::max(ExitCode(report.verdict), told && recorded ? 0 : 1);
+  const int code = std::max(ExitCode(report.verdict), printed && recorded ? 0 : 1);
   if (options.picture_file.empty() && options.html_file.empty()) return code;
   Interrupts::AllowSeconds(kDrawing_s);
   return WriteAfterVerdict(code, [&] {

@@ -1,4 +1,4 @@
-// What travels in a run, recorded beside it: every topic as it came, into one MCAP file. The run
+// What travels in a run, recorded by fleetctl: every topic as it came, into one MCAP file. The run
 // does not depend on it: a disk that is full ends the recording and is said.
 #pragma once
 

@@ -1,4 +1,4 @@
-#include "services/config/command_line.h"
+#include "services/config/help/command_line.h"
 
 #include <cstdio>
 #include <memory>
