@@ -197,18 +197,31 @@ bool IsSound(const ObstacleGrid& grid) {
   const auto rows = StateFields::RowsOf(grid);
   const bool has_columns = std::all_of(
       rows.begin(), rows.end(), [](std::uint64_t row) { return row >> ObstacleGrid::kSide == 0; });
-  return is_in(at.x) && is_in(at.y) && has_columns;
+  const auto cells = StateFields::CellsOf(grid);
+  const bool has_cells = std::all_of(
+      cells.begin(), cells.end(), [](std::uint8_t cell) { return cell <= ObstacleGrid::kSurest; });
+  return is_in(at.x) && is_in(at.y) && has_columns && has_cells &&
+         StateFields::UnsureOf(grid) >= 0 && StateFields::FadedOf(grid) >= 0;
+}
+
+// What a scan may bring, as scan_check.h has it.
+bool IsSound(const RangeView& ranges, const VehicleOptions& options) {
+  const auto views = StateFields::SensorsOf(ranges);
+  return std::all_of(views.begin(), views.end(), [&](const SensorView& view) {
+    return IsRange(view.range_m, options.profile) && view.echo_before_s >= 0;
+  });
 }
 
 bool IsKnown(std::uint32_t format) {
   return format >= static_cast<std::uint32_t>(StateFormat::kFirst) &&
-         format <= static_cast<std::uint32_t>(StateFormat::kWithGrid);
+         format <= static_cast<std::uint32_t>(StateFormat::kWithDoubtedHeading);
 }
 
 std::string BytesIn(StateFormat format, const VehicleState& state) {
   StateWriter writer(format);
   writer(static_cast<std::uint32_t>(format), VehicleState::kVersion, state);
   if (writer.Has(StateFormat::kWithGrid)) writer(state.grid);
+  if (writer.Has(StateFormat::kWithDoubtedHeading)) writer(state.pose.disagreement.off_rad);
   return writer.Take();
 }
 
@@ -220,15 +233,16 @@ bool IsSound(const VehicleState& state, const VehicleOptions& options) {
       covariance.xx_m2 >= 0 && covariance.yy_m2 >= 0 && covariance.hh_rad2 >= 0;
   return state.boot_epoch != 0 && can_be_there && on_route && IsSensor(state.deaf_sensor) &&
          IsSensor(state.decision.sensor) && state.steer_side >= -1 && state.steer_side <= 1 &&
-         (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 && IsSound(state.pose) &&
-         AreSound(state.peers.Peers()) && AreSound(state.signals) && IsSound(state.grid) &&
-         IsSound(state.objects.radar) && IsSound(state.objects.lidar) &&
-         IsSound(state.objects.camera);
+         (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 &&
+         IsSound(state.ranges, options) && IsSound(state.pose) && AreSound(state.peers.Peers()) &&
+         AreSound(state.signals) && IsSound(state.grid) && IsSound(state.objects.radar) &&
+         IsSound(state.objects.lidar) && IsSound(state.objects.camera);
 }
 
 }  // namespace
 
 std::string BytesOf(const VehicleState& state) {
+  if (state.pose.disagreement.off_rad != 0) return BytesIn(StateFormat::kWithDoubtedHeading, state);
   return BytesIn(state.grid.IsActive() ? StateFormat::kWithGrid : kStateFormat, state);
 }
 
@@ -250,6 +264,7 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   Begin(options.profile, &state->pose);  // an image without it
   reader(*state);
   if (reader.Has(StateFormat::kWithGrid)) reader(state->grid);
+  if (reader.Has(StateFormat::kWithDoubtedHeading)) reader(state->pose.disagreement.off_rad);
   if (!reader.IsSound() || !reader.IsAtEnd() || !IsSound(*state, options)) return nullptr;
   return state;
 }

@@ -18,7 +18,8 @@ void Visit(auto& fields, Is<PastPose> auto& past) {
 }
 
 void Visit(auto& fields, Is<Disagreement> auto& disagreement) {
-  auto& [off, fixes] = disagreement;
+  auto& [off, off_rad, fixes] = disagreement;
+  static_cast<void>(off_rad);  // of a later layout: brain_state.cc
   fields(off, fixes);
 }
 
@@ -30,9 +31,10 @@ void Visit(auto& fields, Is<PoseKeeping> auto& keeping) {
 
 // True where a brain can have come to this.
 inline bool IsSound(const PoseKeeping& keeping) {
-  constexpr double kMostError = 0.5;
   const Calibration& calibration = keeping.calibration;
-  const auto is_error = [](double share) { return share >= -kMostError && share <= kMostError; };
+  const auto is_error = [](double share) {
+    return share >= -kMostWheelError && share <= kMostWheelError;
+  };
   return is_error(calibration.wheels.diameter) && is_error(calibration.wheels.axle) &&
          calibration.own[0] >= 0 && calibration.own[2] >= 0 &&
          keeping.waiting.sigma_position_m >= 0 && keeping.waiting.sigma_heading_rad >= 0;

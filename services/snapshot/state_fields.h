@@ -117,6 +117,11 @@ struct StateFields {
   // What a cell is looked up by.
   static Vec2 PlaceOf(const ObstacleGrid& grid) { return grid.at_grid_; }
   static std::span<const std::uint64_t> RowsOf(const ObstacleGrid& grid) { return grid.some_; }
+  static std::span<const std::uint8_t> CellsOf(const ObstacleGrid& grid) { return grid.cells_; }
+  // How much has come together until it next loses by it.
+  static double UnsureOf(const ObstacleGrid& grid) { return grid.unsure_m2_; }
+  static double FadedOf(const ObstacleGrid& grid) { return grid.faded_s_; }
+  static std::span<const SensorView> SensorsOf(const RangeView& view) { return view.sensors_; }
   // As many heads as there are.
   static void Of(auto& fields, Is<SignalTable> auto& table) {
     auto& [heads, count] = table;
@@ -153,8 +158,14 @@ struct StateFields {
 
 // Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean. What a
 // layout has more than the one before stands at the end of the state.
-enum class StateFormat : std::uint32_t { kFirst = 1, kWithPose = 2, kWithGrid = 3 };
-// Of a brain that has taken nothing into its obstacle grid; of others it is kWithGrid.
+enum class StateFormat : std::uint32_t {
+  kFirst = 1,
+  kWithPose = 2,
+  kWithGrid = 3,
+  kWithDoubtedHeading = 4
+};
+// Of a brain that has taken nothing into its obstacle grid, and whose fixes do not doubt its
+// heading; of others it is one of those after it.
 inline constexpr StateFormat kStateFormat = StateFormat::kWithPose;
 
 template <typename T>

@@ -33,6 +33,9 @@ struct WheelErrors {
   bool Any() const { return diameter != 0 || axle != 0; }
 };
 
+// Either of them is no more than this: more is no wheel any more.
+inline constexpr double kMostWheelError = 0.3;
+
 // The speeds at which wheels of the nominal drive would move the body as those of the erring one do
 // that turn at `wheels`.
 inline WheelSpeeds AsNominal(const DriveGeometry& drive, const WheelErrors& errors,
@@ -42,6 +45,13 @@ inline WheelSpeeds AsNominal(const DriveGeometry& drive, const WheelErrors& erro
   twist.turn_rad_s /= 1 + errors.axle;
   return WheelsFromTwist(drive, twist);
 }
+
+// A fix has a standard deviation of its position of no less than this and no more than that: beyond
+// either its square is no use to a filter.
+inline constexpr double kLeastFixSigma_m = 1e-6;
+inline constexpr double kMostFixSigma_m = 1000;
+// The same of its heading, where it has one.
+inline constexpr double kLeastFixSigma_rad = 1e-6;
 
 // Where somebody else says this vehicle was at `tick`: a landmark passed, a camera on the ceiling.
 // Deviations are standard deviations; the position's is along any axis.

@@ -32,16 +32,11 @@ double WheelError(const VehicleProfile& profile) {
               profile.encoder_noise * profile.encoder_noise);
 }
 
-// What the way of the wheels adds to the variance of where things are that lie half a metre off: of
-// the own place and of the heading.
-double AddedVariance(const VehicleProfile& profile, const WayGone& gone, double dt_s) {
+// What a way adds to the variance of where things are that lie half a metre off: of the own place
+// and of the heading.
+double VarianceOfPlaces(const PoseCovariance& added) {
   constexpr double kLever_m = 0.5;
-  const double axle_m = profile.drive.axle_m;
-  const double rolled = WheelError(profile) * profile.drive.wheel_radius_m * dt_s;
-  const double left_m = rolled * gone.wheels.left_rad_s;
-  const double right_m = rolled * gone.wheels.right_rad_s;
-  return (left_m * left_m + right_m * right_m) * (0.25 + kLever_m * kLever_m / (axle_m * axle_m)) +
-         gone.guessed_m * gone.guessed_m;
+  return added.xx_m2 + added.yy_m2 + kLever_m * kLever_m * added.hh_rad2;
 }
 
 }  // namespace
@@ -76,20 +71,23 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
       state.reckoned == kNoTick ? 1 : TicksBetween(state.reckoned, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
   const VehicleProfile& profile = options_.profile;
-  const Pose before = state.odometry.WorldFromBody();
+  const Vec2 from_world = state.odometry.WorldFromBody().position_world;
+  const Vec2 forward_world = state.odometry.ForwardWorld();
+  const double from_rad = state.odometry.WorldFromBody().heading_rad;
   const WayGone gone = ticks > 1 ? WayOfLostTicks(state.counted, scan, options_, dt_s)
                                  : WayGone{.wheels = scan.wheels};
-  Roll(profile,
-       {.wheels = gone.wheels,
-        .dt_s = dt_s,
-        .wheel_error = WheelError(profile),
-        .guessed_m = gone.guessed_m,
-        .tick = scan.tick},
-       &state.odometry, &state.pose);
+  const PoseCovariance added = Roll(profile,
+                                    {.wheels = gone.wheels,
+                                     .dt_s = dt_s,
+                                     .wheel_error = WheelError(profile),
+                                     .guessed_m = gone.guessed_m,
+                                     .tick = scan.tick},
+                                    &state.odometry, &state.pose);
   if (Remembers(options_)) {
     const Pose& after = state.odometry.WorldFromBody();
-    state.grid.Move(ToBody(before, after.position_world), after.heading_rad - before.heading_rad,
-                    AddedVariance(profile, gone, dt_s));
+    const Vec2 way = after.position_world - from_world;
+    state.grid.Move({Dot(forward_world, way), Cross(forward_world, way)},
+                    after.heading_rad - from_rad, VarianceOfPlaces(added));
   }
   state.tick = scan.tick;
   state.reckoned = scan.tick;

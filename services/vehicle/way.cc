@@ -61,7 +61,10 @@ void Vehicle::LookAhead(Situation* s) {
   // A fix may say that it was not there.
   const bool shown = options_.profile.pose_fix.Fitted();
   const double surely_m = s->distance_to_goal_m - SigmaPosition(s->covariance);
-  if (shown && surely_m > options_.goal.radius_m) state.arrived = false;
+  if (!state.arrived || !shown || surely_m <= options_.goal.radius_m) return;
+  state.arrived = false;
+  state.nearest_m = kNoGoal_m;
+  state.aimless_ticks = 0;
 }
 
 // Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand

@@ -101,12 +101,13 @@ void WorldFaults::BeginTick(std::uint32_t driven_tick, std::span<const Body> bod
 }
 
 void WorldFaults::FollowTime(std::uint32_t driven_tick) {
-  std::erase_if(active_, [&](const Active& active) {
-    const Planned& planned = planned_[active.planned];
-    if (driven_tick < planned.ends) return false;
-    if (active.begun) ended_.push_back(&planned.fault);
-    return true;
-  });
+  const auto is_over = [&](const Active& active) {
+    return driven_tick >= planned_[active.planned].ends;
+  };
+  for (const Active& active : active_) {
+    if (is_over(active) && active.begun) ended_.push_back(&planned_[active.planned].fault);
+  }
+  std::erase_if(active_, is_over);
   for (; next_ < planned_.size() && planned_[next_].begins <= driven_tick; ++next_) {
     active_.push_back({.planned = static_cast<std::uint32_t>(next_)});
   }
@@ -124,8 +125,9 @@ void WorldFaults::Follow(const Body& body) {
     if (!Concerns(planned.fault.target, body.vehicle)) continue;
     if (!active.begun) begun_.push_back(&planned.fault);
     active.begun = true;
+    if (planned.of_fix) continue;
     const Memory* memory = Remember(&active, body);
-    if (planned.of_sonar || planned.of_fix) continue;
+    if (planned.of_sonar) continue;
     Combine(planned.fault, memory->wheels, &drive);
     drives_wrongly = true;
   }

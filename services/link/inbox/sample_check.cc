@@ -75,8 +75,10 @@ std::optional<FieldFault> FaultOf(const PoseFix& fix) {
   ranges.HoldPlace("x_m", fix.world_from_body.position_world.x);
   ranges.HoldPlace("y_m", fix.world_from_body.position_world.y);
   ranges.HoldBearing("heading_rad", fix.world_from_body.heading_rad);
-  ranges.Hold("sigma_position_m", fix.sigma_position_m, 0, kMostRange_m);
-  ranges.Hold("sigma_heading_rad", fix.sigma_heading_rad, 0, kPi);
+  ranges.Hold("sigma_position_m", fix.sigma_position_m, kLeastFixSigma_m, kMostFixSigma_m);
+  // None, or at least so much.
+  const double least_rad = fix.sigma_heading_rad == 0 ? 0 : kLeastFixSigma_rad;
+  ranges.Hold("sigma_heading_rad", fix.sigma_heading_rad, least_rad, kPi);
   return ranges.Fault();
 }
 

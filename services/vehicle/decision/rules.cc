@@ -172,15 +172,15 @@ std::optional<Proposal> MostRestrictive(const Situation& s) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:
     case Behaviour::kLecturePrinted:
-      return LowestOf<Leaving, NotRunning, RangesStale, Arrived>(s);
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost>(s);
     case Behaviour::kLectureYield:
-      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, GiveWay, PeerLost, Deaf, Obstacle>(
-          s);
+      return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, GiveWay, PeerLost, Deaf,
+                      Obstacle>(s);
     case Behaviour::kCooperative:
       break;
   }
-  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Unsure, Signal, GiveWay, NotGranted,
-                  PeerLost, Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
+  return LowestOf<Leaving, NotRunning, RangesStale, Arrived, Lost, Unsure, Signal, GiveWay,
+                  NotGranted, PeerLost, Deaf, KeepClear, KeepBoxClear, Obstacle, Object>(s);
 }
 
 }  // namespace giveway

@@ -22,8 +22,9 @@ std::optional<Proposal> Leaving(const Situation& s);
 std::optional<Proposal> NotRunning(const Situation& s);
 std::optional<Proposal> RangesStale(const Situation& s);
 std::optional<Proposal> Arrived(const Situation& s);
+std::optional<Proposal> Lost(const Situation& s);
 
-// How well it knows where it is: slower, then a dead stop.
+// Slower, by how well it knows where it is.
 std::optional<Proposal> Unsure(const Situation& s);
 
 // Right of way: dead stops for the nearest peer that an encounter holds this vehicle for.

@@ -4,8 +4,12 @@
 
 namespace giveway {
 
+std::optional<Proposal> Lost(const Situation& s) {
+  if (!s.lost) return std::nullopt;
+  return Proposal{.max_speed_m_s = 0, .may_turn = false, .rule = Rule::kLost};
+}
+
 std::optional<Proposal> Unsure(const Situation& s) {
-  if (s.lost) return Proposal{.max_speed_m_s = 0, .may_turn = false, .rule = Rule::kLost};
   if (s.known_share >= 1) return std::nullopt;
   return Proposal{.max_speed_m_s = s.known_share * s.options.cruise_m_s,
                   .may_turn = true,

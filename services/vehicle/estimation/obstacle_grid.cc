@@ -136,6 +136,7 @@ void ObstacleGrid::Lose(std::uint8_t confidence, std::uint8_t below) {
 }
 
 void ObstacleGrid::Move(Vec2 moved_body, double turned_rad, double unsure_m2) {
+  if (!active_) return;
   const Vec2 moved = Turned(moved_body);
   const double heading_rad = WrapAngle(heading_.heading_rad + turned_rad);
   const bool far = Magnitude(moved.x) >= kWide_m / 2 || Magnitude(moved.y) >= kWide_m / 2;
@@ -147,7 +148,6 @@ void ObstacleGrid::Move(Vec2 moved_body, double turned_rad, double unsure_m2) {
   const std::uint32_t column = CellOf(at_grid_.x);
   const std::uint32_t row = CellOf(at_grid_.y);
   at_grid_ = {Wrapped(at_grid_.x + moved.x), Wrapped(at_grid_.y + moved.y)};
-  if (!active_) return;
   // What comes in on one side is what leaves on the other.
   const int step_x = moved.x > 0 ? 1 : -1;
   const int step_y = moved.y > 0 ? 1 : -1;
@@ -159,13 +159,16 @@ void ObstacleGrid::Move(Vec2 moved_body, double turned_rad, double unsure_m2) {
   }
   unsure_m2_ += unsure_m2;
   if (unsure_m2_ < kUnsure_m2) return;
-  unsure_m2_ = 0;
-  Lose(kLoss, kSurest + 1);
+  const double times = std::min(unsure_m2_ / kUnsure_m2, double{kSurest});
+  const auto losses = static_cast<std::uint8_t>(times);
+  unsure_m2_ = losses < kSurest ? unsure_m2_ - losses * kUnsure_m2 : 0;
+  Lose(std::min<std::uint8_t>(losses * kLoss, kSurest), kSurest + 1);
 }
 
 void ObstacleGrid::Fade(double dt_s) {
+  if (!active_) return;
   faded_s_ += dt_s;
-  if (!active_ || faded_s_ < kFadesEvery_s) return;
+  if (faded_s_ < kFadesEvery_s) return;
   faded_s_ = 0;
   Lose(1, kFirm);
 }

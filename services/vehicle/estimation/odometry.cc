@@ -19,8 +19,8 @@ Odometry::Odometry(const Pose& world_from_body, const PoseCovariance& c)
                   c.xy_m2,    c.yy_m2,    c.yh_m_rad,  //
                   c.xh_m_rad, c.yh_m_rad, c.hh_rad2} {}
 
-void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s, double wheel_error,
-                    double guessed_m) {
+PoseCovariance Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s,
+                              double wheel_error, double guessed_m) {
   const Vec2 before = pose_.position_world;
   const Vec2 forward = heading_.forward_world;
   pose_ = AdvanceArc(pose_, forward, TwistFromWheels(drive, wheels), dt_s);
@@ -40,8 +40,18 @@ void Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s,
   const Vector3 of_right = right * Vector3(forward.x / 2, forward.y / 2, 1 / drive.axle_m);
   covariance += of_left.lazyProduct(of_left.transpose());
   covariance += of_right.lazyProduct(of_right.transpose());
-  covariance(0, 0) += guessed_m * guessed_m;
-  covariance(1, 1) += guessed_m * guessed_m;
+  const double guessed_m2 = guessed_m * guessed_m;
+  covariance(0, 0) += guessed_m2;
+  covariance(1, 1) += guessed_m2;
+  const auto product = [&](int i, int j) {
+    return of_left(i) * of_left(j) + of_right(i) * of_right(j);
+  };
+  return {product(0, 0) + guessed_m2,
+          product(0, 1),
+          product(1, 1) + guessed_m2,
+          product(0, 2),
+          product(1, 2),
+          product(2, 2)};
 }
 
 PoseCovariance Odometry::Covariance() const {

@@ -13,9 +13,9 @@ namespace {
 
 // The newest believed to be of this world and life, and in reach; null if there is none.
 const Beacon* LastBeaconOf(const Peer& peer) {
-  if (IsGone(peer)) return nullptr;
+  if (peer.left) return nullptr;
   if (peer.waiting_count > 0) return &peer.waiting[peer.waiting_count - 1];
-  return peer.known ? &peer.beacon : nullptr;
+  return peer.known && !peer.out_of_reach ? &peer.beacon : nullptr;
 }
 
 }  // namespace
@@ -82,12 +82,12 @@ void PeerTable::Store(Peer* peer, const ReceivedBeacon& received, Tick tick) {
   peer->last_seq = beacon.seq;
   peer->deadline_missed = false;
   peer->liveliness_lost = false;
-  peer->out_of_reach = false;
   peer->left = beacon.mode == Mode::kLeaving;
   if (beacon.tick < tick) {
     peer->beacon = beacon;
     peer->received = received.received;
     peer->known = true;
+    peer->out_of_reach = false;
     peer->waiting_count = 0;  // all older than this one
     return;
   }
@@ -136,6 +136,7 @@ BeaconRefusal PeerTable::Take(const ReceivedBeacon& received, const Self& self,
     Peer* peer = Find(beacon.vehicle);
     if (peer != nullptr && peer->writer == received.writer) {
       peer->out_of_reach = true;
+      peer->waiting_count = 0;  // all older than this one
       peer->spoke = received.received;
       peer->last_seq = beacon.seq;
     }
@@ -199,6 +200,7 @@ void PeerTable::Advance(SteadyTime now, Tick tick) {
       peer.beacon = peer.waiting[0];
       peer.received = peer.waiting_received[0];
       peer.known = true;
+      peer.out_of_reach = false;
       peer.waiting[0] = peer.waiting[1];
       peer.waiting_received[0] = peer.waiting_received[1];
       --peer.waiting_count;

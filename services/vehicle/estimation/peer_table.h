@@ -46,7 +46,7 @@ struct Peer {
   bool deadline_missed = false;  // since the last accepted beacon
   bool liveliness_lost = false;  // since the last accepted beacon
   bool left = false;             // said good-bye: a departure, not a loss
-  bool out_of_reach = false;     // last heard of from beyond the emission radius
+  bool out_of_reach = false;     // `beacon` was followed by one from beyond the emission radius
   Encounter encounter;
   PeerTrust trust;
   KnownHeading told;                // of a beacon of late

@@ -7,8 +7,7 @@
 namespace giveway {
 namespace {
 
-constexpr std::size_t kPose = 3;    // of the numbers, the first; two of the wheels after them
-constexpr double kMostError = 0.3;  // of a wheel: more is no wheel any more
+constexpr std::size_t kPose = 3;  // of the numbers, the first; two of the wheels after them
 
 }  // namespace
 
@@ -100,8 +99,8 @@ Odometry PoseFilter::TheOdometry() const {
 Calibration PoseFilter::TheCalibration() const {
   Calibration calibration;
   calibration.wheels = {
-      .diameter = std::clamp(wheels_.diameter + moved_[3], -kMostError, kMostError),
-      .axle = std::clamp(wheels_.axle + moved_[4], -kMostError, kMostError)};
+      .diameter = std::clamp(wheels_.diameter + moved_[3], -kMostWheelError, kMostWheelError),
+      .axle = std::clamp(wheels_.axle + moved_[4], -kMostWheelError, kMostWheelError)};
   for (std::size_t row = 0; row < kPose; ++row) {
     for (std::size_t i = 0; i < 2; ++i) calibration.with_pose[2 * row + i] = At(row, kPose + i);
   }

@@ -43,13 +43,20 @@ double Mahalanobis(Vec2 off, const PoseCovariance& c, double variance_m2) {
   return (yy * off.x * off.x - 2 * c.xy_m2 * off.x * off.y + xx * off.y * off.y) / determinant;
 }
 
+// Within what can be squared and divided by; false of NaN.
 bool IsUsable(const PoseFix& fix, const FixTaker& taker) {
+  constexpr double kMostCoordinate_m = 1e6;
   const Pose& pose = fix.world_from_body;
+  const auto is_between = [](double x, double least, double most) {
+    return x >= least && x <= most;
+  };
   return fix.vehicle == taker.vehicle && fix.epoch == taker.epoch && fix.tick != kNoTick &&
-         std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
-         std::isfinite(pose.heading_rad) && std::isfinite(fix.sigma_position_m) &&
-         fix.sigma_position_m > 0 && std::isfinite(fix.sigma_heading_rad) &&
-         fix.sigma_heading_rad >= 0;
+         is_between(pose.position_world.x, -kMostCoordinate_m, kMostCoordinate_m) &&
+         is_between(pose.position_world.y, -kMostCoordinate_m, kMostCoordinate_m) &&
+         is_between(pose.heading_rad, -2 * kPi, 2 * kPi) &&
+         is_between(fix.sigma_position_m, kLeastFixSigma_m, kMostFixSigma_m) &&
+         (fix.sigma_heading_rad == 0 ||
+          is_between(fix.sigma_heading_rad, kLeastFixSigma_rad, 2 * kPi));
 }
 
 // What was driven since the fix is known but for the heading it was driven by.
@@ -69,7 +76,7 @@ std::optional<Innovation> InnovationOf(const PoseFix& fix, const Odometry& odome
 
 bool Fits(const Innovation& innovation, const Odometry& odometry) {
   const PoseCovariance c = odometry.Covariance();
-  if (Mahalanobis(innovation.off_world, c, innovation.position_m2) > kGate) return false;
+  if (!(Mahalanobis(innovation.off_world, c, innovation.position_m2) <= kGate)) return false;
   const double off_rad2 = innovation.off_rad * innovation.off_rad;
   return !innovation.of_heading || off_rad2 <= kHeadingGate * (c.hh_rad2 + innovation.heading_rad2);
 }
@@ -92,7 +99,10 @@ void Correct(const Innovation& innovation, PoseFilter* filter, Odometry* odometr
 void Believe(const Innovation& innovation, Tick tick, bool doubted, Odometry* odometry,
              PoseKeeping* keeping) {
   PoseFilter filter(*odometry, keeping->calibration);
-  if (doubted) filter.Doubt(innovation.off_world, kDoubtedHeading_rad);
+  if (doubted) {
+    const double off_rad = innovation.of_heading ? Magnitude(innovation.off_rad) : 0;
+    filter.Doubt(innovation.off_world, std::max(kDoubtedHeading_rad, off_rad));
+  }
   Correct(innovation, &filter, odometry, keeping);
   keeping->agreed = tick;
   keeping->disagreement = {};
@@ -110,13 +120,23 @@ bool IsOutOfReach(const Innovation& innovation, const VehicleProfile& profile,
   return Norm(innovation.off_world) > 2 * driven_m + unsure_m;
 }
 
+// Says about the same as those before it that did not fit.
+bool AgreesWith(const Disagreement& disagreement, const Innovation& innovation) {
+  if (disagreement.fixes == 0) return false;
+  const Vec2 between = innovation.off_world - disagreement.off_world;
+  if (!(SquaredNorm(between) <= kGate * 2 * innovation.position_m2)) return false;
+  const double turned_rad = WrapAngle(innovation.off_rad - disagreement.off_rad);
+  return !innovation.of_heading ||
+         turned_rad * turned_rad <= kHeadingGate * 2 * innovation.heading_rad2;
+}
+
 // One that does not fit may be wrong, or all before it. Which, only further ones can say; until
 // then both may be.
 void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& taker,
            Odometry* odometry, PoseKeeping* keeping) {
   const bool newer = keeping->agreed == kNoTick || fix.tick > keeping->agreed;
   const auto innovation = InnovationOf(fix, *odometry, *keeping);
-  if (!newer || !innovation) {
+  if (!IsUsable(fix, taker) || !newer || !innovation) {
     ++keeping->fixes_refused;
     return;
   }
@@ -127,10 +147,9 @@ void Weigh(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& ta
   ++keeping->fixes_refused;
   if (IsOutOfReach(*innovation, profile, taker, *odometry, *keeping)) return;
   Disagreement& disagreement = keeping->disagreement;
-  const Vec2 between = innovation->off_world - disagreement.off_world;
-  const bool same =
-      disagreement.fixes > 0 && SquaredNorm(between) <= kGate * 2 * innovation->position_m2;
-  disagreement = {innovation->off_world, same ? disagreement.fixes + 1 : 1};
+  const std::uint32_t agreeing = AgreesWith(disagreement, *innovation) ? disagreement.fixes : 0;
+  disagreement = {innovation->off_world, innovation->of_heading ? innovation->off_rad : 0,
+                  agreeing + 1};
   if (disagreement.fixes < kAgreeing) return;
   --keeping->fixes_refused;
   Believe(*innovation, fix.tick, true, odometry, keeping);
@@ -149,8 +168,8 @@ void Begin(const VehicleProfile& profile, PoseKeeping* keeping) {
   keeping->calibration.own = {may_be.diameter * may_be.diameter, 0, may_be.axle * may_be.axle};
 }
 
-void Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
-          PoseKeeping* keeping) {
+PoseCovariance Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
+                    PoseKeeping* keeping) {
   const Calibration& calibration = keeping->calibration;
   const WheelSpeeds wheels = profile.wheel_error.Any()
                                  ? AsNominal(profile.drive, calibration.wheels, rolling.wheels)
@@ -159,7 +178,8 @@ void Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odome
                                                  : rolling.wheel_error;
   const Vec2 from_world = odometry->WorldFromBody().position_world;
   const Vec2 forward_world = odometry->ForwardWorld();
-  odometry->Roll(profile.drive, wheels, rolling.dt_s, error, rolling.guessed_m);
+  const PoseCovariance added =
+      odometry->Roll(profile.drive, wheels, rolling.dt_s, error, rolling.guessed_m);
   if (profile.wheel_error.Any()) {
     const double rim_m = profile.drive.wheel_radius_m * rolling.dt_s;
     PoseFilter filter(*odometry, calibration);
@@ -168,18 +188,19 @@ void Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odome
     *odometry = filter.TheOdometry();
     keeping->calibration = filter.TheCalibration();
   }
-  if (!profile.pose_fix.Fitted()) return;
+  if (!profile.pose_fix.Fitted()) return added;
   const Pose& now = odometry->WorldFromBody();
   keeping->past[Number(rolling.tick) % kPastPoses] = {rolling.tick, now.position_world,
                                                       now.heading_rad};
   if (keeping->agreed == kNoTick) keeping->agreed = rolling.tick;
+  return added;
 }
 
 void Take(const PoseFix& fix, const VehicleProfile& profile, const FixTaker& taker,
           Odometry* odometry, PoseKeeping* keeping) {
-  if (!profile.pose_fix.Fitted() || !IsUsable(fix, taker)) {
+  if (!profile.pose_fix.Fitted()) {
     ++keeping->fixes_refused;
-  } else if (fix.tick >= taker.tick) {
+  } else if (fix.tick >= taker.tick && IsUsable(fix, taker)) {
     keeping->waiting = fix;
   } else {
     Weigh(fix, profile, taker, odometry, keeping);
@@ -201,6 +222,7 @@ PoseCovariance PromisedCovariance(const Odometry& odometry, const PoseKeeping& k
   promised.xx_m2 += off.x * off.x;
   promised.xy_m2 += off.x * off.y;
   promised.yy_m2 += off.y * off.y;
+  promised.hh_rad2 += keeping.disagreement.off_rad * keeping.disagreement.off_rad;
   return promised;
 }
 
@@ -225,6 +247,7 @@ void AddTo(const PoseKeeping& keeping, StateHash* hash) {
   hash->Add(keeping.agreed);
   hash->Add(keeping.disagreement.off_world.x);
   hash->Add(keeping.disagreement.off_world.y);
+  hash->Add(keeping.disagreement.off_rad);
   hash->Add(keeping.disagreement.fixes);
   hash->Add(keeping.fixes_used);
   hash->Add(keeping.fixes_refused);

@@ -26,7 +26,8 @@ inline constexpr std::size_t kPastPoses = 16;
 
 // What fixes say that do not fit, of which one after the other says about the same.
 struct Disagreement {
-  Vec2 off_world;  // from where it takes itself to be to where they say
+  Vec2 off_world;      // from where it takes itself to be to where they say
+  double off_rad = 0;  // the same of its heading; 0 where they say nothing of it
   std::uint32_t fixes = 0;
 };
 
@@ -56,9 +57,11 @@ struct Rolling {
   Tick tick = kNoTick;
 };
 
-// Rolls odometry on by wheels as they are known to err.
-void Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
-          PoseKeeping* keeping);
+// Rolls odometry on by wheels as they are known to err. Returns what is not known of this way
+// alone, as Odometry::Roll does; systematic errors of wheels, which no way shows by itself, are not
+// in it.
+PoseCovariance Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
+                    PoseKeeping* keeping);
 
 // Who takes a fix in.
 struct FixTaker {

@@ -29,16 +29,20 @@ bool IsPlace(Vec2 point_world) {
 struct ReadingLimits {
   Tick scanned;  // one of later would never grow old
   double max_fired_before_s;
-  double max_range_m;
+  const VehicleProfile& profile;
 };
 
 bool IsBelievable(const RangeReading& reading, const ReadingLimits& limits) {
   return reading.tick <= limits.scanned &&
          IsBetween(reading.fired_before_s, 0, limits.max_fired_before_s) &&
-         (reading.kind != Echo::kEcho || IsBetween(reading.range_m, 0, limits.max_range_m));
+         (reading.kind != Echo::kEcho || IsRange(reading.range_m, limits.profile));
 }
 
 }  // namespace
+
+bool IsRange(double range_m, const VehicleProfile& profile) {
+  return IsBetween(range_m, 0, profile.sonar_max_range_m + kBeyondRange_m);
+}
 
 bool CanBeDriven(const Twist& twist, const VehicleProfile& profile) {
   return Within(twist.forward_m_s, kOvershoot * profile.max_speed_m_s) &&
@@ -48,8 +52,7 @@ bool CanBeDriven(const Twist& twist, const VehicleProfile& profile) {
 bool IsBelievable(const RangeScan& scan, const VehicleOptions& options) {
   if (scan.epoch == kNoEpoch || scan.tick == kNoTick) return false;
   const VehicleProfile& profile = options.profile;
-  const ReadingLimits limits = {scan.tick, Seconds(options.tick_period),
-                                profile.sonar_max_range_m + kBeyondRange_m};
+  const ReadingLimits limits = {scan.tick, Seconds(options.tick_period), profile};
   return CanBeDriven(TwistFromWheels(profile.drive, scan.wheels), profile) &&
          Within(scan.counted.left_rad, kMostCounted_rad) &&
          Within(scan.counted.right_rad, kMostCounted_rad) &&

@@ -12,6 +12,9 @@ namespace giveway {
 // overshoot.
 bool CanBeDriven(const Twist& twist, const VehicleProfile& profile);
 
+// True if ultrasonics of that profile can say so.
+bool IsRange(double range_m, const VehicleProfile& profile);
+
 // True if every number is finite and can come from this vehicle's wheels and ultrasonics, and no
 // reading is newer than the scan.
 bool IsBelievable(const RangeScan& scan, const VehicleOptions& options);

@@ -50,9 +50,12 @@ HeardCone HeardBy(std::size_t sensor, const Situation& s) {
   Vec2 apex = s.options.profile.sonar[sensor].position_body;
   Vec2 axis = s.cones.of[sensor].axis_body;
   if (age_s > 0) {
-    const Pose then = AdvanceArc({}, {s.speed_m_s, s.turn_rad_s}, -age_s);
-    apex = ToWorld(then, apex);
-    axis = ToWorld({.heading_rad = then.heading_rad}, axis);
+    const Facing then = AdvanceFacing({{0, 0}, {1, 0}}, {s.speed_m_s, s.turn_rad_s}, -age_s);
+    const auto turned = [&then](Vec2 body) {
+      return body.x * then.forward_world + body.y * Left(then.forward_world);
+    };
+    apex = then.position_world + turned(apex);
+    axis = turned(axis);
   }
   return {.apex_body = apex,
           .axis_body = axis,

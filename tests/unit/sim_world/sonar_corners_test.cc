@@ -50,8 +50,13 @@ TEST(SonarCorners, TowardsTheRimOfTheConeAnEndIsHeardFromNearerOnly) {
 
 TEST(SonarCorners, IdealHearsWhatItHeardBefore) {
   EXPECT_EQ(EdgeReach(SonarTier::kIdeal), 0);
-  const Vec2 corner = Before3(2, 20);  // outside the cone
-  EXPECT_EQ(HeardBy3(SonarTier::kIdeal, {{corner, corner + Vec2{0, 1}}}).kind, Echo::kClear);
+  // The nearest point in the cone, wherever in it and however far: an edge like any other.
+  for (const double off_deg : {0.0, 14.0}) {
+    EXPECT_EQ(HeardOfEnd(SonarTier::kTypical, 3, off_deg).kind, Echo::kClear);
+    const RangeReading heard = HeardOfEnd(SonarTier::kIdeal, 3, off_deg);
+    ASSERT_EQ(heard.kind, Echo::kEcho);
+    EXPECT_NEAR(heard.range_m, 3, 1e-9);
+  }
 }
 
 // Two walls that meet there, either of them 45 degrees off what the transducer looks along.

@@ -192,5 +192,44 @@ TEST(BrainState, AWaypointThatTheRouteDoesNotHaveIsRefused) {
   EXPECT_NE(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
 }
 
+// Ranges that no ultrasonics can say, and cells surer than any grid is.
+TEST(BrainState, WhatNoScanCanHaveBroughtIsRefused) {
+  const VehicleOptions options = OptionsOfSeed(1);
+  BrainBench bench(options);
+  RangeScan scan = ClearScan(0);
+  SetEcho(&scan, 3, 0.625);
+  for (int i = 0; i < 3; ++i) bench.Step(scan);
+  const std::string sound = BytesOf(bench.Brain().State());
+  ASSERT_NE(StateFrom(sound, options), nullptr);
+  const auto replaced = [&sound](double from, double to) {
+    std::string bytes = sound;
+    const std::string of(reinterpret_cast<const char*>(&from), sizeof from);
+    const std::size_t at = bytes.find(of);
+    EXPECT_NE(at, std::string::npos);
+    return bytes.replace(at, sizeof to, reinterpret_cast<const char*>(&to), sizeof to);
+  };
+  EXPECT_NE(StateFrom(replaced(0.625, 0.75), options), nullptr);
+  for (const double range_m : {-0.1, 7.0, -1e10}) {
+    EXPECT_EQ(StateFrom(replaced(0.625, range_m), options), nullptr) << range_m;
+  }
+  std::string surer = sound;
+  ASSERT_EQ(surer.back(), static_cast<char>(ObstacleGrid::kSurest)) << "the last cell";
+  surer.back() = static_cast<char>(ObstacleGrid::kSurest + 1);
+  EXPECT_EQ(StateFrom(surer, options), nullptr);
+}
+
+TEST(BrainState, KeepsAHeadingThatFixesDoubt) {
+  Vehicle brain(DefaultOptions(), 42);
+  auto state = std::make_unique<VehicleState>(brain.State());
+  const std::size_t before = BytesOf(*state).size();
+  state->pose.disagreement = {{0.1, 0}, 0.5, 1};
+  const std::string bytes = BytesOf(*state);
+  EXPECT_GT(bytes.size(), before);
+  const auto same = StateFrom(bytes, DefaultOptions());
+  ASSERT_NE(same, nullptr);
+  EXPECT_EQ(same->pose.disagreement.off_rad, 0.5);
+  EXPECT_TRUE(AreBytesOf(bytes, *state));
+}
+
 }  // namespace
 }  // namespace giveway::test

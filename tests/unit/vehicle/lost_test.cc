@@ -50,6 +50,40 @@ TEST(Lost, OneThatGrowsUnsureSlowsDownThenHaltsAndSaysSo) {
   EXPECT_EQ(bench.Step(Rolling(0)).command.target, WheelSpeeds{});
 }
 
+TEST(Lost, OneThatIsUnsureSaysAllTheSameThatALightStopsIt) {
+  BrainBench bench(Slipping());
+  Outputs out;
+  for (int i = 0; i < 1200 && out.command.decision.rule != Rule::kUnsure; ++i) {
+    out = bench.Step(Rolling(3));
+  }
+  ASSERT_EQ(out.command.decision.rule, Rule::kUnsure);
+  const double line_m = out.beacon.world_from_body.position_world.x + 2.5;
+  bench.WithNext().signals = {{.id = SignalId{1},
+                               .epoch = test::kEpoch,
+                               .tick = out.beacon.tick,
+                               .line_from_world = {line_m, 1},
+                               .line_to_world = {line_m, -1},
+                               .phase = SignalPhase::kRed,
+                               .to_change_s = 5}};
+  EXPECT_EQ(bench.Step(Rolling(3)).beacon.rule, Rule::kSignal);
+}
+
+// None of them asks how well it knows its place; one that does not know it at all stands.
+TEST(Lost, TheLecturesBehavioursHaltToo) {
+  for (const Behaviour behaviour : {Behaviour::kLectureAvoid, Behaviour::kStockAvoid,
+                                    Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {
+    VehicleOptions options = Slipping();
+    options.behaviour = behaviour;
+    BrainBench bench(options);
+    bool slowed = false;
+    const Outputs out = UntilLost(&bench, &slowed);
+    EXPECT_FALSE(slowed);
+    EXPECT_EQ(out.command.decision.rule, Rule::kLost) << static_cast<int>(behaviour);
+    EXPECT_EQ(out.command.decision.mode, Mode::kHalt);
+    EXPECT_EQ(bench.Step(Rolling(0)).command.target, WheelSpeeds{});
+  }
+}
+
 TEST(Lost, ItGoesOnWhenAFixComes) {
   BrainBench bench(Slipping());
   const Outputs lost = UntilLost(&bench);
@@ -123,6 +157,10 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
     out = bench.Step(Rolling(0));
   }
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
+  // How near it came by its wheels alone does not count: it has yet to come nearer.
+  const VehicleState& state = bench.Brain().State();
+  EXPECT_LE(state.aimless_ticks, 1U);
+  EXPECT_GT(state.nearest_m, 0.1);
 }
 
 }  // namespace

@@ -143,6 +143,35 @@ TEST(ObstacleGrid, TheMoreUnsureTheWaySinceTheLessItHolds) {
   EXPECT_FALSE(held_after(0.12));
 }
 
+TEST(ObstacleGrid, WhatIsUnsureAtOnceIsForgottenAsWhatGrowsUnsure) {
+  const auto held_at = [](int steps) {
+    ObstacleGrid grid;
+    HearTimes(&grid, 5);
+    for (int i = 0; i < steps; ++i) grid.Move({0, 0}, 0, 0.09 * 0.09 / steps);
+    return grid.At(kThere);
+  };
+  EXPECT_EQ(held_at(1), held_at(1000));
+  EXPECT_EQ(held_at(1), ObstacleGrid::kSurest - 3 * 3);
+  ObstacleGrid grid;
+  HearTimes(&grid, 5);
+  grid.Move({0, 0}, 0, 1e300);
+  EXPECT_EQ(grid.At(kThere), 0);
+}
+
+TEST(ObstacleGrid, BeforeAnythingIsHeardTimeAndWayLeaveNoTrace) {
+  ObstacleGrid rolled;
+  for (int i = 0; i < 17; ++i) {
+    rolled.Move({0.03, 0.01}, 0.2, 0.001);
+    rolled.Fade(0.05);
+  }
+  ObstacleGrid fresh;
+  for (ObstacleGrid* grid : {&rolled, &fresh}) HearTimes(grid, 2);
+  StateHash of_rolled, of_fresh;
+  rolled.AddTo(&of_rolled);
+  fresh.AddTo(&of_fresh);
+  EXPECT_EQ(of_rolled.Value(), of_fresh.Value());
+}
+
 TEST(ObstacleGrid, WhereTheOwnBodyStandsNothingElseDoes) {
   ObstacleGrid grid;
   HearTimes(&grid, 3);

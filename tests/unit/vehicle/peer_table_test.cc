@@ -171,6 +171,31 @@ TEST_F(PeerTableTest, BeyondTheEmissionRadiusIsNotHeardAndNoLoss) {
   EXPECT_EQ(counters_.lost, 0U);
 }
 
+// For the tick that its first beacon waits, what is known of it is as old as when it left.
+TEST_F(PeerTableTest, OneThatComesBackIntoReachIsNotLostUntilItsBeaconCounts) {
+  Hear(2, 97, milliseconds(0));
+  Take(Received(BeaconOf(2, 98, {.position_world = {5.1, 0}}), milliseconds(50)));
+  self_.tick = Tick{120};
+  const milliseconds now(1000);
+  Hear(2, 120, now);  // of this tick: it waits
+  EXPECT_FALSE(Fresh(2, now));
+  EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, now)));
+  self_.tick = Tick{121};
+  table_->Advance(now + milliseconds(50), self_.tick);
+  EXPECT_TRUE(Fresh(2, now + milliseconds(50)));
+}
+
+// The one that waits is older than the one from beyond.
+TEST_F(PeerTableTest, OneThatLeavesWhileABeaconWaitsIsNoLossEither) {
+  Hear(2, 99, milliseconds(0));
+  Hear(2, 100, milliseconds(50));
+  Take(Received(BeaconOf(2, 101, {.position_world = {5.1, 0}}), milliseconds(50)));
+  self_.tick = Tick{130};
+  table_->Advance(milliseconds(1500), self_.tick);
+  EXPECT_TRUE(IsGone(*table_->Find(VehicleId{2})));
+  EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(1500))));
+}
+
 // Every start-up showed a refused beacon or two that nobody had done anything wrong to earn.
 TEST_F(PeerTableTest, BeforeTheWorldIsHeardNobodyIsHeardAndNobodyIsRefused) {
   Beacon early = BeaconOf(2, 1, {});

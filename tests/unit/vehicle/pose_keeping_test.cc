@@ -187,6 +187,74 @@ TEST(PoseKeeping, AFixThatIsNoneChangesNothing) {
   EXPECT_EQ(keeper.keeping.fixes_refused, 5U);
 }
 
+// By deviations whose squares are no numbers to divide by, of a pose that is known exactly.
+TEST(PoseKeeping, AFixThatClaimsToBeExactIsRefused) {
+  for (const double sigma : {1e-200, 1e-170, 1e-7, 1e4, 1e300}) {
+    Keeper keeper(Fitted());
+    keeper.Drive({});
+    keeper.Drive({});
+    PoseFix fix = keeper.FixOf(1);
+    fix.sigma_position_m = sigma;
+    keeper.Give(fix);
+    fix = keeper.FixOf(1);
+    fix.sigma_heading_rad = sigma;
+    keeper.Give(fix);
+    EXPECT_EQ(keeper.keeping.fixes_used, 0U) << sigma;
+    EXPECT_EQ(keeper.keeping.fixes_refused, 2U) << sigma;
+    EXPECT_EQ(keeper.odometry.WorldFromBody(), Pose{}) << sigma;
+  }
+}
+
+// One that waits came from a snapshot, where nobody has looked at it.
+TEST(PoseKeeping, AFixThatWaitedIsLookedAtLikeAnyOther) {
+  Keeper keeper(Fitted());
+  keeper.Drive({});
+  keeper.keeping.waiting = keeper.FixOf(1);
+  keeper.keeping.waiting.sigma_position_m = 1e-200;
+  keeper.Drive({});
+  EXPECT_EQ(keeper.keeping.fixes_used, 0U);
+  EXPECT_EQ(keeper.odometry.WorldFromBody(), Pose{});
+}
+
+TEST(PoseKeeping, AHeadingThatDoesNotFitIsDoubtedToo) {
+  Keeper keeper(Fitted());
+  keeper.odometry = Odometry({}, {.xx_m2 = 0.0001, .yy_m2 = 0.0001, .hh_rad2 = 0.0001});
+  for (int i = 0; i < 3; ++i) keeper.Drive({});
+  const auto turned = [&](double off_rad) {
+    PoseFix fix = keeper.FixOf(keeper.tick - 1);
+    fix.world_from_body.heading_rad += off_rad;
+    fix.sigma_heading_rad = 0.05;
+    return fix;
+  };
+  keeper.Give(turned(0.5));
+  EXPECT_EQ(keeper.keeping.disagreement.fixes, 1U);
+  EXPECT_NEAR(SigmaHeading(PromisedCovariance(keeper.odometry, keeper.keeping)), 0.5, 0.01);
+  keeper.Drive({});
+  keeper.Give(turned(-0.5));
+  EXPECT_EQ(keeper.keeping.disagreement.fixes, 1U) << "they do not agree";
+  for (int i = 0; i < 4; ++i) {
+    keeper.Drive({});
+    keeper.Give(turned(-0.5));
+  }
+  EXPECT_EQ(keeper.keeping.fixes_used, 1U);
+  EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, -0.5, 0.05);
+}
+
+// Of what a way adds there is one model: who takes fixes does not take its encoders for exact.
+TEST(PoseKeeping, SaysWhatAWayAddsToTheDoubt) {
+  const auto added = [](const VehicleProfile& profile) {
+    Odometry odometry;
+    PoseKeeping keeping;
+    Begin(profile, &keeping);
+    const PoseCovariance said =
+        Roll(profile, {.wheels = kBend, .dt_s = kDt_s, .tick = Tick{1}}, &odometry, &keeping);
+    EXPECT_EQ(said, odometry.Covariance());
+    return said.xx_m2;
+  };
+  EXPECT_EQ(added(PioneerP3dx()), 0);
+  EXPECT_GT(added(Fitted()), 0);
+}
+
 // Over a hundred robots, 60 s each, what the filter says of its doubt is what it is.
 TEST(PoseKeeping, ItsErrorStaysAsSmallAsItSays) {
   double squares = 0;
