@@ -1,5 +1,6 @@
 // Watches a run by the truth and says what happened: who halted to give way, who continued, who
-// arrived, who touched. It decides nothing about the run's end.
+// arrived, who touched. It decides nothing about the run's end. What must be true of every run is
+// judged in sim_world/virtual/invariants.h.
 //
 // A vehicle has arrived while it stands in its goal: its process drives it, it came to a standstill
 // with the axle centre within the goal's radius, and it has not left the circle since. Driving

@@ -22,7 +22,7 @@ constexpr std::uint32_t kReal = kField | std::uint32_t{DDS_OP_TYPE_8BY} | DDS_OP
 constexpr std::uint32_t kEnum =
     kField | std::uint32_t{DDS_OP_TYPE_ENU} | (2U << DDS_OP_FLAG_SZ_SHIFT);
 constexpr std::uint32_t kLastMode = 3;
-constexpr std::uint32_t kLastRule = 15;
+constexpr std::uint32_t kLastRule = 17;
 
 // clang-format off
 #define AT(member) static_cast<std::uint32_t>(offsetof(ForeignBeacon, member))
