@@ -57,7 +57,7 @@ WriterTable::Line& WriterTable::Insert(const WriterGuid& writer, SteadyTime now)
                                  [&](const Line& a, const Line& b) { return worth(a) < worth(b); });
   line = {};
   line.guid = writer;
-  line.heard = line.heard_first = now;
+  line.heard = line.heard_first = line.met = now;
   line.packets = 1;
   return line;
 }
@@ -72,11 +72,12 @@ bool WriterTable::IsPlausible(const WriterGuid& writer, std::int64_t number, Ste
     }
   }
   if (line->packets != std::numeric_limits<std::uint32_t>::max()) ++line->packets;
-  if (number < line->highest) return true;
+  if (number <= line->highest) return true;
   const bool follows =
       number - line->highest <= Growth(now - line->heard) || KeepsItsPace(*line, number, now);
   if (!follows) {
-    if (!Confirms(line, number, now)) return false;
+    const bool is_new = number <= kMostAtFirst && now - line->met <= kAcquaintance;
+    if (!is_new && !Confirms(line, number, now)) return false;
     line->first = number;
     line->heard_first = now;
   }

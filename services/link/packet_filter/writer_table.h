@@ -5,12 +5,13 @@
 // A number is plausible up to the highest one seen + kSlack + kRate_hz x the time since; of a
 // writer that has been faster all along, up to what it sends in half a second + twice its rate x
 // the time since. A writer whose numbers really did jump, because this process lost more than that,
-// is believed once it has kept to its new numbers for kConfirmTime and said nothing by the former
-// ones. Of a writer not seen before any number up to kMostAtFirst is plausible: late joiners meet
-// writers of any age.
+// is believed once it has kept to its new numbers for kConfirmTime and said nothing new by the
+// former ones. Of a writer first seen within kAcquaintance any number up to kMostAtFirst is
+// plausible: late joiners meet writers of any age, and what such a writer keeps for them may lie
+// far apart: of a roster the entries of those who are still there, with GAPs between.
 //
-// Lower numbers are always plausible: samples are sent again, and a restarted writer of some
-// vendors keeps its GUID.
+// Lower numbers are always plausible, and say nothing of where the writer is: samples and GAPs are
+// sent again, and a restarted writer of some vendors keeps its GUID.
 #pragma once
 
 #include <array>
@@ -32,6 +33,8 @@ class WriterTable {
   // 39 days at 5 Hz, the rate of a reliable writer. The library steps through as many numbers at
   // the first HEARTBEAT of a writer, which takes it 0.1 s.
   static constexpr std::int64_t kMostAtFirst = std::int64_t{1} << 24U;
+  // A reliable writer's HEARTBEAT, which says how far it is, comes within it though half are lost.
+  static constexpr Nanoseconds kAcquaintance = std::chrono::seconds(5);
   static constexpr Nanoseconds kConfirmTime = std::chrono::milliseconds(500);
   static constexpr std::uint32_t kConfirmations = 4;
   // A writer that was heard as often is no stranger.
@@ -54,8 +57,9 @@ class WriterTable {
     std::int64_t first = 0;  // believed, as the next
     std::int64_t highest = 0;
     std::int64_t candidate = 0;  // of numbers beyond the plausible ones; 0: none
+    SteadyTime met{0};           // when it was new
     SteadyTime heard_first{0};   // when `first` was
-    SteadyTime heard{0};         // when `highest` was
+    SteadyTime heard{0};         // when `highest` was, for the first time
     SteadyTime candidate_since{0};
     SteadyTime candidate_heard{0};
     std::uint32_t packets = 0;  // 0: the line is free
