@@ -249,7 +249,7 @@ TEST(PacketFilter, HandsOnWhatComesAgainOrAfterALoss) {
 }
 
 // A vehicle that came to a world after 22 restarts of another heard no roster: of the packet that
-// told how far the writer is, the GAP before it was the number that it was held against.
+// said how far the writer is, the GAP before it was the number that it was held against.
 TEST(PacketFilter, HandsOnTheSparseHistoryOfAnOldWriterToALateJoiner) {
   Received20Hz receiver;
   EXPECT_EQ(receiver.GapAndHeartbeat(4, 3, 5000), PacketDrop::kNone);
@@ -361,7 +361,7 @@ TEST(PacketFilter, LetsStrangersInNoFasterThanAFleetGrows) {
   PacketFilter filter({.fleet_size = 2});
   SteadyTime now = kStart;
   const auto announce = [&](const test::PrefixBytes& from) {
-    return filter.Judge(RtpsPacket(from).Announcement(from, 1).Bytes(), kHere, now).drop;
+    return DropOf(RtpsPacket(from).Announcement(from, 1).Bytes(), now, &filter);
   };
   EXPECT_EQ(announce(kPeer), PacketDrop::kNone);
   int let_in = 0;
@@ -383,7 +383,7 @@ TEST(PacketFilter, NamesParticipantsByWhatTheyAnnounceNotByWhoSendsIt) {
   int let_in = 0;
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const PacketBytes packet = RtpsPacket(kPeer).Announcement(Stranger(i), i + 1).Bytes();
-    let_in += filter.Judge(packet, kHere, kStart).drop == PacketDrop::kNone ? 1 : 0;
+    let_in += DropOf(packet, kStart, &filter) == PacketDrop::kNone ? 1 : 0;
   }
   EXPECT_EQ(let_in, 256);
 }
