@@ -49,6 +49,15 @@ bool IsSecured(const dds::DomainParticipantQos& qos) {
   });
 }
 
+// Whether all that a participant says, and its announcements by itself, pass the transport; and
+// the library may be made to remove one just when others are found, as farewells do.
+bool SaysFarewell(const LinkOptions& options, const dds::DomainParticipantQos& qos) {
+  const auto& discovery = qos.wire_protocol().builtin.discovery_config;
+  return kRemovesWhileItSends && options.discovery_servers.empty() &&
+         discovery.discoveryProtocol == Discovery::SIMPLE &&
+         qos.transport().user_transports.size() == 1;
+}
+
 FilteredTransportOptions FilterOf(const LinkOptions& options,
                                   const dds::DomainParticipantQos& qos) {
   return {.filter = {.largest_sample = LargestSample(),
@@ -56,7 +65,8 @@ FilteredTransportOptions FilterOf(const LinkOptions& options,
                      .loopback_only = IsLoopback(options.interface),
                      .secured = IsSecured(qos),
                      .seed = 0},
-          .joined_interfaces_only = options.interface != "any"};
+          .joined_interfaces_only = options.interface != "any",
+          .says_farewell = SaysFarewell(options, qos)};
 }
 
 // UDP, and beside it shared memory if the profile names it: the profile says how, the options say

@@ -120,7 +120,7 @@ class RtpsPacket {
     parameter(0x0015, {2, 3, 0, 0});                        // protocol version
     parameter(0x0016, {kEProsima[0], kEProsima[1], 0, 0});  // vendor
     PacketBytes guid(participant.begin(), participant.end());
-    AppendEntity(0x000100c1, &guid);
+    AppendEntity(0x000001c1, &guid);
     parameter(0x0050, guid);
     PacketBytes lease;
     Append(lease_s, 4, &lease);

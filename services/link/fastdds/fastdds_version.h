@@ -66,6 +66,10 @@ inline constexpr char kLibraryName[] = "Fast DDS " FASTRTPS_VERSION_STR;
 inline constexpr int kLibraryMajor = FASTRTPS_VERSION_MAJOR;
 inline constexpr std::array<Respelt, 0> kRespelt{};
 inline constexpr bool kServersByPrefix = true;  // in discoveryServersList
+// Whether readers of a writer may be removed while it sends to others. 2.9.1 holds the locks of its
+// senders while it removes one, and may wait for the thread that sends, which waits for them: where
+// an instance was unregistered that the removed reader had not acknowledged.
+inline constexpr bool kRemovesWhileItSends = false;
 
 inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
 // The result of DataWriter::write: true is good in 2.9.1, and 0 is good in 3.1.2.
@@ -140,6 +144,7 @@ inline constexpr std::array kRespelt = {
     Respelt{"heartbeatResponseDelay", "heartbeat_response_delay"},
     Respelt{"expectsInlineQos", "expects_inline_qos"},
 };
+inline constexpr bool kRemovesWhileItSends = true;
 inline constexpr bool kServersByPrefix = false;
 
 inline bool Ok(ReturnCode code) { return code == dds::RETCODE_OK; }
@@ -245,6 +250,9 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 
   bool HasFoundAnybody() const { return has_found_anybody_.load(std::memory_order_relaxed); }
 
+  // Participants whose lease the library saw end: of each writer of theirs it keeps a record.
+  std::uint32_t Dropped() const { return dropped_.load(std::memory_order_relaxed); }
+
 #if __has_include(<fastrtps/config.h>)
   void on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& found) final {
     const bool gone = found.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER;
@@ -255,8 +263,9 @@ class DiscoveryListener : public dds::DomainParticipantListener {
   void on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& found) final {
     if (found.status != rtps::ReaderDiscoveryInfo::REMOVED_READER) NoteEndpoint(false, found.info);
   }
-  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryInfo&&) final {
-    has_found_anybody_.store(true, std::memory_order_relaxed);
+  void on_participant_discovery(dds::DomainParticipant*,
+                                rtps::ParticipantDiscoveryInfo&& found) final {
+    NoteParticipant(found.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT);
   }
 #else
   void on_data_writer_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryStatus status,
@@ -269,13 +278,18 @@ class DiscoveryListener : public dds::DomainParticipantListener {
                                 const dds::SubscriptionBuiltinTopicData& found, bool&) final {
     if (status != rtps::ReaderDiscoveryStatus::REMOVED_READER) NoteEndpoint(false, found);
   }
-  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus,
+  void on_participant_discovery(dds::DomainParticipant*, rtps::ParticipantDiscoveryStatus status,
                                 const dds::ParticipantBuiltinTopicData&, bool&) final {
-    has_found_anybody_.store(true, std::memory_order_relaxed);
+    NoteParticipant(status == rtps::ParticipantDiscoveryStatus::DROPPED_PARTICIPANT);
   }
 #endif
 
  private:
+  void NoteParticipant(bool dropped) {
+    has_found_anybody_.store(true, std::memory_order_relaxed);
+    if (dropped) dropped_.fetch_add(1, std::memory_order_relaxed);
+  }
+
 #if __has_include(<fastrtps/config.h>)
   template <typename ProxyData>
   void NoteEndpoint(bool writes, const ProxyData& found) {
@@ -295,6 +309,7 @@ class DiscoveryListener : public dds::DomainParticipantListener {
 
   EndpointQueue endpoints_;
   std::atomic<bool> has_found_anybody_{false};
+  std::atomic<std::uint32_t> dropped_{0};
 };
 
 // A chaining transport that sends as the one below it does.

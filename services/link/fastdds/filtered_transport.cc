@@ -7,11 +7,13 @@
 #include <atomic>
 #include <chrono>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "services/link/fastdds/joined_groups.h"
 #include "services/link/fastdds/packets_of_process.h"
 #include "services/link/fastdds/topics.h"
+#include "services/link/packet_filter/lease_watch.h"
 
 namespace giveway::link {
 namespace {
@@ -71,21 +73,34 @@ class FilteredTransport final : public ForwardingTransport {
   void receive(transport::TransportReceiverInterface* receiver, const rtps::octet* bytes,
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
-    const PacketVerdict verdict = Judge({bytes, size}, Ipv4Of(remote));
+    std::optional<Farewell> farewell;
+    const PacketVerdict verdict = Judge({bytes, size}, Ipv4Of(remote), &farewell);
     counted[static_cast<std::size_t>(verdict.drop)].fetch_add(1, std::memory_order_relaxed);
     if (verdict.drop != PacketDrop::kNone) return;
     receiver->OnDataReceived(bytes, static_cast<std::uint32_t>(verdict.bytes), local, remote);
+    if (farewell.has_value()) {
+      receiver->OnDataReceived(farewell->data(), static_cast<std::uint32_t>(farewell->size()),
+                               local, remote);
+    }
   }
 
  private:
-  PacketVerdict Judge(Bytes packet, std::uint32_t source) {
+  // Only the port that announcements reach has the reader of farewells.
+  PacketVerdict Judge(Bytes packet, std::uint32_t source, std::optional<Farewell>* farewell) {
+    const SteadyTime now(steady_clock::now().time_since_epoch());
     const std::scoped_lock lock(mutex_);
-    return filter_.Judge(packet, source, SteadyTime(steady_clock::now().time_since_epoch()));
+    const PacketVerdict verdict = filter_.Judge(packet, source, now);
+    if (verdict.drop == PacketDrop::kNone && descriptor_.options.says_farewell &&
+        leases_.Hear(packet.first(verdict.bytes), now)) {
+      *farewell = leases_.TakeFarewell(now);
+    }
+    return verdict;
   }
 
   FilteredDescriptor descriptor_;
   std::mutex mutex_;
   PacketFilter filter_;  // guarded by mutex_
+  LeaseWatch leases_;    // guarded by mutex_
 };
 
 transport::TransportInterface* FilteredDescriptor::create_transport() const {

@@ -1,6 +1,7 @@
 // The profile set's UDP transport with the packet filter between it and the library: a Fast DDS
 // chaining transport that drops what no sound sender sends, and sockets that hear the groups they
-// joined on the interfaces they joined them on, and no others.
+// joined on the interfaces they joined them on, and no others. In the name of a participant that
+// died it says farewell: lease_watch.h.
 //
 // Shared memory, where a profile names it, is not filtered: who can write into it runs on this
 // machine as this user.
@@ -17,6 +18,9 @@ namespace giveway::link {
 struct FilteredTransportOptions {
   PacketFilterOptions filter;
   bool joined_interfaces_only = true;  // of multicasts; false where every interface is meant
+  // Of participants whose lease is nearly over; false where they are found by a server, or reach
+  // this one past the transport.
+  bool says_farewell = true;
 };
 
 // `below` is UDPv4, or a chain of transports that ends in it.

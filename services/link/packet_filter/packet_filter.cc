@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "services/link/packet_filter/announcement.h"
 #include "services/link/packet_filter/submessage_check.h"
 
 namespace giveway::link {
@@ -36,10 +37,7 @@ constexpr std::size_t kBitsInAckNack = 16;  // how many; the bits, and behind th
 constexpr std::size_t kBitsInNackFrag = 20;
 constexpr std::size_t kPrefixInInfoSrc = 8;
 
-constexpr std::array<std::uint8_t, 4> kAnnouncer = {0x00, 0x01, 0x00, 0xc2};
-constexpr std::array<std::uint8_t, 4> kParticipant = {0x00, 0x01, 0x00, 0xc1};
-constexpr std::uint16_t kParticipantGuid = 0x0050;  // a parameter's id
-constexpr std::size_t kEncapsulationBytes = 4;
+constexpr std::array<std::uint8_t, 4> kParticipant = {0x00, 0x00, 0x01, 0xc1};
 
 bool IsRtps(Bytes packet) {
   return packet.size() > kRtpsHeaderBytes &&
@@ -86,16 +84,6 @@ WriterGuid CounterGuid(const Submessage& submessage, const std::uint8_t* prefix)
     guid[kPrefixBytes + i] ^= submessage.body[(i + 1) % 4];
   }
   return guid;
-}
-
-// Parameters of an announcement are in the byte order that its encapsulation names.
-Submessage ParametersOf(const Submessage& data) {
-  const Bytes payload = data.body.subspan(PayloadOfData(data));
-  if (payload.size() < kEncapsulationBytes) return {};
-  Submessage list;
-  list.flags = payload[1] & 1U;
-  list.body = payload.subspan(kEncapsulationBytes);
-  return list;
 }
 
 }  // namespace
@@ -162,8 +150,7 @@ PacketDrop PacketFilter::CheckWriter(const Submessage& submessage, const std::ui
     return PacketDrop::kNone;
   const std::uint8_t* const entity =
       submessage.body.data() + (is_data ? kWriterAtInData : kWriterAt);
-  if (submessage.kind == SubmessageKind::kData &&
-      std::equal(kAnnouncer.begin(), kAnnouncer.end(), entity) && !IsWelcome(submessage, now)) {
+  if (IsAnnouncement(submessage) && !IsWelcome(submessage, now)) {
     return PacketDrop::kTooManyStrangers;
   }
   std::int64_t number = submessage.SequenceNumber(is_data ? kNumberAtInData : kLastNumberAt);
@@ -187,9 +174,9 @@ bool PacketFilter::IsNextCount(const Submessage& submessage, const std::uint8_t*
 // An announcement of a participant that is known, or of a new one while there is room. A discovery
 // server sends those of others: it is the payload that names the participant.
 bool PacketFilter::IsWelcome(const Submessage& announcement, SteadyTime now) {
-  const Bytes guid = FindParameter(ParametersOf(announcement), 0, kParticipantGuid);
-  if (guid.size() < kPrefixBytes) return true;  // of one that leaves; names nobody new
-  const WriterGuid participant = GuidOf(guid.data(), kParticipant.data());
+  const std::optional<PrefixBytes> prefix = AnnouncedParticipant(announcement);
+  if (!prefix.has_value()) return true;  // of one that leaves; names nobody new
+  const WriterGuid participant = GuidOf(prefix->data(), kParticipant.data());
   if (writers_.Knows(participant, now)) return true;
   if (!TakeToken(now)) return false;
   writers_.Add(participant, now);

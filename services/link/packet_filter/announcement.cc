@@ -1,0 +1,105 @@
+#include "services/link/packet_filter/announcement.h"
+
+#include <algorithm>
+
+#include "services/link/packet_filter/submessage_check.h"
+
+namespace giveway::link {
+namespace {
+
+constexpr std::size_t kAnnouncementReaderAt = 4;  // of DATA: entity ids, and the number
+constexpr std::size_t kAnnouncerAt = 8;
+constexpr std::size_t kAnnouncementNumberAt = 12;
+constexpr std::array<std::uint8_t, 4> kAnnouncer = {0x00, 0x01, 0x00, 0xc2};
+constexpr std::array<std::uint8_t, 4> kListener = {0x00, 0x01, 0x00, 0xc7};
+constexpr std::array<std::uint8_t, 4> kParticipantEntity = {0x00, 0x00, 0x01, 0xc1};
+
+constexpr std::uint16_t kLeaseDuration = 0x0002;  // ids of parameters
+constexpr std::uint16_t kParticipantGuid = 0x0050;
+constexpr std::uint8_t kKeyHash = 0x70;
+constexpr std::uint8_t kStatusInfo = 0x71;
+constexpr std::uint8_t kDisposedAndUnregistered = 3;
+constexpr std::uint8_t kEndOfList = 0x01;
+constexpr std::size_t kEncapsulationBytes = 4;
+
+constexpr std::uint8_t kInlineQosFlag = 0x02;
+constexpr std::uint8_t kDataFlag = 0x04;
+
+// Parameters are in the byte order that the payload's encapsulation names.
+Submessage ParametersOf(const Submessage& announcement) {
+  const Bytes payload = announcement.body.subspan(PayloadOfData(announcement));
+  if (!announcement.Has(kDataFlag) || payload.size() < kEncapsulationBytes) return {};
+  Submessage list;
+  list.flags = payload[1] & 1U;
+  list.body = payload.subspan(kEncapsulationBytes);
+  return list;
+}
+
+// From there on; returns where it ends.
+template <std::size_t size>
+std::size_t Put(const std::array<std::uint8_t, size>& bytes, std::size_t at, Farewell* to) {
+  std::copy_n(bytes.begin(), size, to->begin() + static_cast<std::ptrdiff_t>(at));
+  return at + size;
+}
+
+// High word first, each in big-endian order.
+std::array<std::uint8_t, 8> BigEndian(std::int64_t number) {
+  std::array<std::uint8_t, 8> bytes;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    bytes[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(number) >> (56 - 8 * i));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+bool IsAnnouncement(const Submessage& submessage) {
+  return submessage.kind == SubmessageKind::kData &&
+         std::equal(kAnnouncer.begin(), kAnnouncer.end(), submessage.body.begin() + kAnnouncerAt);
+}
+
+std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement) {
+  const Bytes guid = FindParameter(ParametersOf(announcement), 0, kParticipantGuid);
+  PrefixBytes prefix;
+  if (guid.size() < prefix.size()) return std::nullopt;
+  std::copy_n(guid.begin(), prefix.size(), prefix.begin());
+  return prefix;
+}
+
+std::optional<Nanoseconds> AnnouncedLease(const Submessage& announcement) {
+  Submessage list = ParametersOf(announcement);
+  list.body = FindParameter(list, 0, kLeaseDuration);
+  if (list.body.size() < 8) return std::nullopt;
+  const std::uint64_t fraction_ns = (std::uint64_t{list.U32(4)} * 1'000'000'000) >> 32U;
+  return std::chrono::seconds(list.U32(0)) + Nanoseconds(fraction_ns);
+}
+
+std::int64_t AnnouncementNumber(const Submessage& announcement) {
+  return announcement.SequenceNumber(kAnnouncementNumberAt);
+}
+
+Farewell FarewellOf(const PrefixBytes& participant, std::int64_t number) {
+  constexpr std::uint8_t kToInlineQos = kAnnouncementNumberAt + 8 - kAnnouncementReaderAt;
+  Farewell packet;
+  std::size_t at =
+      Put(std::array<std::uint8_t, 8>{'R', 'T', 'P', 'S', 2, 3, 0x01, 0x0f}, 0, &packet);
+  at = Put(participant, at, &packet);
+  constexpr std::size_t kBodyAt = kRtpsHeaderBytes + kSubmessageHeaderBytes;
+  constexpr std::uint8_t kBytes = std::tuple_size_v<Farewell> - kBodyAt;
+  at = Put(std::to_array<std::uint8_t>(
+               {static_cast<std::uint8_t>(SubmessageKind::kData), kInlineQosFlag, 0, kBytes}),
+           at, &packet);
+  at = Put(std::to_array<std::uint8_t>({0, 0, 0, kToInlineQos}), at, &packet);
+  at = Put(kListener, at, &packet);
+  at = Put(kAnnouncer, at, &packet);
+  at = Put(BigEndian(number), at, &packet);
+  at = Put(std::to_array<std::uint8_t>({0, kKeyHash, 0, 16}), at, &packet);
+  at = Put(participant, at, &packet);
+  at = Put(kParticipantEntity, at, &packet);
+  at = Put(std::to_array<std::uint8_t>({0, kStatusInfo, 0, 4, 0, 0, 0, kDisposedAndUnregistered}),
+           at, &packet);
+  Put(std::to_array<std::uint8_t>({0, kEndOfList, 0, 0}), at, &packet);
+  return packet;
+}
+
+}  // namespace giveway::link

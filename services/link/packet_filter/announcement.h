@@ -1,0 +1,30 @@
+// The DATA by which a participant announces itself, and by which it says farewell: OMG RTPS 2.3,
+// 8.5.3. Read and written here; whether its parts are sound is judged before, by
+// submessage_check.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "services/link/packet_filter/rtps_bytes.h"
+#include "services/types/time.h"
+
+namespace giveway::link {
+
+using PrefixBytes = std::array<std::uint8_t, 12>;  // of a participant's GUID
+
+// Whether a sound submessage is one of a participant's announcer.
+bool IsAnnouncement(const Submessage& submessage);
+
+// The participant that it names; empty in a farewell, or where there is none.
+std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement);
+// How long it may be silent; empty in a farewell, or where there is none.
+std::optional<Nanoseconds> AnnouncedLease(const Submessage& announcement);
+std::int64_t AnnouncementNumber(const Submessage& announcement);
+
+using Farewell = std::array<std::uint8_t, 76>;
+// The packet by which a participant ends, with the number that follows its last announcement.
+Farewell FarewellOf(const PrefixBytes& participant, std::int64_t number);
+
+}  // namespace giveway::link

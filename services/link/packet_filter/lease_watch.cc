@@ -1,0 +1,66 @@
+#include "services/link/packet_filter/lease_watch.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace giveway::link {
+namespace {
+
+constexpr std::size_t kSenderAt = 8;  // its prefix, in a packet's header
+
+}  // namespace
+
+std::size_t LeaseWatch::PrefixHash::operator()(const PrefixBytes& prefix) const {
+  std::uint64_t low;
+  std::uint32_t high;
+  std::memcpy(&low, prefix.data(), sizeof low);
+  std::memcpy(&high, prefix.data() + sizeof low, sizeof high);
+  return (low ^ high) * 0x9e37'79b9'7f4a'7c15U >> 16U;
+}
+
+bool LeaseWatch::Hear(Bytes packet, SteadyTime now) {
+  PrefixBytes sender;
+  std::copy_n(packet.begin() + kSenderAt, sender.size(), sender.begin());
+  const auto known = participants_.find(sender);
+  if (known != participants_.end()) known->second.heard = now;
+  bool announces = false;
+  SubmessageWalk walk(packet);
+  Submessage part;
+  while (walk.Next(&part)) {
+    if (!IsAnnouncement(part)) continue;
+    announces = true;
+    Note(sender, part, now);
+  }
+  return announces;
+}
+
+void LeaseWatch::Note(const PrefixBytes& sender, const Submessage& announcement, SteadyTime now) {
+  const auto participant = AnnouncedParticipant(announcement);
+  const auto lease = AnnouncedLease(announcement);
+  if (!participant.has_value() || !lease.has_value()) {
+    participants_.erase(sender);
+    return;
+  }
+  if (*participant != sender) return;  // a discovery server speaks for it
+  if (!participants_.contains(sender)) MakeRoom();
+  participants_[sender] = {now, *lease, AnnouncementNumber(announcement)};
+}
+
+void LeaseWatch::MakeRoom() {
+  if (participants_.size() < kMostParticipants) return;
+  participants_.erase(std::ranges::min_element(
+      participants_, {}, [](const auto& participant) { return participant.second.heard; }));
+}
+
+std::optional<Farewell> LeaseWatch::TakeFarewell(SteadyTime now) {
+  const auto lapsed = std::ranges::find_if(participants_, [now](const auto& participant) {
+    const Announced& announced = participant.second;
+    return now - announced.heard >= announced.lease / 10 * 9;
+  });
+  if (lapsed == participants_.end()) return std::nullopt;
+  const Farewell farewell = FarewellOf(lapsed->first, lapsed->second.number + 1);
+  participants_.erase(lapsed);
+  return farewell;
+}
+
+}  // namespace giveway::link

@@ -1,0 +1,50 @@
+// Which participants have been silent for nearly the lease that they announced, and the farewell
+// that such a one did not send. The library keeps a record of every writer whose participant it
+// drops for its lease, some 370 bytes a process that was killed, and never lets go of it; of a
+// participant that says farewell it keeps nothing. So the dead are taken leave of, in their name,
+// just before their lease ends. Pure: no sockets, no clock, no lock.
+//
+// For participants found by their own announcements. A discovery server ends the leases of those
+// it speaks for itself, and tells its clients.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+
+#include "services/link/packet_filter/announcement.h"
+#include "services/link/packet_filter/rtps_bytes.h"
+#include "services/types/time.h"
+
+namespace giveway::link {
+
+class LeaseWatch {
+ public:
+  // Beyond, the one that was silent longest gives way: then the library ends its lease.
+  static constexpr std::size_t kMostParticipants = 1024;
+
+  // A packet of which all submessages are sound. True if it announces its sender, or ends it.
+  bool Hear(Bytes packet, SteadyTime now);
+
+  // The farewell of one participant whose silence has lasted nine tenths of its lease: a packet as
+  // it would have sent it, once. Nothing if all were heard.
+  std::optional<Farewell> TakeFarewell(SteadyTime now);
+
+  std::size_t Participants() const { return participants_.size(); }
+
+ private:
+  struct PrefixHash {
+    std::size_t operator()(const PrefixBytes& prefix) const;
+  };
+  struct Announced {
+    SteadyTime heard{0};
+    Nanoseconds lease{0};
+    std::int64_t number = 0;  // of its newest announcement
+  };
+  void Note(const PrefixBytes& sender, const Submessage& announcement, SteadyTime now);
+  void MakeRoom();
+
+  std::unordered_map<PrefixBytes, Announced, PrefixHash> participants_;
+};
+
+}  // namespace giveway::link

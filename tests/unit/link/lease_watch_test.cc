@@ -1,0 +1,98 @@
+// Whom the lease watch takes leave of, and when: by packets as participants send them.
+#include "services/link/packet_filter/lease_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "services/link/packet_filter/packet_filter.h"
+#include "tests/support/rtps_packet.h"
+
+namespace giveway::link {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using test::RtpsPacket;
+
+constexpr SteadyTime kFirst = seconds(1000);
+constexpr test::PrefixBytes kDying = {1, 15, 7};
+constexpr test::PrefixBytes kLiving = {1, 15, 8};
+constexpr std::uint32_t kLease_s = 10;
+constexpr Nanoseconds kNineTenths = seconds(9);
+
+bool Announce(LeaseWatch& watch, const test::PrefixBytes& by, SteadyTime now,
+              std::int64_t number = 1) {
+  return watch.Hear(RtpsPacket(by).InfoTs().Announcement(by, number, kLease_s).Bytes(), now);
+}
+
+TEST(LeaseWatch, TakesLeaveOnceOfOneThatIsSilentForNearlyItsLease) {
+  LeaseWatch watch;
+  EXPECT_TRUE(Announce(watch, kDying, kFirst));
+  EXPECT_FALSE(watch.TakeFarewell(kFirst + kNineTenths - milliseconds(1)).has_value());
+  EXPECT_TRUE(watch.TakeFarewell(kFirst + kNineTenths).has_value());
+  EXPECT_FALSE(watch.TakeFarewell(kFirst + kNineTenths).has_value());
+  EXPECT_EQ(watch.Participants(), 0U);
+}
+
+TEST(LeaseWatch, IsSatisfiedWithWhateverAParticipantSends) {
+  LeaseWatch watch;
+  Announce(watch, kDying, kFirst);
+  const auto sample = RtpsPacket(kDying).Data(test::kUserWriter, 1, test::PacketBytes(8));
+  EXPECT_FALSE(watch.Hear(sample.Bytes(), kFirst + seconds(8))) << "announces nobody";
+  EXPECT_FALSE(watch.TakeFarewell(kFirst + seconds(8) + kNineTenths - milliseconds(1)));
+  EXPECT_TRUE(watch.TakeFarewell(kFirst + seconds(8) + kNineTenths));
+}
+
+TEST(LeaseWatch, NamesTheOneThatDiedNotTheOneThatIsHeard) {
+  LeaseWatch watch;
+  Announce(watch, kDying, kFirst, 41);
+  Announce(watch, kLiving, kFirst);
+  Announce(watch, kLiving, kFirst + kNineTenths);
+  const auto farewell = watch.TakeFarewell(kFirst + kNineTenths);
+  ASSERT_TRUE(farewell.has_value());
+  EXPECT_TRUE(std::equal(kDying.begin(), kDying.end(), farewell->begin() + 8));
+  SubmessageWalk walk(*farewell);
+  Submessage data;
+  ASSERT_TRUE(walk.Next(&data));
+  EXPECT_TRUE(walk.IsAtEnd());
+  EXPECT_TRUE(IsAnnouncement(data));
+  EXPECT_EQ(AnnouncementNumber(data), 42) << "the library skips numbers that it has seen";
+}
+
+TEST(LeaseWatch, SendsWhatAnHonestParticipantWouldSend) {
+  LeaseWatch watch;
+  Announce(watch, kDying, kFirst);
+  const auto farewell = watch.TakeFarewell(kFirst + kNineTenths);
+  ASSERT_TRUE(farewell.has_value());
+  PacketFilter filter({});
+  EXPECT_EQ(filter.Judge(*farewell, 0x7f000001, kFirst).drop, PacketDrop::kNone);
+  LeaseWatch another;
+  Announce(another, kDying, kFirst);
+  EXPECT_TRUE(another.Hear(*farewell, kFirst));
+  EXPECT_EQ(another.Participants(), 0U) << "one that said farewell has none";
+}
+
+TEST(LeaseWatch, LeavesToAServerWhomItSpeaksFor) {
+  LeaseWatch watch;
+  watch.Hear(RtpsPacket(kLiving).Announcement(kDying, 1, kLease_s).Bytes(), kFirst);
+  EXPECT_EQ(watch.Participants(), 0U);
+}
+
+TEST(LeaseWatch, ForgetsTheLongestSilentOfTooMany) {
+  LeaseWatch watch;
+  SteadyTime now = kFirst;
+  Announce(watch, kLiving, now);
+  for (std::uint32_t i = 0; i < 2 * LeaseWatch::kMostParticipants; ++i) {
+    test::PrefixBytes stranger = {1, 15};
+    stranger[4] = static_cast<std::uint8_t>(i);
+    stranger[5] = static_cast<std::uint8_t>(i >> 8U);
+    now += milliseconds(1);
+    Announce(watch, stranger, now);
+    Announce(watch, kLiving, now += milliseconds(1));
+  }
+  EXPECT_EQ(watch.Participants(), LeaseWatch::kMostParticipants);
+}
+
+}  // namespace
+}  // namespace giveway::link
