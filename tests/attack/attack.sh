@@ -69,8 +69,8 @@ drives_on() {
 # What vehicles said, behind a line.
 samples_behind() { tail -n "+$(($1 + 1))" "$SCRATCH/status.json" | jq -R 'fromjson?'; }
 
-# blind_ms FROM TO: the longest time that a vehicle had no ranges to go by, between two lines. Of the time a
-# vehicle's own beacons tell, every 50 ms.
+# blind_ms FROM TO: the longest time that a vehicle had no ranges to go by, between two lines. By the count
+# of its own beacons, one every 50 ms.
 blind_ms() {
   head -n "$2" "$SCRATCH/status.json" | tail -n "+$(($1 + 1))" | jq -R 'fromjson?' | jq -n '
     [inputs] | group_by(.vehicle) | map(
