@@ -74,7 +74,7 @@ class FilteredTransport final : public ForwardingTransport {
                std::uint32_t size, const rtps::Locator_t& local,
                const rtps::Locator_t& remote) override {
     std::optional<Farewell> farewell;
-    const PacketVerdict verdict = Judge({bytes, size}, Ipv4Of(remote), &farewell);
+    const PacketVerdict verdict = Examine({bytes, size}, Ipv4Of(remote), &farewell);
     counted[static_cast<std::size_t>(verdict.drop)].fetch_add(1, std::memory_order_relaxed);
     if (verdict.drop != PacketDrop::kNone) return;
     receiver->OnDataReceived(bytes, static_cast<std::uint32_t>(verdict.bytes), local, remote);
@@ -86,7 +86,7 @@ class FilteredTransport final : public ForwardingTransport {
 
  private:
   // Only the port that announcements reach has the reader of farewells.
-  PacketVerdict Judge(Bytes packet, std::uint32_t source, std::optional<Farewell>* farewell) {
+  PacketVerdict Examine(Bytes packet, std::uint32_t source, std::optional<Farewell>* farewell) {
     const SteadyTime now(steady_clock::now().time_since_epoch());
     const std::scoped_lock lock(mutex_);
     const PacketVerdict verdict = filter_.Judge(packet, source, now);

@@ -20,7 +20,7 @@ namespace giveway::link {
 
 class LeaseWatch {
  public:
-  // Beyond, the one that was silent longest gives way: then the library ends its lease.
+  // Beyond, the one that was silent longest is forgotten: then the library ends its lease.
   static constexpr std::size_t kMostParticipants = 1024;
 
   // A packet of which all submessages are sound. True if it announces its sender, or ends it.

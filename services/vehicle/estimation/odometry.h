@@ -17,8 +17,9 @@ class Odometry {
   explicit Odometry(const Pose& world_from_body = {}, const PoseCovariance& covariance = {});
 
   // Rolls on for dt_s at the measured wheel speeds, each of which is wrong by a standard deviation
-  // of wheel_error times itself, plus guessed_m of way where the speeds are a guess. Returns what
-  // these errors add: the covariance of the pose after this step, had it been known before.
+  // of wheel_error times itself, plus guessed_m of displacement where the speeds are a guess.
+  // Returns what these errors add: the covariance of the pose after this step, had it been known
+  // before.
   PoseCovariance Roll(const DriveGeometry& drive, WheelSpeeds wheels, double dt_s,
                       double wheel_error, double guessed_m);
 
