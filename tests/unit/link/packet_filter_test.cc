@@ -189,7 +189,7 @@ TEST(PacketFilter, ReadsNothingBehindTheEndOfAPacket) {
 TEST(PacketFilter, OnLoopbackHearsLoopback) {
   PacketFilter filter({.loopback_only = true});
   const PacketBytes packet = FromPeer().InfoTs().Bytes();
-  EXPECT_EQ(filter.Judge(packet, kHere, kStart).drop, PacketDrop::kNone);
+  EXPECT_EQ(DropOf(packet, kStart, &filter), PacketDrop::kNone);
   EXPECT_EQ(filter.Judge(packet, kElsewhere, kStart).drop, PacketDrop::kForeignSource);
   EXPECT_EQ(PacketFilter({}).Judge(packet, kElsewhere, kStart).drop, PacketDrop::kNone);
 }
@@ -227,7 +227,7 @@ class Received20Hz {
   SteadyTime now_ = kStart;
 };
 
-// Issue 25: one copy of a scan with a number 2^40 ahead, and the vehicle halts for good.
+// Issue 25: one copy of a scan with a number 2^40 ahead, and the vehicle never drives on.
 TEST(PacketFilter, DropsNumbersThatTheWritersRateDoesNotAllow) {
   Received20Hz receiver;
   receiver.Settle(200);
