@@ -250,6 +250,8 @@ stage_rules() {
   check "commands of manuals are run or checked" bash tests/manuals/commands_test.sh
   check "words of the vocabulary" bash tests/rules/words.sh
   check "words are counted where people read them" bash tests/rules/words_test.sh
+  check "known vulnerabilities against the installed packages" bash tests/rules/exposure.sh
+  check "the check of vulnerabilities finds each contradiction" bash tests/rules/exposure_test.sh
   check "shell scripts" shellcheck "${scripts[@]}"
   check "the wire types are generated beside another user's" bash tests/rules/generate_test.sh
 }
