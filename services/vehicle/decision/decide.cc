@@ -86,6 +86,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
 bool IsToldBeforeLight(Rule rule) {
   switch (rule) {
     case Rule::kCruise:
+    case Rule::kUnsure:
     case Rule::kGiveWay:
     case Rule::kNotGranted:
     case Rule::kObstacle:
