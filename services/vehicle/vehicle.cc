@@ -32,7 +32,7 @@ double WheelError(const VehicleProfile& profile) {
               profile.encoder_noise * profile.encoder_noise);
 }
 
-// What a way adds to the variance of where things are that lie half a metre off: of the own place
+// What a step adds to the variance of where things are that lie half a metre off: of the own place
 // and of the heading.
 double VarianceOfPlaces(const PoseCovariance& added) {
   constexpr double kLever_m = 0.5;

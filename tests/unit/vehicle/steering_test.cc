@@ -107,7 +107,7 @@ TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
   EXPECT_NEAR(TwistFromWheels(p3dx.drive, wheels).forward_m_s, 0.8, 1e-9);
 }
 
-// One rim speeds up ten times as fast as the other brakes. Turned away from what it had to stop
+// One rim speeds up ten times as fast as the other brakes. Steering away from what it had to stop
 // for it drove on, faster and faster, until both met.
 TEST(Steering, ATurnMakesNobodyFasterThanItMayDrive) {
   VehicleProfile weak = PioneerP3dx();
