@@ -32,8 +32,8 @@ double WheelError(const VehicleProfile& profile) {
               profile.encoder_noise * profile.encoder_noise);
 }
 
-// What a displacement adds to the variance of where things are that lie half a metre off: of the
-// own place and of the heading.
+// What a step adds to the variance of where things are that lie half a metre off: of the own place
+// and of the heading.
 double VarianceOfPlaces(const PoseCovariance& added) {
   constexpr double kLever_m = 0.5;
   return added.xx_m2 + added.yy_m2 + kLever_m * kLever_m * added.hh_rad2;

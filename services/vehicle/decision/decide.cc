@@ -77,7 +77,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   action.blocked_by = steering.blocked_by;
   action.steer_side = steering.side;
   action.away_rad = steering.away_rad;
-  action.target = Drive(profile, {s.speed_m_s, s.turn_rad_s}, steering, speed, may_turn);
+  action.target = Drive(profile, {s.speed_m_s, s.turn_rad_s}, steering,
+                        {speed, may_turn, Seconds(s.options.tick_period)});
   return action;
 }
 
@@ -86,6 +87,7 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
 bool IsToldBeforeLight(Rule rule) {
   switch (rule) {
     case Rule::kCruise:
+    case Rule::kUnsure:
     case Rule::kGiveWay:
     case Rule::kNotGranted:
     case Rule::kObstacle:

@@ -389,17 +389,76 @@ std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& 
   return lowest;
 }
 
+namespace {
+
+// Speeds of the two rims, m/s.
+struct Rims {
+  double left_m_s;
+  double right_m_s;
+
+  static Rims Of(const Twist& twist, double axle_m) {
+    const double beside_m_s = twist.turn_rad_s * axle_m / 2;
+    return {twist.forward_m_s - beside_m_s, twist.forward_m_s + beside_m_s};
+  }
+};
+
+double Towards(double from, double to, double most) {
+  return from + std::clamp(to - from, -most, most);
+}
+
+// A rim one tick on: towards standstill it brakes, away from it it speeds up.
+double RimAfterTick(const VehicleProfile& profile, double now_m_s, double target_m_s,
+                    double tick_s) {
+  const double slower_m_s = profile.deceleration_m_s2 * tick_s;
+  const bool reverses = now_m_s * target_m_s < 0;
+  if (reverses || Magnitude(target_m_s) < Magnitude(now_m_s)) {
+    return Towards(now_m_s, reverses ? 0 : target_m_s, slower_m_s);
+  }
+  return Towards(now_m_s, target_m_s, profile.acceleration_m_s2 * tick_s);
+}
+
+// A rim that speeds up faster than the other brakes carries the centre along: a turn must not make
+// the vehicle faster than `limit_m_s`, nor keep it from braking to that as fast as it can. To come
+// out of a turn the slower rim may keep its speed until the other is no faster. Who brakes at least
+// as hard as it speeds up slows down in any turn.
+Rims WithinLimit(const VehicleProfile& profile, const Rims& now, Rims target, double limit_m_s,
+                 double tick_s) {
+  constexpr double kRounding_m_s = 1e-9;
+  if (profile.acceleration_m_s2 <= profile.deceleration_m_s2) return target;
+  const auto after = [&](double from, double to) {
+    return RimAfterTick(profile, from, to, tick_s);
+  };
+  const double braked_m_s = (after(now.left_m_s, 0) + after(now.right_m_s, 0)) / 2;
+  const bool is_left = target.left_m_s - now.left_m_s > target.right_m_s - now.right_m_s;
+  double& gains = is_left ? target.left_m_s : target.right_m_s;
+  const double gains_from = is_left ? now.left_m_s : now.right_m_s;
+  const double other_from = is_left ? now.right_m_s : now.left_m_s;
+  const double other_m_s = after(other_from, is_left ? target.right_m_s : target.left_m_s);
+  double most_m_s = 2 * std::max(limit_m_s, braked_m_s) - other_m_s;
+  if (gains_from < other_from) most_m_s = std::max(most_m_s, gains_from);
+  if (after(gains_from, gains) > most_m_s + kRounding_m_s) gains = most_m_s;
+  return target;
+}
+
+}  // namespace
+
 WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
-                  double speed_m_s, bool may_turn) {
-  if (speed_m_s <= 0 && !may_turn) return {};
+                  const Pace& pace) {
+  if (pace.limit_m_s <= 0 && !pace.may_turn) return {};
   constexpr double kGain_per_s = 2.0;
   const double error = steering.heading_error_rad;
   const double most_rad_s = MostTurnOf(profile);
   const double turn = std::clamp(kGain_per_s * error, -most_rad_s, most_rad_s);
   const bool on_the_spot = Magnitude(error) > kTurnOnTheSpot_rad;
-  const double forward = std::min(SpeedBesideTurn(profile, now, turn, speed_m_s),
+  const double forward = std::min(SpeedBesideTurn(profile, now, turn, pace.limit_m_s),
                                   SpeedWithinTurn(profile, now, turn, most_rad_s));
-  return WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
+  const WheelSpeeds wheels = WheelsFromTwist(profile.drive, {on_the_spot ? 0 : forward, turn});
+  const double wheel_m = profile.drive.wheel_radius_m;
+  const Rims wanted = {wheels.left_rad_s * wheel_m, wheels.right_rad_s * wheel_m};
+  const Rims within = WithinLimit(profile, Rims::Of(now, profile.drive.axle_m), wanted,
+                                  pace.limit_m_s, pace.tick_s);
+  return {within.left_m_s == wanted.left_m_s ? wheels.left_rad_s : within.left_m_s / wheel_m,
+          within.right_m_s == wanted.right_m_s ? wheels.right_rad_s : within.right_m_s / wheel_m};
 }
 
 }  // namespace giveway

@@ -35,10 +35,18 @@ struct Avoidance {
 };
 Avoidance Avoid(const BraitenbergWeights& weights, const RangeView& ranges);
 
-// Wheel speeds for a forward speed limit and a steering, of a vehicle that moves as `now`: turns on
-// the spot before it drives where the error is large. `may_turn` false stands dead still when the
-// limit is 0.
+// How fast it may drive forward, and whether it may turn where that is not at all.
+struct Pace {
+  double limit_m_s = 0;
+  bool may_turn = true;
+  double tick_s = 0;  // until the wheels are asked for something else
+};
+
+// Wheel speeds within a pace and for a steering, of a vehicle that moves as `now`: turns on the
+// spot before it drives where the error is large. A turn makes no vehicle faster than its pace, of
+// one that speeds up faster than it brakes either: that brakes first. One that may not turn stands
+// dead still when its limit is 0.
 WheelSpeeds Drive(const VehicleProfile& profile, const Twist& now, const Steering& steering,
-                  double speed_m_s, bool may_turn);
+                  const Pace& pace);
 
 }  // namespace giveway

@@ -57,9 +57,8 @@ struct Rolling {
   Tick tick = kNoTick;
 };
 
-// Rolls odometry on by wheels as they are known to err. Returns what is not known of this
-// displacement alone, as Odometry::Roll does; systematic errors of wheels, which no displacement
-// shows by itself, are not in it.
+// Rolls odometry on by wheels as they are known to err. Returns what is not known of this step
+// alone, as Odometry::Roll does; systematic errors of wheels are not in it.
 PoseCovariance Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
                     PoseKeeping* keeping);
 

@@ -240,7 +240,7 @@ TEST(PoseKeeping, AHeadingThatDoesNotFitIsDoubtedToo) {
   EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, -0.5, 0.05);
 }
 
-// Of what a way adds there is one model: who takes fixes does not take its encoders for exact.
+// Of what a step adds there is one model: who takes fixes does not take its encoders for exact.
 TEST(PoseKeeping, SaysWhatAWayAddsToTheDoubt) {
   const auto added = [](const VehicleProfile& profile) {
     Odometry odometry;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "services/types/math/math.h"
 #include "tests/support/brain_bench.h"
@@ -64,19 +65,27 @@ TEST(Steering, TheStockVehicleBrakesAndTurnsAway) {
 
 TEST(Steering, ALargeErrorTurnsOnTheSpotFirst) {
   const VehicleProfile p3dx = PioneerP3dx();
-  const WheelSpeeds wheels = Drive(p3dx, {}, {.heading_error_rad = 0.5}, 0.3, true);
+  const WheelSpeeds wheels = Drive(p3dx, {}, {.heading_error_rad = 0.5}, {0.3, true, 0.05});
   EXPECT_NEAR(wheels.left_rad_s, -wheels.right_rad_s, 1e-12);
   EXPECT_GT(wheels.right_rad_s, 0);
 }
 
 TEST(Steering, ADeadStopDoesNotTurn) {
-  EXPECT_EQ(Drive(PioneerP3dx(), {}, {.heading_error_rad = 0.5}, 0, false), WheelSpeeds{});
+  EXPECT_EQ(Drive(PioneerP3dx(), {}, {.heading_error_rad = 0.5}, {0, false, 0.05}), WheelSpeeds{});
 }
 
 // The rim of a wheel after one tick of 50 ms towards `target`, radians a second.
 double RimAfterTick(const VehicleProfile& profile, double now, double target) {
   const double limit = 0.05 * profile.acceleration_m_s2 / profile.drive.wheel_radius_m;
   return now + std::clamp(target - now, -limit, limit);
+}
+
+// The same where it brakes: towards standstill, and through it.
+double BrakedOrFaster(const VehicleProfile& profile, double now, double target) {
+  const bool brakes = now * target < 0 || std::abs(target) < std::abs(now);
+  if (!brakes) return RimAfterTick(profile, now, target);
+  const double limit = 0.05 * profile.deceleration_m_s2 / profile.drive.wheel_radius_m;
+  return now + std::clamp((now * target < 0 ? 0 : target) - now, -limit, limit);
 }
 
 TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
@@ -86,7 +95,8 @@ TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
   double most_rad = 0;  // beyond the wanted heading
   for (int tick = 0; tick < 100; ++tick) {
     const Twist now = TwistFromWheels(p3dx.drive, wheels);
-    const WheelSpeeds target = Drive(p3dx, now, {.heading_error_rad = error_rad}, 0.8, true);
+    const WheelSpeeds target =
+        Drive(p3dx, now, {.heading_error_rad = error_rad}, {0.8, true, 0.05});
     error_rad -= 0.05 * now.turn_rad_s;
     wheels = {RimAfterTick(p3dx, wheels.left_rad_s, target.left_rad_s),
               RimAfterTick(p3dx, wheels.right_rad_s, target.right_rad_s)};
@@ -95,6 +105,47 @@ TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
   EXPECT_LT(most_rad, 0.15);
   EXPECT_NEAR(error_rad, 0, 0.02);
   EXPECT_NEAR(TwistFromWheels(p3dx.drive, wheels).forward_m_s, 0.8, 1e-9);
+}
+
+// One rim speeds up ten times as fast as the other brakes. Steering away from what it had to stop
+// for it drove on, faster and faster, until both met.
+TEST(Steering, ATurnMakesNobodyFasterThanItMayDrive) {
+  VehicleProfile weak = PioneerP3dx();
+  weak.acceleration_m_s2 = 2;
+  weak.deceleration_m_s2 = 0.2;
+  for (const double error_rad : {0.05, -0.1, 0.25, -0.6, 1.5}) {
+    WheelSpeeds wheels = WheelsFromTwist(weak.drive, {0.3, 0});
+    WheelSpeeds straight = wheels;
+    for (int tick = 0; tick < 60; ++tick) {
+      const Twist now = TwistFromWheels(weak.drive, wheels);
+      const auto after = [&](WheelSpeeds from, WheelSpeeds to) {
+        return WheelSpeeds{BrakedOrFaster(weak, from.left_rad_s, to.left_rad_s),
+                           BrakedOrFaster(weak, from.right_rad_s, to.right_rad_s)};
+      };
+      wheels = after(wheels, Drive(weak, now, {.heading_error_rad = error_rad}, {0, true, 0.05}));
+      straight = after(straight, {});
+      ASSERT_LE(TwistFromWheels(weak.drive, wheels).forward_m_s,
+                TwistFromWheels(weak.drive, straight).forward_m_s + 1e-6)
+          << error_rad << " " << tick;
+    }
+    EXPECT_GT(TwistFromWheels(weak.drive, wheels).turn_rad_s * error_rad, 0) << "then it turns";
+  }
+}
+
+// To come out of a turn, the slower rim keeps its speed until the other is no faster.
+TEST(Steering, OutOfATurnItBrakesWithoutTurningOn) {
+  VehicleProfile weak = PioneerP3dx();
+  weak.acceleration_m_s2 = 2;
+  weak.deceleration_m_s2 = 0.2;
+  WheelSpeeds wheels = WheelsFromTwist(weak.drive, {0.7, 0.3});
+  for (int tick = 0; tick < 8; ++tick) {
+    const Twist now = TwistFromWheels(weak.drive, wheels);
+    const WheelSpeeds target = Drive(weak, now, {.heading_error_rad = -0.25}, {0.6, true, 0.05});
+    wheels = {BrakedOrFaster(weak, wheels.left_rad_s, target.left_rad_s),
+              BrakedOrFaster(weak, wheels.right_rad_s, target.right_rad_s)};
+    EXPECT_LT(TwistFromWheels(weak.drive, wheels).forward_m_s, now.forward_m_s);
+    EXPECT_LT(TwistFromWheels(weak.drive, wheels).turn_rad_s, now.turn_rad_s);
+  }
 }
 
 // A wall near the left shoulder, as far as a cone tells; the goal is straight ahead. Where the
