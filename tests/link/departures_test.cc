@@ -144,8 +144,8 @@ class WriterCount final : public link::DiscoveryListener {
   std::atomic<bool> gone_{false};
 };
 
-// The library keeps a record of each writer whose participant it drops for its lease, permanently: a
-// world grew by 370 bytes with every kill -9 of a vehicle. With 2.9.1 it still does.
+// The library keeps a record of each writer whose participant it drops for its lease, permanently:
+// a world grew by 370 bytes with every kill -9 of a vehicle. With 2.9.1 it still does.
 TEST(Departures, OfKilledVehiclesAreFarewellsToTheLibrary) {
   const DomainLock domain;
   const link::LinkOptions options = OptionsIn(domain);
