@@ -7,18 +7,12 @@
 namespace giveway::link {
 namespace {
 
-constexpr std::size_t kReaderAt = 4;  // of DATA and DATA_FRAG
-constexpr std::size_t kWriterAt = 8;
+constexpr std::size_t kDiscoveryReaderAt = 4;  // of DATA and DATA_FRAG
+constexpr std::size_t kDiscoveryWriterAt = 8;
 constexpr std::uint8_t kDataOrKey = 0x0c;  // flags of DATA
 
-constexpr std::size_t kEncapsulation = 4;
 constexpr std::uint8_t kListBigEndian = 2;  // second octet of it; any other the library ignores
 constexpr std::uint8_t kListLittleEndian = 3;
-
-constexpr std::size_t kParameterHeader = 4;
-constexpr std::uint16_t kSentinel = 0x0001;
-
-std::size_t Padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
 
 std::uint32_t EntityAt(const Submessage& of, std::size_t at) {
   return std::uint32_t{of.body[at]} << 24U | std::uint32_t{of.body[at + 1]} << 16U |
@@ -28,8 +22,8 @@ std::uint32_t EntityAt(const Submessage& of, std::size_t at) {
 // By either end: the library hands a payload to the reader that it names, and to that of its
 // writer.
 bool IsOfDiscovery(const Submessage& data) {
-  const std::uint32_t writer = EntityAt(data, kWriterAt);
-  const std::uint32_t reader = EntityAt(data, kReaderAt);
+  const std::uint32_t writer = EntityAt(data, kDiscoveryWriterAt);
+  const std::uint32_t reader = EntityAt(data, kDiscoveryReaderAt);
   return writer == 0x000100c2 || writer == 0x000003c2 || writer == 0x000004c2 ||
          reader == 0x000100c7 || reader == 0x000003c7 || reader == 0x000004c7;
 }

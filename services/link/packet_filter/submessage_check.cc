@@ -12,9 +12,7 @@ constexpr std::uint8_t kWithKey = 0x08;     // of DATA
 constexpr std::uint8_t kFragOfKey = 0x04;   // of DATA_FRAG
 constexpr std::uint8_t kInvalidate = 0x02;  // of INFO_TS: there is none
 
-constexpr std::uint16_t kSentinel = 1;
 constexpr std::uint16_t kFilterInfo = 0x0055;  // which readers' filters a sample passes
-constexpr std::size_t kParameterHeader = 4;
 
 constexpr std::size_t kToQosAt =
     2;  // of DATA and DATA_FRAG: octets from behind it to the inline QoS
@@ -26,8 +24,6 @@ constexpr std::uint32_t kMostBits = 256;  // of a set of numbers
 constexpr std::int64_t kHighestNumber = std::int64_t{1} << 62U;
 
 bool IsNumber(std::int64_t number) { return number > 0 && number <= kHighestNumber; }
-
-std::size_t Padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
 
 // Where the list ends that begins at `at`: behind its sentinel. Nothing if it does not end here.
 std::optional<std::size_t> EndOfParameters(const Submessage& of, std::size_t at) {
@@ -59,7 +55,6 @@ bool IsMarked(const Submessage& data) {
 
 constexpr std::size_t kDataFields = 20;
 constexpr std::size_t kDataFragFields = 32;
-constexpr std::size_t kEncapsulation = 4;
 
 PacketDrop CheckData(const Submessage& data) {
   if (data.body.size() < kDataFields) return PacketDrop::kMalformed;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 #include "services/link/packet_filter/packet_filter.h"
@@ -15,7 +16,7 @@ namespace {
 using test::PacketBytes;
 using test::RtpsPacket;
 
-constexpr test::PrefixBytes kPeer = {1, 15, 7};
+constexpr test::PrefixBytes kAnnounced = {1, 15, 7};
 constexpr std::uint32_t kPublications = 0x000003c2;
 constexpr std::uint32_t kSubscriptions = 0x000004c2;
 constexpr std::uint32_t kDiscoveryWriters[] = {test::kAnnouncer, kPublications, kSubscriptions};
@@ -77,8 +78,9 @@ PacketBytes Payload(const PacketBytes& list, bool little = true) {
 PacketDrop DropOfList(const PacketBytes& list, bool little = true, bool secured = false,
                       std::uint32_t writer = kPublications) {
   // The submessage's own order is the other one.
-  return Judged(RtpsPacket(kPeer, test::kEProsima, !little).Data(writer, 1, Payload(list, little)),
-                secured);
+  return Judged(
+      RtpsPacket(kAnnounced, test::kEProsima, !little).Data(writer, 1, Payload(list, little)),
+      secured);
 }
 
 PacketDrop DropOf(std::uint16_t id, const PacketBytes& value, bool little = true,
@@ -109,7 +111,8 @@ TEST(DiscoveryList, HandsOnWhatAnEndpointSaysOfItself) {
 
 TEST(DiscoveryList, IsSoundInAnAnnouncementOfTheLibrary) {
   for (const bool little : {true, false}) {
-    EXPECT_EQ(Judged(RtpsPacket(kPeer, test::kEProsima, little).Announcement(kPeer, 1)), kSound);
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced, test::kEProsima, little).Announcement(kAnnounced, 1)),
+              kSound);
   }
 }
 
@@ -126,14 +129,15 @@ TEST(DiscoveryList, EndsWithinItsPayload) {
 
 TEST(DiscoveryList, IsReadForTheReaderThatItNamesToo) {
   for (const std::uint32_t reader : kDiscoveryReaders) {
-    EXPECT_EQ(Judged(RtpsPacket(kPeer).Data(test::kUserWriter, 1, Payload({}), reader)), kTooLong);
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced).Data(test::kUserWriter, 1, Payload({}), reader)),
+              kTooLong);
   }
-  EXPECT_EQ(Judged(RtpsPacket(kPeer).Data(test::kUserWriter, 1, Payload({}))), kSound);
+  EXPECT_EQ(Judged(RtpsPacket(kAnnounced).Data(test::kUserWriter, 1, Payload({}))), kSound);
 }
 
 TEST(DiscoveryList, IsReadWhereItIsTheKeyOfWhatEnds) {
-  const RtpsPacket sound = RtpsPacket(kPeer).Data(kPublications, 1, Payload(List().End()));
-  const RtpsPacket endless = RtpsPacket(kPeer).Data(kPublications, 1, Payload({}));
+  const RtpsPacket sound = RtpsPacket(kAnnounced).Data(kPublications, 1, Payload(List().End()));
+  const RtpsPacket endless = RtpsPacket(kAnnounced).Data(kPublications, 1, Payload({}));
   for (const RtpsPacket& packet : {sound, endless}) {
     PacketBytes bytes = packet.Bytes();
     bytes[21] = 0x09;  // flags: little-endian, with a key
@@ -143,9 +147,9 @@ TEST(DiscoveryList, IsReadWhereItIsTheKeyOfWhatEnds) {
 }
 
 TEST(DiscoveryList, IsNothingInAnEncapsulationThatTheLibraryIgnores) {
-  for (const std::uint8_t encapsulation : {0, 1, 7, 10}) {
+  for (const std::uint8_t encapsulation : std::to_array<std::uint8_t>({0, 1, 7, 10})) {
     const PacketBytes payload = {0, encapsulation, 0, 0};
-    EXPECT_EQ(Judged(RtpsPacket(kPeer).Data(kPublications, 1, payload)), kSound);
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced).Data(kPublications, 1, payload)), kSound);
   }
 }
 
@@ -212,12 +216,13 @@ TEST(DiscoveryList, HoldsPartitionsWithTheirEnds) {
 
 TEST(DiscoveryList, ComesInOnePiece) {
   for (const std::uint32_t writer : kDiscoveryWriters) {
-    EXPECT_EQ(Judged(RtpsPacket(kPeer).DataFrag(writer, 1, 1, 1, 1000, 2000, 1000)),
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced).DataFrag(writer, 1, 1, 1, 1000, 2000, 1000)),
               PacketDrop::kMalformed);
   }
   for (const std::uint32_t reader : kDiscoveryReaders) {
     EXPECT_EQ(
-        Judged(RtpsPacket(kPeer).DataFrag(test::kUserWriter, 1, 1, 1, 1000, 2000, 1000, reader)),
+        Judged(
+            RtpsPacket(kAnnounced).DataFrag(test::kUserWriter, 1, 1, 1, 1000, 2000, 1000, reader)),
         PacketDrop::kMalformed);
   }
 }
