@@ -3,6 +3,7 @@
 // drops.
 //
 // An input is a row of packets, each behind two bytes, little-endian, that say how long it is.
+#include <array>
 #include <span>
 #include <vector>
 
@@ -83,7 +84,7 @@ std::vector<Input> Samples() {
       return little ? test::PacketBytes{low, high} : test::PacketBytes{high, low};
     };
     test::PacketBytes list;
-    for (const std::uint8_t id : {0x05, 0x29, 0x59, 0x73, 0x01}) {
+    for (const std::uint8_t id : std::to_array<std::uint8_t>({0x05, 0x29, 0x59, 0x73, 0x01})) {
       for (const test::PacketBytes& half : {swapped(id, id == 1 ? 0x10 : 0), swapped(4, 0)}) {
         list.insert(list.end(), half.begin(), half.end());
       }
