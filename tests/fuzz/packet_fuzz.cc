@@ -3,9 +3,11 @@
 // drops.
 //
 // An input is a row of packets, each behind two bytes, little-endian, that say how long it is.
+#include <array>
 #include <span>
 #include <vector>
 
+#include "services/link/packet_filter/discovery_list.h"
 #include "services/link/packet_filter/packet_filter.h"
 #include "services/link/packet_filter/submessage_check.h"
 #include "services/types/check.h"
@@ -35,6 +37,7 @@ void CheckHandedOn(Bytes packet) {
     if (!ours && kind >= 0x80) continue;
     GIVEWAY_CHECK(kind < 0x80);
     GIVEWAY_CHECK(link::CheckSubmessage(part, kLargestSample) == PacketDrop::kNone);
+    GIVEWAY_CHECK(link::CheckDiscovery(part, kOptions.secured) == PacketDrop::kNone);
   }
   GIVEWAY_CHECK(!walk.IsBroken());
 }
@@ -76,6 +79,18 @@ std::vector<Input> Samples() {
   std::vector<Input> samples;
   for (const bool little : {true, false}) {
     const auto from_peer = [&] { return RtpsPacket(peer, test::kEProsima, little); };
+    // A name, partitions, properties, representations, a token: each empty.
+    const auto swapped = [&](std::uint8_t low, std::uint8_t high) {
+      return little ? test::PacketBytes{low, high} : test::PacketBytes{high, low};
+    };
+    test::PacketBytes list;
+    for (const std::uint8_t id : std::to_array<std::uint8_t>({0x05, 0x29, 0x59, 0x73, 0x01})) {
+      for (const test::PacketBytes& half : {swapped(id, id == 1 ? 0x10 : 0), swapped(4, 0)}) {
+        list.insert(list.end(), half.begin(), half.end());
+      }
+      list.resize(list.size() + 4);
+    }
+    samples.push_back(Row({from_peer().Announcement(peer, 1, 20, list).Bytes()}));
     samples.push_back(Row({from_peer().Announcement(peer, 1).Statistics().Bytes(),
                            from_peer().InfoTs().Data(test::kUserWriter, 1, payload).Bytes(),
                            from_peer().Heartbeat(test::kUserWriter, 1, 2, 1).Bytes()}));

@@ -1,11 +1,14 @@
 // A packet that says its writer has asked the reader's filter already: the library then does not
-// ask it, and keeps the sample. What is read is held against the filter's rule once more.
+// ask it, and keeps the sample. The packet filter drops such packets; in shared memory, which it
+// does not see, what is read is held against the filter's rule once more.
 #include <gmock/gmock.h>
 
 #include <atomic>
 #include <string>
 
 #include "services/link/convert/convert.h"
+#include "services/link/fastdds/packets_of_process.h"
+#include "services/link/fastdds/profile_file.h"
 #include "services/link/inbox/participant_of.h"
 #include "services/link/observer_link.h"
 #include "services/link/participant.h"
@@ -22,6 +25,12 @@ using link::dds::IContentFilterFactory;
 constexpr VehicleId kSeven{7};
 constexpr SessionId kSession{1, 2, 3, 4};
 constexpr double kLie_s = 77;
+
+link::LinkOptions OptionsInSharedMemory(const DomainLock& domain) {
+  link::LinkOptions options = OptionsIn(domain);
+  options.qos = link::ReadProfileFile(GIVEWAY_QOS_SETS "/same_host.xml");
+  return options;
+}
 
 class Unnamed final : public link::DiscoveryListener {
  public:
@@ -62,8 +71,8 @@ class PassesAll final : public IContentFilterFactory {
 template <typename Wire>
 class Marked {
  public:
-  Marked(const DomainLock& domain, const std::string& partition)
-      : participant_(OptionsIn(domain), "intruder", listener_) {
+  Marked(const link::LinkOptions& options, const std::string& partition)
+      : participant_(options, "intruder", listener_) {
     auto plain = participant_.MakeWriter<Wire>(partition);
     EXPECT_TRUE(Eventually([&] { return plain.HasReader(); }));
     link::dds::PublicationMatchedStatus matched;
@@ -100,8 +109,8 @@ class Marked {
 
 TEST(MarkedAsFiltered, ASampleOfAnotherWorldIsNotObserved) {
   const DomainLock domain;
-  link::WorldLink world(OptionsIn(domain));
-  link::ObserverLink observer(OptionsIn(domain));
+  link::WorldLink world(OptionsInSharedMemory(domain));
+  link::ObserverLink observer(OptionsInSharedMemory(domain));
   std::uint32_t tick = 0;
   const auto next = [&] {
     Truth truth;
@@ -114,7 +123,7 @@ TEST(MarkedAsFiltered, ASampleOfAnotherWorldIsNotObserved) {
     world.SendTruth(next());
     return !observer.Take().truths.empty();
   }));
-  Marked<wire::Truth> intruder(domain, link::kWorldPartition);
+  Marked<wire::Truth> intruder(OptionsInSharedMemory(domain), link::kWorldPartition);
   std::uint32_t refused = 0;
   ASSERT_TRUE(Eventually([&] {
     world.SendTruth(next());
@@ -131,16 +140,16 @@ TEST(MarkedAsFiltered, ASampleOfAnotherWorldIsNotObserved) {
 
 TEST(MarkedAsFiltered, AStatusOfAnotherThanTheFirstIsNotObserved) {
   const DomainLock domain;
-  link::VehicleLink vehicle(OptionsIn(domain));
+  link::VehicleLink vehicle(OptionsInSharedMemory(domain));
   vehicle.Open(kSeven);
-  link::ObserverLink observer(OptionsIn(domain));
+  link::ObserverLink observer(OptionsInSharedMemory(domain));
   VehicleStatus status;
   status.vehicle = kSeven;
   ASSERT_TRUE(Eventually([&] {
     vehicle.SendStatus(status);
     return !observer.Take().statuses.empty();
   }));
-  Marked<wire::Status> intruder(domain, "v7");
+  Marked<wire::Status> intruder(OptionsInSharedMemory(domain), "v7");
   std::uint32_t refused = 0;
   ASSERT_TRUE(Eventually([&] {
     vehicle.SendStatus(status);
@@ -156,8 +165,8 @@ TEST(MarkedAsFiltered, AStatusOfAnotherThanTheFirstIsNotObserved) {
 
 TEST(MarkedAsFiltered, ACommandOfAnotherThanTheOwnerMovesNoWheels) {
   const DomainLock domain;
-  link::WorldLink world(OptionsIn(domain));
-  link::VehicleLink vehicle(OptionsIn(domain));
+  link::WorldLink world(OptionsInSharedMemory(domain));
+  link::VehicleLink vehicle(OptionsInSharedMemory(domain));
   vehicle.SendJoin({kSession, kSeven});
   ASSERT_TRUE(Eventually([&] { return !world.TakeJoins().empty(); }));
   RosterEntry entry;
@@ -166,13 +175,29 @@ TEST(MarkedAsFiltered, ACommandOfAnotherThanTheOwnerMovesNoWheels) {
   entry.accepted = true;
   entry.epoch = WorldEpoch{1};
   world.SendRoster(entry);
-  Marked<wire::MotorCommand> intruder(domain, "v7");
+  Marked<wire::MotorCommand> intruder(OptionsInSharedMemory(domain), "v7");
   ASSERT_TRUE(Eventually([&] {
     MotorCommand lie;
     lie.vehicle = kSeven;
     const bool marked = intruder.Write(link::ToWire(lie));
     EXPECT_TRUE(world.TakeCommands().empty());
     return marked && world.Counters().commands_strangers > 10;
+  }));
+}
+
+TEST(MarkedAsFiltered, ASampleOverUdpDoesNotReachTheLibrary) {
+  const DomainLock domain;
+  link::WorldLink world(OptionsIn(domain));
+  link::ObserverLink observer(OptionsIn(domain));
+  Marked<wire::Truth> intruder(OptionsIn(domain), link::kWorldPartition);
+  const auto dropped = [] { return link::PacketsOfProcess().Of(PacketDrop::kMalformed); };
+  const std::uint64_t before = dropped();
+  ASSERT_TRUE(Eventually([&] {
+    Truth lie;
+    lie.vehicle = kSeven;
+    lie.epoch = WorldEpoch{1};
+    const bool marked = intruder.Write(link::ToWire(lie));
+    return marked && dropped() > before + 10;
   }));
 }
 

@@ -108,9 +108,11 @@ class RtpsPacket {
     bytes_.resize(bytes_.size() + 56);
     return *this;
   }
-  // The announcement of a participant of this prefix, with so many seconds of lease.
+  // The announcement of a participant of this prefix, with so many seconds of lease, and with more
+  // parameters at its end.
   RtpsPacket& Announcement(const PrefixBytes& participant, std::int64_t number,
-                           std::uint32_t lease_s = 20) {
+                           std::uint32_t lease_s = 20,
+                           std::span<const std::uint8_t> more_parameters = {}) {
     PacketBytes payload = {0, static_cast<std::uint8_t>(little_ ? 3 : 2), 0, 0};
     const auto parameter = [&](std::uint16_t id, const PacketBytes& value) {
       Append(id, 2, &payload);
@@ -137,6 +139,7 @@ class RtpsPacket {
       locator.insert(locator.end(), {127, 0, 0, 1});
       parameter(id, locator);
     }
+    payload.insert(payload.end(), more_parameters.begin(), more_parameters.end());
     parameter(1, {});
     return Data(kAnnouncer, number, payload, 0x000100c7);
   }

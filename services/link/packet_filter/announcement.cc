@@ -20,7 +20,6 @@ constexpr std::uint8_t kKeyHash = 0x70;
 constexpr std::uint8_t kStatusInfo = 0x71;
 constexpr std::uint8_t kDisposedAndUnregistered = 3;
 constexpr std::uint8_t kEndOfList = 0x01;
-constexpr std::size_t kEncapsulationBytes = 4;
 
 constexpr std::uint8_t kInlineQosFlag = 0x02;
 constexpr std::uint8_t kDataFlag = 0x04;
@@ -28,10 +27,10 @@ constexpr std::uint8_t kDataFlag = 0x04;
 // Parameters are in the byte order that the payload's encapsulation names.
 Submessage ParametersOf(const Submessage& announcement) {
   const Bytes payload = announcement.body.subspan(PayloadOfData(announcement));
-  if (!announcement.Has(kDataFlag) || payload.size() < kEncapsulationBytes) return {};
+  if (!announcement.Has(kDataFlag) || payload.size() < kEncapsulation) return {};
   Submessage list;
   list.flags = payload[1] & 1U;
-  list.body = payload.subspan(kEncapsulationBytes);
+  list.body = payload.subspan(kEncapsulation);
   return list;
 }
 

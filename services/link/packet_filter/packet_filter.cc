@@ -4,6 +4,7 @@
 #include <array>
 
 #include "services/link/packet_filter/announcement.h"
+#include "services/link/packet_filter/discovery_list.h"
 #include "services/link/packet_filter/submessage_check.h"
 
 namespace giveway::link {
@@ -121,7 +122,8 @@ PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
     const bool secure =
         part.kind >= SubmessageKind::kSecureFirst && part.kind <= SubmessageKind::kSecureLast;
     if (options_.secured && secure) continue;
-    const PacketDrop drop = CheckSubmessage(part, options_.largest_sample);
+    PacketDrop drop = CheckSubmessage(part, options_.largest_sample);
+    if (drop == PacketDrop::kNone) drop = CheckDiscovery(part, options_.secured);
     if (drop != PacketDrop::kNone) return {drop};
   }
   return {walk.IsBroken() ? PacketDrop::kListTooLong : PacketDrop::kNone, packet.size()};

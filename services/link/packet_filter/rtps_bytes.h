@@ -13,6 +13,12 @@ using Bytes = std::span<const std::uint8_t>;
 
 inline constexpr std::size_t kRtpsHeaderBytes = 20;
 inline constexpr std::size_t kSubmessageHeaderBytes = 4;
+inline constexpr std::size_t kEncapsulation = 4;  // bytes, in front of a payload
+
+// A list of parameters: each has a header of id and length, and begins at a multiple of 4.
+inline constexpr std::size_t kParameterHeader = 4;  // bytes
+inline constexpr std::uint16_t kSentinel = 0x0001;  // the id that ends it
+inline std::size_t Padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
 
 enum class SubmessageKind : std::uint8_t {
   kPad = 0x01,

@@ -12,8 +12,7 @@ constexpr std::uint8_t kWithKey = 0x08;     // of DATA
 constexpr std::uint8_t kFragOfKey = 0x04;   // of DATA_FRAG
 constexpr std::uint8_t kInvalidate = 0x02;  // of INFO_TS: there is none
 
-constexpr std::uint16_t kSentinel = 1;
-constexpr std::size_t kParameterHeader = 4;
+constexpr std::uint16_t kFilterInfo = 0x0055;  // which readers' filters a sample passes
 
 constexpr std::size_t kToQosAt =
     2;  // of DATA and DATA_FRAG: octets from behind it to the inline QoS
@@ -25,8 +24,6 @@ constexpr std::uint32_t kMostBits = 256;  // of a set of numbers
 constexpr std::int64_t kHighestNumber = std::int64_t{1} << 62U;
 
 bool IsNumber(std::int64_t number) { return number > 0 && number <= kHighestNumber; }
-
-std::size_t Padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
 
 // Where the list ends that begins at `at`: behind its sentinel. Nothing if it does not end here.
 std::optional<std::size_t> EndOfParameters(const Submessage& of, std::size_t at) {
@@ -48,9 +45,16 @@ std::optional<std::size_t> EndOfInlineQos(const Submessage& data, std::size_t fi
   return data.Has(kInlineQos) ? EndOfParameters(data, qos) : qos;
 }
 
+// No writer of a fleet evaluates the filters of readers. The library takes a sample so marked into
+// a history before it is asked, where one of an invented key evicts others.
+bool IsMarked(const Submessage& data) {
+  if (!data.Has(kInlineQos)) return false;
+  const std::size_t qos = kBehindToQos + data.U16(kToQosAt);
+  return FindParameter(data, qos, kFilterInfo).data() != nullptr;
+}
+
 constexpr std::size_t kDataFields = 20;
 constexpr std::size_t kDataFragFields = 32;
-constexpr std::size_t kEncapsulation = 4;
 
 PacketDrop CheckData(const Submessage& data) {
   if (data.body.size() < kDataFields) return PacketDrop::kMalformed;
@@ -60,8 +64,11 @@ PacketDrop CheckData(const Submessage& data) {
   const auto payload = EndOfInlineQos(data, kDataFields);
   if (!payload) return PacketDrop::kListTooLong;
   const bool too_short = has_payload && data.body.size() - *payload < kEncapsulation;
-  return too_short ? PacketDrop::kMalformed : PacketDrop::kNone;
+  return too_short || IsMarked(data) ? PacketDrop::kMalformed : PacketDrop::kNone;
 }
+
+constexpr std::size_t kIndexBytes = 4;
+constexpr std::uint16_t kLeastFragment = 8;  // an index, and what it is aligned by, at most 3
 
 // What a DATA_FRAG says of its place in the sample.
 struct Fragments {
@@ -82,6 +89,15 @@ std::uint64_t BytesOf(const Fragments& fragments) {
   return wanted < left + fragments.bytes ? std::min(wanted, left) : 0;
 }
 
+// CVE-2025-62799: until a sample is whole, the library keeps an index of 4 bytes where each of its
+// fragments will be, at the next multiple of 4. It must not reach into the next one's, whose bytes
+// are written over it, nor beyond the sample.
+bool IndexesFit(const Fragments& fragments) {
+  if (fragments.bytes < kLeastFragment) return false;
+  const std::uint64_t last = (fragments.sample - std::uint64_t{1}) / fragments.bytes;
+  return Padded(last * fragments.bytes) + kIndexBytes <= fragments.sample;
+}
+
 PacketDrop CheckDataFrag(const Submessage& frag, std::uint32_t largest_sample) {
   if (frag.body.size() < kDataFragFields || frag.Has(kFragOfKey)) return PacketDrop::kMalformed;
   if (!IsNumber(frag.SequenceNumber(kWriterSeqAt))) return PacketDrop::kMalformed;
@@ -92,7 +108,8 @@ PacketDrop CheckDataFrag(const Submessage& frag, std::uint32_t largest_sample) {
   if (!payload) return PacketDrop::kListTooLong;
   const std::uint64_t wanted = BytesOf(fragments);
   const std::size_t there = frag.body.size() - *payload;
-  const bool fits = wanted > 0 && there >= wanted && there <= Padded(wanted);
+  const bool fits = wanted > 0 && there >= wanted && there <= Padded(wanted) &&
+                    IndexesFit(fragments) && !IsMarked(frag);
   return fits ? PacketDrop::kNone : PacketDrop::kMalformed;
 }
 

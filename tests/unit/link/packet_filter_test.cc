@@ -131,6 +131,45 @@ TEST(PacketFilter, DropsSubmessagesThatContradictThemselves) {
   EXPECT_EQ(Alone(FromPeer().Add(0x09, 0, PacketBytes(4))), PacketDrop::kMalformed);
 }
 
+// CVE-2025-62799: the library's index of fragments overwrote itself, or what lies behind the
+// sample.
+TEST(PacketFilter, DropsFragmentsTooShortForTheLibrarysIndex) {
+  const auto of = [](std::uint16_t bytes, std::uint32_t sample) {
+    return Alone(FromPeer().DataFrag(test::kUserWriter, 1, 1, 1, bytes, sample, bytes));
+  };
+  EXPECT_EQ(of(3, 1200), PacketDrop::kMalformed);
+  EXPECT_EQ(of(7, 1400), PacketDrop::kMalformed);
+  EXPECT_EQ(of(8, 1600), PacketDrop::kNone);
+  EXPECT_EQ(of(1000, 2003), PacketDrop::kMalformed);
+  EXPECT_EQ(of(1000, 2004), PacketDrop::kNone);
+  EXPECT_EQ(of(999, 2003), PacketDrop::kMalformed) << "aligned to 2000";
+  EXPECT_EQ(of(999, 2004), PacketDrop::kNone);
+}
+
+// Readers keep such samples without asking their filters.
+TEST(PacketFilter, DropsSamplesMarkedAsThoseThatPassReadersFilters) {
+  const auto with_qos = [](std::uint16_t fields, std::uint8_t id) {
+    PacketBytes body(fields);
+    body[2] = static_cast<std::uint8_t>(fields - 4);  // octets to the inline QoS
+    body[16] = 1;                                     // the number's low half
+    body.insert(body.end(), {id, 0, 0, 0, 1, 0, 0, 0});
+    body.resize(body.size() + 4);
+    return body;
+  };
+  EXPECT_EQ(Alone(FromPeer().Add(0x15, 0x06, with_qos(20, 0x55))), PacketDrop::kMalformed);
+  EXPECT_EQ(Alone(FromPeer().Add(0x15, 0x06, with_qos(20, 0x56))), PacketDrop::kNone);
+  const auto fragment = [&](std::uint8_t id) {
+    PacketBytes body = with_qos(32, id);
+    body[20] = body[24] = 1;  // the first one, of one
+    body[27] = 4;             // of 1024 bytes, as the sample
+    body[29] = 4;
+    body.resize(32 + 8 + 1024);
+    return Alone(FromPeer().Add(0x16, 0x02, body));
+  };
+  EXPECT_EQ(fragment(0x55), PacketDrop::kMalformed);
+  EXPECT_EQ(fragment(0x56), PacketDrop::kNone);
+}
+
 // Issue 25: +3.9 GB, never freed.
 TEST(PacketFilter, DropsFragmentsOfWhatNoTypeIsAsLargeAs) {
   EXPECT_EQ(Alone(FromPeer().DataFrag(test::kUserWriter, 1, 1, 1, 1000, 4'000'000'000, 1000)),

@@ -1,0 +1,231 @@
+// Which parameter lists of discovery the packet filter hands on: a list is sound if it ends where
+// its payload does, and all that it counts is in it.
+#include "services/link/packet_filter/discovery_list.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "services/link/packet_filter/packet_filter.h"
+#include "tests/support/rtps_packet.h"
+
+namespace giveway::link {
+namespace {
+
+using test::PacketBytes;
+using test::RtpsPacket;
+
+constexpr test::PrefixBytes kAnnounced = {1, 15, 7};
+constexpr std::uint32_t kPublications = 0x000003c2;
+constexpr std::uint32_t kSubscriptions = 0x000004c2;
+constexpr std::uint32_t kDiscoveryWriters[] = {test::kAnnouncer, kPublications, kSubscriptions};
+constexpr std::uint32_t kDiscoveryReaders[] = {0x000100c7, 0x000003c7, 0x000004c7};
+constexpr std::uint16_t kNames[] = {0x05, 0x07, 0x62};
+constexpr std::uint16_t kData[] = {0x2c, 0x2d, 0x2e};
+constexpr std::uint16_t kPartitions = 0x29;
+constexpr std::uint16_t kProperties = 0x59;
+constexpr std::uint16_t kRepresentations = 0x73;
+constexpr std::uint16_t kDataSharing = 0x8006;
+constexpr std::uint16_t kTokens[] = {0x1001, 0x1002};
+
+// A list in either byte order, or a value in one.
+class List {
+ public:
+  explicit List(bool little = true) : little_(little) {}
+  List& U16(std::uint16_t number) {
+    const auto low = static_cast<std::uint8_t>(number);
+    const auto high = static_cast<std::uint8_t>(number >> 8U);
+    bytes_.insert(bytes_.end(), {little_ ? low : high, little_ ? high : low});
+    return *this;
+  }
+  List& U32(std::uint32_t number) {
+    const auto low = static_cast<std::uint16_t>(number);
+    const auto high = static_cast<std::uint16_t>(number >> 16U);
+    return little_ ? U16(low).U16(high) : U16(high).U16(low);
+  }
+  // Padded with zeros.
+  List& Octets(PacketBytes octets) {
+    octets.resize((octets.size() + 3) / 4 * 4);
+    bytes_.insert(bytes_.end(), octets.begin(), octets.end());
+    return *this;
+  }
+  List& Text(std::uint32_t stated = 4) { return U32(stated).Octets({'a', 'b', 'c', 0}); }
+  List& Parameter(std::uint16_t id, const PacketBytes& value) {
+    return U16(id).U16(static_cast<std::uint16_t>(value.size())).Octets(value);
+  }
+  List& End() { return Parameter(1, {}); }
+
+  operator PacketBytes() const { return bytes_; }  // NOLINT: values are written as lists
+
+ private:
+  PacketBytes bytes_;
+  bool little_;
+};
+
+PacketDrop Judged(const RtpsPacket& packet, bool secured = false) {
+  PacketFilter filter({.secured = secured});
+  return filter.Judge(packet.Bytes(), 0x7f000001, std::chrono::seconds(1)).drop;
+}
+
+// With the encapsulation that the order has.
+PacketBytes Payload(const PacketBytes& list, bool little = true) {
+  PacketBytes payload = {0, static_cast<std::uint8_t>(little ? 3 : 2), 0, 0};
+  payload.insert(payload.end(), list.begin(), list.end());
+  return payload;
+}
+
+PacketDrop DropOfList(const PacketBytes& list, bool little = true, bool secured = false,
+                      std::uint32_t writer = kPublications) {
+  // The submessage's own order is the other one.
+  return Judged(
+      RtpsPacket(kAnnounced, test::kEProsima, !little).Data(writer, 1, Payload(list, little)),
+      secured);
+}
+
+PacketDrop DropOf(std::uint16_t id, const PacketBytes& value, bool little = true,
+                  bool secured = false) {
+  return DropOfList(List(little).Parameter(id, value).End(), little, secured);
+}
+
+constexpr auto kTooLong = PacketDrop::kListTooLong;
+constexpr auto kSound = PacketDrop::kNone;
+
+TEST(DiscoveryList, HandsOnWhatAnEndpointSaysOfItself) {
+  for (const bool little : {true, false}) {
+    List list(little);
+    for (const std::uint16_t id : kNames) list.Parameter(id, List(little).Text());
+    for (const std::uint16_t id : kData) list.Parameter(id, List(little).U32(3).Octets({1, 2, 3}));
+    list.Parameter(kData[0], List(little).U32(0));
+    list.Parameter(kPartitions, List(little).U32(0));
+    list.Parameter(kPartitions, List(little).U32(2).Text().Text());
+    list.Parameter(kProperties, List(little).U32(1).Text().Text());
+    list.Parameter(kRepresentations, List(little).U32(3).Octets({0, 0, 0, 1, 0, 2}));
+    list.Parameter(kDataSharing, List(little).U32(1).Octets(PacketBytes(8)));
+    list.Parameter(0x75, PacketBytes(50, 0xff)).End();
+    for (const std::uint32_t writer : kDiscoveryWriters) {
+      EXPECT_EQ(DropOfList(list, little, false, writer), kSound);
+    }
+  }
+}
+
+TEST(DiscoveryList, IsSoundInAnAnnouncementOfTheLibrary) {
+  for (const bool little : {true, false}) {
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced, test::kEProsima, little).Announcement(kAnnounced, 1)),
+              kSound);
+  }
+}
+
+TEST(DiscoveryList, EndsWithinItsPayload) {
+  for (const std::uint32_t writer : kDiscoveryWriters) {
+    const PacketBytes endless = List().Parameter(kNames[0], List().Text());
+    EXPECT_EQ(DropOfList(endless, true, false, writer), kTooLong);
+    EXPECT_EQ(DropOfList({}, true, false, writer), kTooLong);
+    PacketBytes beyond = List().Parameter(0x75, PacketBytes(8)).End();
+    beyond[2] = 16;
+    EXPECT_EQ(DropOfList(beyond, true, false, writer), kTooLong);
+  }
+}
+
+TEST(DiscoveryList, IsReadForTheReaderThatItNamesToo) {
+  for (const std::uint32_t reader : kDiscoveryReaders) {
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced).Data(test::kUserWriter, 1, Payload({}), reader)),
+              kTooLong);
+  }
+  EXPECT_EQ(Judged(RtpsPacket(kAnnounced).Data(test::kUserWriter, 1, Payload({}))), kSound);
+}
+
+TEST(DiscoveryList, IsReadWhereItIsTheKeyOfWhatEnds) {
+  const RtpsPacket sound = RtpsPacket(kAnnounced).Data(kPublications, 1, Payload(List().End()));
+  const RtpsPacket endless = RtpsPacket(kAnnounced).Data(kPublications, 1, Payload({}));
+  for (const RtpsPacket& packet : {sound, endless}) {
+    PacketBytes bytes = packet.Bytes();
+    bytes[21] = 0x09;  // flags: little-endian, with a key
+    EXPECT_EQ(PacketFilter({}).Judge(bytes, 0x7f000001, std::chrono::seconds(1)).drop,
+              Judged(packet));
+  }
+}
+
+TEST(DiscoveryList, IsNothingInAnEncapsulationThatTheLibraryIgnores) {
+  for (const std::uint8_t encapsulation : std::to_array<std::uint8_t>({0, 1, 7, 10})) {
+    const PacketBytes payload = {0, encapsulation, 0, 0};
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced).Data(kPublications, 1, payload)), kSound);
+  }
+}
+
+// CVE-2024-30258, CVE-2024-30259, CVE-2025-62599 to 62602, CVE-2025-64098: one packet took 3.9 GB
+// and ended the process, with security off.
+TEST(DiscoveryList, HasNoTokensWithoutSecurity) {
+  for (const std::uint16_t id : kTokens) {
+    const PacketBytes token = List().Text().U32(0).U32(0);
+    EXPECT_EQ(DropOf(id, token), PacketDrop::kMalformed);
+    EXPECT_EQ(DropOf(id, token, true, true), kSound) << "with security";
+  }
+}
+
+TEST(DiscoveryList, HoldsAllOfATokenWithSecurity) {
+  constexpr std::uint32_t kHuge = 0xfffffff0;
+  for (const std::uint16_t id : kTokens) {
+    const auto secured = [&](const List& token) { return DropOf(id, token, true, true); };
+    EXPECT_EQ(secured(List().Text().U32(1).Text().Text().U32(1).Text().Text()), kSound);
+    EXPECT_EQ(secured(List().Text().U32(0)), kTooLong);
+    EXPECT_EQ(secured(List().Text(kHuge).U32(0).U32(0)), kTooLong);
+    EXPECT_EQ(secured(List().Text().U32(kHuge).U32(0)), kTooLong);
+    EXPECT_EQ(secured(List().Text().U32(1).Text(kHuge).Text().U32(0)), kTooLong);
+    EXPECT_EQ(secured(List().Text().U32(1).Text().Text(kHuge).U32(0)), kTooLong);
+    EXPECT_EQ(secured(List().Text().U32(0).U32(60'000'000)), kTooLong);
+    EXPECT_EQ(secured(List().Text().U32(0).U32(1).Text().Text(3'000'000'000)), kTooLong);
+  }
+}
+
+TEST(DiscoveryList, HoldsNamesAndDataOfTheStatedLengths) {
+  for (const auto& ids : {kNames, kData}) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (const bool little : {true, false}) {
+        EXPECT_EQ(DropOf(ids[i], List(little).Text(5), little), kTooLong) << ids[i];
+        EXPECT_EQ(DropOf(ids[i], List(little).Text(0xffff'ffff), little), kTooLong) << ids[i];
+        EXPECT_EQ(DropOf(ids[i], {}, little), kTooLong) << ids[i];
+      }
+    }
+  }
+}
+
+// CVE-2026-49861: +0.8 GB for 400 million of them.
+TEST(DiscoveryList, HoldsAsManyRepresentationsAndDomainsAsItStates) {
+  EXPECT_EQ(DropOf(kRepresentations, List().U32(400'000'000).U16(0)), kTooLong);
+  EXPECT_EQ(DropOf(kRepresentations, List().U32(3).U32(0)), kTooLong);
+  EXPECT_EQ(DropOf(kRepresentations, List().U32(0x8000'0001).U32(0)), kTooLong);
+  EXPECT_EQ(DropOf(kDataSharing, List().U32(2).Octets(PacketBytes(12))), kTooLong);
+}
+
+// CVE-2026-53590: a text beyond the list was read.
+TEST(DiscoveryList, HoldsAsManyPropertiesAsItStates) {
+  EXPECT_EQ(DropOf(kProperties, List().U32(0x7fff'ffff).Text().Text()), kTooLong);
+  EXPECT_EQ(DropOf(kProperties, List().U32(1).Text()), kTooLong);
+  EXPECT_EQ(DropOf(kProperties, List().U32(1).Text().Text(5)), kTooLong);
+}
+
+// CVE-2026-55063, GHSA-8g7x-c9fg-g6mh: read as far as there is no NUL.
+TEST(DiscoveryList, HoldsPartitionsWithTheirEnds) {
+  EXPECT_EQ(DropOf(kPartitions, List().U32(2).Text()), kTooLong);
+  EXPECT_EQ(DropOf(kPartitions, List().U32(1).Text(0x7fff'ff00)), kTooLong);
+  EXPECT_EQ(DropOf(kPartitions, List().U32(1).Text(0xffff'ffff)), kTooLong);
+  EXPECT_EQ(DropOf(kPartitions, List().U32(1).U32(0)), kTooLong) << "no NUL";
+  EXPECT_EQ(DropOf(kPartitions, List().U32(1).Text(3)), kTooLong) << "no NUL";
+}
+
+TEST(DiscoveryList, ComesInOnePiece) {
+  for (const std::uint32_t writer : kDiscoveryWriters) {
+    EXPECT_EQ(Judged(RtpsPacket(kAnnounced).DataFrag(writer, 1, 1, 1, 1000, 2000, 1000)),
+              PacketDrop::kMalformed);
+  }
+  for (const std::uint32_t reader : kDiscoveryReaders) {
+    EXPECT_EQ(
+        Judged(
+            RtpsPacket(kAnnounced).DataFrag(test::kUserWriter, 1, 1, 1, 1000, 2000, 1000, reader)),
+        PacketDrop::kMalformed);
+  }
+}
+
+}  // namespace
+}  // namespace giveway::link
