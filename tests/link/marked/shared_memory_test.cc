@@ -1,8 +1,6 @@
 // A packet that says its writer has asked the reader's filter already: the library then does not
 // ask it, and keeps the sample. In shared memory, which the packet filter does not see, what is
-// read is held against the filter's rule once more. Over UDP: marked_udp_test.cc.
-#include "tests/link/marked.h"
-
+// read is held against the filter's rule once more. Over UDP: udp_test.cc.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -11,6 +9,7 @@
 #include "services/link/fastdds/profile_file.h"
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
+#include "tests/link/marked/marked.h"
 
 namespace giveway::test {
 namespace {

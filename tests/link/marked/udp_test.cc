@@ -6,7 +6,7 @@
 #include "services/link/fastdds/packets_of_process.h"
 #include "services/link/observer_link.h"
 #include "services/link/world_link.h"
-#include "tests/link/marked.h"
+#include "tests/link/marked/marked.h"
 
 namespace giveway::test {
 namespace {
