@@ -16,7 +16,7 @@ enum class PacketDrop : std::uint8_t {
   kNotRtps,          // too short, no RTPS header, or another major version
   kUnknownKind,      // a submessage of a kind that no sender of a fleet uses
   kStatistics,       // the library's own vendor-specific submessage, not as the library writes it
-  kMalformed,        // a submessage that contradicts itself
+  kMalformed,        // a submessage that contradicts itself, or says what no sender says
   kListTooLong,      // a list or a submessage that ends beyond what holds it
   kSampleTooLarge,   // a fragment of a sample larger than the largest type
   kRangeTooLong,     // a GAP of more sequence numbers than any writer keeps
