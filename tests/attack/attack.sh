@@ -88,12 +88,13 @@ how_they_are() {
     2>/dev/null || true
 }
 
-# heard LINE: the share of each other's beacons, in per cent, that vehicles heard behind that line.
+# heard LINE: the share of each other's beacons, in per cent, that vehicles heard behind that line. By the
+# largest and smallest counts, for a status that is sent again says what it said.
 heard() {
   samples_behind "$1" | jq -n '
     [inputs] | group_by(.vehicle) | map(select(length > 1) |
-      {sent: (.[-1].beacons.sent - .[0].beacons.sent),
-       taken: (.[-1].beacons.taken - .[0].beacons.taken)}) |
+      {sent: ((map(.beacons.sent) | max) - (map(.beacons.sent) | min)),
+       taken: ((map(.beacons.taken) | max) - (map(.beacons.taken) | min))}) |
     (map(.sent) | add) as $sent | (length - 1) as $peers |
     if $sent > 0 then (100 * (map(.taken) | add) / ($peers * $sent) | floor) else 0 end' 2>/dev/null ||
     echo 0
