@@ -76,10 +76,12 @@ function showTable(frame) {
 }
 
 function eventText(event) {
-  const who = event.vehicle ? String(event.vehicle) : "";
-  const join = { halted: "for", contact: "with" }[event.kind] ?? "and";
-  const other = event.other ? ` ${join} ${event.other}` : "";
-  return `${who} ${event.kind.replaceAll("_", " ")}${other}${event.text ? ": " + event.text : ""}`.trim();
+  const both = event.other && event.kind !== "halted" ? ` and ${event.other}` : "";
+  const who = event.vehicle ? event.vehicle + both : "";
+  const forWhom = event.other && event.kind === "halted" ? ` for ${event.other}` : "";
+  const what = { closest: "closest to each other", contact: "in contact" }[event.kind] ??
+    event.kind.replaceAll("_", " ");
+  return `${who} ${what}${forWhom}${event.text ? ": " + event.text : ""}`.trim();
 }
 
 let eventsShown = "";
