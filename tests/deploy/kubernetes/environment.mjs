@@ -15,7 +15,7 @@ function known(root) {
     const text = readFileSync(join(services, file), 'utf8');
     for (const found of text.matchAll(/getenv\("(GIVEWAY_[A-Z_]+)"\)/g)) all.add(found[1]);
   }
-  const [vehicle, world] = /kVehicle\) \{(.*?)\} else \{(.*?)\n {4}\}/s.exec(flags).slice(1)
+  const [vehicle, world] = /kVehicle\) \{(.*?)\n {2}\} else \{(.*?)\n {2}\}/s.exec(flags).slice(1)
     .map((part) => new Set([...part.matchAll(added)].map((found) => upper(found[1]))));
   return { all, vehicle, world };
 }
