@@ -20,7 +20,7 @@ constexpr std::int32_t kBeaconDepth = 32;  // an observer that looks once a seco
 
 struct ObserverLink::Impl {
   Impl(const LinkOptions& options, Ranges ranges)
-      : participant(options, "giveway-observer", names),
+      : participant(OfAllBodies(options), "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
         beacons(participant.MakeReader<wire::Beacon>(
                     options.area + "/*", kBeaconDepth, &beacon_events,

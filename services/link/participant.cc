@@ -64,6 +64,7 @@ FilteredTransportOptions FilterOf(const LinkOptions& options,
                      .fleet_size = options.fleet_size,
                      .loopback_only = IsLoopback(options.interface),
                      .secured = IsSecured(qos),
+                     .of_all_bodies = options.hears_all_bodies,
                      .seed = 0},
           .joined_interfaces_only = options.interface != "any",
           .says_farewell = SaysFarewell(options, qos)};

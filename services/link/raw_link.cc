@@ -145,7 +145,8 @@ const std::vector<RawTopic>& RawTopics() {
 }
 
 struct RawLink::Impl {
-  explicit Impl(const LinkOptions& options) : participant(options, "giveway-recorder", names) {}
+  explicit Impl(const LinkOptions& options)
+      : participant(OfAllBodies(options), "giveway-recorder", names) {}
 
   WriterNames names;  // the library calls it until the participant is gone
   Participant participant;

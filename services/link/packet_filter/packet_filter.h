@@ -21,6 +21,7 @@ struct PacketFilterOptions {
   std::uint32_t fleet_size = 2;          // decides how many writers are remembered
   bool loopback_only = false;            // hears 127.0.0.0/8 and nothing else
   bool secured = false;                  // DDS-Security is on: its submessages pass
+  bool of_all_bodies = false;            // hears of every body of the fleet: of an observer
   std::uint64_t seed = 0;                // from the operating system: strangers must not know it
 };
 

@@ -28,8 +28,9 @@ bool SequenceBudget::Takes(std::int64_t number, SteadyTime now, const Limits& li
   }
   const double step = static_cast<double>(number - highest_);
   const double budget = std::min(budget_, most) + Added(heard_, now);
-  if (step > budget && (step > 1 || !IsYoung(now))) return Confirms(number, now);
-  budget_ = std::clamp(budget - step, 0.0, most);
+  const bool is_free = step <= 1 && (limits.may_grow || IsYoung(now));
+  if (!is_free && step > budget) return Confirms(number, now);
+  budget_ = std::clamp(is_free ? budget : budget - step, 0.0, most);
   highest_ = number;
   advanced_ = heard_ = now;
   candidate_ = 0;

@@ -29,6 +29,7 @@ class SequenceBudget {
     double least = 64;         // slack, numbers; the larger of it and the next
     double seconds = 0.5;      // of the writer's pace
     bool sends_again = false;  // lower numbers, as a matter of course
+    bool may_grow = false;     // steps of one are free at any rate, as while a writer is young
 
     double SlackAt(double pace_hz) const {
       return pace_hz * seconds > least ? pace_hz * seconds : least;
@@ -38,7 +39,8 @@ class SequenceBudget {
   static constexpr double kLeastRate_hz = 256;
   static constexpr double kHighestRate_hz = 16384;
   static constexpr double kYoungSlack = 64;
-  // A writer heard for less time has no known pace: its steps of one are free, kYoungSlack holds.
+  // A writer heard for less time has no known pace: its steps of one are free and draw on nothing,
+  // kYoungSlack holds.
   static constexpr Nanoseconds kYoung = std::chrono::seconds(1);
   static constexpr Nanoseconds kDisputeTime = std::chrono::seconds(1);
   static constexpr Nanoseconds kConfirmTime = std::chrono::milliseconds(500);

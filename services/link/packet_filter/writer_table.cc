@@ -20,10 +20,13 @@ std::uint64_t Mixed(std::uint64_t word) {
 
 }  // namespace
 
-WriterTable::WriterTable(std::size_t writers, std::uint64_t seed, std::uint32_t fleet_size)
+WriterTable::WriterTable(std::size_t writers, std::uint64_t seed, std::uint32_t fleet_size,
+                         bool of_all_bodies)
     : lines_(std::bit_ceil(std::max(writers, kWays))),
       seed_(seed | 1),
-      count_limits_{.least = kCountsAtLeast + kCountsAVehicle * fleet_size, .seconds = 0.5} {}
+      count_limits_{.least = kCountsAtLeast + kCountsAVehicle * fleet_size, .seconds = 0.5} {
+  sample_limits_.may_grow = of_all_bodies;
+}
 
 WriterTable::Line* WriterTable::SetOf(const WriterGuid& writer) {
   std::uint64_t high, low;
@@ -88,7 +91,7 @@ bool WriterTable::Takes(Line* line, std::int64_t number, Statement by, SteadyTim
   }
   if (line->is_reliable) return line->budget.Takes(number, now, kReliableLimits);
   if (by == Statement::kRange) return line->budget.MayReach(number, now, kRangeLimits);
-  return line->budget.Takes(number, now, kSampleLimits);
+  return line->budget.Takes(number, now, sample_limits_);
 }
 
 bool WriterTable::Knows(const WriterGuid& writer, SteadyTime now) {

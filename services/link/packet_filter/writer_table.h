@@ -54,8 +54,10 @@ class WriterTable {
 
   // Room for at least as many writers. `seed` decides where a writer is kept: strangers must not
   // know it. A process is sent HEARTBEATs between those that its writers send to others, so
-  // `fleet_size` decides how far their counts step.
-  WriterTable(std::size_t writers, std::uint64_t seed, std::uint32_t fleet_size = 0);
+  // `fleet_size` decides how far their counts step. `of_all_bodies`: it hears samples of every body
+  // of the fleet from one writer, and of more with each that joins.
+  WriterTable(std::size_t writers, std::uint64_t seed, std::uint32_t fleet_size = 0,
+              bool of_all_bodies = false);
 
   // Whether the writer can have reached `number`, which is above 0. Notes it if so. Counts are
   // kept under GUIDs of their own.
@@ -85,6 +87,7 @@ class WriterTable {
   std::vector<Line> lines_;  // sets of kWays
   std::uint64_t seed_;
   SequenceBudget::Limits count_limits_;
+  SequenceBudget::Limits sample_limits_ = kSampleLimits;
 };
 
 }  // namespace giveway::link
