@@ -18,11 +18,11 @@ struct LinkOptions {
   QosProfiles qos;                      // a complete Fast DDS XML set, see ReadProfileFile
   std::string area = "main";            // [a-z0-9_-]+
   std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
-  bool hears_all_bodies = false;        // observers: truth of the whole fleet
   bool partition_free = false;          // vehicle: a second beacon, for readers without a partition
   Impairment impairment = {};           // of what this process hears; its seed is set
   // Instead of the profile set's way of discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers = {};
+  bool hears_all_bodies = false;  // observers: truth of the whole fleet
 };
 
 inline LinkOptions OfAllBodies(LinkOptions options) {
