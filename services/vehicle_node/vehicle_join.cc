@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "services/link/fastdds/link_options.h"
 #include "services/runtime/process.h"
 #include "services/runtime/refusal_log.h"
 #include "services/vehicle_node/asking.h"
