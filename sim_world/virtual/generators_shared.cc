@@ -37,7 +37,6 @@ Scenario MakeAntipodal(const Size& size) {
 // them arrives is not said; the others can only stand near.
 Scenario MakeSharedGoal(const Size& size) {
   Layout layout("shared_goal", size);
-  constexpr double kCell_m = 2.4;
   constexpr double kMoved_m = 0.19;
   const double side_m = std::sqrt(16.0 * size.vehicles);
   const std::uint32_t groups = size.vehicles / 2;

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <optional>
 
+#include "services/runtime/terminal_size.h"
+
 namespace giveway::fleetctl {
 namespace {
 
