@@ -7,33 +7,14 @@
 namespace giveway::link {
 namespace {
 
-constexpr std::size_t kAnnouncementReaderAt = 4;  // of DATA: entity ids, and the number
-constexpr std::size_t kAnnouncerAt = 8;
-constexpr std::size_t kAnnouncementNumberAt = 12;
 constexpr std::array<std::uint8_t, 4> kAnnouncer = {0x00, 0x01, 0x00, 0xc2};
 constexpr std::array<std::uint8_t, 4> kListener = {0x00, 0x01, 0x00, 0xc7};
-constexpr std::array<std::uint8_t, 4> kParticipantEntity = {0x00, 0x00, 0x01, 0xc1};
 
 constexpr std::uint16_t kLeaseDuration = 0x0002;  // ids of parameters
 constexpr std::uint16_t kParticipantGuid = 0x0050;
 constexpr std::uint8_t kKeyHash = 0x70;
 constexpr std::uint8_t kStatusInfo = 0x71;
 constexpr std::uint8_t kDisposedAndUnregistered = 3;
-constexpr std::uint8_t kEndOfList = 0x01;
-
-constexpr std::uint8_t kInlineQosFlag = 0x02;
-constexpr std::uint8_t kDataFlag = 0x04;
-
-// Parameters are in the byte order that the payload's encapsulation names.
-Submessage ParametersOf(const Submessage& announcement) {
-  const Bytes payload = announcement.body.subspan(PayloadOfData(announcement));
-  if (!announcement.Has(kDataFlag) || payload.size() < kEncapsulation) return {};
-  Submessage list;
-  list.flags = payload[1] & 1U;
-  list.body = payload.subspan(kEncapsulation);
-  return list;
-}
-
 // From there on; returns where it ends.
 template <std::size_t size>
 std::size_t Put(const std::array<std::uint8_t, size>& bytes, std::size_t at, Farewell* to) {
@@ -54,11 +35,12 @@ std::array<std::uint8_t, 8> BigEndian(std::int64_t number) {
 
 bool IsAnnouncement(const Submessage& submessage) {
   return submessage.kind == SubmessageKind::kData &&
-         std::equal(kAnnouncer.begin(), kAnnouncer.end(), submessage.body.begin() + kAnnouncerAt);
+         std::equal(kAnnouncer.begin(), kAnnouncer.end(), submessage.body.begin() + kWriterInData);
 }
 
 std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement) {
-  const Bytes guid = FindParameter(ParametersOf(announcement), 0, kParticipantGuid);
+  const std::optional<Submessage> list = ParametersOf(announcement);
+  const Bytes guid = list ? FindParameter(*list, 0, kParticipantGuid) : Bytes{};
   PrefixBytes prefix;
   if (guid.size() < prefix.size()) return std::nullopt;
   std::copy_n(guid.begin(), prefix.size(), prefix.begin());
@@ -66,19 +48,20 @@ std::optional<PrefixBytes> AnnouncedParticipant(const Submessage& announcement) 
 }
 
 std::optional<Nanoseconds> AnnouncedLease(const Submessage& announcement) {
-  Submessage list = ParametersOf(announcement);
-  list.body = FindParameter(list, 0, kLeaseDuration);
-  if (list.body.size() < 8) return std::nullopt;
-  const std::uint64_t fraction_ns = (std::uint64_t{list.U32(4)} * 1'000'000'000) >> 32U;
-  return std::chrono::seconds(list.U32(0)) + Nanoseconds(fraction_ns);
+  std::optional<Submessage> lease = ParametersOf(announcement);
+  if (!lease) return std::nullopt;
+  lease->body = FindParameter(*lease, 0, kLeaseDuration);
+  if (lease->body.size() < 8) return std::nullopt;
+  const std::uint64_t fraction_ns = (std::uint64_t{lease->U32(4)} * 1'000'000'000) >> 32U;
+  return std::chrono::seconds(lease->U32(0)) + Nanoseconds(fraction_ns);
 }
 
 std::int64_t AnnouncementNumber(const Submessage& announcement) {
-  return announcement.SequenceNumber(kAnnouncementNumberAt);
+  return announcement.SequenceNumber(kNumberInData);
 }
 
 Farewell FarewellOf(const PrefixBytes& participant, std::int64_t number) {
-  constexpr std::uint8_t kToInlineQos = kAnnouncementNumberAt + 8 - kAnnouncementReaderAt;
+  constexpr std::uint8_t kToInlineQos = kNumberInData + 8 - kReaderInData;
   Farewell packet;
   std::size_t at =
       Put(std::array<std::uint8_t, 8>{'R', 'T', 'P', 'S', 2, 3, 0x01, 0x0f}, 0, &packet);
@@ -86,7 +69,7 @@ Farewell FarewellOf(const PrefixBytes& participant, std::int64_t number) {
   constexpr std::size_t kBodyAt = kRtpsHeaderBytes + kSubmessageHeaderBytes;
   constexpr std::uint8_t kBytes = std::tuple_size_v<Farewell> - kBodyAt;
   at = Put(std::to_array<std::uint8_t>(
-               {static_cast<std::uint8_t>(SubmessageKind::kData), kInlineQosFlag, 0, kBytes}),
+               {static_cast<std::uint8_t>(SubmessageKind::kData), kInlineQos, 0, kBytes}),
            at, &packet);
   at = Put(std::to_array<std::uint8_t>({0, 0, 0, kToInlineQos}), at, &packet);
   at = Put(kListener, at, &packet);
@@ -97,7 +80,7 @@ Farewell FarewellOf(const PrefixBytes& participant, std::int64_t number) {
   at = Put(kParticipantEntity, at, &packet);
   at = Put(std::to_array<std::uint8_t>({0, kStatusInfo, 0, 4, 0, 0, 0, kDisposedAndUnregistered}),
            at, &packet);
-  Put(std::to_array<std::uint8_t>({0, kEndOfList, 0, 0}), at, &packet);
+  Put(std::to_array<std::uint8_t>({0, std::uint8_t{kSentinel}, 0, 0}), at, &packet);
   return packet;
 }
 

@@ -12,7 +12,9 @@
 
 namespace giveway::link {
 
-using PrefixBytes = std::array<std::uint8_t, 12>;  // of a participant's GUID
+// A participant's GUID is its prefix, and this entity id.
+using PrefixBytes = std::array<std::uint8_t, 12>;
+inline constexpr std::array<std::uint8_t, 4> kParticipantEntity = {0x00, 0x00, 0x01, 0xc1};
 
 // Whether a sound submessage is one of a participant's announcer.
 bool IsAnnouncement(const Submessage& submessage);

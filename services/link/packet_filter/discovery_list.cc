@@ -1,18 +1,12 @@
 #include "services/link/packet_filter/discovery_list.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "services/link/packet_filter/submessage_check.h"
 
 namespace giveway::link {
 namespace {
-
-constexpr std::size_t kDiscoveryReaderAt = 4;  // of DATA and DATA_FRAG
-constexpr std::size_t kDiscoveryWriterAt = 8;
-constexpr std::uint8_t kDataOrKey = 0x0c;  // flags of DATA
-
-constexpr std::uint8_t kListBigEndian = 2;  // second octet of it; any other the library ignores
-constexpr std::uint8_t kListLittleEndian = 3;
 
 std::uint32_t EntityAt(const Submessage& of, std::size_t at) {
   return std::uint32_t{of.body[at]} << 24U | std::uint32_t{of.body[at + 1]} << 16U |
@@ -22,8 +16,8 @@ std::uint32_t EntityAt(const Submessage& of, std::size_t at) {
 // By either end: the library hands a payload to the reader that it names, and to that of its
 // writer.
 bool IsOfDiscovery(const Submessage& data) {
-  const std::uint32_t writer = EntityAt(data, kDiscoveryWriterAt);
-  const std::uint32_t reader = EntityAt(data, kDiscoveryReaderAt);
+  const std::uint32_t writer = EntityAt(data, kWriterInData);
+  const std::uint32_t reader = EntityAt(data, kReaderInData);
   return writer == 0x000100c2 || writer == 0x000003c2 || writer == 0x000004c2 ||
          reader == 0x000100c7 || reader == 0x000003c7 || reader == 0x000004c7;
 }
@@ -139,16 +133,8 @@ PacketDrop CheckDiscovery(const Submessage& submessage, bool secured) {
   if (!is_frag && submessage.kind != SubmessageKind::kData) return PacketDrop::kNone;
   if (!IsOfDiscovery(submessage)) return PacketDrop::kNone;
   if (is_frag) return PacketDrop::kMalformed;  // each fits into a datagram
-  if (!submessage.Has(kDataOrKey)) return PacketDrop::kNone;
-  const Bytes payload = submessage.body.subspan(PayloadOfData(submessage));
-  const std::uint8_t encapsulation = payload[1];
-  if (encapsulation != kListBigEndian && encapsulation != kListLittleEndian) {
-    return PacketDrop::kNone;
-  }
-  Submessage list;
-  list.flags = encapsulation & 1U;
-  list.body = payload.subspan(kEncapsulation);
-  return CheckList(list, secured);
+  const std::optional<Submessage> list = ParametersOf(submessage);
+  return list ? CheckList(*list, secured) : PacketDrop::kNone;
 }
 
 }  // namespace giveway::link

@@ -14,7 +14,6 @@ constexpr std::array<std::uint8_t, 4> kMagic = {'R', 'T', 'P', 'S'};
 constexpr std::size_t kVersionAt = 4;
 constexpr std::size_t kVendorAt = 6;
 constexpr std::size_t kPrefixAt = 8;
-constexpr std::size_t kPrefixBytes = 12;
 constexpr std::uint8_t kMajorVersion = 2;
 constexpr std::array<std::uint8_t, 2> kEProsima = {0x01, 0x0f};
 
@@ -28,17 +27,13 @@ constexpr std::size_t kWritersAVehicle = 48;
 constexpr std::size_t kWritersAtLeast = 4096;
 constexpr std::size_t kWritersAtMost = 131072;
 
-// Where a writer's entity id and the number by which it goes stand in a body.
-constexpr std::size_t kWriterAtInData = 8;
-constexpr std::size_t kNumberAtInData = 12;
+// Where a writer's entity id and the number by which it goes stand in other bodies.
 constexpr std::size_t kWriterAt = 4;  // of HEARTBEAT and GAP
 constexpr std::size_t kLastNumberAt = 16;
 constexpr std::size_t kCountInHeartbeat = 24;
 constexpr std::size_t kBitsInAckNack = 16;  // how many; the bits, and behind them the count
 constexpr std::size_t kBitsInNackFrag = 20;
 constexpr std::size_t kPrefixInInfoSrc = 8;
-
-constexpr std::array<std::uint8_t, 4> kParticipant = {0x00, 0x00, 0x01, 0xc1};
 
 bool IsRtps(Bytes packet) {
   return packet.size() > kRtpsHeaderBytes &&
@@ -54,8 +49,8 @@ std::size_t WritersOf(std::uint32_t fleet_size) {
 
 WriterGuid GuidOf(const std::uint8_t* prefix, const std::uint8_t* entity) {
   WriterGuid guid;
-  std::copy_n(prefix, kPrefixBytes, guid.begin());
-  std::copy_n(entity, guid.size() - kPrefixBytes, guid.begin() + kPrefixBytes);
+  std::copy_n(prefix, sizeof(PrefixBytes), guid.begin());
+  std::copy_n(entity, guid.size() - sizeof(PrefixBytes), guid.begin() + sizeof(PrefixBytes));
   return guid;
 }
 
@@ -82,7 +77,7 @@ WriterGuid CounterGuid(const Submessage& submessage, const std::uint8_t* prefix)
   guid[0] ^= static_cast<std::uint8_t>(submessage.kind);
   if (submessage.kind == SubmessageKind::kHeartbeat) return guid;
   for (std::size_t i = 0; i < 4; ++i) {  // turned, so that like ids do not cancel each other
-    guid[kPrefixBytes + i] ^= submessage.body[(i + 1) % 4];
+    guid[sizeof(PrefixBytes) + i] ^= submessage.body[(i + 1) % 4];
   }
   return guid;
 }
@@ -151,12 +146,11 @@ PacketDrop PacketFilter::CheckWriter(const Submessage& submessage, const std::ui
   const bool is_gap = submessage.kind == SubmessageKind::kGap;
   if (!is_data && !is_gap && submessage.kind != SubmessageKind::kHeartbeat)
     return PacketDrop::kNone;
-  const std::uint8_t* const entity =
-      submessage.body.data() + (is_data ? kWriterAtInData : kWriterAt);
+  const std::uint8_t* const entity = submessage.body.data() + (is_data ? kWriterInData : kWriterAt);
   if (IsAnnouncement(submessage) && !IsWelcome(submessage, now)) {
     return PacketDrop::kTooManyStrangers;
   }
-  std::int64_t number = submessage.SequenceNumber(is_data ? kNumberAtInData : kLastNumberAt);
+  std::int64_t number = submessage.SequenceNumber(is_data ? kNumberInData : kLastNumberAt);
   if (is_gap) --number;                       // the last one that will not come
   if (number <= 0) return PacketDrop::kNone;  // a writer that has written nothing
   const Statement by = is_data ? Statement::kSample : Statement::kRange;
@@ -178,8 +172,8 @@ bool PacketFilter::IsNextCount(const Submessage& submessage, const std::uint8_t*
 // server sends those of others: it is the payload that names the participant.
 bool PacketFilter::IsWelcome(const Submessage& announcement, SteadyTime now) {
   const std::optional<PrefixBytes> prefix = AnnouncedParticipant(announcement);
-  if (!prefix.has_value()) return true;  // of one that leaves; names nobody new
-  const WriterGuid participant = GuidOf(prefix->data(), kParticipant.data());
+  if (!prefix.has_value()) return true;  // of one that leaves: announces no participant
+  const WriterGuid participant = GuidOf(prefix->data(), kParticipantEntity.data());
   if (writers_.Knows(participant, now)) return true;
   if (!TakeToken(now)) return false;
   writers_.Add(participant, now);

@@ -15,6 +15,15 @@ inline constexpr std::size_t kRtpsHeaderBytes = 20;
 inline constexpr std::size_t kSubmessageHeaderBytes = 4;
 inline constexpr std::size_t kEncapsulation = 4;  // bytes, in front of a payload
 
+// Of a DATA, and of a DATA_FRAG as far as it goes: where in the body entity ids and the sequence
+// number stand, and flags.
+inline constexpr std::size_t kReaderInData = 4;
+inline constexpr std::size_t kWriterInData = 8;
+inline constexpr std::size_t kNumberInData = 12;
+inline constexpr std::uint8_t kInlineQos = 0x02;
+inline constexpr std::uint8_t kWithData = 0x04;  // of DATA alone
+inline constexpr std::uint8_t kWithKey = 0x08;   // of DATA alone
+
 // A list of parameters: each has a header of id and length, and begins at a multiple of 4.
 inline constexpr std::size_t kParameterHeader = 4;  // bytes
 inline constexpr std::uint16_t kSentinel = 0x0001;  // the id that ends it

@@ -6,9 +6,6 @@
 namespace giveway::link {
 namespace {
 
-constexpr std::uint8_t kInlineQos = 0x02;   // flag of DATA and DATA_FRAG
-constexpr std::uint8_t kWithData = 0x04;    // of DATA
-constexpr std::uint8_t kWithKey = 0x08;     // of DATA
 constexpr std::uint8_t kFragOfKey = 0x04;   // of DATA_FRAG
 constexpr std::uint8_t kInvalidate = 0x02;  // of INFO_TS: there is none
 
@@ -17,7 +14,6 @@ constexpr std::uint16_t kFilterInfo = 0x0055;  // which readers' filters a sampl
 constexpr std::size_t kToQosAt =
     2;  // of DATA and DATA_FRAG: octets from behind it to the inline QoS
 constexpr std::size_t kBehindToQos = 4;
-constexpr std::size_t kWriterSeqAt = 12;
 constexpr std::size_t kLocatorBytes = 24;
 constexpr std::uint32_t kMostBits = 256;  // of a set of numbers
 // Beyond it nothing can be added to a sequence number without care.
@@ -60,7 +56,7 @@ PacketDrop CheckData(const Submessage& data) {
   if (data.body.size() < kDataFields) return PacketDrop::kMalformed;
   const bool has_payload = data.Has(kWithData) || data.Has(kWithKey);
   if (data.Has(kWithData) && data.Has(kWithKey)) return PacketDrop::kMalformed;
-  if (!IsNumber(data.SequenceNumber(kWriterSeqAt))) return PacketDrop::kMalformed;
+  if (!IsNumber(data.SequenceNumber(kNumberInData))) return PacketDrop::kMalformed;
   const auto payload = EndOfInlineQos(data, kDataFields);
   if (!payload) return PacketDrop::kListTooLong;
   const bool too_short = has_payload && data.body.size() - *payload < kEncapsulation;
@@ -100,7 +96,7 @@ bool IndexesFit(const Fragments& fragments) {
 
 PacketDrop CheckDataFrag(const Submessage& frag, std::uint32_t largest_sample) {
   if (frag.body.size() < kDataFragFields || frag.Has(kFragOfKey)) return PacketDrop::kMalformed;
-  if (!IsNumber(frag.SequenceNumber(kWriterSeqAt))) return PacketDrop::kMalformed;
+  if (!IsNumber(frag.SequenceNumber(kNumberInData))) return PacketDrop::kMalformed;
   const Fragments fragments{frag.U32(20), frag.U16(24), frag.U16(26), frag.U32(28)};
   if (fragments.sample > largest_sample) return PacketDrop::kSampleTooLarge;
   if (fragments.sample < kLeastFragmented) return PacketDrop::kMalformed;
@@ -199,6 +195,19 @@ PacketDrop CheckSubmessage(const Submessage& submessage, std::uint32_t largest_s
 
 std::size_t PayloadOfData(const Submessage& data) {
   return EndOfInlineQos(data, kDataFields).value_or(data.body.size());
+}
+
+std::optional<Submessage> ParametersOf(const Submessage& data) {
+  constexpr std::uint8_t kListBigEndian = 2;  // second octet of the encapsulation
+  constexpr std::uint8_t kListLittleEndian = 3;
+  if (!data.Has(kWithData | kWithKey)) return std::nullopt;
+  const Bytes payload = data.body.subspan(PayloadOfData(data));
+  if (payload.size() < kEncapsulation) return std::nullopt;
+  if (payload[1] != kListBigEndian && payload[1] != kListLittleEndian) return std::nullopt;
+  Submessage list;
+  list.flags = payload[1] & 1U;
+  list.body = payload.subspan(kEncapsulation);
+  return list;
 }
 
 Bytes FindParameter(const Submessage& submessage, std::size_t list, std::uint16_t id) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "services/link/packet_filter/rtps_bytes.h"
 #include "services/types/figures/packet_counters.h"
@@ -22,6 +23,11 @@ PacketDrop CheckSubmessage(const Submessage& submessage, std::uint32_t largest_s
 
 // Where in a DATA, checked before, its payload begins: behind the inline QoS.
 std::size_t PayloadOfData(const Submessage& data);
+
+// The parameter list that a checked DATA has as its payload, in the byte order that the
+// encapsulation names. Nothing where there is none, or another encapsulation: Fast DDS reads no
+// list then.
+std::optional<Submessage> ParametersOf(const Submessage& data);
 
 // What a checked parameter list holds under an id; empty if it has none. `list` begins with the
 // first parameter.

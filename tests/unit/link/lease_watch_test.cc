@@ -39,7 +39,7 @@ TEST(LeaseWatch, IsSatisfiedWithWhateverAParticipantSends) {
   LeaseWatch watch;
   Announce(watch, kDying, kFirst);
   const auto sample = RtpsPacket(kDying).Data(test::kUserWriter, 1, test::PacketBytes(8));
-  EXPECT_FALSE(watch.Hear(sample.Bytes(), kFirst + seconds(8))) << "announces nobody";
+  EXPECT_FALSE(watch.Hear(sample.Bytes(), kFirst + seconds(8))) << "announces no participant";
   EXPECT_FALSE(watch.TakeFarewell(kFirst + seconds(8) + kNineTenths - milliseconds(1)));
   EXPECT_TRUE(watch.TakeFarewell(kFirst + seconds(8) + kNineTenths));
 }
