@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # An intruder without credentials attacks a fleet that drives: a line "ok" or "FAILED" an attack. Each
-# time: every process lives on, nobody touches anybody, vehicles hear 90 % of each other's beacons and see
+# time: every process lives on, there is no contact, vehicles hear 90 % of each other's beacons and see
 # on all the time, no process grows by more than 16 MB, and all drive on within 5 s of the end.
 #
 #   bash tests/attack/attack.sh [ATTACK ...]
@@ -161,7 +161,7 @@ from_stranger() {
     --address 192.0.2.1 --seconds "$SECONDS_EACH" --rate 500
 }
 
-# The group is joined on the cable by somebody, and the stranger speaks to it: to the fleet, and to a vehicle
+# The group is joined on the cable by another process, and the stranger speaks to it: to the fleet, and to a vehicle
 # on loopback that is asked what reached it.
 from_the_cable() {
   local joined code=0 reached

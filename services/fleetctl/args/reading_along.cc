@@ -29,15 +29,15 @@ link::LinkOptions LinkOptionsOf(const ObserverOptions& options) {
   return link;
 }
 
-Told Tell(const std::string& text) {
-  if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return Told::kYes;
-  return errno == EPIPE ? Told::kNobodyReads : Told::kFailed;
+OutputResult Tell(const std::string& text) {
+  if (std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0) return OutputResult::kYes;
+  return errno == EPIPE ? OutputResult::kNobodyReads : OutputResult::kFailed;
 }
 
 bool HasStdout() { return ::fcntl(STDOUT_FILENO, F_GETFD) >= 0; }
 
-int ExitCodeOf(Told told) {
-  if (told != Told::kFailed) return 0;
+int ExitCodeOf(OutputResult result) {
+  if (result != OutputResult::kFailed) return 0;
   std::fprintf(stderr, "cannot write to stdout: %s\n", std::strerror(errno));
   return kCouldNotRun;
 }

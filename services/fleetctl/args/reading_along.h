@@ -23,19 +23,19 @@ struct ObserverOptions {
 // Throws LinkError where the profile set is unsound.
 link::LinkOptions LinkOptionsOf(const ObserverOptions& options);
 
-enum class Told : std::uint8_t {
+enum class OutputResult : std::uint8_t {
   kYes,
   kNobodyReads,  // the reader has gone, as `| head -3` does: no reason to complain
   kFailed,       // a full disk: errno says why
 };
 
 // Writes to stdout at once.
-Told Tell(const std::string& text);
+OutputResult Tell(const std::string& text);
 // Whether stdout was given at all. To be asked before any socket is opened: a socket that takes the
 // free descriptor's place would be written to.
 bool HasStdout();
 
 // The exit code for it; says on stderr why, where it failed. 0 for no process reads.
-int ExitCodeOf(Told told);
+int ExitCodeOf(OutputResult result);
 
 }  // namespace giveway::fleetctl

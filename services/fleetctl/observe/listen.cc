@@ -26,8 +26,8 @@ class Listening {
   int Run() {
     while (Interrupts::Count() == 0 && !IsOver()) {
       SleepUntil(SteadyNow() + kListenTurn);
-      const Told told = TellNew();
-      if (told != Told::kYes) return ExitCodeOf(told);
+      const OutputResult result = TellNew();
+      if (result != OutputResult::kYes) return ExitCodeOf(result);
       HintIfQuiet();
     }
     if (heard_ > 0 || Interrupts::Count() > 0) return 0;
@@ -43,7 +43,7 @@ class Listening {
     return options_.duration_s && Seconds(Since()) >= *options_.duration_s;
   }
 
-  Told TellNew() {
+  OutputResult TellNew() {
     const link::Observed observed = observer_.Take();
     fleet_.Fold(observed, SteadyNow());
     std::string text;
@@ -52,7 +52,7 @@ class Listening {
       text += line + "\n";
       ++heard_;
     }
-    return text.empty() ? Told::kYes : Tell(text);
+    return text.empty() ? OutputResult::kYes : Tell(text);
   }
 
   void HintIfQuiet() {

@@ -53,9 +53,9 @@ class Top {
       if (!screen_.IsDue(now)) continue;
       if (in_place_) {
         screen_.Draw(TopLines(fleet_, post_, now, SizeOfTerminal()));
-      } else if (const Told told = Tell(Block() + (options_.json ? "" : "\n"));
-                 told != Told::kYes) {
-        return ExitCodeOf(told);
+      } else if (const OutputResult result = Tell(Block() + (options_.json ? "" : "\n"));
+                 result != OutputResult::kYes) {
+        return ExitCodeOf(result);
       }
     }
     return 0;

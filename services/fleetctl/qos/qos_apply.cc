@@ -314,8 +314,8 @@ int RunQosApply(const QosApplyOptions& options) {
   if (const int code = applying.Ask(); code != 0) return code;
   const ApplyReport report = applying.Run();
   const std::string last = options.json ? ToJson(report) : LineOf(report);
-  const Told told = Tell(last);
-  return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report.verdict);
+  const OutputResult result = Tell(last);
+  return result == OutputResult::kFailed ? ExitCodeOf(result) : ExitCode(report.verdict);
 }
 
 }  // namespace giveway::fleetctl

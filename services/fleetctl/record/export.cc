@@ -38,9 +38,9 @@ class Exporting {
       ++written_;
       output_ = Tell(options_.csv ? columns_.Row(Flattened(sample.Text())) : sample.Text() + "\n");
       // A file that grows may have further columns by now.
-      return output_ == Told::kYes && written_ != samples_;
+      return output_ == OutputResult::kYes && written_ != samples_;
     });
-    if (output_ != Told::kYes) return ExitCodeOf(output_);
+    if (output_ != OutputResult::kYes) return ExitCodeOf(output_);
     return Finish(result);
   }
 
@@ -133,7 +133,7 @@ class Exporting {
   CsvColumns columns_;
   Use use_;
   bool enough_ = false;
-  Told output_ = Told::kYes;
+  OutputResult output_ = OutputResult::kYes;
   std::uint64_t samples_ = 0;  // of the topic, as far as the columns are those of them all
   std::uint64_t written_ = 0;
   std::uint64_t unreadable_ = 0;

@@ -166,8 +166,8 @@ int Report(const WhyOptions& options, const std::vector<FleetMember>& members,
   const ProbeResult heard = report.probe.value_or(ProbeResult{});
   AddNotKnown(hearer, options.hearer, heard.hearer_foreign, &report);
   AddNotKnown(speaker, options.speaker, heard.speaker_foreign, &report);
-  const Told told = Tell(options.json ? ToJson(report) : ForTerminal(ToText(report)));
-  return told == Told::kFailed ? ExitCodeOf(told) : ExitCode(report);
+  const OutputResult result = Tell(options.json ? ToJson(report) : ForTerminal(ToText(report)));
+  return result == OutputResult::kFailed ? ExitCodeOf(result) : ExitCode(report);
 }
 
 }  // namespace
