@@ -99,7 +99,7 @@ failed_names=()
 passed=0
 failed=0
 stage=set-up
-said=$(mktemp) # what ctest printed of tests that failed, said again at the end
+said=$(mktemp) # what failed tests printed, said again at the end
 
 # The end of every run, also of one that could not continue: then the stage it was in failed.
 ending() {
@@ -136,10 +136,12 @@ check() {
 
 # check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints, and as
 # many as a line "N passed, N failed" of another run of tests counts, which lists them as "failed:".
+# Lines that begin with "| " say why something failed.
 check_lines() {
   local lines code=0 good bad names
   lines=$("$@") || code=$?
   printf '%s\n' "$lines"
+  grep '^| ' <<<"$lines" >>"$said" || true
   good=$(awk '/^ok /{n++} /^[0-9]+ passed, [0-9]+ failed$/{n += $1} END{print n + 0}' <<<"$lines")
   bad=$(awk '/^FAILED /{n++} /^[0-9]+ passed, [0-9]+ failed$/{n += $3} END{print n + 0}' <<<"$lines")
   mapfile -t names < <(sed -n 's/^FAILED  *//p; s/^failed: //p' <<<"$lines")
