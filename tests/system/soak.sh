@@ -20,11 +20,11 @@ refused() {
 refusals() {
   echo 'at { name: "a" time_s: 20 kind: "paus" vehicle: 1 for_s: 1 }' >"$SCRATCH/kind.textproto"
   echo 'at { name: "a" time_s: 20 kind: "pause" vehicle: 77 for_s: 1 }' >"$SCRATCH/absent.textproto"
-  echo 'at { name: "a" time_s: 20 kind: "shared_memory_small" target: "all" for_s: 1 }' >"$SCRATCH/shm.textproto"
+  echo 'at { name: "a" time_s: 20 kind: "spoofed" vehicle: 1 for_s: 1 }' >"$SCRATCH/spoofed.textproto"
   printf 'at { name: "%s" time_s: %s kind: "pause" vehicle: 1 for_s: 5 }\n' a 20 b 22 >"$SCRATCH/twice.textproto"
   refused 'pause' patrol --faults "$SCRATCH/kind.textproto" --duration 60
   refused '77' patrol --faults "$SCRATCH/absent.textproto" --duration 60
-  refused 'skip-unsupported' patrol --faults "$SCRATCH/shm.textproto" --duration 60
+  refused 'skip-unsupported' patrol --faults "$SCRATCH/spoofed.textproto" --duration 60
   refused 'b' patrol --faults "$SCRATCH/twice.textproto" --duration 60
   refused 'no_such' patrol --faults no_such --duration 60
   refused '30 s' patrol --faults calm --duration 5
@@ -162,6 +162,27 @@ whole() {
     fail "a recording of the soak does not replay"
 }
 
+# Shared memory that is deleted, littered and full, and a system clock that jumps: each is seen to happen,
+# and the machine's own /dev/shm and clock are left alone.
+host() {
+  local code=0 shm before
+  [[ $(id -u) -eq 0 ]] || return 0 # a /dev/shm apart needs root
+  shm=/dev/shm/giveway-soak-test-$$
+  echo kept >"$shm"
+  before=$SECONDS
+  "$FLEETCTL" soak patrol --vehicles 4 --qos same_host --faults "$SCRATCH/host.textproto" --duration 50 \
+    --report "$SCRATCH/host" --json >"$SCRATCH/host.json" 2>"$SCRATCH/host.log" || code=$?
+  [[ $code -eq 0 ]] || {
+    fail "a soak of the host's faults ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/host.json")"
+    tail -n 20 "$SCRATCH/host.log"
+  }
+  jq -e '[.faults[] | select(.observed)] | length == 5' "$SCRATCH/host.json" >/dev/null ||
+    fail "not every fault of the host was seen: $(jq -c '[.faults[] | {name, effect}]' "$SCRATCH/host.json")"
+  [[ $(cat "$shm") == kept ]] || fail "the machine's own /dev/shm was touched"
+  rm -f "$shm"
+  ((SECONDS - before < 300)) || fail "the clock of this script jumped"
+}
+
 # beside FUNCTION: it runs from now on; its failures count.
 runs=()
 beside() {
@@ -175,7 +196,15 @@ beside() {
 
 echo 'at { name: "stop" time_s: 14 kind: "pause" vehicle: 1 for_s: 10 }' >"$SCRATCH/long.textproto"
 echo 'at { name: "rest" time_s: 30 kind: "pause" vehicle: 1 for_s: 2 }' >"$SCRATCH/rest.textproto"
+cat >"$SCRATCH/host.textproto" <<'FAULTS'
+at { name: "forth" time_s: 16 kind: "clock_step" vehicle: 1 for_s: 4 offset_s: 3600 }
+at { name: "back" time_s: 17 kind: "clock_step" target: "world" for_s: 4 offset_s: -3600 }
+at { name: "littered" time_s: 18 kind: "shared_memory_left_over" target: "all" for_s: 3 count: 50 }
+at { name: "full" time_s: 23 kind: "shared_memory_small" target: "all" for_s: 3 }
+at { name: "gone" time_s: 28 kind: "shared_memory_gone" target: "all" }
+FAULTS
 beside whole
+beside host
 beside killed
 beside kept
 refusals

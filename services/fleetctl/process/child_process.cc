@@ -42,16 +42,18 @@ constexpr std::string_view kNoTwin = "GIVEWAY_CONFIG_DIR=";
 constexpr std::array<std::string_view, 3> kHandedOn{
     "GIVEWAY_LOG_FORMAT=", "GIVEWAY_THREADS=", "GIVEWAY_PARTITION_FREE="};
 
-std::vector<char*> EnvironmentOf(const ChildCommand& command) {
+// Of texts that `command` and this process's environment keep.
+std::vector<char*> EnvironmentOf(ChildCommand* command) {
   const auto is_handed_on = [&](std::string_view text) {
     const auto names = [text](std::string_view name) { return text.starts_with(name); };
-    return names(kNoTwin) || (!command.flags_only && std::ranges::any_of(kHandedOn, names));
+    return names(kNoTwin) || (!command->flags_only && std::ranges::any_of(kHandedOn, names));
   };
   std::vector<char*> variables;
   for (char** variable = environ; *variable != nullptr; ++variable) {
     const std::string_view text(*variable);
     if (!text.starts_with("GIVEWAY_") || is_handed_on(text)) variables.push_back(*variable);
   }
+  for (std::string& variable : command->environment) variables.push_back(variable.data());
   variables.push_back(nullptr);
   return variables;
 }
@@ -115,11 +117,11 @@ ChildProcess::ChildProcess(const ChildCommand& command)
     log_.open(command.log_file, std::ios::trunc);
     if (!log_) throw StartError("cannot write " + command.log_file + ": " + ErrnoText());
   }
-  std::vector<std::string> words = command.words;
+  ChildCommand own = command;
   std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
+  for (std::string& word : own.words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  std::vector<char*> environment = EnvironmentOf(command);
+  std::vector<char*> environment = EnvironmentOf(&own);
 
   Pipe pipe = MakePipe();
   const pid_t parent = ::getpid();

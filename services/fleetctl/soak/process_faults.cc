@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -88,14 +89,17 @@ const char* ProcessFaults::WhyNot(const faults::Fault& fault) {
     case Kind::kChurn:
       return nullptr;
     case Kind::kClockStep:
-      return "the clock of a process that runs cannot be stepped from outside";
+      if (fault.target.what == Target::What::kDiscoveryServer) break;
+      return ClockStepLibrary().empty() ? "lib/giveway/libgiveway-clock-step.so is not there, next to bin"
+                                        : nullptr;
     case Kind::kSharedMemoryGone:
     case Kind::kSharedMemoryLeftOver:
     case Kind::kSharedMemorySmall:
-      return "/dev/shm is shared with every other fleet of this machine";
+      return WhyNoPrivateShm();
     default:
       return "it is not the supervisor's";
   }
+  return "there is no discovery server in this fleet";
 }
 
 std::vector<MemberId> ProcessFaults::MembersOf(const Target& target) const {
@@ -120,6 +124,7 @@ const MemberCommand* ProcessFaults::CommandOf(MemberId member) const {
 }
 
 std::string ProcessFaults::EffectOf(const faults::Fault& fault) const {
+  if (const auto shm = shm_effects_.find(&fault); shm != shm_effects_.end()) return shm->second;
   for (const MemberId member : MembersOf(fault.target)) {
     if (CommandOf(member) == nullptr) continue;
     const std::string effect = EffectOn(fault, member);
@@ -148,9 +153,50 @@ std::string ProcessFaults::EffectOn(const faults::Fault& fault, MemberId member)
       return "nobody reads its log";
     case Kind::kDuplicateId:
       return doubles_.contains(&fault) ? "a second process asks for its id" : "";
+    case Kind::kClockStep:
+      return ReadingsMoved(member);
     default:
       return {};
   }
+}
+
+std::string ProcessFaults::ReadingsMoved(MemberId member) const {
+  const auto clock = tools_.clocks.find(member);
+  const auto before = moved_before_.find(member);
+  if (clock == tools_.clocks.end() || before == moved_before_.end()) return {};
+  const std::uint64_t moved = clock->second.Shifted() - before->second;
+  return moved == 0 ? "" : fmt::format("{} of its readings of the system clock were moved", moved);
+}
+
+void ProcessFaults::BeginOfSharedMemory(const faults::Fault& fault) {
+  std::size_t files = 0;
+  switch (fault.kind) {
+    case Kind::kSharedMemoryGone:
+      files = tools_.shm->DeleteAll();
+      if (files > 0) shm_effects_[&fault] = fmt::format("{} files were deleted", files);
+      break;
+    case Kind::kSharedMemoryLeftOver:
+      files = tools_.shm->LeaveOver(fault.parameters.count.value_or(1));
+      if (files > 0) shm_effects_[&fault] = fmt::format("{} segments of nobody lie there", files);
+      break;
+    case Kind::kSharedMemorySmall:
+      if (tools_.shm->Fill()) shm_effects_[&fault] = "no byte of /dev/shm is free";
+      break;
+    default:
+      break;
+  }
+}
+
+void ProcessFaults::EndOfSharedMemory(const faults::Fault& fault) {
+  if (fault.kind == Kind::kSharedMemoryLeftOver) tools_.shm->RemoveLeftOver();
+  if (fault.kind == Kind::kSharedMemorySmall) tools_.shm->Empty();
+}
+
+void ProcessFaults::StepClock(MemberId member, double offset_s) {
+  const auto clock = tools_.clocks.find(member);
+  if (clock == tools_.clocks.end()) return;
+  if (offset_s != 0) moved_before_[member] = clock->second.Shifted();
+  clock->second.Step(std::llround(offset_s));
 }
 
 std::vector<std::size_t> ProcessFaults::KillersOf(MemberId member,
@@ -174,12 +220,14 @@ void ProcessFaults::Begin(const faults::Fault& fault) {
     churns_[&fault].left = fault.parameters.count.value_or(1);
     return;
   }
+  if (tools_.shm != nullptr) BeginOfSharedMemory(fault);
   for (const MemberId member : MembersOf(fault.target)) BeginOn(fault, member);
 }
 
 void ProcessFaults::End(const faults::Fault& fault) {
   churns_.erase(&fault);
   doubles_.erase(&fault);
+  if (tools_.shm != nullptr) EndOfSharedMemory(fault);
   for (const MemberId member : MembersOf(fault.target)) EndOn(fault, member);
 }
 
@@ -218,6 +266,9 @@ void ProcessFaults::BeginOn(const faults::Fault& fault, MemberId member) {
       break;
     case Kind::kLogReaderStops:
       processes_->HearLog(member, false);
+      break;
+    case Kind::kClockStep:
+      StepClock(member, with.offset_s.value_or(0));
       break;
     case Kind::kQosApply:
       GiveOrder(fault, member);
@@ -263,6 +314,9 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
       break;
     case Kind::kLogReaderStops:
       processes_->HearLog(member, true);
+      break;
+    case Kind::kClockStep:
+      StepClock(member, 0);
       break;
     default:
       break;

@@ -16,6 +16,8 @@
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/fleet_processes.h"
+#include "services/fleetctl/soak/host_faults/private_shm.h"
+#include "services/fleetctl/soak/host_faults/steppable_clock.h"
 
 namespace giveway::fleetctl {
 
@@ -26,6 +28,9 @@ struct FaultTools {
   std::uint32_t domain = 0;
   std::string interface;
   std::string admin_key;  // the file of the key that the fleet's orders are sealed with
+  // Of members whose system clock is to be stepped, and who were started with it.
+  std::map<MemberId, SteppableClock> clocks;
+  PrivateShm* shm = nullptr;  // null: no fault is of shared memory. Outlives the faults
   // What a vehicle that is started so many seconds after the start signal is given with --impair:
   // its clock of the rules starts when it joins. Empty: nothing is impaired any more.
   std::function<std::string(VehicleId, double)> impairment_since;
@@ -86,6 +91,10 @@ class ProcessFaults {
   };
 
   std::string EffectOn(const faults::Fault& fault, MemberId member) const;
+  std::string ReadingsMoved(MemberId member) const;
+  void BeginOfSharedMemory(const faults::Fault& fault);
+  void EndOfSharedMemory(const faults::Fault& fault);
+  void StepClock(MemberId member, double offset_s);
   void BeginOn(const faults::Fault& fault, MemberId member);
   void EndOn(const faults::Fault& fault, MemberId member);
   std::vector<MemberId> MembersOf(const faults::Target& target) const;
@@ -101,7 +110,9 @@ class ProcessFaults {
   FleetProcesses* processes_;
   std::map<MemberId, const faults::Fault*> away_;
   std::set<MemberId> returning_;  // killed, and started again once that is over
+  std::map<const faults::Fault*, std::string> shm_effects_;
   std::map<MemberId, Slow> slow_;
+  std::map<MemberId, std::uint64_t> moved_before_;  // readings, before the clock was last stepped
   std::map<const faults::Fault*, Churn> churns_;
   std::map<const faults::Fault*, std::unique_ptr<ChildProcess>> orders_;
   std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <sys/utsname.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "services/config/faults/faults_file.h"
 #include "services/config/impair.h"
@@ -24,6 +27,7 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
+#include "services/fleetctl/soak/host_faults/private_shm.h"
 #include "services/fleetctl/soak/soak_draw.h"
 #include "services/fleetctl/soak/soak_json.h"
 #include "services/fleetctl/soak/soak_page.h"
@@ -187,6 +191,29 @@ std::string ImpairFlag(const fs::path& folder, VehicleId vehicle, const Impairme
   return "@" + file.string();
 }
 
+bool IsOfSharedMemory(faults::Kind kind) {
+  return kind == faults::Kind::kSharedMemoryGone || kind == faults::Kind::kSharedMemoryLeftOver ||
+         kind == faults::Kind::kSharedMemorySmall;
+}
+
+// Who has a clock of its own: steps may strike it.
+bool IsStepped(const faults::Schedule& schedule, MemberId member) {
+  return std::ranges::any_of(schedule, [&](const faults::Fault& fault) {
+    if (fault.kind != faults::Kind::kClockStep) return false;
+    switch (fault.target.what) {
+      case faults::Target::What::kVehicle:
+        return MemberOf(fault.target.vehicle) == member;
+      case faults::Target::What::kWorld:
+        return member == kTheWorld;
+      case faults::Target::What::kAll:
+        return true;
+      case faults::Target::What::kDiscoveryServer:
+        break;
+    }
+    return false;
+  });
+}
+
 FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prepared& prepared) {
   FaultTools tools;
   tools.commands = MakeCommands(spec, prepared.scenario);
@@ -201,6 +228,11 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
     return found == impaired.end() ? std::string() : ImpairFlag(folder, vehicle, found->second);
   };
   for (MemberCommand& command : tools.commands) {
+    if (IsStepped(prepared.schedule, command.member)) {
+      const fs::path file = folder / fmt::format("{}.clock", command.member.number);
+      const auto [clock, is_new] = tools.clocks.emplace(command.member, SteppableClock(file));
+      command.child.environment = clock->second.Environment();
+    }
     if (command.member == kTheWorld) continue;
     const std::string impair = tools.impairment_since(VehicleId{command.member.number}, 0);
     if (!impair.empty()) SetFlag(&command.child.words, "--impair", impair);
@@ -284,6 +316,8 @@ int SoakVirtually(const SoakOptions& options) {
 
 // `whole` is what this is the rest of, if it is.
 int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const SoakResult* whole) {
+  std::optional<PrivateShm> shm;  // first: the threads and processes of the soak share it
+  if (std::ranges::any_of(prepared.schedule, IsOfSharedMemory, &faults::Fault::kind)) shm.emplace();
   const Interrupts interrupts;
   const DomainLock lock(options.domain);
   const RunKey key(options.admin_key, lock.Domain());
@@ -294,8 +328,10 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
   std::fprintf(stderr, "%s on domain %u, %u vehicles, %zu faults planned, %zu left out\n",
                blank.scenario.c_str(), lock.Domain(), blank.vehicles, prepared.schedule.size(),
                prepared.skipped.size());
+  FaultTools tools = ToolsOf(options, spec, prepared);
+  tools.shm = shm ? &*shm : nullptr;
   SoakSession session(spec, prepared.scenario, prepared.schedule, prepared.phases,
-                      ToolsOf(options, spec, prepared));
+                      std::move(tools));
   const auto judged = [&](const SoakSeen& seen) {
     SoakResult result = blank;
     Judge({seen, prepared.schedule, limits,
