@@ -65,3 +65,20 @@ id_of() { sed -n 's/.*is vehicle \([0-9]*\).*/\1/p' "$SCRATCH/$1.log" | tail -n 
 no_contact() {
   if grep -H 'contact:' "$SCRATCH"/world*.log; then fail "vehicles touched"; fi
 }
+
+# Starts a process that only sleeps, 20 ms at a time, and notes each time that it was woken 40 ms late or
+# more: then the machine was too busy for vehicles, too, whose ranges are stale after 150 ms.
+keep_time() {
+  : >"$SCRATCH/late_us"
+  (
+    exec 3<> <(:)
+    while :; do
+      begun=${EPOCHREALTIME/[.,]/}
+      read -rt 0.02 -u 3 _ || true
+      late_us=$((${EPOCHREALTIME/[.,]/} - begun - 20000))
+      ((late_us < 40000)) || echo "$late_us" >>"$SCRATCH/late_us"
+    done
+  ) &
+  PID[time]=$!
+}
+times_late() { wc -l <"$SCRATCH/late_us"; }

@@ -4,12 +4,16 @@
 # and no two bodies touch.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
+keep_time
 
 start world giveway-world
 start a giveway-vehicle
 start b giveway-vehicle
 await "the first two drive (a)" 15 a 'cruise'
 await "the first two drive (b)" 15 b 'cruise'
+
+# As traffic has it: the lanes cross.
+DRIVES='cruise|keep_clear|give_way|not_granted'
 
 # As itself: its id is asked for, and its body still stands where it was left.
 id=$(id_of b)
@@ -27,8 +31,8 @@ await "the dead one is removed" 10 world 'body is taken away'
 
 start c giveway-vehicle
 start d giveway-vehicle
-await "four drive (c)" 10 c 'cruise'
-await "four drive (d)" 10 d 'cruise'
+await "four drive (c)" 10 c "$DRIVES"
+await "four drive (d)" 10 d "$DRIVES"
 left=$(id_of c)
 for name in c d; do kill -TERM "${PID[$name]}"; done
 for name in c d; do
@@ -38,13 +42,15 @@ for name in c d; do
   [[ $code -eq 0 ]] || fail "leaving: exit code $code of $name"
 done
 await "one has left" 3 world "vehicle $left left the run"
-line=$(lines_of b2)
+line=$(lines_of b2) late=$(times_late)
 start e giveway-vehicle
 await "another comes" 10 e 'cruise'
 for name in world b2 a2 e; do alive "$name" || fail "$name is gone"; done
-if tail -n "+$((line + 1))" "$SCRATCH/b2.log" | grep -q 'halt'; then
-  fail "who stayed was stopped by the others' coming: $(tail -n 3 "$SCRATCH/b2.log")"
+halts=$(tail -n "+$((line + 1))" "$SCRATCH/b2.log" | grep '(halt)' || true)
+if [[ $(times_late) -gt $late ]]; then # the machine may have made its ranges stale
+  halts=$(grep -v 'ranges_stale' <<<"$halts" || true)
 fi
+[[ -z $halts ]] || fail "who stayed was stopped by the others' coming: $halts"
 
 # The world ends: everybody goes home by themselves.
 kill -TERM "${PID[world]}"

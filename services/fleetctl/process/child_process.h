@@ -46,14 +46,14 @@ std::filesystem::path ProgramFolder();
 struct ChildCommand {
   std::string name;                // for people: "vehicle 2"
   std::vector<std::string> words;  // the program's path, then its arguments
-  // In addition to what it is given of this process's environment: NAME=value each.
-  std::vector<std::string> environment;
-  std::string log_file;         // everything the child says is copied here; empty: nowhere
-  int kept_fd = -1;             // stays open in the child as descriptor 3; -1: none
-  bool hands_on_lines = false;  // every line is kept for TakeLines
+  std::string log_file;            // everything the child says is copied here; empty: nowhere
+  int kept_fd = -1;                // stays open in the child as descriptor 3; -1: none
+  bool hands_on_lines = false;     // every line is kept for TakeLines
   // No GIVEWAY_ variable of this shell is a flag of the child. Without this the log's format, the
   // world's threads and free partitions may be given so; no other flag ever is.
   bool flags_only = false;
+  // In addition to what it is given of this process's environment: NAME=value each.
+  std::vector<std::string> environment = {};
 };
 
 class ChildProcess {
