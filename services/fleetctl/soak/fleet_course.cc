@@ -1,5 +1,7 @@
 #include "services/fleetctl/soak/fleet_course.h"
 
+#include <algorithm>
+
 namespace giveway::fleetctl {
 
 std::string FleetCourse::ModeOf(const SoakWatch& watch, VehicleId vehicle, SteadyTime now) const {
@@ -26,8 +28,14 @@ void FleetCourse::SeekHealing(const SoakWatch& watch, SteadyTime now, SoakSeen* 
   if (!healed_from_) healed_from_ = now;
   for (const VehicleId vehicle : fleet_) {
     if (is_gone_(vehicle)) continue;
+    const SteadyTime status_at = std::max(watch.StatusAt(vehicle), *healed_from_);
+    double& silent_s = seen->silent_s[vehicle];
+    silent_s = std::max(silent_s, Seconds(now - status_at));
+    // What it reported before does not count: it may be deaf, or unheard, since.
     auto& healed = seen->healing[vehicle];
-    if (!healed && watch.IsWell(vehicle, now)) healed = Seconds(now - *healed_from_);
+    if (!healed && status_at > *healed_from_ && watch.IsWell(vehicle, now)) {
+      healed = Seconds(now - *healed_from_);
+    }
   }
 }
 

@@ -90,8 +90,9 @@ const char* ProcessFaults::WhyNot(const faults::Fault& fault) {
       return nullptr;
     case Kind::kClockStep:
       if (fault.target.what == Target::What::kDiscoveryServer) break;
-      return ClockStepLibrary().empty() ? "lib/giveway/libgiveway-clock-step.so is not there, next to bin"
-                                        : nullptr;
+      return ClockStepLibrary().empty()
+                 ? "lib/giveway/libgiveway-clock-step.so is not there, next to bin"
+                 : nullptr;
     case Kind::kSharedMemoryGone:
     case Kind::kSharedMemoryLeftOver:
     case Kind::kSharedMemorySmall:

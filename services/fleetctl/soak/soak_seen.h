@@ -52,6 +52,8 @@ struct SoakSeen {
   std::uint32_t restarts = 0;  // after those
   // When each vehicle that lives was well again after the last fault's end, seconds; absent: never.
   std::map<VehicleId, std::optional<double>> healing;
+  // Of each that lives: the longest time without a status of it since the last fault ended.
+  std::map<VehicleId, double> silent_s;
   std::vector<BrokenInvariant> broken;  // the first ones
   std::uint64_t broken_counted = 0;
   std::vector<NearMiss> near_misses;

@@ -213,6 +213,11 @@ class Judging {
                                   *healed_s, kHealWithin_s)
                     : "did not drive again after the last fault");
     }
+    for (const auto& [vehicle, silent_s] : from_.seen.silent_s) {
+      if (silent_s <= kHealWithin_s) continue;
+      Tell(from_.seen.lasted_s, vehicle, "silent",
+           fmt::format("no status was received of it for {:.1f} s after the last fault", silent_s));
+    }
     if (healing.histogram.Count() > 0) result_.histograms.push_back(std::move(healing));
     AddTimes("noticed", &SoakFault::noticed_after_s);
     AddTimes("recovered", &SoakFault::recovered_after_s);

@@ -238,6 +238,11 @@ const VehicleStatus* SoakWatch::StatusOf(VehicleId vehicle) const {
   return view != views_.end() && view->second.status ? &*view->second.status : nullptr;
 }
 
+SteadyTime SoakWatch::StatusAt(VehicleId vehicle) const {
+  const auto view = views_.find(vehicle);
+  return view != views_.end() ? view->second.status_at : SteadyTime{0};
+}
+
 const Truth* SoakWatch::TruthOf(VehicleId vehicle) const {
   const auto view = views_.find(vehicle);
   return view != views_.end() && view->second.truth ? &*view->second.truth : nullptr;

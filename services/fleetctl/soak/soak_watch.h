@@ -56,6 +56,8 @@ class SoakWatch {
   std::span<const std::size_t> Open() const { return open_; }
   double HighestStepP99_us(VehicleId vehicle) const;
   const VehicleStatus* StatusOf(VehicleId vehicle) const;
+  // When the newest was received; 0 before the first.
+  SteadyTime StatusAt(VehicleId vehicle) const;
   const Truth* TruthOf(VehicleId vehicle) const;
   std::uint64_t StatusesRefused() const { return refused_; }
 

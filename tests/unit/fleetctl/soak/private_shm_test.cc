@@ -29,9 +29,9 @@ class PrivateShmTest : public ::testing::Test {
     return names;
   }
 
-  fs::path folder_ = fs::temp_directory_path() /
-                     ("giveway_shm_" + std::to_string(::getpid()) +
-                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  fs::path folder_ =
+      fs::temp_directory_path() / ("giveway_shm_" + std::to_string(::getpid()) +
+                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
   PrivateShm shm_{folder_};
 };
 

@@ -118,6 +118,13 @@ TEST_F(SoakVerdictTest, FailsWhereOneDoesNotDriveAgain) {
   EXPECT_EQ(Judged().violations.at(0).vehicle, kTwo);
 }
 
+TEST_F(SoakVerdictTest, OneThatIsNoLongerHeardFailsItThoughItDroveAfterTheLastFault) {
+  seen_.silent_s[kTwo] = 4.9;
+  EXPECT_TRUE(Judged().violations.empty());
+  seen_.silent_s[kTwo] = 5.1;
+  EXPECT_EQ(Judged().violations.at(0).invariant, "silent");
+}
+
 TEST_F(SoakVerdictTest, TellsOfABrokenInvariantWithTheFaultBehindIt) {
   seen_.broken = {{12, {sim::Invariant::kContact, Tick{240}, kOne, kTwo}}};
   seen_.broken_counted = 3;
