@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "services/link/observer_link.h"
 #include "services/link/ros2/ros2_link.h"
 #include "services/link/sample_codec.h"
 #include "services/ros2/definitions.h"

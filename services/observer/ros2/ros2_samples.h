@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "services/link/observer_link.h"
 #include "services/link/raw_link.h"
 #include "services/ros2/view.h"
 
