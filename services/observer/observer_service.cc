@@ -151,11 +151,19 @@ void ObserverService::Turn() {
   const link::Observed observed = link_.Take();
   const SteadyTime now = SteadyNow();
   LogNews(observed.refusals, {}, now, &refusal_log_);
-  if (ros2_) ros2_->Publish(observed, SinceEpoch_ns());
+  PublishRos2(observed);
   const std::lock_guard lock(mutex_);
   view_.Fold(observed, now);
   refused_samples_ += observed.refused;
   turned_ns_ = now.count();
+}
+
+void ObserverService::PublishRos2(const link::Observed& observed) {
+  if (!ros2_) return;
+  ros2_->Publish(observed, SinceEpoch_ns());
+  if (ros2_->Refused() > 0 && !std::exchange(ros2_refusal_logged_, true)) {
+    LogWarning("Fast DDS refused a ROS 2 message; more are not logged");
+  }
 }
 
 void ObserverService::Publish(SteadyTime now) {

@@ -35,6 +35,7 @@ class ObserverService {
   PageAnswer Metrics(const ServerFigures& server);
   PageAnswer Ready();
   void Turn();
+  void PublishRos2(const link::Observed& observed);
   void Publish(SteadyTime now);
 
   std::mutex mutex_;
@@ -46,6 +47,7 @@ class ObserverService {
   FrameBoard board_;
   link::ObserverLink link_;
   std::optional<Ros2Publisher> ros2_;  // of the loop
+  bool ros2_refusal_logged_ = false;
   PageServer server_;  // last: its threads read all of the above, from its constructor on
 };
 

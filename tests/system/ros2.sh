@@ -12,16 +12,24 @@ is() { jq -es "$3" "$2" >/dev/null || fail "$1: not true: $3: $(wc -l <"$2") mes
 take_domain
 other=$DOMAIN
 take_domain
+sed 's/remove_after_s: 3/remove_after_s: 1/' "$LANES" >lanes.textproto
+LANES=$SCRATCH/lanes.textproto
 start world giveway-world
 start vehicle giveway-vehicle --id 1
 start observer giveway-observer --ros2 --port $((18000 + DOMAIN))
 start apart giveway-observer --ros2 --ros2-domain "$other" --ros2-rate 5 --port $((18200 + DOMAIN))
 await "observer" 10 observer "publishes ROS 2 topics in domain $DOMAIN"
 await "observer apart" 10 apart "publishes ROS 2 topics in domain $other"
-await "vehicle" 20 vehicle "is vehicle 1"
-"$LISTENER" "$DOMAIN" 1 14 >heard &
+await "vehicle" 20 vehicle 'vehicle 1: cruise'
+# A reader that stops acknowledging delays nothing.
+"$LISTENER" "$DOMAIN" 1 60 >heard_stopped &
+PID[stopped]=$!
+"$LISTENER" "$DOMAIN" 1 10 >heard &
 listener=$!
-"$LISTENER" "$other" 1 4 >heard_apart || fail "listener apart: exit code $?"
+"$LISTENER" "$other" 1 3 >heard_apart || fail "listener apart: exit code $?"
+kill -STOP "${PID[stopped]}"
+is "a reader, before it is stopped" heard_stopped 'length > 20'
+sleep 1.5 # what it misses
 kill_now vehicle
 wait "$listener" || fail "listener: exit code $?"
 
@@ -29,6 +37,8 @@ is "odometry" heard '[.[] | select(.topic == "/giveway/v1/odom")] | length > 20 
   all(.frame_id == "map" and .child_frame_id == "giveway_v1/base_link" and .y == 0 and .variance_x >= 0) and
   (.[-1].x - .[0].x > 0.5) and (.[-1].forward > 0.2) and
   ((length - 1) / (.[-1].stamp - .[0].stamp) | . > 8 and . < 11)'
+is "odometry without a pause" heard '[.[] | select(.topic == "/giveway/v1/odom") | .stamp] |
+  [.[1:], .[:-1]] | transpose | map(.[0] - .[1]) | max < 0.5'
 is "odometry is stamped by now" heard '[.[] | select(.topic == "/giveway/v1/odom")] |
   all(.[]; .stamp > now - 60 and .stamp < now + 1)'
 is "ranges" heard '[.[] | select(.topic == "/giveway/v1/ultrasonics")] | length > 50 and

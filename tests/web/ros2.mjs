@@ -61,10 +61,11 @@ const file = join(work, "ros2.mcap");
 const last = join(work, "ros2_last.mcap");
 const run = start("fleetctl", "run", "intersection_yield");
 const domain = await domainOf(run);
-const recorder = start("fleetctl", "record", file, "--domain", domain, "--ros2");
-const ring = start("fleetctl", "record", last, "--domain", domain, "--ros2", "--last", "3s", "--ros2-rate", "20");
-await run.ended;
-const codes = await Promise.all([stop(recorder, "SIGINT"), stop(ring, "SIGINT")]);
+const recorder = start("fleetctl", "record", file, "--domain", domain, "--ros2", "--duration", "11s");
+const ring = start("fleetctl", "record", last, "--domain", domain, "--ros2", "--last", "3s", "--ros2-rate", "20",
+  "--duration", "11s");
+const codes = await Promise.all([recorder.ended, ring.ended]);
+await stop(run, "SIGINT");
 let reader, messages = [];
 const of = (topic) => messages.filter((message) => message.topic === topic);
 const stampOf = ({ sec, nsec, nanosec }) => BigInt(sec) * 1000000000n + BigInt(nsec ?? nanosec);

@@ -30,7 +30,7 @@ dds::DataWriterQos QosOf(const std::string& topic) {
   qos.resource_limits().allocated_samples = 1;
   qos.publish_mode().kind = dds::ASYNCHRONOUS_PUBLISH_MODE;
   qos.data_sharing().off();
-  // By its bounds a message is megabytes: room is made for what there is.
+  // By its bounds a message is megabytes: memory is taken for what is written.
   qos.endpoint().history_memory_policy = rtps::DYNAMIC_REUSABLE_MEMORY_MODE;
   SetHeartbeatPeriod(qos, kHeartbeat);
   qos.writer_resource_limits().reader_filters_allocation.maximum = 0;  // a stranger's expressions
