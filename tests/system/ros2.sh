@@ -10,8 +10,12 @@ cd "$SCRATCH"
 is() { jq -es "$3" "$2" >/dev/null || fail "$1: not true: $3: $(wc -l <"$2") messages, $(jq -c .topic "$2" | sort | uniq -c | tr '\n' ' ')"; }
 
 take_domain
-other=$DOMAIN
-take_domain
+# Another; who takes domains by the lock alone takes low ones first.
+for other in $(seq 59 -1 40); do
+  exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$other.lock"
+  flock -n "$lock" && break
+  exec {lock}>&-
+done
 sed 's/remove_after_s: 3/remove_after_s: 1/' "$LANES" >lanes.textproto
 LANES=$SCRATCH/lanes.textproto
 start world giveway-world
