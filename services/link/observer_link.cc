@@ -19,7 +19,7 @@ constexpr std::int32_t kBeaconDepth = 32;  // an observer that looks once a seco
 }  // namespace
 
 struct ObserverLink::Impl {
-  Impl(const LinkOptions& options, Ranges ranges)
+  Impl(const LinkOptions& options, Ranges ranges, Commands commands)
       : participant(OfAllBodies(options), "giveway-observer", names),
         status_reader(participant.MakeReader<wire::Status>("v*", &status_owners)),
         beacons(participant.MakeReader<wire::Beacon>(
@@ -36,19 +36,25 @@ struct ObserverLink::Impl {
     if (ranges == Ranges::kYes) {
       ranges_reader = participant.MakeReader<wire::RangeScan>("v*", &worlds);
     }
+    if (commands == Commands::kYes) {
+      commands_reader = participant.MakeReader<wire::MotorCommand>("v*", &command_owners);
+    }
   }
 
-  void TakeStatuses(Observed& observed) {
-    status_reader.TakeEach([&](const wire::Status& sample, const dds::SampleInfo& info) {
+  // Appends every sample of a vehicle that its own participant wrote, and that this build can read.
+  template <typename Wire, typename Ours>
+  void AppendOwn(Reader<Wire>& reader, FirstComerFilter& owners, std::vector<Ours>& list,
+                 Observed& observed) {
+    reader.TakeEach([&](const Wire& sample, const dds::SampleInfo& info) {
       const rtps::GUID_t& writer = info.sample_identity.writer_guid();
       const WriterEntry* const entry = names.Writers().Find(writer);
-      VehicleStatus status;
+      Ours value;
       if (entry == nullptr || entry->vehicle == kNobody ||
           entry->vehicle != VehicleId{sample.vehicle()} ||
-          !status_owners.Spoke(entry->vehicle, ParticipantOf(writer))) {
+          !owners.Spoke(entry->vehicle, ParticipantOf(writer))) {
         ++observed.refused;
-      } else if (FromWire(sample, status)) {
-        observed.statuses.push_back(status);
+      } else if (FromWire(sample, value)) {
+        list.push_back(std::move(value));
       }
     });
   }
@@ -69,11 +75,12 @@ struct ObserverLink::Impl {
     for (const Truth& truth : truths) tick_period.Hear(truth);
     worlds.SetTickPeriod(tick_period.Get());
     status_owners.SetTickPeriod(tick_period.Get());
+    command_owners.SetTickPeriod(tick_period.Get());
   }
   void TakeRefusals(Observed& observed) {
     std::uint32_t refused = 0;
-    for (SampleFilter* const filter :
-         std::initializer_list<SampleFilter*>{&beacon_ids, &status_owners, &worlds}) {
+    for (SampleFilter* const filter : std::initializer_list<SampleFilter*>{
+             &beacon_ids, &status_owners, &command_owners, &worlds}) {
       filter->TakeRefusals(&observed.refusals);
       refused += filter->Refused();
     }
@@ -84,6 +91,7 @@ struct ObserverLink::Impl {
   ReaderEvents beacon_events{&RemoveDeparted<wire::Beacon>};  // only to remove; its news go unread
   KeyQuota beacon_ids{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   FirstComerFilter status_owners{"status"};
+  FirstComerFilter command_owners{"motor command"};
   FirstWorldFilter worlds{"sample of a world",
                           [this](std::uint64_t one) { return names.IsWorld(one); }};
   TickPeriod tick_period;
@@ -97,22 +105,26 @@ struct ObserverLink::Impl {
   Reader<wire::SignalState> signal_reader;
   Reader<wire::Figures> figures_reader;
   std::optional<Reader<wire::RangeScan>> ranges_reader;
+  std::optional<Reader<wire::MotorCommand>> commands_reader;
 };
 
-ObserverLink::ObserverLink(const LinkOptions& options, Ranges ranges)
-    : impl_(std::make_unique<Impl>(options, ranges)) {}
+ObserverLink::ObserverLink(const LinkOptions& options, Ranges ranges, Commands commands)
+    : impl_(std::make_unique<Impl>(options, ranges, commands)) {}
 ObserverLink::~ObserverLink() = default;
 
 Observed ObserverLink::Take() {
   impl_->names.Writers().Update();
   Observed observed;
-  impl_->TakeStatuses(observed);
+  impl_->AppendOwn(impl_->status_reader, impl_->status_owners, observed.statuses, observed);
   impl_->beacons.Drain(SteadyTime{0}, observed.beacons);
   impl_->Append(impl_->truth_reader, observed.truths, observed);
   impl_->Append(impl_->event_reader, observed.events, observed);
   impl_->Append(impl_->roster_reader, observed.roster, observed);
   impl_->Append(impl_->signal_reader, observed.signals, observed);
   if (impl_->ranges_reader) impl_->Append(*impl_->ranges_reader, observed.ranges, observed);
+  if (impl_->commands_reader) {
+    impl_->AppendOwn(*impl_->commands_reader, impl_->command_owners, observed.commands, observed);
+  }
   std::vector<RunFigures> figures;
   impl_->Append(impl_->figures_reader, figures, observed);
   if (!figures.empty()) observed.figures = figures.back();

@@ -9,6 +9,7 @@
 #include "services/link/fastdds/link_options.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
+#include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
 #include "services/types/refusal.h"
 #include "services/types/signal.h"
@@ -23,7 +24,8 @@ struct Observed {
   std::vector<RosterEntry> roster;
   std::vector<SignalState> signals;
   std::optional<RunFigures> figures;
-  std::vector<RangeScan> ranges;  // only where they are asked for
+  std::vector<RangeScan> ranges;       // only where they are asked for
+  std::vector<MotorCommand> commands;  // likewise
   // Statuses whose id is not the one of their writer's partition, and samples of a participant that
   // may not say that, or of ids too many; and the first few of the latter.
   std::uint32_t refused = 0;
@@ -35,9 +37,11 @@ class ObserverLink {
   // The ranges of all vehicles are what the world sends most of: it sends them to every observer
   // that asks for them.
   enum class Ranges : std::uint8_t { kNo, kYes };
+  enum class Commands : std::uint8_t { kNo, kYes };
 
-  explicit ObserverLink(const LinkOptions& options,
-                        Ranges ranges = Ranges::kNo);  // Throws LinkError.
+  // Throws LinkError.
+  explicit ObserverLink(const LinkOptions& options, Ranges ranges = Ranges::kNo,
+                        Commands commands = Commands::kNo);
   ~ObserverLink();
   ObserverLink(const ObserverLink&) = delete;
   ObserverLink& operator=(const ObserverLink&) = delete;

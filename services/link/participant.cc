@@ -282,16 +282,30 @@ dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& top
   return *topic;
 }
 
-dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& profile,
-                                         const std::string& partition, std::int32_t depth) {
+dds::Publisher& Participant::MakePublisher(const std::string& partition) {
   dds::PublisherQos publisher_qos;
   if (!partition.empty()) publisher_qos.partition().push_back(partition.c_str());
   auto* publisher = participant_->create_publisher(publisher_qos, nullptr, dds::StatusMask::none());
   if (publisher == nullptr) ThrowNotMade("publisher for partition " + partition);
-  auto* writer = publisher->create_datawriter(&topic, WriterQos(*publisher, profile, depth),
-                                              nullptr, dds::StatusMask::none());
+  return *publisher;
+}
+
+dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& profile,
+                                         const std::string& partition, std::int32_t depth) {
+  dds::Publisher& publisher = MakePublisher(partition);
+  auto* writer = publisher.create_datawriter(&topic, WriterQos(publisher, profile, depth), nullptr,
+                                             dds::StatusMask::none());
   if (writer == nullptr) ThrowNotMade("writer of profile \"" + profile + "\"");
   writers_.emplace_back(profile, writer);
+  return *writer;
+}
+
+dds::DataWriter& Participant::MakeForeignWriter(dds::TypeSupport type, const std::string& topic,
+                                                const dds::DataWriterQos& qos) {
+  dds::Topic& made = MakeTopic(std::move(type), topic);
+  auto* writer = MakePublisher("").create_datawriter(&made, qos, nullptr, dds::StatusMask::none());
+  if (writer == nullptr) ThrowNotMade("writer of topic \"" + topic + "\"");
+  writers_.emplace_back(topic, writer);
   return *writer;
 }
 

@@ -50,6 +50,10 @@ class Participant {
   Reader<Wire> MakeReader(const std::string& partition, SampleFilter* filter) {
     return MakeReader<Wire>(partition, kProfileDepth, nullptr, dds::StatusMask::none(), filter);
   }
+  // A writer for readers outside the fleet, whose topic, type and QoS others have defined; in the
+  // default partition. Throws LinkError.
+  dds::DataWriter& MakeForeignWriter(dds::TypeSupport type, const std::string& topic,
+                                     const dds::DataWriterQos& qos);
   // From now on every topic is another one, that no endpoint of the fleet has.
   void StandApart() { topic_prefix_ = "qos-trial/"; }
   // Deletes a writer made here, and its publisher. What is left goes with the participant.
@@ -85,6 +89,7 @@ class Participant {
   dds::Topic& MakeTopic(dds::TypeSupport type, const std::string& name);
   dds::DataWriter& MakeWriter(dds::Topic& topic, const std::string& profile,
                               const std::string& partition, std::int32_t depth);
+  dds::Publisher& MakePublisher(const std::string& partition);
   dds::DataReader& MakeReader(dds::Topic& topic, const std::string& profile,
                               const std::string& partition, std::int32_t depth,
                               dds::DataReaderListener* listener, const dds::StatusMask& mask,

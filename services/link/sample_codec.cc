@@ -82,6 +82,9 @@ Decoded DecodeInto(std::string_view topic, std::string_view bytes, Observed* obs
   if (topic == TopicOf<wire::RangeScan>::kName) {
     return Append<wire::RangeScan>(bytes, &observed->ranges);
   }
+  if (topic == TopicOf<wire::MotorCommand>::kName) {
+    return Append<wire::MotorCommand>(bytes, &observed->commands);
+  }
   if (topic == TopicOf<wire::Figures>::kName) return SetFigures(bytes, &observed->figures);
   return Decoded::kUnknownTopic;
 }

@@ -60,9 +60,10 @@ std::string McapWriter::ChunkIndex::Content() const {
   return content.Bytes();
 }
 
-McapWriter::McapWriter(Sink sink, const std::string& library) : sink_(std::move(sink)) {
+McapWriter::McapWriter(Sink sink, const std::string& library, const std::string& profile)
+    : sink_(std::move(sink)) {
   FieldWriter header;
-  header.PutText("");  // no profile
+  header.PutText(profile);
   header.PutText(library);
   Emit(kMagic);
   EmitRecord(Opcode::kHeader, header.Bytes());

@@ -24,8 +24,8 @@ class McapWriter {
   // Takes the bytes, or is false where it could not; then every later call is false, too.
   using Sink = std::function<bool(std::string_view bytes)>;
 
-  // `library` names the program that writes.
-  McapWriter(Sink sink, const std::string& library);
+  // `library` names the program that writes, `profile` a convention that the file follows.
+  McapWriter(Sink sink, const std::string& library, const std::string& profile = "");
 
   // Their ids are given here, from 1 on.
   std::uint16_t AddSchema(Schema schema);

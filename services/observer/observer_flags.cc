@@ -13,13 +13,14 @@ namespace {
 constexpr int kUsageError = 2;
 
 constexpr const char* kFooter = R"(
-Reads only: nothing in the fleet waits for it. The page is http://ADDRESS:PORT/. Every flag has a twin
+Of the fleet it reads only: nothing in the fleet waits for it. The page is http://ADDRESS:PORT/. Every flag has a twin
 in the environment: --port is also GIVEWAY_PORT. The flag wins; an empty variable counts as unset.
 
 Examples
   giveway-observer                                # of the only fleet here
   giveway-observer --domain 7 --scenario patrol   # with its walls
   giveway-observer --address 0.0.0.0 --host-name fleet.example
+  giveway-observer --ros2 --ros2-domain 42        # for ROS_DOMAIN_ID=42
 
 Exit code 2: a flag, a file, the port or the network was not usable; stderr says which.
 )";
@@ -42,9 +43,17 @@ constexpr FlagHelp kFlags[] = {
     {"--port", "1..65535", "port of the page (default 8080)"},
     {"--host-name", "NAME,...",
      "names by which a browser may ask for the page, beside localhost and addresses"},
+    {"--ros2-rate", "0.1..100", "messages a second of each ROS 2 topic (default 10)"},
+    {"--ros2-domain", "1..99", "domain of the ROS 2 topics (default: that of the fleet)"},
     {"--log-format", "text|json", "of the lines on stderr (default text)"},
     {"--log-level", "LEVEL", "debug, info, warning or error (default info)"},
 };
+
+void ReadRos2(FlagValues* values, ObserverFlags* flags) {
+  flags->ros2 = values->Switch("--ros2");
+  flags->ros2_rate_hz = values->Number("--ros2-rate", {0.1, 100}).value_or(flags->ros2_rate_hz);
+  flags->ros2_domain = values->Whole("--ros2-domain", {1, 99}).value_or(0);
+}
 
 std::vector<std::string> Split(const std::string& list) {
   std::vector<std::string> parts;
@@ -86,6 +95,7 @@ ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   flags.scenario = values->Text("--scenario").value_or("");
   flags.area = values->Text("--area").value_or("");
   flags.host_names = Split(values->Text("--host-name").value_or(""));
+  ReadRos2(values, &flags);
   flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);
   flags.log_level =
       values->OneOf("--log-level", {"debug", "info", "warning", "error"}).value_or(flags.log_level);
@@ -100,6 +110,9 @@ std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const*
   CommandLine line("giveway-observer", "Shows a fleet live: a page, metrics, JSON.",
                    "giveway-observer " GIVEWAY_VERSION ", " + std::string(library), kFooter);
   for (const FlagHelp& flag : kFlags) line.Add(flag.name, flag.value, flag.help);
+  line.AddSwitch("--ros2",
+                 "publishes odometry, ranges, transforms, markers and motor commands as "
+                 "ROS 2 topics: rt/giveway/v1/odom");
   line.AddOptional("--health", "live|ready",
                    "asks the observer at --address and --port, prints the answer, and ends: "
                    "0 yes, 1 no, 2 no answer (ready if no value follows)");

@@ -1,5 +1,7 @@
 #include "services/observer/observer_service.h"
 
+#include <algorithm>
+#include <chrono>
 #include <string_view>
 #include <utility>
 
@@ -43,6 +45,27 @@ link::LinkOptions LinkOptionsOf(const ObserverFlags& flags,
   return options;
 }
 
+// Of the ROS 2 topics: in the fleet's domain found as the fleet is.
+link::LinkOptions Ros2LinkOptions(const ObserverFlags& flags, link::LinkOptions options) {
+  if (flags.ros2_domain == 0 || flags.ros2_domain == flags.domain) return options;
+  options.domain = flags.ros2_domain;
+  options.discovery_servers.clear();
+  return options;
+}
+
+VehicleProfile ProfileOf(const std::optional<Scenario>& scenario, VehicleId id) {
+  if (!scenario) return PioneerP3dx();
+  const auto found = std::ranges::find(scenario->vehicles, id, &VehicleOptions::id);
+  if (found != scenario->vehicles.end()) return found->profile;
+  return scenario->vehicles.empty() ? PioneerP3dx() : scenario->vehicles.front().profile;
+}
+
+std::uint64_t SinceEpoch_ns() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
 PageAnswer Text(std::string body, int status = 200) {
   return {std::move(body), "text/plain; charset=utf-8", status};
 }
@@ -55,10 +78,16 @@ ObserverService::ObserverService(const ObserverFlags& flags)
 ObserverService::ObserverService(const ObserverFlags& flags,
                                  const std::optional<Scenario>& scenario)
     : turned_ns_(SteadyNow().count()),
-      link_(LinkOptionsOf(flags, scenario), link::ObserverLink::Ranges::kYes),
+      link_(LinkOptionsOf(flags, scenario), link::ObserverLink::Ranges::kYes,
+            flags.ros2 ? link::ObserverLink::Commands::kYes : link::ObserverLink::Commands::kNo),
       server_(flags.address, static_cast<std::uint16_t>(flags.port), Sources(flags, scenario)) {
   LogInfo("serves http://" + flags.address + ":" + std::to_string(flags.port) + "/ of domain " +
           std::to_string(flags.domain));
+  if (!flags.ros2) return;
+  const link::LinkOptions options = Ros2LinkOptions(flags, LinkOptionsOf(flags, scenario));
+  ros2_.emplace(options, flags.ros2_rate_hz,
+                [scenario](VehicleId id) { return ProfileOf(scenario, id); });
+  LogInfo("publishes ROS 2 topics in domain " + std::to_string(options.domain));
 }
 
 PageSources ObserverService::Sources(const ObserverFlags& flags,
@@ -122,10 +151,19 @@ void ObserverService::Turn() {
   const link::Observed observed = link_.Take();
   const SteadyTime now = SteadyNow();
   LogNews(observed.refusals, {}, now, &refusal_log_);
+  PublishRos2(observed);
   const std::lock_guard lock(mutex_);
   view_.Fold(observed, now);
   refused_samples_ += observed.refused;
   turned_ns_ = now.count();
+}
+
+void ObserverService::PublishRos2(const link::Observed& observed) {
+  if (!ros2_) return;
+  ros2_->Publish(observed, SinceEpoch_ns());
+  if (ros2_->Refused() > 0 && !std::exchange(ros2_refusal_logged_, true)) {
+    LogWarning("Fast DDS refused a ROS 2 message; more are not logged");
+  }
 }
 
 void ObserverService::Publish(SteadyTime now) {

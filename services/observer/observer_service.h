@@ -12,6 +12,7 @@
 #include "services/observer/fleet/fleet_view.h"
 #include "services/observer/fleet_metrics.h"
 #include "services/observer/observer_flags.h"
+#include "services/observer/ros2/ros2_publisher.h"
 #include "services/observer/server/page_server.h"
 #include "services/runtime/process.h"
 #include "services/runtime/refusal_log.h"
@@ -34,6 +35,7 @@ class ObserverService {
   PageAnswer Metrics(const ServerFigures& server);
   PageAnswer Ready();
   void Turn();
+  void PublishRos2(const link::Observed& observed);
   void Publish(SteadyTime now);
 
   std::mutex mutex_;
@@ -44,6 +46,8 @@ class ObserverService {
   std::atomic<std::int64_t> turned_ns_;
   FrameBoard board_;
   link::ObserverLink link_;
+  std::optional<Ros2Publisher> ros2_;  // of the loop
+  bool ros2_refusal_logged_ = false;
   PageServer server_;  // last: its threads read all of the above, from its constructor on
 };
 

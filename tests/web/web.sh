@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The observer in a browser, and its recordings in the field's own readers: a crossing live, a fleet of
+# The observer in a browser, and its recordings in the field's own readers, also of ROS 2: a crossing live, a fleet of
 # 200 from virtual time, a recorder killed. Wants chromium, node and the built programs.
 # Usage: web.sh; lines "ok NAME" and "FAILED NAME". Screenshots are kept in build/web/.
 # Exit code: 0 all ok, 1 something failed, 2 could not check.
@@ -29,7 +29,8 @@ cp "$here"/*.mjs "$out"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 code=0
-for part in recording report live replay; do
+export ROS2_IDL=$project/idl/ros2.idl
+for part in recording ros2 report live replay; do
   GIVEWAY_BIN_DIR=$programs WORK=$work timeout 110 node "$out/$part.mjs" || code=1
 done
 exit "$code"

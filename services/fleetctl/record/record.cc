@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/record/sample_ring.h"
+#include "services/observer/ros2/ros2_samples.h"
 #include "services/runtime/process.h"
 
 namespace giveway::fleetctl {
@@ -30,7 +32,9 @@ class Recording {
         link_(LinkOptionsOf(options.where), TopicsOf(options)),
         files_(options.files, [this](std::size_t topic) { return link_.QosText(topic); }),
         ring_(options.last_s),
-        began_(SteadyNow()) {}
+        began_(SteadyNow()) {
+    if (options.ros2) ros2_.emplace(options.ros2_rate_hz);
+  }
 
   int Run() {
     if (!files_.Start(began_)) {
@@ -59,15 +63,21 @@ class Recording {
       if (options_.last_s > 0) {
         ring_.Add(std::move(sample));
       } else {
-        files_.Write(sample, now);
+        Write(sample, now);
       }
     });
+  }
+
+  void Write(const link::RawSample& sample, SteadyTime now) {
+    files_.Write(sample, now);
+    if (!ros2_) return;
+    for (const Ros2Sample& message : ros2_->Take(sample)) files_.Write(message, now);
   }
 
   int Finish() {
     if (options_.last_s > 0) {
       Interrupts::AllowSeconds(kWriteSeconds);
-      for (const link::RawSample& sample : ring_.Samples()) files_.Write(sample, SteadyTime{0});
+      for (const link::RawSample& sample : ring_.Samples()) Write(sample, SteadyTime{0});
       if (ring_.Dropped() > 0) {
         std::fprintf(stderr, "%llu samples were too many for the memory of a ring\n",
                      static_cast<unsigned long long>(ring_.Dropped()));
@@ -95,6 +105,7 @@ class Recording {
   link::RawLink link_;
   CaptureFiles files_;
   SampleRing ring_;
+  std::optional<Ros2Samples> ros2_;
   const SteadyTime began_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "services/fleetctl/args/reading_along.h"
 #include "services/observer/capture/capture_files.h"
+#include "services/ros2/view.h"
 
 namespace giveway::fleetctl {
 
@@ -17,7 +18,9 @@ struct RecordOptions {
   CaptureOptions files;
   std::vector<std::string> topics;   // empty: all
   std::optional<double> duration_s;  // end after so long; absent: never
-  double last_s = 0;                 // keeps only so much, and writes it at the end; 0: all
+  bool ros2 = false;                 // the fleet as ROS 2 messages, too
+  double ros2_rate_hz = ros2::View::kUsualRate_hz;
+  double last_s = 0;  // keeps only so much, and writes it at the end; 0: all
 };
 
 // 0 recorded, or ended by Ctrl-C; 1 nothing came, or a file could not be written to its end; 2

@@ -23,6 +23,7 @@ Examples
   fleetctl record run.mcap --domain 7
   fleetctl record run.mcap --domain 7 --split 256MiB --keep 10GiB
   fleetctl record crash.mcap --domain 7 --last 60s
+  fleetctl record run.mcap --domain 7 --ros2      # then: ros2 bag play run.mcap
   fleetctl replay run.mcap
 
 Exit code: 0 recorded, or ended by Ctrl-C; 1 nothing heard, or a file not written; 2 could not run.
@@ -68,6 +69,11 @@ void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
   verb->add_option("--topics", options->topics, "Only these, with commas between them")
       ->delimiter(',')
       ->check(CheckTopic);
+  verb->add_flag("--ros2", options->ros2,
+                 "Write the fleet as ROS 2 messages, too, so that `ros2 bag play` takes the file");
+  verb->add_option("--ros2-rate", options->ros2_rate_hz,
+                   "ROS 2 messages a second of each topic; default 10")
+      ->check(CLI::Range(0.1, 100.0));
   verb->add_option_function<std::string>(
       "--split", [options](const std::string& text) { SetSplit(text, &options->files); },
       "Another file at this size or after this time: 256MiB, 10m");
@@ -91,6 +97,7 @@ void AddRecordVerb(CLI::App* fleetctl, int* exit_code) {
   verb->callback([options, exit_code] {
     constexpr std::uint64_t kUsualSplit = 256ULL << 20U;
     CaptureOptions& files = options->files;
+    if (options->ros2) files.profile = "ros2";
     if (files.keep_bytes != 0 && files.split_bytes == 0 && files.split_time.count() == 0) {
       files.split_bytes = kUsualSplit;
     }

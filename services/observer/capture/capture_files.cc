@@ -55,7 +55,7 @@ bool CaptureFiles::Open(SteadyTime now) {
   if (file_ < 0) return Fail("cannot be made");
   opened_ = now;
   capture_ = std::make_unique<FleetCapture>(
-      [this](std::string_view bytes) { return Append(bytes); }, qos_);
+      [this](std::string_view bytes) { return Append(bytes); }, qos_, options_.profile);
   return fault_.empty();
 }
 
@@ -69,15 +69,23 @@ bool CaptureFiles::IsPartFull(SteadyTime now) const {
   return options_.keep_bytes != 0 && capture_->Size() >= options_.keep_bytes / 2;
 }
 
-bool CaptureFiles::Write(const link::RawSample& sample, SteadyTime now) {
+template <typename Sample>
+bool CaptureFiles::WriteNewest(const Sample& sample, std::uint64_t log_ns, SteadyTime now) {
   if (!fault_.empty()) return false;
   if (capture_ != nullptr && IsPartFull(now) && !ClosePart()) return false;
   if (capture_ == nullptr && !Open(now)) return false;
   ++messages_;
-  newest_ns_ = std::max(newest_ns_, sample.reception_ns);
+  newest_ns_ = std::max(newest_ns_, log_ns);
   const bool written = capture_->Write(sample);
   RemoveOldest();
   return written;
+}
+
+bool CaptureFiles::Write(const link::RawSample& sample, SteadyTime now) {
+  return WriteNewest(sample, sample.reception_ns, now);
+}
+bool CaptureFiles::Write(const Ros2Sample& sample, SteadyTime now) {
+  return WriteNewest(sample, sample.log_ns, now);
 }
 
 bool CaptureFiles::Flush() { return fault_.empty() && (capture_ == nullptr || capture_->Flush()); }

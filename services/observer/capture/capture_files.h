@@ -26,6 +26,7 @@ struct CaptureOptions {
   Nanoseconds split_time{0};             // 0: never
   std::vector<std::string> attachments;  // files put into the last part at its end
   std::uint64_t keep_bytes = 0;          // of all parts; 0: all are kept
+  std::string profile;                   // of MCAP; "ros2": `ros2 bag` is to take the files
   std::size_t most_chunks = 100'000;     // of a part: the index of each is in memory; a day's
 };
 
@@ -42,6 +43,7 @@ class CaptureFiles {
   // found out before anything is worth recording.
   bool Start(SteadyTime now);
   bool Write(const link::RawSample& sample, SteadyTime now);
+  bool Write(const Ros2Sample& sample, SteadyTime now);
   bool Flush();
   // These, too; see CaptureOptions.
   void AttachAtEnd(const std::vector<std::string>& files);
@@ -57,6 +59,8 @@ class CaptureFiles {
  private:
   bool HasParts() const { return options_.split_bytes != 0 || options_.split_time.count() != 0; }
   bool IsPartFull(SteadyTime now) const;
+  template <typename Sample>
+  bool WriteNewest(const Sample& sample, std::uint64_t log_ns, SteadyTime now);
   bool Open(SteadyTime now);
   bool ClosePart();
   void Attach(const std::string& path);

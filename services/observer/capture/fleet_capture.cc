@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "services/ros2/definitions.h"
+
 namespace giveway {
 
-FleetCapture::FleetCapture(mcap::McapWriter::Sink sink, QosOf qos)
-    : qos_(std::move(qos)), writer_(std::move(sink), "giveway") {}
+FleetCapture::FleetCapture(mcap::McapWriter::Sink sink, QosOf qos, const std::string& profile)
+    : qos_(std::move(qos)), writer_(std::move(sink), "giveway", profile) {}
 
 std::uint16_t FleetCapture::ChannelOf(std::size_t topic) {
   const auto known = channels_.find(topic);
@@ -31,6 +33,32 @@ bool FleetCapture::Write(const link::RawSample& sample) {
                         .sequence = sample.sequence,
                         .log_ns = sample.reception_ns,
                         .publish_ns = sample.source_ns,
+                        .data = sample.bytes});
+}
+
+std::uint16_t FleetCapture::ChannelOf(const Ros2Sample& sample) {
+  auto [schema, is_new] = ros2_schemas_.try_emplace(sample.type, std::uint16_t{0});
+  if (is_new) {
+    schema->second = writer_.AddSchema({.id = 0,
+                                        .name = std::string(sample.type),
+                                        .encoding = "ros2msg",
+                                        .data = ros2::DefinitionOf(sample.type)});
+  }
+  return writer_.AddChannel(
+      {.id = 0,
+       .schema = schema->second,
+       .topic = sample.topic,
+       .encoding = "cdr",
+       .metadata = {{"offered_qos_profiles", ros2::QosProfileOf(sample.topic)}}});
+}
+
+bool FleetCapture::Write(const Ros2Sample& sample) {
+  auto [known, is_new] = ros2_channels_.try_emplace(sample.topic);
+  if (is_new) known->second.channel = ChannelOf(sample);
+  return writer_.Write({.channel = known->second.channel,
+                        .sequence = ++known->second.sequence,
+                        .log_ns = sample.log_ns,
+                        .publish_ns = sample.stamp_ns,
                         .data = sample.bytes});
 }
 

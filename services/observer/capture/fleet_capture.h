@@ -7,9 +7,11 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "services/link/raw_link.h"
 #include "services/mcap/mcap_writer.h"
+#include "services/observer/ros2/ros2_samples.h"
 
 namespace giveway {
 
@@ -21,10 +23,12 @@ class FleetCapture {
   // `qos` says of a topic what its reader asked for; it becomes the channel's metadata.
   using QosOf = std::function<std::string(std::size_t topic)>;
 
-  FleetCapture(mcap::McapWriter::Sink sink, QosOf qos);
+  // `profile`: "ros2" for a file that `ros2 bag` is to take.
+  FleetCapture(mcap::McapWriter::Sink sink, QosOf qos, const std::string& profile = "");
 
   // All false once the sink failed.
   bool Write(const link::RawSample& sample);
+  bool Write(const Ros2Sample& sample);
   bool Flush() { return writer_.Flush(); }
   bool Attach(const std::string& name, std::string_view bytes, std::uint64_t log_ns);
   bool Close() { return writer_.Close(); }
@@ -35,10 +39,17 @@ class FleetCapture {
 
  private:
   std::uint16_t ChannelOf(std::size_t topic);
+  std::uint16_t ChannelOf(const Ros2Sample& sample);
 
   const QosOf qos_;
   mcap::McapWriter writer_;
-  std::map<std::size_t, std::uint16_t> channels_;  // by topic
+  std::map<std::size_t, std::uint16_t> channels_;           // by topic
+  std::map<std::string_view, std::uint16_t> ros2_schemas_;  // by type
+  struct Ros2Channel {
+    std::uint16_t channel = 0;
+    std::uint32_t sequence = 0;  // of the last message
+  };
+  std::map<std::string, Ros2Channel> ros2_channels_;  // by topic
 };
 
 // The place of a topic in link::RawTopics(); its size if there is none of that name.

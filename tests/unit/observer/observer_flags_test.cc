@@ -34,6 +34,8 @@ TEST(ObserverFlags, AreRefusedInWords) {
                             {"--domain", "0"},
                             {"--domain", "7", "--port", "70000"},
                             {"--domain", "7", "--log-level", "loud"},
+                            {"--domain", "7", "--ros2", "--ros2-rate", "0"},
+                            {"--domain", "7", "--ros2", "--ros2-domain", "100"},
                             {"--domain", "7", "--nonsense", "1"}}) {
     const auto parsed = Parse(wrong);
     ASSERT_TRUE(std::holds_alternative<int>(parsed));
@@ -50,6 +52,17 @@ TEST(ObserverFlags, TakeDomainAndInterfaceOfTheOnlyFleet) {
   EXPECT_EQ(std::get<ObserverFlags>(Parse({"--interface", "lo"}, only)).interface, "lo");
   EXPECT_EQ(std::get<ObserverFlags>(Parse({"--domain", "7"}, only)).domain, 7U);
   EXPECT_EQ(std::get<ObserverFlags>(Parse({"--domain", "7"}, only)).interface, "127.0.0.1");
+}
+
+TEST(ObserverFlags, Ros2IsOffUnlessAskedFor) {
+  EXPECT_FALSE(std::get<ObserverFlags>(Parse({"--domain", "7"})).ros2);
+  const auto parsed =
+      Parse({"--domain", "7", "--ros2", "--ros2-rate", "2.5", "--ros2-domain", "42"});
+  ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
+  const auto& flags = std::get<ObserverFlags>(parsed);
+  EXPECT_TRUE(flags.ros2);
+  EXPECT_EQ(flags.ros2_rate_hz, 2.5);
+  EXPECT_EQ(flags.ros2_domain, 42U);
 }
 
 TEST(ObserverFlags, SayWhyThereIsNoFleetToTake) {
