@@ -20,6 +20,7 @@ Examples
   giveway-observer                                # of the only fleet here
   giveway-observer --domain 7 --scenario patrol   # with its walls
   giveway-observer --address 0.0.0.0 --host-name fleet.example
+  giveway-observer --foxglove-port 8765           # Foxglove: open ws://localhost:8765
 
 Exit code 2: a flag, a file, the port or the network was not usable; stderr says which.
 )";
@@ -40,6 +41,7 @@ constexpr FlagHelp kFlags[] = {
     {"--area", "NAME", "whose beacons (default: the scenario's, or main)"},
     {"--address", "ADDRESS", "address of the page (default 127.0.0.1)"},
     {"--port", "1..65535", "port of the page (default 8080)"},
+    {"--foxglove-port", "1..65535", "port of the Foxglove WebSocket, at --address (default: none)"},
     {"--host-name", "NAME,...",
      "names by which a browser may ask for the page, beside localhost and addresses"},
     {"--log-format", "text|json", "of the lines on stderr (default text)"},
@@ -85,6 +87,7 @@ ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   flags.qos = ReadQosFlag(values);
   flags.scenario = values->Text("--scenario").value_or("");
   flags.area = values->Text("--area").value_or("");
+  flags.foxglove_port = values->Whole("--foxglove-port", {1, 65535}).value_or(flags.foxglove_port);
   flags.host_names = Split(values->Text("--host-name").value_or(""));
   flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);
   flags.log_level =

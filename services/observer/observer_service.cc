@@ -43,6 +43,19 @@ link::LinkOptions LinkOptionsOf(const ObserverFlags& flags,
   return options;
 }
 
+std::unique_ptr<FoxgloveFeed> FoxgloveOf(const ObserverFlags& flags,
+                                         const std::optional<Scenario>& scenario) {
+  if (flags.foxglove_port == 0) return nullptr;
+  FoxgloveOptions options{.address = flags.address,
+                          .port = static_cast<std::uint16_t>(flags.foxglove_port),
+                          .name = "giveway, domain " + std::to_string(flags.domain),
+                          .host_names = flags.host_names,
+                          .channels = FoxgloveChannels()};
+  auto feed = std::make_unique<FoxgloveFeed>(LinkOptionsOf(flags, scenario), std::move(options));
+  LogInfo("serves Foxglove at ws://" + flags.address + ":" + std::to_string(flags.foxglove_port));
+  return feed;
+}
+
 PageAnswer Text(std::string body, int status = 200) {
   return {std::move(body), "text/plain; charset=utf-8", status};
 }
@@ -56,6 +69,7 @@ ObserverService::ObserverService(const ObserverFlags& flags,
                                  const std::optional<Scenario>& scenario)
     : turned_ns_(SteadyNow().count()),
       link_(LinkOptionsOf(flags, scenario), link::ObserverLink::Ranges::kYes),
+      foxglove_(FoxgloveOf(flags, scenario)),
       server_(flags.address, static_cast<std::uint16_t>(flags.port), Sources(flags, scenario)) {
   LogInfo("serves http://" + flags.address + ":" + std::to_string(flags.port) + "/ of domain " +
           std::to_string(flags.domain));
@@ -144,6 +158,7 @@ void ObserverService::Run(const StopSignal& stop) {
     SleepUntil(SteadyNow() + kTurn);
     Turn();
     const SteadyTime now = SteadyNow();
+    if (foxglove_ != nullptr) foxglove_->Turn(now);
     if (now < next_frame || server_.Figures().streams == 0) continue;  // else: as soon as one comes
     Publish(now);
     // Only this thread changes the view.

@@ -29,7 +29,7 @@ cp "$here"/*.mjs "$out"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 code=0
-for part in recording report live replay; do
+for part in recording report foxglove live replay; do
   GIVEWAY_BIN_DIR=$programs WORK=$work timeout 110 node "$out/$part.mjs" || code=1
 done
 exit "$code"

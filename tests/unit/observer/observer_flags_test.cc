@@ -26,6 +26,7 @@ TEST(ObserverFlags, HaveDefaultsAndReadWhatIsGiven) {
   EXPECT_EQ(flags.domain, 7U);
   EXPECT_EQ(flags.port, 8080U);
   EXPECT_EQ(flags.address, "127.0.0.1");
+  EXPECT_EQ(flags.foxglove_port, 0U);
   EXPECT_EQ(flags.host_names, (std::vector<std::string>{"fleet", "robots.example"}));
 }
 
@@ -33,6 +34,7 @@ TEST(ObserverFlags, AreRefusedInWords) {
   for (const auto& wrong : {std::initializer_list<const char*>{},
                             {"--domain", "0"},
                             {"--domain", "7", "--port", "70000"},
+                            {"--domain", "7", "--foxglove-port", "0"},
                             {"--domain", "7", "--log-level", "loud"},
                             {"--domain", "7", "--nonsense", "1"}}) {
     const auto parsed = Parse(wrong);
