@@ -49,7 +49,7 @@ void FoxgloveFeed::Open(std::uint64_t wanted, SteadyTime now) {
       open_ |= std::uint64_t{1} << topic;
     }
   } catch (const std::exception& error) {
-    LogWarning("cannot read for Foxglove, tries again: " + std::string(error.what()));
+    LogWarning("cannot read for Foxglove, repeats it in 5 s: " + std::string(error.what()));
     not_before_ = now + kRetry;
   }
 }

@@ -55,7 +55,7 @@ struct Refusal {
   std::string why;
 };
 
-// What a connection asks for, judged before it becomes a client.
+// What a connection asks for, checked before it becomes a client.
 using Handshake = http::request<http::empty_body>;
 std::optional<Refusal> RefusalOf(const Handshake& request, const std::vector<std::string>& hosts) {
   if (!IsOwnHost(View(request[http::field::host]), hosts)) {
@@ -133,7 +133,7 @@ class FoxgloveServer::Impl::Connection : public std::enable_shared_from_this<Con
     beast::get_lowest_layer(socket_).expires_after(kHandshakeTime);
     http::async_read_header(beast::get_lowest_layer(socket_), received_, request_,
                             [self = shared_from_this()](const error_code& error, std::size_t) {
-                              if (!error) self->Judge();
+                              if (!error) self->CheckHandshake();
                             });
   }
   const NewestSamples& Samples() const { return samples_; }
@@ -141,13 +141,13 @@ class FoxgloveServer::Impl::Connection : public std::enable_shared_from_this<Con
   void WriteNext();
 
  private:
-  void Judge();
+  void CheckHandshake();
   void Refuse(const Refusal& refusal);
   void Greet();
   void ReadNext();
   void Handle();
   void Subscribe(const FoxgloveSubscription& wanted);
-  void Say(FoxgloveLevel level, const std::string& message) {
+  void SendStatus(FoxgloveLevel level, const std::string& message) {
     ++server_.refused;
     Send(std::make_shared<const std::string>(StatusText(level, message)));
   }
@@ -175,7 +175,7 @@ class FoxgloveServer::Impl::Connection : public std::enable_shared_from_this<Con
   std::array<std::uint8_t, kFoxgloveHeadBytes> head_{};
 };
 
-void FoxgloveServer::Impl::Connection::Judge() {
+void FoxgloveServer::Impl::Connection::CheckHandshake() {
   if (const auto refusal = RefusalOf(request_.get(), server_.options.host_names)) {
     return Refuse(*refusal);
   }
@@ -236,27 +236,29 @@ void FoxgloveServer::Impl::Connection::ReadNext() {
 
 void FoxgloveServer::Impl::Connection::Handle() {
   if (socket_.got_binary()) {
-    return Say(FoxgloveLevel::kError, "binary messages are not served: this server only publishes");
+    return SendStatus(FoxgloveLevel::kError,
+                      "binary messages are not served: this server only publishes");
   }
   const auto bytes = received_.cdata();
   const FoxgloveRequest request =
       ReadFoxgloveRequest({static_cast<const char*>(bytes.data()), bytes.size()});
-  if (!request.fault.empty()) return Say(FoxgloveLevel::kError, request.fault);
+  if (!request.fault.empty()) return SendStatus(FoxgloveLevel::kError, request.fault);
   for (const FoxgloveSubscription& wanted : request.subscribe) Subscribe(wanted);
   for (const std::uint32_t id : request.unsubscribe) {
     const std::string fault = samples_.Unsubscribe(id);
-    if (!fault.empty()) Say(FoxgloveLevel::kWarning, fault);
+    if (!fault.empty()) SendStatus(FoxgloveLevel::kWarning, fault);
   }
   server_.UpdateWanted();
 }
 
 void FoxgloveServer::Impl::Connection::Subscribe(const FoxgloveSubscription& wanted) {
   if (wanted.channel == 0 || wanted.channel > server_.options.channels.size()) {
-    return Say(FoxgloveLevel::kError, "there is no channel " + std::to_string(wanted.channel));
+    return SendStatus(FoxgloveLevel::kError,
+                      "there is no channel " + std::to_string(wanted.channel));
   }
   const std::size_t topic = wanted.channel - 1;
   const std::string fault = samples_.Subscribe(wanted.id, topic);
-  if (!fault.empty()) return Say(FoxgloveLevel::kError, fault);
+  if (!fault.empty()) return SendStatus(FoxgloveLevel::kError, fault);
   server_.kept_samples.ForEach(topic, [this](const SharedSample& sample) { Offer(sample); });
 }
 

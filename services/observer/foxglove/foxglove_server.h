@@ -22,7 +22,7 @@ struct FoxgloveOptions {
   std::string address;
   std::uint16_t port = 0;
   std::string name;                       // of the fleet, for people
-  std::vector<std::string> host_names;    // beside localhost and addresses
+  std::vector<std::string> host_names;    // in addition to localhost and addresses
   std::vector<FoxgloveChannel> channels;  // ids are places in link::RawTopics(), and one
 };
 
