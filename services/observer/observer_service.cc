@@ -99,13 +99,16 @@ PageAnswer ObserverService::Ready() {
 
 PageAnswer ObserverService::Metrics(const ServerFigures& server) {
   const ProcessFigures process = ReadProcessFigures();
+  const FoxgloveFigures foxglove = foxglove_ ? foxglove_->Figures() : FoxgloveFigures{};
   const std::lock_guard lock(mutex_);
   const ObserverHealth health{.frames = frames_,
                               .streams = server.streams,
                               .refused_requests = server.refused,
                               .refused_samples = refused_samples_,
                               .cpu_s = process.cpu_s,
-                              .resident_bytes = process.resident_bytes};
+                              .resident_bytes = process.resident_bytes,
+                              .foxglove_clients = foxglove.clients,
+                              .foxglove_refused = foxglove.refused};
   return {FleetMetrics(view_, health, SteadyNow()), "text/plain; version=0.0.4; charset=utf-8"};
 }
 

@@ -1,5 +1,5 @@
-// The samples that clients of Foxglove subscribe to, from the fleet to their server. Joins the
-// domain only while somebody subscribes: until then it costs neither the observer nor the fleet
+// The samples that clients of Foxglove subscribe to, from the fleet to their server. Takes part in
+// the domain only while somebody subscribes: until then it costs neither the observer nor the fleet
 // anything.
 #pragma once
 
