@@ -88,6 +88,9 @@ ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   flags.scenario = values->Text("--scenario").value_or("");
   flags.area = values->Text("--area").value_or("");
   flags.foxglove_port = values->Whole("--foxglove-port", {1, 65535}).value_or(flags.foxglove_port);
+  if (flags.foxglove_port == flags.port) {
+    values->Complain("--foxglove-port", "is the port of the page", "choose another, such as 8765");
+  }
   flags.host_names = Split(values->Text("--host-name").value_or(""));
   flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);
   flags.log_level =

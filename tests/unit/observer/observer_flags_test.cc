@@ -35,6 +35,7 @@ TEST(ObserverFlags, AreRefusedInWords) {
                             {"--domain", "0"},
                             {"--domain", "7", "--port", "70000"},
                             {"--domain", "7", "--foxglove-port", "0"},
+                            {"--domain", "7", "--foxglove-port", "8080"},
                             {"--domain", "7", "--log-level", "loud"},
                             {"--domain", "7", "--nonsense", "1"}}) {
     const auto parsed = Parse(wrong);
@@ -74,10 +75,13 @@ TEST(ObserverFlags, AHealthQuestionNeedsNoDomain) {
 
 TEST(ObserverFlags, HaveTwinsInTheEnvironment) {
   setenv("GIVEWAY_DOMAIN", "9", 1);
+  setenv("GIVEWAY_FOXGLOVE_PORT", "8765", 1);
   const auto parsed = Parse({});
   unsetenv("GIVEWAY_DOMAIN");
+  unsetenv("GIVEWAY_FOXGLOVE_PORT");
   ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
   EXPECT_EQ(std::get<ObserverFlags>(parsed).domain, 9U);
+  EXPECT_EQ(std::get<ObserverFlags>(parsed).foxglove_port, 8765U);
 }
 
 }  // namespace
