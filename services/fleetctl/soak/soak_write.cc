@@ -15,8 +15,8 @@ double Printable(double value) {
 
 bool Exists(const std::optional<double>& value) { return value && std::isfinite(*value); }
 
-template <typename Whole>
-double AsDouble(Whole value) {
+template <typename Integer>
+double AsDouble(Integer value) {
   return static_cast<double>(value);
 }
 
