@@ -1,5 +1,6 @@
 #include "services/link/raw_link.h"
 
+#include <algorithm>
 #include <functional>
 #include <type_traits>
 
@@ -38,27 +39,33 @@ std::uint64_t SinceEpoch_ns(const Time& time) {
 
 using Drain = std::function<void(std::vector<RawSample>&)>;
 
-struct OpenTopic {
+struct DrainedReader {
   Drain drain;
   const dds::DataReader* reader = nullptr;
 };
 
+std::array<std::uint8_t, 16> InstanceOf(const dds::InstanceHandle_t& handle) {
+  std::array<std::uint8_t, 16> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = handle.value[i];
+  return bytes;
+}
+
 template <typename Wire>
-OpenTopic OpenAs(Participant& participant, std::size_t topic, const std::string& partition,
-                 std::int32_t depth) {
+DrainedReader OpenAs(Participant& participant, std::size_t topic, const std::string& partition,
+                     std::int32_t depth) {
   Reader<Raw<Wire>> reader = participant.MakeReader<Raw<Wire>>(partition, depth);
   const auto drain = [reader, topic](std::vector<RawSample>& samples) mutable {
     reader.TakeEach([&](const Raw<Wire>& raw, const dds::SampleInfo& info) {
       const auto sequence = info.sample_identity.sequence_number().to64long();
-      samples.push_back({topic, SinceEpoch_ns(info.source_timestamp),
-                         SinceEpoch_ns(info.reception_timestamp),
-                         static_cast<std::uint32_t>(sequence), raw.bytes});
+      samples.push_back(
+          {topic, SinceEpoch_ns(info.source_timestamp), SinceEpoch_ns(info.reception_timestamp),
+           static_cast<std::uint32_t>(sequence), raw.bytes, InstanceOf(info.instance_handle)});
     });
   };
   return {drain, &reader.Entity()};
 }
 
-using Open = OpenTopic (*)(Participant&, std::size_t, const LinkOptions&);
+using OpenReader = DrainedReader (*)(Participant&, std::size_t, const LinkOptions&);
 
 struct Where {
   std::string partition;
@@ -95,14 +102,14 @@ Where Of(const wire::Figures*, const LinkOptions&) {
 }
 
 template <typename Wire>
-OpenTopic OpenRaw(Participant& participant, std::size_t topic, const LinkOptions& options) {
+DrainedReader OpenRaw(Participant& participant, std::size_t topic, const LinkOptions& options) {
   const Where where = Of(static_cast<const Wire*>(nullptr), options);
   return OpenAs<Wire>(participant, topic, where.partition, where.depth);
 }
 
 struct KnownTopic {
   RawTopic topic;
-  Open open;
+  OpenReader open;
 };
 
 // Orders and answers carry what is between an operator and a vehicle.
@@ -113,7 +120,8 @@ constexpr bool kIsRecorded =
 template <typename Wire>
 void AddTopic(std::vector<KnownTopic>* known) {
   if constexpr (kIsRecorded<Wire>) {
-    known->push_back({{TopicOf<Wire>::kName, TopicOf<Wire>::kType}, OpenRaw<Wire>});
+    known->push_back({{TopicOf<Wire>::kName, TopicOf<Wire>::kType, TopicOf<Wire>::kKeyNumbers > 0},
+                      OpenRaw<Wire>});
   }
 }
 
@@ -144,39 +152,57 @@ const std::vector<RawTopic>& RawTopics() {
   return topics;
 }
 
-struct RawLink::Impl {
-  explicit Impl(const LinkOptions& options)
-      : participant(OfAllBodies(options), "giveway-recorder", names) {}
+struct RawLink::OpenTopic {
+  std::size_t topic = 0;
+  DrainedReader reader;
+};
 
+struct RawLink::Impl {
+  explicit Impl(const LinkOptions& given)
+      : options(given), participant(OfAllBodies(given), "giveway-recorder", names) {}
+
+  const LinkOptions options;
   WriterNames names;  // the library calls it until the participant is gone
   Participant participant;
-  std::vector<std::pair<std::size_t, OpenTopic>> open;
+  std::vector<OpenTopic> open;
 };
 
 RawLink::RawLink(const LinkOptions& options, const std::vector<std::size_t>& topics)
     : impl_(std::make_unique<Impl>(options)) {
-  for (const std::size_t topic : topics) {
-    impl_->open.emplace_back(topic, Known().at(topic).open(impl_->participant, topic, options));
-  }
+  for (const std::size_t topic : topics) Open(topic);
 }
 RawLink::~RawLink() = default;
 
 void RawLink::Collect() {
   impl_->names.Update();
-  for (const auto& [topic, open] : impl_->open) open.drain(samples_);
+  for (const OpenTopic& open : impl_->open) open.reader.drain(samples_);
+}
+
+void RawLink::Open(std::size_t topic) {
+  if (Find(topic) != nullptr) return;
+  impl_->open.push_back({topic, Known().at(topic).open(impl_->participant, topic, impl_->options)});
+}
+
+const RawLink::OpenTopic* RawLink::Find(std::size_t topic) const {
+  const auto open = std::ranges::find(impl_->open, topic, &OpenTopic::topic);
+  return open == impl_->open.end() ? nullptr : &*open;
+}
+
+bool RawLink::IsDurable(std::size_t topic) const {
+  const OpenTopic* open = Find(topic);
+  return open != nullptr &&
+         open->reader.reader->get_qos().durability().kind != dds::VOLATILE_DURABILITY_QOS;
 }
 
 std::string RawLink::QosText(std::size_t topic) const {
-  for (const auto& [number, open] : impl_->open) {
-    if (number != topic) continue;
-    const auto& qos = open.reader->get_qos();
-    return std::string(qos.reliability().kind == dds::RELIABLE_RELIABILITY_QOS ? "RELIABLE"
-                                                                               : "BEST_EFFORT") +
-           (qos.durability().kind == dds::VOLATILE_DURABILITY_QOS ? ", VOLATILE"
-                                                                  : ", TRANSIENT_LOCAL") +
-           ", deadline " + DurationText(qos.deadline().period);
-  }
-  return {};
+  const OpenTopic* open = Find(topic);
+  if (open == nullptr) return {};
+  const auto& qos = open->reader.reader->get_qos();
+  return std::string(qos.reliability().kind == dds::RELIABLE_RELIABILITY_QOS ? "RELIABLE"
+                                                                             : "BEST_EFFORT") +
+         (qos.durability().kind == dds::VOLATILE_DURABILITY_QOS ? ", VOLATILE"
+                                                                : ", TRANSIENT_LOCAL") +
+         ", deadline " + DurationText(qos.deadline().period);
 }
 
 }  // namespace giveway::link

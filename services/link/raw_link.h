@@ -2,6 +2,7 @@
 // Decodes nothing, writes nothing.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -13,16 +14,18 @@
 namespace giveway::link {
 
 struct RawSample {
-  std::size_t topic = 0;           // its place in RawTopics()
-  std::uint64_t source_ns = 0;     // by the writer's clock, since 1970
-  std::uint64_t reception_ns = 0;  // by ours, since 1970
-  std::uint32_t sequence = 0;      // of its writer, the lower half
-  std::string bytes;               // encapsulation header and CDR
+  std::size_t topic = 0;                    // its place in RawTopics()
+  std::uint64_t source_ns = 0;              // by the writer's clock, since 1970
+  std::uint64_t reception_ns = 0;           // by ours, since 1970
+  std::uint32_t sequence = 0;               // of its writer, the lower half
+  std::string bytes;                        // encapsulation header and CDR
+  std::array<std::uint8_t, 16> instance{};  // its key, or a hash of it; zeros where there is none
 };
 
 struct RawTopic {
   std::string_view name;  // "fleet/beacon"
   std::string_view type;  // "giveway::wire::Beacon"
+  bool keyed = false;     // has instances: a vehicle's samples replace those of the same vehicle
 };
 
 // All that can be recorded: what vehicles and world say. Profiles sent by an operator stay out.
@@ -36,6 +39,9 @@ class RawLink {
   RawLink(const RawLink&) = delete;
   RawLink& operator=(const RawLink&) = delete;
 
+  // Reads this topic, too, from here on; nothing where it is read already. Throws LinkError. None
+  // is closed before all are: the library removes readers of a running participant unsafely.
+  void Open(std::size_t topic);
   // Calls take(sample) for all that came since the last call; of one instance in order.
   template <typename TakeSample>
   void Take(TakeSample&& take) {
@@ -45,10 +51,14 @@ class RawLink {
   }
   // What the reader of this topic asks for, for people: "BEST_EFFORT, VOLATILE, deadline 150 ms".
   std::string QosText(std::size_t topic) const;
+  // Whether this topic is read, and its writers keep the newest samples for readers that come late.
+  bool IsDurable(std::size_t topic) const;
 
  private:
   struct Impl;
+  struct OpenTopic;
   void Collect();
+  const OpenTopic* Find(std::size_t topic) const;
 
   std::unique_ptr<Impl> impl_;
   std::vector<RawSample> samples_;

@@ -211,6 +211,11 @@ void AddObserver(const ObserverHealth& observer, Families* to) {
   add("giveway_observer_samples_refused_total",
       "Samples of a participant that may not say that, or of another id.", MetricType::Counter,
       static_cast<double>(observer.refused_samples));
+  add("giveway_observer_foxglove_clients", "Clients of the Foxglove WebSocket.", MetricType::Gauge,
+      observer.foxglove_clients);
+  add("giveway_observer_foxglove_refused_total",
+      "Connections and messages to it that were refused.", MetricType::Counter,
+      static_cast<double>(observer.foxglove_refused));
   add("process_cpu_seconds_total", "Processor time used.", MetricType::Counter, observer.cpu_s);
   add("process_resident_memory_bytes", "Resident memory.", MetricType::Gauge,
       observer.resident_bytes);

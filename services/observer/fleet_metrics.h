@@ -18,6 +18,8 @@ struct ObserverHealth {
   std::uint64_t refused_samples = 0;  // see Observed::refused
   double cpu_s = 0;
   double resident_bytes = 0;
+  int foxglove_clients = 0;
+  std::uint64_t foxglove_refused = 0;  // connections and messages of clients
 };
 
 std::string FleetMetrics(const FleetView& view, const ObserverHealth& observer, SteadyTime now);

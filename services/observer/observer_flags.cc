@@ -21,6 +21,7 @@ Examples
   giveway-observer --domain 7 --scenario patrol   # with its walls
   giveway-observer --address 0.0.0.0 --host-name fleet.example
   giveway-observer --ros2 --ros2-domain 42        # for ROS_DOMAIN_ID=42
+  giveway-observer --foxglove-port 8765           # Foxglove: open ws://localhost:8765
 
 Exit code 2: a flag, a file, the port or the network was not usable; stderr says which.
 )";
@@ -41,6 +42,7 @@ constexpr FlagHelp kFlags[] = {
     {"--area", "NAME", "whose beacons (default: the scenario's, or main)"},
     {"--address", "ADDRESS", "address of the page (default 127.0.0.1)"},
     {"--port", "1..65535", "port of the page (default 8080)"},
+    {"--foxglove-port", "1..65535", "port of the Foxglove WebSocket, at --address (default: none)"},
     {"--host-name", "NAME,...",
      "names by which a browser may ask for the page, beside localhost and addresses"},
     {"--ros2-rate", "0.1..100", "messages a second of each ROS 2 topic (default 10)"},
@@ -94,6 +96,10 @@ ObserverFlags Read(FlagValues* values, const FindOnlyFleet& find) {
   flags.qos = ReadQosFlag(values);
   flags.scenario = values->Text("--scenario").value_or("");
   flags.area = values->Text("--area").value_or("");
+  flags.foxglove_port = values->Whole("--foxglove-port", {1, 65535}).value_or(flags.foxglove_port);
+  if (flags.foxglove_port == flags.port) {
+    values->Complain("--foxglove-port", "is the port of the page", "choose another, such as 8765");
+  }
   flags.host_names = Split(values->Text("--host-name").value_or(""));
   ReadRos2(values, &flags);
   flags.log_format = values->OneOf("--log-format", {"text", "json"}).value_or(flags.log_format);

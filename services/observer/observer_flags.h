@@ -22,6 +22,7 @@ struct ObserverFlags {
   std::string area;      // whose beacons; empty: the scenario's, or main
   std::string address = "127.0.0.1";  // of the page
   std::uint32_t port = 8080;
+  std::uint32_t foxglove_port = 0;      // 0: the Foxglove WebSocket is not served
   std::vector<std::string> host_names;  // by which browsers may ask for it
   std::string ask_health;               // not a service but a question to one: "live" or "ready"
   std::string log_format = "text";

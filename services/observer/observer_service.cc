@@ -66,6 +66,19 @@ std::uint64_t SinceEpoch_ns() {
       std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
+std::unique_ptr<FoxgloveFeed> FoxgloveOf(const ObserverFlags& flags,
+                                         const std::optional<Scenario>& scenario) {
+  if (flags.foxglove_port == 0) return nullptr;
+  FoxgloveOptions options{.address = flags.address,
+                          .port = static_cast<std::uint16_t>(flags.foxglove_port),
+                          .name = "giveway, domain " + std::to_string(flags.domain),
+                          .host_names = flags.host_names,
+                          .channels = FoxgloveChannels()};
+  auto feed = std::make_unique<FoxgloveFeed>(LinkOptionsOf(flags, scenario), std::move(options));
+  LogInfo("serves Foxglove at ws://" + flags.address + ":" + std::to_string(flags.foxglove_port));
+  return feed;
+}
+
 PageAnswer Text(std::string body, int status = 200) {
   return {std::move(body), "text/plain; charset=utf-8", status};
 }
@@ -80,6 +93,7 @@ ObserverService::ObserverService(const ObserverFlags& flags,
     : turned_ns_(SteadyNow().count()),
       link_(LinkOptionsOf(flags, scenario), link::ObserverLink::Ranges::kYes,
             flags.ros2 ? link::ObserverLink::Commands::kYes : link::ObserverLink::Commands::kNo),
+      foxglove_(FoxgloveOf(flags, scenario)),
       server_(flags.address, static_cast<std::uint16_t>(flags.port), Sources(flags, scenario)) {
   LogInfo("serves http://" + flags.address + ":" + std::to_string(flags.port) + "/ of domain " +
           std::to_string(flags.domain));
@@ -114,13 +128,16 @@ PageAnswer ObserverService::Ready() {
 
 PageAnswer ObserverService::Metrics(const ServerFigures& server) {
   const ProcessFigures process = ReadProcessFigures();
+  const FoxgloveFigures foxglove = foxglove_ ? foxglove_->Figures() : FoxgloveFigures{};
   const std::lock_guard lock(mutex_);
   const ObserverHealth health{.frames = frames_,
                               .streams = server.streams,
                               .refused_requests = server.refused,
                               .refused_samples = refused_samples_,
                               .cpu_s = process.cpu_s,
-                              .resident_bytes = process.resident_bytes};
+                              .resident_bytes = process.resident_bytes,
+                              .foxglove_clients = foxglove.clients,
+                              .foxglove_refused = foxglove.refused};
   return {FleetMetrics(view_, health, SteadyNow()), "text/plain; version=0.0.4; charset=utf-8"};
 }
 
@@ -182,6 +199,7 @@ void ObserverService::Run(const StopSignal& stop) {
     SleepUntil(SteadyNow() + kTurn);
     Turn();
     const SteadyTime now = SteadyNow();
+    if (foxglove_ != nullptr) foxglove_->Turn(now);
     if (now < next_frame || server_.Figures().streams == 0) continue;  // else: as soon as one comes
     Publish(now);
     // Only this thread changes the view.

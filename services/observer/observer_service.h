@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 #include "services/link/observer_link.h"
 #include "services/observer/fleet/fleet_view.h"
 #include "services/observer/fleet_metrics.h"
+#include "services/observer/foxglove/foxglove_feed.h"
 #include "services/observer/observer_flags.h"
 #include "services/observer/ros2/ros2_publisher.h"
 #include "services/observer/server/page_server.h"
@@ -48,6 +50,7 @@ class ObserverService {
   link::ObserverLink link_;
   std::optional<Ros2Publisher> ros2_;  // of the loop
   bool ros2_refusal_logged_ = false;
+  std::unique_ptr<FoxgloveFeed> foxglove_;  // null where it was not asked for
   PageServer server_;  // last: its threads read all of the above, from its constructor on
 };
 

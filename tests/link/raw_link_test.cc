@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <set>
+#include <string_view>
 
 #include "services/link/fastdds/topics.h"
 #include "services/link/sample_codec.h"
@@ -62,6 +65,82 @@ TEST(RawLink, SaysWhatItsReadersAskFor) {
   const DomainLock domain;
   const link::RawLink recorder(OptionsIn(domain), {kBeacons});
   EXPECT_EQ(recorder.QosText(kBeacons), "BEST_EFFORT, VOLATILE, deadline 150 ms");
+}
+
+TEST(RawLink, ReadsWhatIsOpenedLater) {
+  const DomainLock domain;
+  Beaconing seven(OptionsIn(domain), VehicleId{7});
+  link::RawLink recorder(OptionsIn(domain), {});
+  EXPECT_EQ(recorder.QosText(kBeacons), "");
+  recorder.Open(kBeacons);
+  recorder.Open(kBeacons);
+  std::set<std::uint32_t> sequences;
+  std::size_t heard = 0;
+  ASSERT_TRUE(Eventually([&] {
+    seven.Send();
+    recorder.Take([&](const link::RawSample& sample) {
+      ++heard;
+      sequences.insert(sample.sequence);
+    });
+    return heard > 20;
+  }));
+  EXPECT_EQ(sequences.size(), heard);  // each once
+}
+
+TEST(RawLink, TheSamplesOfAVehicleAreOneInstance) {
+  const DomainLock domain;
+  Beaconing seven(OptionsIn(domain), VehicleId{7});
+  Beaconing eight(OptionsIn(domain), VehicleId{8});
+  link::RawLink recorder(OptionsIn(domain), {kBeacons});
+  std::map<std::uint32_t, std::set<std::array<std::uint8_t, 16>>> instances;
+  std::size_t heard = 0;
+  ASSERT_TRUE(Eventually([&] {
+    seven.Send();
+    eight.Send();
+    recorder.Take([&](const link::RawSample& sample) {
+      link::Observed observed;
+      link::DecodeInto("fleet/beacon", sample.bytes, &observed);
+      instances[Number(observed.beacons.front().beacon.vehicle)].insert(sample.instance);
+      ++heard;
+    });
+    return instances.size() == 2 && heard > 40;
+  }));
+  ASSERT_EQ(instances[7].size(), 1U);
+  ASSERT_EQ(instances[8].size(), 1U);
+  EXPECT_NE(*instances[7].begin(), *instances[8].begin());
+  EXPECT_TRUE(link::RawTopics()[kBeacons].keyed);
+}
+
+TEST(RawLink, SaysWhichTopicsAreKeptForReadersThatComeLate) {
+  const DomainLock domain;
+  const auto& topics = link::RawTopics();
+  const auto place = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::ranges::find(topics, name, &link::RawTopic::name) -
+                                    topics.begin());
+  };
+  const link::RawLink recorder(OptionsIn(domain),
+                               {kBeacons, place("world/roster"), place("world/event")});
+  EXPECT_FALSE(recorder.IsDurable(kBeacons));
+  EXPECT_TRUE(recorder.IsDurable(place("world/roster")));
+  EXPECT_FALSE(recorder.IsDurable(place("world/signal")));  // not read
+  EXPECT_FALSE(topics[place("world/event")].keyed);
+}
+
+// Where clients come and go, it is made and destroyed while writers write: the library is said to
+// remove readers unsafely.
+TEST(RawLink, IsMadeAndEndsAgainAndAgainWhileVehiclesSend) {
+  const DomainLock domain;
+  const BeaconingProcess seven(OptionsIn(domain), VehicleId{7});
+  const BeaconingProcess eight(OptionsIn(domain), VehicleId{8});
+  for (int times = 0; times < 12; ++times) {
+    link::RawLink recorder(OptionsIn(domain), {});
+    for (std::size_t topic = 0; topic < link::RawTopics().size(); ++topic) recorder.Open(topic);
+    std::size_t heard = 0;
+    ASSERT_TRUE(Eventually([&] {
+      recorder.Take([&](const link::RawSample&) { ++heard; });
+      return heard > 2;
+    }));
+  }
 }
 
 // Issue 25: pose fixes were in no recording.

@@ -122,6 +122,14 @@ kept() {
     fail "not everyone kept its ring: $(jq -c .kept_rings "$SCRATCH/kept.json")"
   [[ $(find "$report/recordings" -name 'vehicle-2*' | wc -l) -ge 4 ]] ||
     fail "vehicle 2 has no ring beside its newest: $(ls "$report/recordings")"
+  # And the page of what the fleet did until then: vehicles and their ranges, before and at the break.
+  local page
+  page=$(jq -r '.kept_rings[0].page' "$SCRATCH/kept.json")
+  [[ $page == recordings/black-box-*.html && -s $report/$page ]] || fail "no page of the last seconds: $page"
+  grep -q "<a href=\"$page\">" "$report/report.html" || fail "the report does not lead to $page"
+  [[ $(grep -c '"ranges":{"1":' "$report/$page") -ge 20 ]] ||
+    fail "fewer than 20 frames with ranges in $page: $(grep -c '"ranges":' "$report/$page")"
+  [[ $(grep -c '"ranges":' "$report/$page") -le 60 ]] || fail "more than the last 5 s in $page"
   "$FLEETCTL" replay "$report"/recordings/*.recording >"$SCRATCH/replayed" ||
     fail "the rings do not replay: $(tail -n 3 "$SCRATCH/replayed")"
   "$FLEETCTL" soak --around "$report" >"$SCRATCH/around" || fail "there is nothing around a broken promise"

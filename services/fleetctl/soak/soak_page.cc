@@ -68,8 +68,9 @@ std::string Head(const SoakResult& result) {
   html += "<div class=\"scroll\"><table>\n";
   for (const SummaryRow& row : SummaryOf(result)) {
     if (row.label == "again") continue;
-    html += "<tr><td>" + HtmlText(row.label) + "</td><td class=\"text\">" + HtmlText(row.text) +
-            "</td></tr>\n";
+    std::string text = HtmlText(row.text);
+    if (!row.link.empty()) text = "<a href=\"" + HtmlText(row.link) + "\">" + text + "</a>";
+    html += "<tr><td>" + HtmlText(row.label) + "</td><td class=\"text\">" + text + "</td></tr>\n";
   }
   return html + "</table></div>\n";
 }

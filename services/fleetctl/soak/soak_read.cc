@@ -220,7 +220,7 @@ void ReadFigures(const schema::SoakReport& message, SoakResult* result, Complain
                                 margin.free_m(), margin.share_left()};
   }
   for (const schema::SoakKeptRings& kept : message.kept_rings()) {
-    result->kept_rings.push_back({kept.time_s(), kept.ordered(), kept.kept()});
+    result->kept_rings.push_back({kept.time_s(), kept.ordered(), kept.kept(), kept.page()});
   }
   result->resumed_at_s = {message.resumed_at_s().begin(), message.resumed_at_s().end()};
   result->budget_spent = CountOf(message.budget_spent(), "budget_spent", complaints);

@@ -165,6 +165,7 @@ struct KeptRings {
   double time_s = 0;
   std::uint32_t ordered = 0;  // vehicles that were reached
   std::uint32_t kept = 0;     // of those, who said that they did
+  std::string page;  // what the fleet did until then, a file of the report's folder; empty: none
 };
 
 struct SoakResult {

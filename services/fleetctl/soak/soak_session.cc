@@ -39,6 +39,12 @@ link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
           spec.options.discovery_servers};
 }
 
+// A black box shows them.
+link::ObserverLink::Ranges RangesFor(const FleetSpec& spec) {
+  return spec.options.record_ring.empty() ? link::ObserverLink::Ranges::kNo
+                                          : link::ObserverLink::Ranges::kYes;
+}
+
 // "vehicle-3", "world": as in the report.
 std::string ProcessName(MemberId member) {
   return member == kTheWorld ? "world" : fmt::format("vehicle-{}", member.number);
@@ -81,7 +87,7 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       fleet_(SoakFleet(scenario, NewcomerCount(spec.options, scenario))),
       watch_(fleet_, schedule),
       invariants_(scenario),
-      observer_(ObserverOf(spec, scenario)),
+      observer_(ObserverOf(spec, scenario), RangesFor(spec)),
       processes_(tools.commands),
       faults_(std::move(tools), &processes_),
       clock_(schedule),
@@ -95,8 +101,10 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       turned_(SteadyNow()) {
   const std::string& ring_s = spec.options.record_ring;
   if (ring_s.empty()) return;
+  const seconds ring(std::stoul(ring_s));
   rings_.emplace(ObserverOf(spec, scenario), KeyToOrderWith(spec.options.admin_key, spec.domain),
-                 fleet_, spec.options.record_folder, seconds(std::stoul(ring_s)));
+                 fleet_, spec.options.record_folder, ring);
+  black_box_.emplace(scenario, spec.options.record_folder, ring);
 }
 
 SoakSeen SoakSession::Run(const Saved& save) {
@@ -115,6 +123,7 @@ SoakSeen SoakSession::Run(const Saved& save) {
   CarryOut(clock_.EndAll(seen_.lasted_s));
   Stop();
   invariants_.Finish(false);
+  if (black_box_) black_box_->Finish();
   Gather(&seen_);
   seen_.slopes = resources_.Slopes();
   return std::move(seen_);
@@ -133,6 +142,9 @@ void SoakSession::Gather(SoakSeen* seen) const {
   seen->near_misses_counted = near_.Count();
   seen->timing = timing_;
   if (rings_) seen->kept_rings = rings_->Kept();
+  for (std::size_t i = 0; black_box_ && i < seen->kept_rings.size(); ++i) {
+    seen->kept_rings[i].page = black_box_->Written(i);
+  }
   seen->slopes = resources_.EndedSlopes();
   for (const VehicleId vehicle : fleet_) {
     seen->step_p99_us[vehicle] = watch_.HighestStepP99_us(vehicle);
@@ -196,6 +208,7 @@ void SoakSession::Drain() {
   watch_.Fold(observed, SteadyNow());
   invariants_.Fold(observed);
   near_.Fold(observed.truths);
+  if (black_box_) black_box_->Fold(observed, SteadyNow());
   for (const VehicleStatus& status : observed.statuses) {
     timing_.Fold(status, watch_.TimeSeconds(SteadyNow()));
   }
@@ -218,7 +231,9 @@ std::uint64_t SoakSession::BrokenSoFar() const {
 void SoakSession::KeepRings(SteadyTime now) {
   if (!rings_) return;
   const std::uint64_t broken = BrokenSoFar();
+  const std::size_t kept_before = rings_->Kept().size();
   if (broken > broken_before_ && !stopping_) rings_->Keep(now, watch_.TimeSeconds(now));
+  if (rings_->Kept().size() > kept_before) black_box_->Write();
   broken_before_ = broken;
   rings_->Turn(now);
 }

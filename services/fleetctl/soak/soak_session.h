@@ -11,6 +11,7 @@
 
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/fleet_processes.h"
+#include "services/fleetctl/run/black_box.h"
 #include "services/fleetctl/run/invariant_watch.h"
 #include "services/fleetctl/soak/fault_clock.h"
 #include "services/fleetctl/soak/fleet_course.h"
@@ -78,7 +79,8 @@ class SoakSession {
   NearMisses near_;
   FleetTiming timing_;
   std::optional<RingKeeper> rings_;
-  std::uint64_t broken_before_ = 0;  // when rings were kept last
+  std::optional<BlackBox> black_box_;  // as rings_: nothing without them
+  std::uint64_t broken_before_ = 0;    // when rings were kept last
   double tick_period_s_;
   std::optional<Truth> any_truth_;
   SoakSeen seen_;

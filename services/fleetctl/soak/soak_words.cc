@@ -56,6 +56,11 @@ std::string SlopeSummary(const SoakResult& result) {
   return fmt::format("{} of {} slopes are leaks: {}", count, result.slopes.size(), leaks);
 }
 
+// A report may be read from a file, and a link there could lead anywhere.
+std::string LinkTo(const std::string& page) {
+  return page.starts_with("recordings/") ? page : std::string();
+}
+
 }  // namespace
 
 std::string VerdictWords(const SoakResult& result) {
@@ -185,6 +190,7 @@ std::vector<SummaryRow> SummaryOf(const SoakResult& result) {
   for (const KeptRings& kept : result.kept_rings) {
     rows.push_back({"rings kept", fmt::format("at {:.1f} s, by {} of {} vehicles", kept.time_s,
                                               kept.kept, result.vehicles)});
+    if (!kept.page.empty()) rows.push_back({"black box", kept.page, LinkTo(kept.page)});
   }
   if (result.supervisor_cpu_share) {
     rows.push_back({"supervisor", fmt::format("{:.1f} % of the fleet's processor time",

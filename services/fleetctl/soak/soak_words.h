@@ -46,6 +46,7 @@ AccountingSums SumsOf(const std::vector<AccountingRow>& rows);
 struct SummaryRow {
   std::string label;
   std::string text;
+  std::string link = {};  // a file of the report's folder that `text` leads to; empty: none
 };
 std::vector<SummaryRow> SummaryOf(const SoakResult& result);
 

@@ -15,8 +15,8 @@ double Printable(double value) {
 
 bool Exists(const std::optional<double>& value) { return value && std::isfinite(*value); }
 
-template <typename Whole>
-double AsDouble(Whole value) {
+template <typename Integer>
+double AsDouble(Integer value) {
   return static_cast<double>(value);
 }
 
@@ -185,6 +185,7 @@ schema::SoakReport SchemaOf(const SoakResult& result) {
     written.set_time_s(Printable(kept.time_s));
     written.set_ordered(kept.ordered);
     written.set_kept(kept.kept);
+    written.set_page(kept.page);
   }
   for (const double at_s : result.resumed_at_s) message.add_resumed_at_s(Printable(at_s));
   message.set_budget_spent(AsDouble(result.budget_spent));

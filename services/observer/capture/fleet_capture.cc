@@ -10,19 +10,29 @@ namespace giveway {
 FleetCapture::FleetCapture(mcap::McapWriter::Sink sink, QosOf qos, const std::string& profile)
     : qos_(std::move(qos)), writer_(std::move(sink), "giveway", profile) {}
 
+ChannelDescription DescribeChannel(std::size_t topic) {
+  const link::RawTopic& raw = link::RawTopics().at(topic);
+  return {.topic = std::string(raw.name),
+          .encoding = "cdr",
+          .schema_name = std::string(raw.type),
+          .schema_encoding = "omgidl"};
+}
+
 std::uint16_t FleetCapture::ChannelOf(std::size_t topic) {
   const auto known = channels_.find(topic);
   if (known != channels_.end()) return known->second;
-  const link::RawTopic& raw = link::RawTopics().at(topic);
-  const std::uint16_t schema = writer_.AddSchema(
-      {.id = 0, .name = std::string(raw.type), .encoding = "omgidl", .data = FleetIdl()});
+  ChannelDescription described = DescribeChannel(topic);
+  const std::uint16_t schema = writer_.AddSchema({.id = 0,
+                                                  .name = std::move(described.schema_name),
+                                                  .encoding = std::move(described.schema_encoding),
+                                                  .data = FleetIdl()});
   mcap::Metadata metadata;
   const std::string qos = qos_ ? qos_(topic) : "";
   if (!qos.empty()) metadata["reader_qos"] = qos;
   const std::uint16_t channel = writer_.AddChannel({.id = 0,
                                                     .schema = schema,
-                                                    .topic = std::string(raw.name),
-                                                    .encoding = "cdr",
+                                                    .topic = std::move(described.topic),
+                                                    .encoding = std::move(described.encoding),
                                                     .metadata = std::move(metadata)});
   channels_[topic] = channel;
   return channel;

@@ -18,6 +18,16 @@ namespace giveway {
 // fleet.idl, as this build was made from it.
 std::string FleetIdl();
 
+// A topic's samples as a channel is described to readers, in a file and live.
+struct ChannelDescription {
+  std::string topic;            // "fleet/beacon"
+  std::string encoding;         // of the samples: "cdr"
+  std::string schema_name;      // "giveway::wire::Beacon"
+  std::string schema_encoding;  // "omgidl"
+};
+// Of the topic at this place of link::RawTopics(). The schema's text is FleetIdl().
+ChannelDescription DescribeChannel(std::size_t topic);
+
 class FleetCapture {
  public:
   // `qos` says of a topic what its reader asked for; it becomes the channel's metadata.

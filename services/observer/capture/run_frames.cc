@@ -16,10 +16,11 @@ namespace {
 constexpr std::uint64_t kLatest_ns = std::uint64_t{1} << 62U;
 constexpr Nanoseconds kLongestPeriod = std::chrono::hours(24);
 
-void AppendAll(const std::vector<std::string>& parts, std::string* json) {
+template <typename Parts>
+void AppendAll(const Parts& parts, std::string* json) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i != 0) *json += ",\n";
-    *json += parts[i];
+    *json += parts[i].json;
   }
 }
 
@@ -35,16 +36,17 @@ void RunFrames::NoteEvents(const FleetView& view, SteadyTime now) {
     if (events_.size() >= kMostEvents) return;
     JsonObject object;
     AddFields(events[i], &object);
-    events_.push_back(fmt::format("[{},{}]", at_ms, object.Text()));
+    events_.push_back({now, fmt::format("[{},{}]", at_ms, object.Text())});
   }
 }
 
 void RunFrames::Note(const FleetView& view, SteadyTime now) {
   NoteEvents(view, now);
+  DropOld(now);
   if (now < due_ || !view.Heard().Anybody()) return;
   due_ = now + period_;
-  frames_.push_back(FrameJson(view, now, 0));
-  bytes_ += frames_.back().size();
+  frames_.push_back({now, FrameJson(view, now, 0)});
+  bytes_ += frames_.back().json.size();
   if (frames_.size() > kMostFrames || bytes_ > kMostBytes) Thin();
 }
 
@@ -54,7 +56,17 @@ void RunFrames::Thin() {
   for (std::size_t i = 0; i < frames_.size(); i += 2) std::swap(frames_[kept++], frames_[i]);
   frames_.resize(kept);
   bytes_ = 0;
-  for (const std::string& frame : frames_) bytes_ += frame.size();
+  for (const Noted& frame : frames_) bytes_ += frame.json.size();
+}
+
+void RunFrames::DropOld(SteadyTime now) {
+  if (last_ == Nanoseconds{0}) return;
+  const auto is_old = [&](const Noted& noted) { return now - noted.at > last_; };
+  while (!events_.empty() && is_old(events_.front())) events_.pop_front();
+  while (!frames_.empty() && is_old(frames_.front())) {
+    bytes_ -= frames_.front().json.size();
+    frames_.pop_front();
+  }
 }
 
 std::string RunFrames::RunJson(const std::string& scene, Opens opens) const {

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <string>
-#include <vector>
 
 #include "services/mcap/mcap_reader.h"
 #include "services/observer/fleet/fleet_view.h"
@@ -12,13 +12,17 @@
 namespace giveway {
 
 // Collects frames of a run that goes on, and its events. Bounded: of a run longer than that every
-// second frame goes; of more events the first stay.
+// second frame goes; of more events the first stay. Or the last of a run without an end.
 class RunFrames {
  public:
   static constexpr std::size_t kMostFrames = 6000;  // ten minutes at ten a second
   static constexpr std::uint64_t kMostBytes = 256ULL << 20U;
   static constexpr std::size_t kMostEvents = 50'000;
   enum class Opens : std::uint8_t { kMap, kReport };  // what the page shows first
+
+  RunFrames() = default;
+  // Drops what is older than this.
+  explicit RunFrames(Nanoseconds last) : last_(last) {}
 
   // Takes the events that came since the last call, and a frame if one is due.
   void Note(const FleetView& view, SteadyTime now);
@@ -27,12 +31,18 @@ class RunFrames {
   std::string RunJson(const std::string& scene, Opens opens = Opens::kMap) const;
 
  private:
+  struct Noted {
+    SteadyTime at{0};
+    std::string json;
+  };
   void NoteEvents(const FleetView& view, SteadyTime now);
   void Thin();
+  void DropOld(SteadyTime now);
 
-  std::vector<std::string> frames_;
-  std::uint64_t bytes_ = 0;
-  std::vector<std::string> events_;
+  Nanoseconds last_{0};  // 0: all of it
+  std::deque<Noted> frames_;
+  std::uint64_t bytes_ = 0;  // of frames_
+  std::deque<Noted> events_;
   std::uint64_t events_noted_ = 0;
   Nanoseconds period_{100'000'000};
   SteadyTime due_{0};

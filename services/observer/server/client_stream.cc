@@ -1,7 +1,5 @@
 #include "services/observer/server/client_stream.h"
 
-#include <netinet/in.h>
-#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 
@@ -9,6 +7,7 @@
 #include <array>
 #include <cerrno>
 
+#include "services/observer/server/socket_bounds.h"
 #include "services/runtime/process.h"
 
 namespace giveway {
@@ -25,16 +24,6 @@ constexpr Nanoseconds kAnswerTime = std::chrono::seconds(60);
 constexpr std::size_t kPiece = 64UL << 10U;  // bytes given to the kernel at once
 constexpr Nanoseconds kDrainTime = milliseconds(100);
 constexpr Nanoseconds kSlice = milliseconds(50);  // how soon a server that stops is noticed
-
-// The kernel would keep megabytes for a slow client, and it would be shown frames of a minute ago:
-// it is writable only while little waits to be sent. And a client whose machine is gone ends, also
-// after we have closed.
-void BoundKernel(int socket) {
-  const int most_unsent = 16 << 10;  // bytes
-  const int most_unheard_ms = 10'000;
-  setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &most_unsent, sizeof(most_unsent));
-  setsockopt(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, &most_unheard_ms, sizeof(most_unheard_ms));
-}
 
 }  // namespace
 

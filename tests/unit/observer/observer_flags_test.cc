@@ -26,6 +26,7 @@ TEST(ObserverFlags, HaveDefaultsAndReadWhatIsGiven) {
   EXPECT_EQ(flags.domain, 7U);
   EXPECT_EQ(flags.port, 8080U);
   EXPECT_EQ(flags.address, "127.0.0.1");
+  EXPECT_EQ(flags.foxglove_port, 0U);
   EXPECT_EQ(flags.host_names, (std::vector<std::string>{"fleet", "robots.example"}));
 }
 
@@ -33,6 +34,8 @@ TEST(ObserverFlags, AreRefusedInWords) {
   for (const auto& wrong : {std::initializer_list<const char*>{},
                             {"--domain", "0"},
                             {"--domain", "7", "--port", "70000"},
+                            {"--domain", "7", "--foxglove-port", "0"},
+                            {"--domain", "7", "--foxglove-port", "8080"},
                             {"--domain", "7", "--log-level", "loud"},
                             {"--domain", "7", "--ros2", "--ros2-rate", "0"},
                             {"--domain", "7", "--ros2", "--ros2-domain", "100"},
@@ -85,10 +88,13 @@ TEST(ObserverFlags, AHealthQuestionNeedsNoDomain) {
 
 TEST(ObserverFlags, HaveTwinsInTheEnvironment) {
   setenv("GIVEWAY_DOMAIN", "9", 1);
+  setenv("GIVEWAY_FOXGLOVE_PORT", "8765", 1);
   const auto parsed = Parse({});
   unsetenv("GIVEWAY_DOMAIN");
+  unsetenv("GIVEWAY_FOXGLOVE_PORT");
   ASSERT_TRUE(std::holds_alternative<ObserverFlags>(parsed));
   EXPECT_EQ(std::get<ObserverFlags>(parsed).domain, 9U);
+  EXPECT_EQ(std::get<ObserverFlags>(parsed).foxglove_port, 8765U);
 }
 
 }  // namespace

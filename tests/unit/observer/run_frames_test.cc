@@ -10,6 +10,7 @@ namespace giveway {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 Beacon BeaconAt(double x) {
   Beacon beacon;
@@ -147,6 +148,29 @@ TEST(FleetCapture, EveryChannelHasTheIdlAsItsSchema) {
                          });
   EXPECT_EQ(name, "giveway::wire::Truth");
   EXPECT_THAT(schema, HasSubstr("struct Beacon {"));
+}
+
+TEST(RunFrames, OfARunWithoutAnEndTheLastIsKept) {
+  FleetView view;
+  RunFrames frames(std::chrono::seconds(5));
+  for (int tenth = 0; tenth < 600; ++tenth) {
+    const SteadyTime now = SteadyTime{0} + std::chrono::milliseconds(100 * tenth);
+    link::Observed observed;
+    observed.beacons.push_back({.beacon = BeaconAt(tenth), .crc_valid = true, .name_valid = true});
+    WorldEvent event;
+    event.text = "event " + std::to_string(tenth);
+    event.epoch = WorldEpoch{1};
+    event.seq = static_cast<std::uint32_t>(tenth + 1);
+    if (tenth % 100 == 0) observed.events.push_back(event);
+    view.Fold(observed, now);
+    frames.Note(view, now);
+  }
+  EXPECT_EQ(frames.Size(), 51U);
+  const std::string json = frames.RunJson("{}");
+  EXPECT_THAT(json, Not(HasSubstr("[7,548000,0,")));
+  EXPECT_THAT(json, HasSubstr("[7,549000,0,"));
+  EXPECT_THAT(json, HasSubstr("[7,599000,0,"));
+  EXPECT_THAT(json, Not(HasSubstr("event 500")));
 }
 
 }  // namespace

@@ -39,6 +39,15 @@ TEST(SoakPage, WithoutPicturesItSaysSoAndHasItsTables) {
   EXPECT_THAT(ToHtml(SoakResult{}, {}), HasSubstr("not_run"));
 }
 
+TEST(SoakPage, LeadsToThePagesOfItsBlackBox) {
+  SoakResult result = SampleSoak(1);
+  result.kept_rings = {{12, 3, 3, "recordings/black-box-1.html"},
+                       {40, 3, 2, "javascript:alert(1)"}};
+  const std::string html = ToHtml(result, {});
+  EXPECT_THAT(html, HasSubstr("<a href=\"recordings/black-box-1.html\">"));
+  EXPECT_THAT(html, Not(HasSubstr("href=\"javascript")));
+}
+
 TEST(SoakPage, PicturesTakeTheColourOfItsText) {
   const std::string html = ToHtml(
       SampleSoak(1), {{"faults", "Faults & more", "<?xml?><svg stroke='black' fill=\"black\"/>"}});
