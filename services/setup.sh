@@ -58,6 +58,7 @@ test_packages() {
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && clang_rt=libclang-rt-19-dev
   printf '%s\n' clang-format iproute2 jq shellcheck librsvg2-bin spin clang "$clang_rt" cyclonedds-dev \
     cyclonedds-tools parallel help2man
+  tools_packages
 }
 
 # What the world is measured against. Only tests/bench/run.sh asks for them.

@@ -119,6 +119,20 @@ void AddBeacons(const VehicleStatus& status, Metrics* metrics) {
   rejected("table_full", beacons.rejected_table_full);
 }
 
+void AddRefused(const RefusedSamples& refused, Metrics* metrics) {
+  metrics->Begin("samples_refused_total", "Samples that were not used, rejected beacons apart.",
+                 MetricType::Counter);
+  const auto add = [metrics](const char* reason, std::uint32_t count) {
+    metrics->Add({{"reason", reason}}, count);
+  };
+  add("unbound", refused.unbound_samples);
+  add("unreadable", refused.unreadable_samples);
+  add("wrong_name", refused.wrong_name_scans);
+  add("old_world", refused.old_world_entries);
+  add("stranger", refused.strangers);
+  add("implausible", refused.implausible);
+}
+
 void AddTrust(const TrustCounters& trust, Metrics* metrics) {
   metrics->Begin("doubts_total", "What did not fit in what peers said, by kind.",
                  MetricType::Counter);
@@ -244,6 +258,7 @@ std::string MetricsText(const VehicleHealth& vehicle, const ProcessFigures& proc
   AddPeers(vehicle, &metrics);
   AddBeacons(vehicle.status, &metrics);
   AddTrust(vehicle.status.trust, &metrics);
+  AddRefused(vehicle.status.refused, &metrics);
   AddTiming(vehicle.status.timing, &metrics);
   AddPackets(vehicle.packets, &metrics);
   AddLog(process, &metrics);

@@ -29,13 +29,8 @@ struct VehicleLinkCounters {
   // Beacons that arrived and were overwritten in the reader before a drain: gaps in the writers'
   // own sequence numbers less what the library's sample-lost status says never arrived.
   std::uint32_t beacons_superseded = 0;
-  std::uint32_t unbound_samples = 0;     // writer's partition not yet known: dropped
-  std::uint32_t unreadable_samples = 0;  // arrived, but say what cannot be told: dropped
-  std::uint32_t wrong_name_scans = 0;    // of a sensor, whose id is not this vehicle's
-  std::uint32_t old_world_entries = 0;   // roster of a world while another one is believed
-  std::uint32_t strangers = 0;           // of a participant that may not say that: dropped
-  std::uint32_t implausible = 0;         // of the world, out of range or of ticks to come: dropped
-  std::uint32_t events_dropped = 0;      // the event queue was full
+  RefusedSamples refused;                   // dropped
+  std::uint32_t events_dropped = 0;         // the event queue was full
   std::uint32_t deadline_watches_lost = 0;  // the library stopped watching a reader's deadlines
   std::uint32_t write_failures = 0;
   std::uint32_t matched_peers = 0;   // beacon writers matched now, own excluded

@@ -139,16 +139,16 @@ struct OwnEndpoints {
   }
   void AddTo(VehicleLinkCounters& counters) {
     counters.beacons_superseded = beacons.Superseded();
-    counters.unbound_samples += beacons.Unbound();
-    counters.unreadable_samples += beacons.Unreadable();
+    counters.refused.unbound_samples += beacons.Unbound();
+    counters.refused.unreadable_samples += beacons.Unreadable();
     counters.ranges_skipped = ranges.Counters().skipped;
     counters.ranges_deadline_missed = ranges.Counters().deadline_missed;
     const auto add = [&counters](const ScanCounters& scans) {
-      counters.unbound_samples += scans.unbound;
-      counters.unreadable_samples += scans.unreadable;
-      counters.wrong_name_scans += scans.wrong_name;
-      counters.strangers += scans.strangers;
-      counters.implausible += scans.implausible;
+      counters.refused.unbound_samples += scans.unbound;
+      counters.refused.unreadable_samples += scans.unreadable;
+      counters.refused.wrong_name_scans += scans.wrong_name;
+      counters.refused.strangers += scans.strangers;
+      counters.refused.implausible += scans.implausible;
     };
     add(ranges.Counters());
     sensors.ForEach([&](const auto& inbox) {
@@ -416,14 +416,14 @@ VehicleLinkCounters VehicleLink::Counters() const {
   counters.events_dropped = impl_->events.Dropped();
   counters.deadline_watches_lost = DeadlineWatchesLost();
   counters.matched_peers = impl_->peers.MatchedWriters();
-  counters.unreadable_samples = impl_->roster.Unreadable();
-  counters.old_world_entries = impl_->roster.FromOtherWorlds();
-  counters.strangers = impl_->filters.Refused();
-  counters.implausible = impl_->roster.Implausible();
+  counters.refused.unreadable_samples = impl_->roster.Unreadable();
+  counters.refused.old_world_entries = impl_->roster.FromOtherWorlds();
+  counters.refused.strangers = impl_->filters.Refused();
+  counters.refused.implausible = impl_->roster.Implausible();
   if (impl_->signals) {
-    counters.unreadable_samples += impl_->signals->Unreadable();
-    counters.strangers += impl_->signals->Strangers();
-    counters.implausible += impl_->signals->Implausible();
+    counters.refused.unreadable_samples += impl_->signals->Unreadable();
+    counters.refused.strangers += impl_->signals->Strangers();
+    counters.refused.implausible += impl_->signals->Implausible();
     counters.signals_deadline_missed = impl_->signals->DeadlineMissed();
   }
   if (impl_->own) impl_->own->AddTo(counters);

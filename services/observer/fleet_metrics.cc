@@ -2,6 +2,8 @@
 
 #include <prometheus/text_serializer.h>
 
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -178,12 +180,38 @@ void AddRefusals(Families* to) {
        {"wrong_epoch", [](const auto& s) -> double { return s.beacons.rejected_wrong_epoch; }},
        {"table_full", [](const auto& s) -> double { return s.beacons.rejected_table_full; }}});
   to->ByReason<Of>(
+      "samples_refused_total", "Samples that were not used, rejected beacons apart.", "reason",
+      {{"unbound", [](const auto& s) -> double { return s.refused.unbound_samples; }},
+       {"unreadable", [](const auto& s) -> double { return s.refused.unreadable_samples; }},
+       {"wrong_name", [](const auto& s) -> double { return s.refused.wrong_name_scans; }},
+       {"old_world", [](const auto& s) -> double { return s.refused.old_world_entries; }},
+       {"stranger", [](const auto& s) -> double { return s.refused.strangers; }},
+       {"implausible", [](const auto& s) -> double { return s.refused.implausible; }}});
+  to->ByReason<Of>(
       "doubts_total", "What did not fit in what peers said, by kind.", "kind",
       {{"beacon_without_echo", [](const auto& s) -> double { return s.trust.beacon_without_echo; }},
        {"echo_without_beacon", [](const auto& s) -> double { return s.trust.echo_without_beacon; }},
        {"halted_but_closing", [](const auto& s) -> double { return s.trust.halted_but_closing; }},
        {"jump", [](const auto& s) -> double { return s.trust.jumps; }},
        {"impossible_speed", [](const auto& s) -> double { return s.trust.impossible_speeds; }}});
+}
+
+void AddPackets(Families* to) {
+  const auto count = [](PacketDrop drop) {
+    return [drop](const VehicleStatus& status) {
+      return static_cast<double>(status.packets.Of(drop));
+    };
+  };
+  to->OfStatus("packets_received_total", "Packets that the filter handed on to the middleware.",
+               MetricType::Counter, count(PacketDrop::kNone));
+  using Of = std::function<double(const VehicleStatus&)>;
+  std::vector<std::pair<const char*, Of>> reasons;
+  for (std::size_t i = 1; i < kPacketDrops; ++i) {
+    const auto drop = static_cast<PacketDrop>(i);
+    reasons.emplace_back(Name(drop).data(), count(drop));  // names are literals
+  }
+  to->ByReason<Of>("packets_dropped_total", "Packets that the filter dropped, by reason.", "reason",
+                   reasons);
 }
 
 void AddWorld(Families* to) {
@@ -229,6 +257,7 @@ std::string FleetMetrics(const FleetView& view, const ObserverHealth& observer, 
   AddDriving(&families);
   AddPeers(&families);
   AddRefusals(&families);
+  AddPackets(&families);
   families.Histogram("beacon_age_seconds", "Time since the tick of the oldest beacon decided by.",
                      &VehicleView::beacon_age);
   families.Histogram("reaction_seconds", "Time from a cause to wheels that obey.",

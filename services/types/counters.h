@@ -54,6 +54,18 @@ struct TrustCounters {
   }
 };
 
+// Samples that arrived and were not used, apart from beacons that the brain rejected.
+struct RefusedSamples {
+  std::uint32_t unbound_samples = 0;     // writer's partition not yet known
+  std::uint32_t unreadable_samples = 0;  // arrived, but say what cannot be told
+  std::uint32_t wrong_name_scans = 0;    // of a sensor, whose id is not this vehicle's
+  std::uint32_t old_world_entries = 0;   // roster of a world while another one is believed
+  std::uint32_t strangers = 0;           // of a participant that may not say that
+  std::uint32_t implausible = 0;         // of the world, out of range or of ticks to come
+
+  friend constexpr bool operator==(const RefusedSamples&, const RefusedSamples&) = default;
+};
+
 struct QosCounters {
   std::uint32_t deadline_missed = 0;
   std::uint32_t liveliness_lost = 0;

@@ -10,6 +10,7 @@
 #include "services/types/counters.h"
 #include "services/types/decision.h"
 #include "services/types/figures/drive_figures.h"
+#include "services/types/figures/packet_counters.h"
 #include "services/types/ids.h"
 #include "services/types/impairment.h"
 #include "services/types/math/pose.h"
@@ -140,6 +141,8 @@ struct VehicleStatus {
   // nothing is impaired.
   ImpairmentCounters impaired;
   DriveFigures timing;  // of this process, in the run
+  PacketCounters packets;
+  RefusedSamples refused;
 };
 
 }  // namespace giveway

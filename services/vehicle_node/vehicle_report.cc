@@ -4,6 +4,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "services/link/fastdds/packets_of_process.h"
+
 namespace giveway {
 namespace {
 
@@ -65,12 +67,12 @@ std::string Describe(const link::VehicleLinkCounters& counters) {
                           {"ranges_deadline_missed", counters.ranges_deadline_missed},
                           {"sensors_deadline_missed", counters.sensors_deadline_missed},
                           {"signals_deadline_missed", counters.signals_deadline_missed},
-                          {"unbound_samples", counters.unbound_samples},
-                          {"unreadable_samples", counters.unreadable_samples},
-                          {"wrong_name_scans", counters.wrong_name_scans},
-                          {"old_world_entries", counters.old_world_entries},
-                          {"strangers", counters.strangers},
-                          {"implausible", counters.implausible},
+                          {"unbound_samples", counters.refused.unbound_samples},
+                          {"unreadable_samples", counters.refused.unreadable_samples},
+                          {"wrong_name_scans", counters.refused.wrong_name_scans},
+                          {"old_world_entries", counters.refused.old_world_entries},
+                          {"strangers", counters.refused.strangers},
+                          {"implausible", counters.refused.implausible},
                           {"events_dropped", counters.events_dropped},
                           {"deadline_watches_lost", counters.deadline_watches_lost},
                           {"write_failures", counters.write_failures}});
@@ -131,6 +133,8 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::DriveLin
   status.beacon_lease_ms = qos.lease_ms;
   status.impaired = counters.impaired;
   status.timing = timing_.Figures();
+  status.packets = link::PacketsOfProcess();
+  status.refused = counters.refused;
   return status;
 }
 

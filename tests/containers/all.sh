@@ -26,6 +26,7 @@ debian13() {
   base_image "$SUITE"
   bash "$HERE/debian13.sh" asan fuzz | tee >(cat >&2) | grep -E '^([0-9]+ passed, [0-9]+ failed$|failed: )' ||
     echo "FAILED  asan and fuzz on Debian 13"
+  case_of "known vulnerabilities against the packages of Debian 13" debian13 --exposure
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
   build_image world

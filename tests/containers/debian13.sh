@@ -4,8 +4,9 @@
 #   bash tests/containers/debian13.sh STAGE ...   stages of tests/run.sh, built there
 #   bash tests/containers/debian13.sh --system SCRIPT[:ARGUMENT] ...   scripts of tests/system with the
 #                                                 programs as they are installed; a line each
+#   bash tests/containers/debian13.sh --exposure  known vulnerabilities against its packages' changelogs
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
-[[ $# -gt 0 ]] || die "name stages of tests/run.sh, or --system and scripts of tests/system"
+[[ $# -gt 0 ]] || die "name stages of tests/run.sh, or --system and scripts of tests/system, or --exposure"
 engine_up
 trap engine_down EXIT
 base_image trixie
@@ -58,5 +59,9 @@ if [[ $1 == --system ]]; then
   trap 'rm -rf "$SCRATCH"; engine_down' EXIT
   system "$@"
   exit "$failures"
+fi
+if [[ $1 == --exposure ]]; then
+  in_container bash tests/rules/exposure.sh --all-changelogs
+  exit
 fi
 in_container bash tests/run.sh "$@"

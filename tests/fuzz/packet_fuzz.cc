@@ -3,6 +3,7 @@
 // drops.
 //
 // An input is a row of packets, each behind two bytes, little-endian, that say how long it is.
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -37,7 +38,8 @@ void CheckHandedOn(Bytes packet) {
     if (!ours && kind >= 0x80) continue;
     GIVEWAY_CHECK(kind < 0x80);
     GIVEWAY_CHECK(link::CheckSubmessage(part, kLargestSample) == PacketDrop::kNone);
-    GIVEWAY_CHECK(link::CheckDiscovery(part, kOptions.secured) == PacketDrop::kNone);
+    GIVEWAY_CHECK(!link::IsOfDiscovery(part) ||
+                  link::CheckDiscovery(part, kOptions.secured) == PacketDrop::kNone);
   }
   GIVEWAY_CHECK(!walk.IsBroken());
 }
@@ -57,6 +59,12 @@ std::vector<PacketDrop> JudgeAll(Bytes bytes) {
     if (verdict.drop != PacketDrop::kNone) continue;
     GIVEWAY_CHECK(verdict.bytes <= packet.size());
     CheckHandedOn(Bytes(packet).first(verdict.bytes));
+    std::vector<std::uint8_t> hidden(packet.begin(),
+                                     packet.begin() + static_cast<std::ptrdiff_t>(verdict.bytes));
+    link::HideTypes(hidden);
+    GIVEWAY_CHECK(verdict.announces ||
+                  std::ranges::equal(hidden, Bytes(packet).first(verdict.bytes)));
+    CheckHandedOn(hidden);
   }
   return drops;
 }

@@ -72,7 +72,7 @@ TEST(Beacons, OfTheOwnVehicleAreNotHandedOverAndNoPeerIsCounted) {
     EXPECT_EQ(received.beacon.vehicle, VehicleId{2});
   }
   EXPECT_EQ(alone.Link().Counters().matched_peers, 1U);
-  EXPECT_EQ(alone.Link().Counters().unbound_samples, 0U);
+  EXPECT_EQ(alone.Link().Counters().refused.unbound_samples, 0U);
   EXPECT_THAT(ears.Told(QosEventKind::kMatched), Each(VehicleId{2}));
 }
 

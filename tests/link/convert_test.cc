@@ -5,8 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstddef>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
 
+#include "services/link/fastdds/fastdds_version.h"
+#include "services/link/sample_codec.h"
 #include "tests/link/travel.h"
 
 namespace giveway::link {
@@ -276,7 +282,11 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
                    .duplicated = 49,
                    .corrupted = 50,
                    .metered = 51};
+  for (std::size_t i = 0; i < kPacketDrops; ++i) sent.packets.packets[i] = 130 + i;
+  sent.refused = {150, 151, 152, 153, 154, 155};
   const VehicleStatus back = RoundTrip(sent);
+  EXPECT_EQ(back.packets, sent.packets);
+  EXPECT_EQ(back.refused, sent.refused);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_EQ(back.epoch, sent.epoch);
   EXPECT_EQ(back.tick, sent.tick);
@@ -311,6 +321,54 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
                       c.duplicated,   c.corrupted,     c.metered};
   };
   EXPECT_EQ(travels(back.impaired), travels(sent.impaired));
+}
+
+// As the release of before wrote and read them: without the counts of packets and refused samples.
+class StatusOfBefore : public ::testing::Test {
+ protected:
+  // Serialized by this release.
+  static std::string Bytes(const VehicleStatus& status) { return Encode(status); }
+  static std::optional<VehicleStatus> Read(std::string_view bytes) {
+    Observed observed;
+    if (DecodeInto("fleet/status", bytes, &observed) != Decoded::kYes) return std::nullopt;
+    return observed.statuses.at(0);
+  }
+  static VehicleStatus Counted() {
+    VehicleStatus status;
+    status.vehicle = VehicleId{7};
+    status.timing.budget_spent = 121;
+    status.packets.packets.fill(~std::uint64_t{0});
+    status.refused = {1, 2, 3, 4, 5, 6};
+    return status;
+  }
+  static constexpr std::size_t kBytes = kBytesBefore<wire::StatusPubSubType>;
+};
+
+TEST_F(StatusOfBefore, IsReadWithCountsOfZero) {
+  const auto read = Read(std::string_view(Bytes(Counted())).substr(0, kBytes));
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->vehicle, VehicleId{7});
+  EXPECT_EQ(read->timing.budget_spent, 121U);
+  EXPECT_EQ(read->packets, PacketCounters{});
+  EXPECT_EQ(read->refused, RefusedSamples{});
+}
+
+// So that its reader, which takes no notice of what follows, reads what is meant.
+TEST_F(StatusOfBefore, IsHowOneOfTodayBegins) {
+  VehicleStatus plain = Counted();
+  plain.packets = {};
+  plain.refused = {};
+  EXPECT_EQ(Bytes(Counted()).substr(0, kBytes), Bytes(plain).substr(0, kBytes));
+  plain.timing.budget_spent = 122;  // the last member of before ends there
+  EXPECT_NE(Bytes(Counted()).substr(kBytes - 4, 4), Bytes(plain).substr(kBytes - 4, 4));
+}
+
+TEST_F(StatusOfBefore, HasOneLengthAndNoOther) {
+  const std::string bytes = Bytes(Counted());
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    EXPECT_EQ(Read(std::string_view(bytes).substr(0, length)).has_value(), length == kBytes)
+        << length;
+  }
 }
 
 TEST(Convert, CutsTextToItsBoundBetweenCharacters) {

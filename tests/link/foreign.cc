@@ -3,6 +3,8 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "services/link/convert/convert.h"
 #include "services/types/check.h"
@@ -10,10 +12,16 @@
 namespace giveway::test {
 namespace {
 
-constexpr char kOnLoopback[] =
-    "<CycloneDDS><Domain><General><Interfaces>"
-    "<NetworkInterface name=\"lo\" multicast=\"true\"/>"
-    "</Interfaces></General></Domain></CycloneDDS>";
+std::string OnLoopback(std::size_t fragment_bytes) {
+  std::string fragments;
+  if (fragment_bytes > 0) {
+    fragments = "<FragmentSize>" + std::to_string(fragment_bytes) + "B</FragmentSize>";
+  }
+  return "<CycloneDDS><Domain><General><Interfaces>"
+         "<NetworkInterface name=\"lo\" multicast=\"true\"/>"
+         "</Interfaces>" +
+         fragments + "</General></Domain></CycloneDDS>";
+}
 
 // How Cyclone walks the struct; what its IDL compiler would write.
 constexpr std::uint32_t kField = DDS_OP_ADR;
@@ -69,6 +77,36 @@ constexpr std::uint32_t kInstructions = 35;  // those with an address, the end, 
 
 constexpr std::array kKeys = {dds_key_descriptor_t{"vehicle", kKeyAt, 0}};
 
+constexpr std::array kStatusOps = {
+    kWhole | DDS_OP_FLAG_KEY,
+    static_cast<std::uint32_t>(offsetof(ForeignStatus, vehicle)),
+    kWhole,
+    static_cast<std::uint32_t>(offsetof(ForeignStatus, world_epoch)),
+    kWhole,
+    static_cast<std::uint32_t>(offsetof(ForeignStatus, tick)),
+    std::uint32_t{DDS_OP_RTS},
+    DDS_OP_KOF | 1U,
+    0U,
+};
+constexpr std::uint32_t kStatusInstructions = 5;
+constexpr std::array kStatusKeys = {dds_key_descriptor_t{"vehicle", kStatusOps.size() - 2, 0}};
+
+const dds_topic_descriptor_t& StatusDescriptor() {
+  static const dds_topic_descriptor_t descriptor = {sizeof(ForeignStatus),
+                                                    alignof(ForeignStatus),
+                                                    DDS_TOPIC_FIXED_KEY | DDS_TOPIC_FIXED_SIZE,
+                                                    kStatusKeys.size(),
+                                                    "giveway::wire::Status",
+                                                    kStatusKeys.data(),
+                                                    kStatusInstructions,
+                                                    kStatusOps.data(),
+                                                    "",
+                                                    {},
+                                                    {},
+                                                    0};
+  return descriptor;
+}
+
 const dds_topic_descriptor_t& Descriptor() {
   static const dds_topic_descriptor_t descriptor = {sizeof(ForeignBeacon),
                                                     alignof(ForeignBeacon),
@@ -106,6 +144,13 @@ Qos EndpointQos(const ForeignQos& asked) {
 Qos GroupQos(const ForeignQos& asked) {
   Qos qos(dds_create_qos());
   if (asked.partition) dds_qset_partition1(qos.get(), asked.partition->c_str());
+  return qos;
+}
+
+Qos ParticipantQos(std::size_t user_data_bytes) {
+  Qos qos(dds_create_qos());
+  const std::vector<char> user_data(user_data_bytes, 'u');
+  if (user_data_bytes > 0) dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
   return qos;
 }
 
@@ -152,9 +197,11 @@ ForeignBeacon ForeignFrom(const Beacon& beacon) {
           sent.crc()};
 }
 
-ForeignParticipant::ForeignParticipant(std::uint32_t domain)
-    : domain_(Made(dds_create_domain(domain, kOnLoopback))),
-      participant_(Made(dds_create_participant(domain, nullptr, nullptr))),
+ForeignParticipant::ForeignParticipant(std::uint32_t domain,
+                                       const ForeignAnnouncement& announcement)
+    : domain_(Made(dds_create_domain(domain, OnLoopback(announcement.fragment_bytes).c_str()))),
+      participant_(Made(dds_create_participant(
+          domain, ParticipantQos(announcement.user_data_bytes).get(), nullptr))),
       topic_(
           Made(dds_create_topic(participant_, &Descriptor(), "fleet/beacon", nullptr, nullptr))) {}
 
@@ -172,6 +219,26 @@ dds_entity_t ForeignParticipant::MakeReader(const ForeignQos& requested) {
 dds_entity_t ForeignParticipant::MakeWriter(const ForeignQos& offered) {
   const auto publisher = Made(dds_create_publisher(participant_, GroupQos(offered).get(), nullptr));
   return Made(dds_create_writer(publisher, topic_, EndpointQos(offered).get(), nullptr));
+}
+
+dds_entity_t ForeignParticipant::MakeStatusReader() {
+  const ForeignQos asked{
+      .partition = "v*", .liveliness = DDS_LIVELINESS_AUTOMATIC, .reliable = true};
+  const auto topic =
+      Made(dds_create_topic(participant_, &StatusDescriptor(), "fleet/status", nullptr, nullptr));
+  const auto subscriber = Made(dds_create_subscriber(participant_, GroupQos(asked).get(), nullptr));
+  return Made(dds_create_reader(subscriber, topic, EndpointQos(asked).get(), nullptr));
+}
+
+std::vector<ForeignStatus> TakeStatuses(dds_entity_t reader) {
+  std::vector<ForeignStatus> taken;
+  for (;;) {
+    ForeignStatus sample{};
+    void* at = &sample;
+    dds_sample_info_t info{};
+    if (dds_take(reader, &at, &info, 1, 1) != 1) return taken;
+    if (info.valid_data) taken.push_back(sample);
+  }
 }
 
 std::vector<ForeignSample> Take(dds_entity_t reader) {

@@ -5,6 +5,7 @@
 
 #include <dds/dds.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -38,15 +39,23 @@ struct ForeignQos {
   bool reliable = false;
 };
 
+// What it says of itself beside, and in pieces of which size; 0: Cyclone's 1344 bytes.
+struct ForeignAnnouncement {
+  std::size_t user_data_bytes = 0;
+  std::size_t fragment_bytes = 0;
+};
+
 // Ends with everything in it.
 class ForeignParticipant {
  public:
-  explicit ForeignParticipant(std::uint32_t domain);
+  explicit ForeignParticipant(std::uint32_t domain, const ForeignAnnouncement& announcement = {});
   ~ForeignParticipant();
   ForeignParticipant(const ForeignParticipant&) = delete;
   ForeignParticipant& operator=(const ForeignParticipant&) = delete;
   dds_entity_t MakeReader(const ForeignQos& requested);
   dds_entity_t MakeWriter(const ForeignQos& offered);
+  // Of fleet/status in all vehicles' partitions, reliable.
+  dds_entity_t MakeStatusReader();
 
  private:
   dds_entity_t domain_ = 0;
@@ -62,6 +71,13 @@ struct ForeignSample {
 };
 
 std::vector<ForeignSample> Take(dds_entity_t reader);
+
+// giveway::wire::Status to who knows of its first members alone: as a reader of a release long
+// before.
+struct ForeignStatus {
+  std::uint32_t vehicle, world_epoch, tick;
+};
+std::vector<ForeignStatus> TakeStatuses(dds_entity_t reader);
 bool Write(dds_entity_t writer, const ForeignBeacon& beacon);
 
 }  // namespace giveway::test

@@ -87,6 +87,24 @@ TEST_F(ForeignReader, HearsEveryFieldOfABeacon) {
   EXPECT_NE(beacon.crc, 0U);
 }
 
+// A status gets new members at its end: who knows of fewer goes on reading it.
+TEST_F(ForeignReader, OfAnOlderStatusReadsTheMembersItKnows) {
+  const dds_entity_t reader = stranger_.MakeStatusReader();
+  VehicleStatus status;
+  status.vehicle = kSeven;
+  status.epoch = WorldEpoch{8};
+  status.tick = Tick{9};
+  std::vector<ForeignStatus> got;
+  ASSERT_TRUE(Eventually([&] {
+    vehicle_.Link().SendStatus(status);
+    got = TakeStatuses(reader);
+    return !got.empty();
+  }));
+  EXPECT_EQ(got[0].vehicle, 7U);
+  EXPECT_EQ(got[0].world_epoch, 8U);
+  EXPECT_EQ(got[0].tick, 9U);
+}
+
 TEST_F(ForeignReader, TellsVehiclesApartByTheirKey) {
   Beaconing eight(OptionsIn(domain_), VehicleId{8});
   Beaconing nine(OptionsIn(domain_), VehicleId{9});

@@ -77,7 +77,7 @@ TEST(PoseFixTopic, AFixInAnotherVehiclesNameOrWithoutADeviationIsRefusedAndCount
   EXPECT_TRUE(Eventually([&] {
     writer.Write(link::ToWire(none));
     EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.pose_fix.has_value());
-    return vehicle.Counters().unreadable_samples > 0;
+    return vehicle.Counters().refused.unreadable_samples > 0;
   }));
 }
 

@@ -183,7 +183,7 @@ TEST(Rejoining, AnEntryThatCannotBeBelievedIsRefusedByFieldAndChangesNothing) {
     const link::Taken taken = vehicle.Take(SteadyTime{0});
     EXPECT_FALSE(taken.inputs.roster.has_value());
     for (const Refusal& refusal : taken.refusals) fields.emplace_back(refusal.field);
-    return vehicle.Counters().implausible == 2;
+    return vehicle.Counters().refused.implausible == 2;
   }));
   EXPECT_THAT(fields, ::testing::ElementsAre("start_world.x_m", "vehicle"));
 }

@@ -191,13 +191,13 @@ TEST_F(FullyFitted, WhatIsNotSoundIsRefusedAndCounted) {
   wire::RangeScan ranges = link::ToWire(ScanAt<RangeScan>(3));
   ranges.fired_before_s()[0] = kNan;
   const auto refused = [&](const std::function<bool()>& send) {
-    const std::uint32_t before = vehicle_.Counters().unreadable_samples;
+    const std::uint32_t before = vehicle_.Counters().refused.unreadable_samples;
     return Eventually([&] {
       send();
       const Inputs inputs = vehicle_.Take(SteadyTime{0}).inputs;
       EXPECT_FALSE(inputs.scan.has_value() || inputs.radar != nullptr || inputs.lidar != nullptr ||
                    inputs.camera != nullptr || !inputs.signals.empty());
-      return vehicle_.Counters().unreadable_samples > before;
+      return vehicle_.Counters().refused.unreadable_samples > before;
     });
   };
   EXPECT_TRUE(refused([&] { return raw.radar.Write(radar); }));

@@ -122,7 +122,7 @@ TEST_F(Strangers, SendNoScanAndEvictNone) {
   ASSERT_TRUE(Eventually([&] {
     stranger.SendScan(ScanOf(0x8000'0000));
     EXPECT_LT(take().value_or(RangeScan{}).tick, Tick{0x8000'0000});
-    return vehicle_.Counters().strangers > 0;
+    return vehicle_.Counters().refused.strangers > 0;
   }));
   world_.SendScan(ScanOf(++tick_));
   for (std::uint32_t i = 0; i < 100; ++i) stranger.SendScan(ScanOf(0x8000'0000));
@@ -139,7 +139,7 @@ TEST_F(Strangers, ATickThatNoTimeHasPassedForIsRefusedOfTheWorldItself) {
   EXPECT_TRUE(Eventually([&] {
     const auto scan = vehicle_.Take(SteadyTime{0}).inputs.scan;
     EXPECT_LT(scan.value_or(RangeScan{}).tick, Tick{0x8000'0000});
-    return vehicle_.Counters().implausible == 1;
+    return vehicle_.Counters().refused.implausible == 1;
   }));
   world_.SendScan(ScanOf(++tick_));
   EXPECT_TRUE(Eventually([&] { return vehicle_.Take(SteadyTime{0}).inputs.scan.has_value(); }));
@@ -273,7 +273,8 @@ TEST_F(Strangers, OfAWriterThatNamesThousandsOfIdsAFewAreHeard) {
   }
   EXPECT_TRUE(Eventually([&] {
     take();
-    return vehicle_.Counters().strangers > 1000 && world_.Counters().commands_strangers > 1000;
+    return vehicle_.Counters().refused.strangers > 1000 &&
+           world_.Counters().commands_strangers > 1000;
   }));
   EXPECT_LE(heard.size(), 4U);
 }

@@ -35,8 +35,9 @@ expect() { # EXIT CODE, WHAT IT SAYS, [FILE, SED COMMAND that changes it]
   local said code=0
   sound
   [[ $# -lt 4 ]] || sed -i "$4" "$tree/$3"
-  gzip -c "$tree/changelog" >"$tree/docs/libdds/changelog.Debian.gz"
-  said=$(bash "$rules/exposure.sh" --debian 12 --docs "$tree/docs" --versions "$tree/versions" "$tree/file") || code=$?
+  rm -f "$tree/docs/libdds/changelog.Debian.gz"
+  [[ ! -s $tree/changelog ]] || gzip -c "$tree/changelog" >"$tree/docs/libdds/changelog.Debian.gz"
+  said=$(bash "$rules/exposure.sh" --all-changelogs --debian 12 --docs "$tree/docs" --versions "$tree/versions" "$tree/file") || code=$?
   if [[ $code -eq $1 ]] && grep -qF -- "$2" <<<"$said"; then return; fi
   echo "wanted '$2' and exit code $1, got $code: $said"
   failed=1
@@ -60,4 +61,5 @@ expect 1 'CVE-2026-3: the changelog names it in 2.9-1+deb12u2, the file lacks it
   changelog 's/Something else/CVE-2024-9999x, CVE-2026-3/'
 expect 1 'the file was written for 2.9-1+deb12u2. Read what its changelog says' versions 's/u2/u3/'
 expect 1 'libdds is not installed' versions d
+expect 1 'libdds/changelog.Debian.gz cannot be read' changelog d
 exit "$failed"

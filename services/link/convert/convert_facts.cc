@@ -154,6 +154,52 @@ wire::TimingReport ToWirePart(const DriveFigures& timing) {
   return sent;
 }
 
+wire::PacketCounts ToWirePart(const PacketCounters& counters) {
+  wire::PacketCounts sent;
+  sent.handed_on(counters.Of(PacketDrop::kNone));
+  sent.dropped_foreign_source(counters.Of(PacketDrop::kForeignSource));
+  sent.dropped_not_rtps(counters.Of(PacketDrop::kNotRtps));
+  sent.dropped_unknown_kind(counters.Of(PacketDrop::kUnknownKind));
+  sent.dropped_statistics(counters.Of(PacketDrop::kStatistics));
+  sent.dropped_malformed(counters.Of(PacketDrop::kMalformed));
+  sent.dropped_list_too_long(counters.Of(PacketDrop::kListTooLong));
+  sent.dropped_sample_too_large(counters.Of(PacketDrop::kSampleTooLarge));
+  sent.dropped_range_too_long(counters.Of(PacketDrop::kRangeTooLong));
+  sent.dropped_sequence_jump(counters.Of(PacketDrop::kSequenceJump));
+  sent.dropped_too_many_strangers(counters.Of(PacketDrop::kTooManyStrangers));
+  sent.dropped_fragmented_announcement(counters.Of(PacketDrop::kFragmentedAnnouncement));
+  return sent;
+}
+
+// In the order of PacketDrop.
+PacketCounters FromWirePart(const wire::PacketCounts& sent) {
+  return {{sent.handed_on(), sent.dropped_foreign_source(), sent.dropped_not_rtps(),
+           sent.dropped_unknown_kind(), sent.dropped_statistics(), sent.dropped_malformed(),
+           sent.dropped_list_too_long(), sent.dropped_sample_too_large(),
+           sent.dropped_range_too_long(), sent.dropped_sequence_jump(),
+           sent.dropped_too_many_strangers(), sent.dropped_fragmented_announcement()}};
+}
+
+wire::RefusedCounts ToWirePart(const RefusedSamples& refused) {
+  wire::RefusedCounts sent;
+  sent.unbound_samples(refused.unbound_samples);
+  sent.unreadable_samples(refused.unreadable_samples);
+  sent.wrong_name_scans(refused.wrong_name_scans);
+  sent.old_world_entries(refused.old_world_entries);
+  sent.strangers(refused.strangers);
+  sent.implausible(refused.implausible);
+  return sent;
+}
+
+RefusedSamples FromWirePart(const wire::RefusedCounts& sent) {
+  return {.unbound_samples = sent.unbound_samples(),
+          .unreadable_samples = sent.unreadable_samples(),
+          .wrong_name_scans = sent.wrong_name_scans(),
+          .old_world_entries = sent.old_world_entries(),
+          .strangers = sent.strangers(),
+          .implausible = sent.implausible()};
+}
+
 // Numbers that no distance has are refused.
 bool TakeTiming(const wire::TimingReport& sent, DriveFigures& timing) {
   timing.figures = {FromWirePart(sent.beacon_age_us()),   FromWirePart(sent.tick_jitter_us()),
@@ -208,6 +254,8 @@ wire::Status ToWire(const VehicleStatus& status) {
   sent.last_report(status.final);
   sent.impaired(ToWirePart(status.impaired));
   sent.timing(ToWirePart(status.timing));
+  sent.packets(ToWirePart(status.packets));
+  sent.refused(ToWirePart(status.refused));
   return sent;
 }
 
@@ -233,6 +281,8 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.beacon_lease_ms = sample.beacon_lease_ms();
   status.final = sample.last_report();
   status.impaired = FromWirePart(sample.impaired());
+  status.packets = FromWirePart(sample.packets());
+  status.refused = FromWirePart(sample.refused());
   return TakeTiming(sample.timing(), status.timing) &&
          TakeLastEvent(sample.last_qos_event(), status) &&
          FromWirePart(sample.decision(), status.decision);

@@ -110,6 +110,11 @@ inline bool ComputeInstance(dds::TopicDataType& type, void* sample, rtps::Instan
   return type.m_isGetKeyDefined && type.getKey(sample, to, false);
 }
 inline std::uint32_t LargestSize(const dds::TopicDataType& type) { return type.m_typeSize; }
+// How generated code is given a payload.
+inline rtps::SerializedPayload_t* AsPassed(rtps::SerializedPayload_t& payload) { return &payload; }
+inline const rtps::SerializedPayload_t& PayloadOf(const rtps::SerializedPayload_t* passed) {
+  return *passed;
+}
 // Whether a sample that was deserialized is all of it: what ends early is an exception here.
 inline bool IsWhole(dds::TopicDataType&, const rtps::SerializedPayload_t*, void*) { return true; }
 
@@ -186,6 +191,10 @@ inline bool ComputeInstance(dds::TopicDataType& type, void* sample, rtps::Instan
 }
 inline std::uint32_t LargestSize(const dds::TopicDataType& type) {
   return type.max_serialized_type_size;
+}
+inline rtps::SerializedPayload_t& AsPassed(rtps::SerializedPayload_t& payload) { return payload; }
+inline const rtps::SerializedPayload_t& PayloadOf(const rtps::SerializedPayload_t& passed) {
+  return passed;
 }
 // Fast CDR 2 takes bytes that end where a member does for a sample of an older, shorter type, and
 // leaves the rest as it is.
@@ -333,6 +342,13 @@ class ForwardingTransport : public transport::ChainingTransport {
   }
 };
 
+// A sample of this many bytes, encapsulation header included, is one of a writer of before: the
+// type has members at its end that it had not then. 0: it has none.
+template <typename Generated>
+inline constexpr std::uint32_t kBytesBefore = 0;
+template <>
+inline constexpr std::uint32_t kBytesBefore<wire::StatusPubSubType> = 888;
+
 // A generated type that is always deserialized. Left to itself the library lends its network buffer
 // for types without strings: unchecked in length and byte order, and misaligned for doubles. The
 // generated code lets most exceptions of spoilt bytes through; here they are no sample.
@@ -341,6 +357,19 @@ class CheckedType final : public Generated {
  public:
   bool is_plain(GIVEWAY_IS_PLAIN_PARAMETERS) const override { return false; }
   bool deserialize(GIVEWAY_PAYLOAD payload, void* sample) override {
+    const rtps::SerializedPayload_t& came = PayloadOf(payload);
+    if (kBytesBefore<Generated> == 0 || came.length != kBytesBefore<Generated>) {
+      return Decode(payload, sample);
+    }
+    rtps::SerializedPayload_t whole(LargestSize(*this));
+    whole.length = whole.max_size;
+    std::fill_n(whole.data, whole.length, rtps::octet{0});
+    std::copy_n(came.data, came.length, whole.data);
+    return Decode(AsPassed(whole), sample);
+  }
+
+ private:
+  bool Decode(GIVEWAY_PAYLOAD payload, void* sample) {
     try {
       return Generated::deserialize(payload, sample) && IsWhole(*this, payload, sample);
     } catch (const eprosima::fastcdr::exception::Exception&) {

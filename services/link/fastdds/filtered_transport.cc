@@ -9,10 +9,12 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "services/link/fastdds/joined_groups.h"
 #include "services/link/fastdds/packets_of_process.h"
 #include "services/link/fastdds/topics.h"
+#include "services/link/packet_filter/discovery_list.h"
 #include "services/link/packet_filter/lease_watch.h"
 
 namespace giveway::link {
@@ -77,6 +79,12 @@ class FilteredTransport final : public ForwardingTransport {
     const PacketVerdict verdict = Examine({bytes, size}, Ipv4Of(remote), &farewell);
     counted[static_cast<std::size_t>(verdict.drop)].fetch_add(1, std::memory_order_relaxed);
     if (verdict.drop != PacketDrop::kNone) return;
+    std::vector<rtps::octet> announcement;  // the few packets of discovery are copied
+    if (verdict.announces) {
+      announcement.assign(bytes, bytes + verdict.bytes);
+      HideTypes(announcement);
+      bytes = announcement.data();
+    }
     receiver->OnDataReceived(bytes, static_cast<std::uint32_t>(verdict.bytes), local, remote);
     if (farewell.has_value()) {
       receiver->OnDataReceived(farewell->data(), static_cast<std::uint32_t>(farewell->size()),

@@ -15,7 +15,7 @@ std::uint32_t EntityAt(const Submessage& of, std::size_t at) {
 
 // By either end: the library hands a payload to the reader that it names, and to that of its
 // writer.
-bool IsOfDiscovery(const Submessage& data) {
+bool HasDiscoveryEnd(const Submessage& data) {
   const std::uint32_t writer = EntityAt(data, kWriterInData);
   const std::uint32_t reader = EntityAt(data, kReaderInData);
   return writer == 0x000100c2 || writer == 0x000003c2 || writer == 0x000004c2 ||
@@ -126,15 +126,44 @@ PacketDrop CheckList(const Submessage& list, bool secured) {
   return PacketDrop::kListTooLong;
 }
 
+bool DescribesType(std::uint16_t id) {
+  return id == 0x0069 || id == 0x0072 || id == 0x0075;  // identifier, object, information
+}
+
+// `packet` holds the list.
+void HideTypesOf(const Submessage& list, std::span<std::uint8_t> packet) {
+  const auto begin = static_cast<std::size_t>(list.body.data() - packet.data());
+  for (std::size_t at = 0; at + kParameterHeader <= list.body.size();) {
+    const std::uint16_t id = list.U16(at);
+    if (id == kSentinel) return;
+    if (DescribesType(id)) packet[begin + at] = packet[begin + at + 1] = 0;  // of padding
+    at += kParameterHeader + Padded(list.U16(at + 2));
+  }
+}
+
 }  // namespace
 
-PacketDrop CheckDiscovery(const Submessage& submessage, bool secured) {
-  const bool is_frag = submessage.kind == SubmessageKind::kDataFrag;
-  if (!is_frag && submessage.kind != SubmessageKind::kData) return PacketDrop::kNone;
-  if (!IsOfDiscovery(submessage)) return PacketDrop::kNone;
-  if (is_frag) return PacketDrop::kMalformed;  // each fits into a datagram
-  const std::optional<Submessage> list = ParametersOf(submessage);
+bool IsOfDiscovery(const Submessage& submessage) {
+  const bool is_data =
+      submessage.kind == SubmessageKind::kData || submessage.kind == SubmessageKind::kDataFrag;
+  return is_data && HasDiscoveryEnd(submessage);
+}
+
+PacketDrop CheckDiscovery(const Submessage& of_discovery, bool secured) {
+  // Only whole can it be judged, and each of Fast DDS fits into a datagram.
+  if (of_discovery.kind == SubmessageKind::kDataFrag) return PacketDrop::kFragmentedAnnouncement;
+  const std::optional<Submessage> list = ParametersOf(of_discovery);
   return list ? CheckList(*list, secured) : PacketDrop::kNone;
+}
+
+void HideTypes(std::span<std::uint8_t> packet) {
+  SubmessageWalk walk(packet);
+  Submessage part;
+  while (walk.Next(&part)) {
+    if (!IsOfDiscovery(part)) continue;
+    const std::optional<Submessage> list = ParametersOf(part);
+    if (list) HideTypesOf(*list, packet);
+  }
 }
 
 }  // namespace giveway::link

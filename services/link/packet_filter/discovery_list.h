@@ -3,17 +3,29 @@
 // lengths that parameters state fit into them: Fast DDS takes memory for what is stated before it
 // looks whether it is there. Formats: OMG RTPS 2.3, 9.6.2.2; DDS-Security 1.1, 7.2.
 //
-// What a list says is not judged here, and neither what DDS-Security encrypts, nor type
-// information.
+// What a list says is not judged here, and neither what DDS-Security encrypts. Descriptions of
+// types the library decodes without checking the lengths in them (CVE-2026-49863), and in a fleet
+// types go by their names: they are hidden from it.
 #pragma once
+
+#include <cstdint>
+#include <span>
 
 #include "services/link/packet_filter/rtps_bytes.h"
 #include "services/types/figures/packet_counters.h"
 
 namespace giveway::link {
 
-// kNone if a submessage that is sound by itself (submessage_check.h) is not of a discovery writer,
-// or its list is sound. `secured`: DDS-Security is on, and so lists may hold tokens.
-PacketDrop CheckDiscovery(const Submessage& submessage, bool secured);
+// Whether a submessage that is sound by itself (submessage_check.h) is of a discovery writer, whole
+// or a part.
+bool IsOfDiscovery(const Submessage& submessage);
+
+// kNone if the list of one that is, is sound. `secured`: DDS-Security is on, and so lists may hold
+// tokens.
+PacketDrop CheckDiscovery(const Submessage& of_discovery, bool secured);
+
+// Makes of each description of a type in the lists of a packet that was found sound a parameter
+// that is passed over.
+void HideTypes(std::span<std::uint8_t> packet);
 
 }  // namespace giveway::link

@@ -102,6 +102,7 @@ PacketVerdict PacketFilter::Judge(Bytes packet, std::uint32_t source, SteadyTime
 // By itself, whatever came before.
 PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
   const bool ours = std::equal(kEProsima.begin(), kEProsima.end(), packet.begin() + kVendorAt);
+  bool announces = false;
   SubmessageWalk walk(packet);
   Submessage part;
   while (walk.Next(&part)) {
@@ -111,7 +112,7 @@ PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
                               part.body.size() == kStatisticsBytes;
       const bool alone = walk.Start() == kRtpsHeaderBytes;
       if (!as_written || alone) return {PacketDrop::kStatistics};
-      return {PacketDrop::kNone, walk.Start()};
+      return {PacketDrop::kNone, walk.Start(), announces};
     }
     // To the library another vendor's own kinds are nothing.
     if (!ours && kind >= static_cast<std::uint8_t>(SubmessageKind::kVendorFirst)) continue;
@@ -119,10 +120,13 @@ PacketVerdict PacketFilter::CheckParts(Bytes packet) const {
         part.kind >= SubmessageKind::kSecureFirst && part.kind <= SubmessageKind::kSecureLast;
     if (options_.secured && secure) continue;
     PacketDrop drop = CheckSubmessage(part, options_.largest_sample);
-    if (drop == PacketDrop::kNone) drop = CheckDiscovery(part, options_.secured);
+    if (drop == PacketDrop::kNone && IsOfDiscovery(part)) {
+      announces = true;
+      drop = CheckDiscovery(part, options_.secured);
+    }
     if (drop != PacketDrop::kNone) return {drop};
   }
-  return {walk.IsBroken() ? PacketDrop::kListTooLong : PacketDrop::kNone, packet.size()};
+  return {walk.IsBroken() ? PacketDrop::kListTooLong : PacketDrop::kNone, packet.size(), announces};
 }
 
 // By what is known of the writers it is from.

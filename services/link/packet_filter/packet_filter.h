@@ -30,6 +30,7 @@ struct PacketVerdict {
   // Of a packet that is handed on: so many bytes of it. The library's own statistics submessage,
   // which ends each packet it sends, is left out: reading it can end a process.
   std::size_t bytes = 0;
+  bool announces = false;  // it holds what discovery says: see HideTypes
 };
 
 class PacketFilter {

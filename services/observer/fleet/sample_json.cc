@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cstddef>
+#include <string>
 
 #include "services/observer/fleet/sample_words.h"
 
@@ -102,6 +104,27 @@ JsonObject ImpairCountsOf(const ImpairmentCounters& counters) {
   return object;
 }
 
+JsonObject PacketCountsOf(const PacketCounters& counters) {
+  JsonObject object;
+  object.Add("handed_on", counters.Of(PacketDrop::kNone));
+  for (std::size_t i = 1; i < kPacketDrops; ++i) {
+    const auto drop = static_cast<PacketDrop>(i);
+    object.Add("dropped_" + std::string(Name(drop)), counters.Of(drop));
+  }
+  return object;
+}
+
+JsonObject RefusedCountsOf(const RefusedSamples& refused) {
+  JsonObject object;
+  object.Add("unbound_samples", refused.unbound_samples);
+  object.Add("unreadable_samples", refused.unreadable_samples);
+  object.Add("wrong_name_scans", refused.wrong_name_scans);
+  object.Add("old_world_entries", refused.old_world_entries);
+  object.Add("strangers", refused.strangers);
+  object.Add("implausible", refused.implausible);
+  return object;
+}
+
 // The newest values are for who gathers them.
 JsonObject FigureOf(const FigureSummary& figure) {
   JsonObject object;
@@ -192,6 +215,8 @@ void AddFields(const VehicleStatus& status, JsonObject* object) {
   object->Add("last_report", status.final);
   object->Add("impaired", ImpairCountsOf(status.impaired));
   object->Add("timing", TimingOf(status.timing));
+  object->Add("packets", PacketCountsOf(status.packets));
+  object->Add("refused", RefusedCountsOf(status.refused));
 }
 
 void AddFields(const Truth& truth, JsonObject* object) {

@@ -35,7 +35,7 @@ std::string OptionalText(const char* name, const std::optional<double>& value, c
 }
 
 // Adds "3 missed (last 2)" to a list; nothing where nothing was counted.
-void AddCount(const char* what, std::uint32_t count, std::uint32_t last, std::string* list) {
+void AddCount(const char* what, std::uint64_t count, std::uint32_t last, std::string* list) {
   if (count == 0) return;
   if (!list->empty()) *list += ", ";
   *list += fmt::format("{} {}", count, what);
@@ -79,6 +79,7 @@ std::string EventsText(const VehicleStatus& status) {
   AddCount("incompatible", status.qos.incompatible_qos, 0, &list);
   AddCount("refused", status.beacons.Rejected(), status.last_rejected_id, &list);
   AddCount("do not fit", status.trust.Total(), 0, &list);
+  AddCount("packets dropped", status.packets.Dropped(), 0, &list);
   if (!status.last_event) return list.empty() ? "-" : list;
   if (!list.empty()) list += "; ";
   list += fmt::format("last {}", giveway::Name(*status.last_event));

@@ -18,9 +18,9 @@ std::string_view Name(SignalPhase phase);
 std::string SessionText(const SessionId& session);
 // "give_way 2".
 std::string ReasonText(const Decision& decision);
-// What a vehicle has counted about its peers, each kind with the id it was about last, as far as
-// the status carries it, and the last event of all: "4 missed (last 9); last matched 2". "-" where
-// there was nothing.
+// What a vehicle has counted about its peers and what its packet filter dropped, each kind with the
+// id it was about last, as far as the status carries it, and the last event of all: "4 missed (last
+// 9); last matched 2". "-" where there was nothing.
 std::string EventsText(const VehicleStatus& status);
 
 std::string ToLine(const ReceivedBeacon& received);

@@ -11,19 +11,20 @@
 namespace giveway {
 
 enum class PacketDrop : std::uint8_t {
-  kNone,             // handed on
-  kForeignSource,    // from an address that a fleet on loopback does not hear
-  kNotRtps,          // too short, no RTPS header, or another major version
-  kUnknownKind,      // a submessage of a kind that no sender of a fleet uses
-  kStatistics,       // the library's own vendor-specific submessage, not as the library writes it
-  kMalformed,        // a submessage that contradicts itself, or says what no sender says
-  kListTooLong,      // a list or a submessage that ends beyond what holds it
-  kSampleTooLarge,   // a fragment of a sample larger than the largest type
-  kRangeTooLong,     // a GAP of more sequence numbers than any writer keeps
-  kSequenceJump,     // a sequence number beyond what the writer's rate allows
-  kTooManyStrangers  // announcements of new participants, faster than a fleet grows
+  kNone,              // handed on
+  kForeignSource,     // from an address that a fleet on loopback does not hear
+  kNotRtps,           // too short, no RTPS header, or another major version
+  kUnknownKind,       // a submessage of a kind that no sender of a fleet uses
+  kStatistics,        // the library's own vendor-specific submessage, not as the library writes it
+  kMalformed,         // a submessage that contradicts itself, or says what no sender says
+  kListTooLong,       // a list or a submessage that ends beyond what holds it
+  kSampleTooLarge,    // a fragment of a sample larger than the largest type
+  kRangeTooLong,      // a GAP of more sequence numbers than any writer keeps
+  kSequenceJump,      // a sequence number beyond what the writer's rate allows
+  kTooManyStrangers,  // announcements of new participants, faster than a fleet grows
+  kFragmentedAnnouncement  // a part of an announcement that its sender did not send in one piece
 };
-inline constexpr std::size_t kPacketDrops = 11;  // kNone included
+inline constexpr std::size_t kPacketDrops = 12;  // kNone included
 
 // As in metrics and in the log: "sequence_jump".
 constexpr std::string_view Name(PacketDrop drop) {
@@ -50,6 +51,8 @@ constexpr std::string_view Name(PacketDrop drop) {
       return "sequence_jump";
     case PacketDrop::kTooManyStrangers:
       return "too_many_strangers";
+    case PacketDrop::kFragmentedAnnouncement:
+      return "fragmented_announcement";
   }
   return "unknown";
 }

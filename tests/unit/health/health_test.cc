@@ -142,6 +142,7 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
   vehicle.status.timing.narrowest = ReactionMargin{Tick{9}, 0.25, 0.5};
   vehicle.status.timing.budget_spent = 2;
   vehicle.status.beacons.rejected_crc = 4;
+  vehicle.status.refused.implausible = 5;
   vehicle.status.decision.rule = Rule::kLost;
   vehicle.pose_sigma_m = 0.5;
   vehicle.fixes_used = 9;
@@ -165,6 +166,7 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
                            "\ngiveway_vehicle_loop_max_seconds 0.0015\n",
                            "\ngiveway_vehicle_beacons_lost_total 3\n",
                            "\ngiveway_vehicle_beacons_rejected_total{reason=\"crc\"} 4\n",
+                           "\ngiveway_vehicle_samples_refused_total{reason=\"implausible\"} 5\n",
                            "\ngiveway_vehicle_lost 1\n",
                            "\ngiveway_vehicle_pose_sigma_meters 0.5\n",
                            "\ngiveway_vehicle_pose_fixes_used_total 9\n",

@@ -63,9 +63,13 @@ class List {
   bool little_;
 };
 
-PacketDrop Judged(const RtpsPacket& packet, bool secured = false) {
+PacketVerdict VerdictOn(const RtpsPacket& packet, bool secured = false) {
   PacketFilter filter({.secured = secured});
-  return filter.Judge(packet.Bytes(), 0x7f000001, std::chrono::seconds(1)).drop;
+  return filter.Judge(packet.Bytes(), 0x7f000001, std::chrono::seconds(1));
+}
+
+PacketDrop Judged(const RtpsPacket& packet, bool secured = false) {
+  return VerdictOn(packet, secured).drop;
 }
 
 // With the encapsulation that the order has.
@@ -217,14 +221,50 @@ TEST(DiscoveryList, HoldsPartitionsWithTheirEnds) {
 TEST(DiscoveryList, ComesInOnePiece) {
   for (const std::uint32_t writer : kDiscoveryWriters) {
     EXPECT_EQ(Judged(RtpsPacket(kAnnounced).DataFrag(writer, 1, 1, 1, 1000, 2000, 1000)),
-              PacketDrop::kMalformed);
+              PacketDrop::kFragmentedAnnouncement);
   }
   for (const std::uint32_t reader : kDiscoveryReaders) {
     EXPECT_EQ(
         Judged(
             RtpsPacket(kAnnounced).DataFrag(test::kUserWriter, 1, 1, 1, 1000, 2000, 1000, reader)),
-        PacketDrop::kMalformed);
+        PacketDrop::kFragmentedAnnouncement);
   }
+}
+
+// The library decodes what it is given of types, and checks no length in it.
+TEST(DiscoveryList, HidesWhatItSaysOfTypes) {
+  for (const bool little : {true, false}) {
+    const auto payload_with = [little](const std::array<std::uint16_t, 3>& ids) {
+      List list(little);
+      list.Parameter(kNames[0], List(little).Text());
+      for (const std::uint16_t id : ids) list.Parameter(id, PacketBytes(10, 0xff));
+      return Payload(list.Parameter(kPartitions, List(little).U32(1).Text()).End(), little);
+    };
+    const PacketBytes types = payload_with({0x69, 0x72, 0x75});
+    // Of a user's writer nothing is a list.
+    const auto packet_of = [&](const PacketBytes& announced) {
+      return RtpsPacket(kAnnounced, test::kEProsima, !little)
+          .Data(test::kUserWriter, 1, types)
+          .Data(kPublications, 1, announced)
+          .Data(kSubscriptions, 1, announced)
+          .Bytes();
+    };
+    PacketBytes packet = packet_of(types);
+    HideTypes(packet);
+    EXPECT_EQ(packet, packet_of(payload_with({0, 0, 0})));
+  }
+}
+
+TEST(DiscoveryList, IsSaidToBeThereWhereItIs) {
+  const auto announces = [](const RtpsPacket& packet) {
+    const PacketVerdict verdict = VerdictOn(packet);
+    EXPECT_EQ(verdict.drop, kSound);
+    return verdict.announces;
+  };
+  const PacketBytes payload = Payload(List().End());
+  EXPECT_FALSE(announces(RtpsPacket(kAnnounced).Data(test::kUserWriter, 1, payload)));
+  EXPECT_TRUE(announces(RtpsPacket(kAnnounced).Data(kPublications, 1, payload)));
+  EXPECT_TRUE(announces(RtpsPacket(kAnnounced).Data(kPublications, 2, payload).Statistics()));
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ FleetView ViewOfSeven() {
   status.decision.mode = Mode::kSensorOnly;
   status.qos.deadline_missed = 4;
   status.beacons.rejected_crc = 2;
+  status.packets.packets[static_cast<std::size_t>(PacketDrop::kNone)] = 900;
+  status.packets.packets[static_cast<std::size_t>(PacketDrop::kSequenceJump)] = 3;
+  status.refused.strangers = 5;
   FigureSummary& age = status.timing.figures[static_cast<std::size_t>(DriveFigure::kBeaconAge)];
   age.count = 2;
   age.newest[0] = 40'000;
@@ -30,6 +33,20 @@ TEST(FleetMetrics, EveryVehicleHasItsLabel) {
   EXPECT_THAT(text, HasSubstr("giveway_vehicle_mode{vehicle=\"7\",mode=\"sensor_only\"} 1"));
   EXPECT_THAT(text,
               HasSubstr("giveway_vehicle_beacons_rejected_total{vehicle=\"7\",reason=\"crc\"} 2"));
+}
+
+TEST(FleetMetrics, SayWhatThePacketFilterDroppedAndWhatSamplesWereRefused) {
+  const std::string text = FleetMetrics(ViewOfSeven(), {}, seconds(1));
+  EXPECT_THAT(text, HasSubstr("giveway_vehicle_packets_received_total{vehicle=\"7\"} 900"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("giveway_vehicle_packets_dropped_total{vehicle=\"7\",reason=\"sequence_jump\"} 3"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("giveway_vehicle_packets_dropped_total{vehicle=\"7\",reason=\"not_rtps\"} 0"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("giveway_vehicle_samples_refused_total{vehicle=\"7\",reason=\"stranger\"} 5"));
 }
 
 TEST(FleetMetrics, BeaconAgesAreAHistogramInSeconds) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <limits>
 
 namespace giveway::fleetctl {
@@ -39,6 +40,8 @@ VehicleStatus GivingWay(std::uint32_t vehicle) {
   status.qos.deadline_missed = 4;
   status.last_deadline_missed = VehicleId{9};
   status.trust.jumps = 3;
+  status.packets.packets[static_cast<std::size_t>(PacketDrop::kNone)] = 900;
+  status.packets.packets[static_cast<std::size_t>(PacketDrop::kMalformed)] = 5;
   status.last_event = QosEventKind::kUnmatched;
   status.last_event_about = VehicleId{8};
   return status;
@@ -62,8 +65,9 @@ HeardFleet FleetOf(std::uint32_t vehicles) {
 TEST(TopTable, RowNamesModeReasonSpeedEchoBeaconAgeAndEventsWithWhomTheyWereAbout) {
   const auto lines = TopLines(FleetOf(2), Post(), milliseconds(10'040), kWide);
   ASSERT_THAT(lines, SizeIs(5));
-  for (const char* part : {"2", "cooperative", "give_way 1", "0.12", "0.93", "40 ms",
-                           "4 missed (last 9), 3 do not fit; last unmatched 8"}) {
+  for (const char* part :
+       {"2", "cooperative", "give_way 1", "0.12", "0.93", "40 ms",
+        "4 missed (last 9), 3 do not fit, 5 packets dropped; last unmatched 8"}) {
     EXPECT_THAT(lines[4], HasSubstr(part));
   }
 }
@@ -137,6 +141,26 @@ TEST(TopJson, SaysWhoIsHeardAndWhatItsStatusCarries) {
     EXPECT_THAT(json, HasSubstr(part));
   }
   EXPECT_THAT(json, Not(HasSubstr("last_liveliness_lost")));
+}
+
+TEST(TopJson, SaysWhatThePacketFilterDroppedAndWhatSamplesWereRefused) {
+  link::Observed observed;
+  observed.statuses.push_back(GivingWay(1));
+  auto& packets = observed.statuses[0].packets.packets;
+  for (std::size_t i = 0; i < packets.size(); ++i) packets[i] = 100 + i;
+  observed.statuses[0].refused = {1, 2, 3, 4, 5, 6};
+  auto fleet = FleetOf(1);
+  fleet.Fold(observed, seconds(10));
+  EXPECT_THAT(
+      TopJson(fleet, Post(), seconds(10)),
+      HasSubstr(
+          R"("packets":{"handed_on":100,"dropped_foreign_source":101,"dropped_not_rtps":102,)"
+          R"("dropped_unknown_kind":103,"dropped_statistics":104,"dropped_malformed":105,)"
+          R"("dropped_list_too_long":106,"dropped_sample_too_large":107,)"
+          R"("dropped_range_too_long":108,"dropped_sequence_jump":109,)"
+          R"("dropped_too_many_strangers":110,"dropped_fragmented_announcement":111},"refused":{"unbound_samples":1,)"
+          R"("unreadable_samples":2,"wrong_name_scans":3,"old_world_entries":4,"strangers":5,)"
+          R"("implausible":6})"));
 }
 
 TEST(TopJson, NumbersThatJsonCannotSayAreLeftOut) {
