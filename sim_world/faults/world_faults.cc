@@ -11,13 +11,63 @@
 namespace giveway::sim {
 namespace {
 
-bool IsOfDrive(faults::Kind kind) {
-  return kind == faults::Kind::kMotorWeak || kind == faults::Kind::kMotorStuck ||
-         kind == faults::Kind::kEncoderWrong;
-}
+// What a kind does to a body. A kind that is not named here does not compile.
+enum class Effect : std::uint8_t { kNone, kOnSonar, kOnFix, kWeakens, kSticks, kMiscounts };
 
-bool IsOfFix(faults::Kind kind) {
-  return kind == faults::Kind::kPoseFixLost || kind == faults::Kind::kPoseFixWrong;
+Effect EffectOf(faults::Kind kind) {
+  switch (kind) {
+    using enum faults::Kind;
+    case kSonarOff:
+    case kSonarStuck:
+    case kSonarGarbage:
+    case kSonarWrong:
+    case kSonarSlow:
+    case kSonarDelayed:
+    case kSonarIntermittent:
+      return Effect::kOnSonar;
+    case kPoseFixLost:
+    case kPoseFixWrong:
+      return Effect::kOnFix;
+    case kMotorWeak:
+      return Effect::kWeakens;
+    case kMotorStuck:
+      return Effect::kSticks;
+    case kEncoderWrong:
+      return Effect::kMiscounts;
+    case kKill:
+    case kRestart:
+    case kPause:
+    case kHang:
+    case kSlow:
+    case kMemoryLimit:
+    case kDescriptorLimit:
+    case kDiskFull:
+    case kLogReaderStops:
+    case kClockStep:
+    case kQosMismatch:
+    case kQosApply:
+    case kDuplicateId:
+    case kChurn:
+    case kSharedMemoryGone:
+    case kSharedMemoryLeftOver:
+    case kSharedMemorySmall:
+    case kLoss:
+    case kBurst:
+    case kDelay:
+    case kReorder:
+    case kDuplicate:
+    case kCorrupt:
+    case kRate:
+    case kOneWayCut:
+    case kPartition:
+    case kFlapping:
+    case kSpoofed:
+    case kReplayed:
+    case kFlooded:
+    case kMalformed:
+      return Effect::kNone;  // not made by the world
+  }
+  return Effect::kNone;
 }
 
 bool Concerns(const faults::Target& target, VehicleId vehicle) {
@@ -37,12 +87,20 @@ std::uint64_t DrawsOf(const faults::Fault& fault, std::uint64_t seed) {
 
 // Those of one body at one time: each does its part.
 void Combine(const faults::Fault& fault, WheelSpeeds held, DriveFault* drive) {
-  if (fault.kind == faults::Kind::kMotorWeak) {
-    drive->reaches *= fault.parameters.factor.value_or(1);
-  } else if (fault.kind == faults::Kind::kEncoderWrong) {
-    drive->counts *= fault.parameters.factor.value_or(1);
-  } else {
-    drive->stuck = held;
+  switch (EffectOf(fault.kind)) {
+    case Effect::kWeakens:
+      drive->reaches *= fault.parameters.factor.value_or(1);
+      break;
+    case Effect::kMiscounts:
+      drive->counts *= fault.parameters.factor.value_or(1);
+      break;
+    case Effect::kSticks:
+      drive->stuck = held;
+      break;
+    case Effect::kNone:
+    case Effect::kOnSonar:
+    case Effect::kOnFix:
+      break;
   }
 }
 
@@ -73,8 +131,8 @@ WorldFaults::WorldFaults(const FaultSchedule& schedule, Nanoseconds tick_period)
     planned.ends =
         std::max(planned.begins + 1, TicksCovering(FromSeconds(fault.EndsAt_s()), tick_period));
     planned.draws = DrawsOf(fault, schedule.seed);
-    planned.of_fix = IsOfFix(fault.kind);
-    planned.of_sonar = !IsOfDrive(fault.kind) && !planned.of_fix;
+    planned.of_fix = EffectOf(fault.kind) == Effect::kOnFix;
+    planned.of_sonar = EffectOf(fault.kind) == Effect::kOnSonar;
     planned_.push_back(std::move(planned));
   }
   std::ranges::stable_sort(planned_, {}, &Planned::begins);

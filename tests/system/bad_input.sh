@@ -117,6 +117,7 @@ spoilt "no expectation" 'spoilt\.textproto:.*expect' '13d'
 
 refused "no scenario" 'SCENARIO'
 refused "unknown flag" 'Try: fleetctl run --help' intersection_yield --sped 3
+refused "more vehicles than places" 'patrol: --vehicles = 9: it has places for 8' patrol --vehicles 9
 refused "domain 0" 'domain' intersection_yield --domain 0
 refused "domain 100" 'domain' intersection_yield --domain 100
 refused "negative seed" 'seed' intersection_yield --seed -1
