@@ -39,7 +39,7 @@ struct ForeignQos {
   bool reliable = false;
 };
 
-// What it says of itself beside, and in pieces of which size; 0: Cyclone's 1344 bytes.
+// What it says of itself in addition, and in pieces of which size; 0: Cyclone's 1344 bytes.
 struct ForeignAnnouncement {
   std::size_t user_data_bytes = 0;
   std::size_t fragment_bytes = 0;

@@ -73,9 +73,9 @@ keep_time() {
   (
     exec 3<> <(:)
     while :; do
-      begun=${EPOCHREALTIME/[.,]/}
+      started=${EPOCHREALTIME/[.,]/}
       read -rt 0.02 -u 3 _ || true
-      late_us=$((${EPOCHREALTIME/[.,]/} - begun - 20000))
+      late_us=$((${EPOCHREALTIME/[.,]/} - started - 20000))
       ((late_us < 40000)) || echo "$late_us" >>"$SCRATCH/late_us"
     done
   ) &

@@ -1,5 +1,5 @@
 // ROS 2 recordings in the field's own readers: every message decoded by the definition within the file and
-// compared with the beacons, scans and commands beside it; definitions and IDL compared field by field with
+// compared with the beacons, scans and commands of the same file; definitions and IDL compared field by field with
 // the public ones.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
