@@ -11,7 +11,7 @@ MORE_STAGES=(asan fuzz) # which debian13 runs in its container
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [web]=120 [tsan]=180 [debian13]=480 [containers]=360
+  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [web]=180 [tsan]=180 [debian13]=480 [containers]=360
   [asan]=240 [fuzz]=120)
 
 usage() {
@@ -34,7 +34,7 @@ which debian13 runs in its container. Stages:
   system   real processes: crossings, kills, bad input
   attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
-  web      the observer's page in a browser, its recordings in the field's own readers
+  web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
   asan     unit, golden and link under the address and undefined-behaviour sanitizers
   fuzz     spoilt scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan     link and one crossing under the thread sanitizer
@@ -99,7 +99,7 @@ failed_names=()
 passed=0
 failed=0
 stage=set-up
-said=$(mktemp) # what ctest printed of tests that failed, said again at the end
+said=$(mktemp) # what failed tests printed, said again at the end
 
 # The end of every run, also of one that could not continue: then the stage it was in failed.
 ending() {
@@ -136,10 +136,12 @@ check() {
 
 # check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints, and as
 # many as a line "N passed, N failed" of another run of tests counts, which lists them as "failed:".
+# Lines that begin with "| " say why something failed.
 check_lines() {
   local lines code=0 good bad names
   lines=$("$@") || code=$?
   printf '%s\n' "$lines"
+  grep '^| ' <<<"$lines" >>"$said" || true
   good=$(awk '/^ok /{n++} /^[0-9]+ passed, [0-9]+ failed$/{n += $1} END{print n + 0}' <<<"$lines")
   bad=$(awk '/^FAILED /{n++} /^[0-9]+ passed, [0-9]+ failed$/{n += $3} END{print n + 0}' <<<"$lines")
   mapfile -t names < <(sed -n 's/^FAILED  *//p; s/^failed: //p' <<<"$lines")
@@ -340,10 +342,11 @@ stage_debian13() {
   check_lines bash tests/containers/all.sh debian13
 }
 stage_web() {
-  mapfile -t wanted < <(web_packages && node_packages)
+  mapfile -t wanted < <(web_packages && node_packages && printf '%s\n' prometheus jq curl)
   install_packages "${wanted[@]}"
   prepare release giveway-observer giveway-vehicle giveway-world fleetctl
   check_lines bash tests/web/web.sh
+  check_lines env GIVEWAY_BIN_DIR="$GIVEWAY_ROOT/build/release/bin" bash tests/web/scrape.sh
 }
 stage_containers() { check_lines bash tests/containers/all.sh containers; }
 

@@ -16,6 +16,7 @@ ImpairmentCounters& ImpairmentCounters::operator+=(const ImpairmentCounters& mor
   reordered += more.reordered;
   duplicated += more.duplicated;
   corrupted += more.corrupted;
+  metered += more.metered;
   abandoned += more.abandoned;
   return *this;
 }

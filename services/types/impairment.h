@@ -80,6 +80,7 @@ struct ImpairmentCounters {
   std::uint64_t reordered = 0;  // due before one from the same sender that came earlier
   std::uint64_t duplicated = 0;
   std::uint64_t corrupted = 0;
+  std::uint64_t metered = 0;  // held against a limited rate, passed by it or dropped
   // Passed, but never handed on: too many were under way, or the process ended first.
   std::uint64_t abandoned = 0;
 

@@ -56,6 +56,7 @@ std::string Describe(const ImpairmentCounters& counters) {
                                 {"reordered", counters.reordered},
                                 {"duplicated", counters.duplicated},
                                 {"corrupted", counters.corrupted},
+                                {"metered", counters.metered},
                                 {"abandoned", counters.abandoned}});
 }
 

@@ -21,7 +21,8 @@ in_container() {
     giveway-check bash -c 'ip link set lo up; exec "$@"' bash "$@"
 }
 
-# one_system SCRIPT[:ARGUMENT]: its line; what it printed before that only where it failed.
+# one_system SCRIPT[:ARGUMENT]: its line; where it failed, the end of what it printed too, marked for
+# tests/run.sh, which prints it again at its end.
 one_system() {
   local named=$1 script argument log
   log=$SCRATCH/${named//:/-}
@@ -30,7 +31,7 @@ one_system() {
     ${argument:+"$argument"} >"$log" 2>&1; then
     echo "ok      $named on Debian 13"
   else
-    tail -n 15 "$log" >&2
+    sed "s/^/| $script: /" "$log" | tail -n 30
     echo "FAILED  $named on Debian 13"
     return 1
   fi

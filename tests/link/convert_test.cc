@@ -274,7 +274,8 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
                    .delayed = 47,
                    .held_back = 48,
                    .duplicated = 49,
-                   .corrupted = 50};
+                   .corrupted = 50,
+                   .metered = 51};
   const VehicleStatus back = RoundTrip(sent);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_EQ(back.epoch, sent.epoch);
@@ -307,7 +308,7 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   const auto travels = [](const ImpairmentCounters& c) {
     return std::array{c.packets,      c.passed,        c.dropped_blackout, c.dropped_rate,
                       c.dropped_loss, c.dropped_burst, c.delayed,          c.held_back,
-                      c.duplicated,   c.corrupted};
+                      c.duplicated,   c.corrupted,     c.metered};
   };
   EXPECT_EQ(travels(back.impaired), travels(sent.impaired));
 }

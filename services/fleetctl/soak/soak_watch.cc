@@ -34,8 +34,8 @@ std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
       return status.impaired.duplicated;
     case Kind::kCorrupt:
       return status.impaired.corrupted;
-    case Kind::kRate:
-      return status.impaired.dropped_rate;
+    case Kind::kRate:  // other faults may leave less than the limit of what is sent
+      return status.impaired.metered;
     case Kind::kQosMismatch:
       return status.qos.incompatible_qos;
     default:

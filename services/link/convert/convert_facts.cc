@@ -38,6 +38,7 @@ wire::ImpairCounts ToWirePart(const ImpairmentCounters& counters) {
   sent.held_back(counters.held_back);
   sent.duplicated(counters.duplicated);
   sent.corrupted(counters.corrupted);
+  sent.metered(counters.metered);
   return sent;
 }
 
@@ -51,7 +52,8 @@ ImpairmentCounters FromWirePart(const wire::ImpairCounts& sent) {
           .delayed = sent.delayed(),
           .held_back = sent.held_back(),
           .duplicated = sent.duplicated(),
-          .corrupted = sent.corrupted()};
+          .corrupted = sent.corrupted(),
+          .metered = sent.metered()};
 }
 
 BeaconCounters FromWirePart(const wire::BeaconCounts& sent) {

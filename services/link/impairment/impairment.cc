@@ -158,6 +158,7 @@ bool ChannelModel::IsDropped(const Draws& draws, std::uint32_t bytes, SteadyTime
   channel->bad = channel->bad ? draws.turn >= 1 / rule.burst_length : draws.turn < TurnsBad(rule);
   if (IsBlackout(rule, now)) return ++counters.dropped_blackout;
   if (rule.rate_bytes_s > 0) {
+    ++counters.metered;
     Refill(rule, now, &channel->tokens_bytes, &channel->tokens_at);
     if (channel->tokens_bytes <= 0) return ++counters.dropped_rate;
     channel->tokens_bytes -= bytes;

@@ -98,6 +98,7 @@ JsonObject ImpairCountsOf(const ImpairmentCounters& counters) {
   object.Add("held_back", counters.held_back);
   object.Add("duplicated", counters.duplicated);
   object.Add("corrupted", counters.corrupted);
+  object.Add("metered", counters.metered);
   return object;
 }
 

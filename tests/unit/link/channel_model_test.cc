@@ -181,6 +181,18 @@ TEST(ChannelModel, ALimitedRatePassesThatRateAndABurstAtOnce) {
   const double duration_s = Seconds(kPackets * kApart);
   EXPECT_NEAR(static_cast<double>(model.Counters().passed_bytes), 2000 + 10'000 * duration_s, 250);
   EXPECT_EQ(model.Counters().dropped_rate, kPackets - model.Counters().passed);
+  EXPECT_EQ(model.Counters().metered, kPackets);
+}
+
+TEST(ChannelModel, APacketBelowALimitedRateIsMeteredAndOneOfABlackoutIsNot) {
+  ImpairmentRule rule{.rate_bytes_s = 1e6, .rate_burst_bytes = 2000};
+  rule.blackouts = {{1, 2}};
+  ChannelModel model(Of({rule}));
+  model.Start(seconds(0));
+  EXPECT_FALSE(model.Decide(kThree, kBytes, milliseconds(500)).dropped);
+  EXPECT_TRUE(model.Decide(kThree, kBytes, milliseconds(1500)).dropped);
+  EXPECT_EQ(model.Counters().metered, 1U);
+  EXPECT_EQ(model.Counters().dropped_rate, 0U);
 }
 
 TEST(ChannelModel, APacketLargerThanTheBucketGetsThroughOnceItIsFull) {

@@ -129,6 +129,24 @@ TEST_F(SoakWatchTest, AHearersFaultIsSeenByWhatItCounts) {
   EXPECT_THAT(watch_.Courses()[1].effect, HasSubstr("counted 2 packets"));
 }
 
+TEST_F(SoakWatchTest, ALimitedRateIsSeenWhereOtherFaultsLeaveLessThanItPasses) {
+  const faults::Schedule schedule{On(kTwo, faults::Kind::kRate, 2)};
+  SoakWatch watch({kTwo}, schedule);
+  link::Observed observed;
+  const auto say = [&](std::uint64_t metered, SteadyTime now) {
+    observed.statuses = {Driving(kTwo)};
+    observed.statuses.front().impaired.metered = metered;
+    observed.statuses.front().impaired.dropped_blackout = 1000 + metered;
+    watch.Fold(observed, now);
+  };
+  say(0, seconds(9));
+  watch.NoteBegin(0, seconds(10));
+  say(0, seconds(11));
+  EXPECT_EQ(watch.Courses()[0].effect, "");
+  say(40, seconds(12));
+  EXPECT_THAT(watch.Courses()[0].effect, HasSubstr("counted 40 packets"));
+}
+
 TEST_F(SoakWatchTest, AFaultOfTheWorldIsSeenWhenTheWorldSaysSo) {
   const faults::Schedule schedule{On(kOne, faults::Kind::kSonarStuck, 2)};
   SoakWatch watch({kOne}, schedule);
