@@ -196,7 +196,7 @@ bool IsOfSharedMemory(faults::Kind kind) {
          kind == faults::Kind::kSharedMemorySmall;
 }
 
-// Who has a clock of its own: steps may strike it.
+// Who has a clock of its own: it is a target of steps.
 bool IsStepped(const faults::Schedule& schedule, MemberId member) {
   return std::ranges::any_of(schedule, [&](const faults::Fault& fault) {
     if (fault.kind != faults::Kind::kClockStep) return false;
