@@ -46,17 +46,17 @@ lines_of() { wc -l <"$SCRATCH/$1.log"; }
 # await WHAT SECONDS NAME PATTERN [LINE]: true once a line of the member's log after line LINE
 # matches; a failure if none does in time.
 await() {
-  local what=$1 seconds=$2 log=$SCRATCH/$3.log pattern=$4 from=$((${5:-0} + 1)) begun now
-  begun=$(date +%s%N)
+  local what=$1 seconds=$2 log=$SCRATCH/$3.log pattern=$4 from=$((${5:-0} + 1)) started now
+  started=$(date +%s%N)
   while ! tail -n "+$from" "$log" 2>/dev/null | grep -Eq "$pattern"; do
     now=$(date +%s%N)
-    if ((now - begun > seconds * 1000000000)); then
+    if ((now - started > seconds * 1000000000)); then
       fail "$what: no '$pattern' in $seconds s; $3 says: $(tail -n 3 "$log" | tr '\n' '|')"
       return
     fi
     sleep 0.02
   done
-  echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms" >&2
+  echo "$what: $((($(date +%s%N) - started) / 1000000)) ms" >&2
 }
 
 # The id the world gave a member.
