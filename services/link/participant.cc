@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 
+#include "services/link/fastdds/dropped_writers.h"
 #include "services/link/fastdds/filtered_transport.h"
 #include "services/link/fastdds/interfaces.h"
 #include "services/link/fastdds/library_log.h"
@@ -49,11 +50,12 @@ bool IsSecured(const dds::DomainParticipantQos& qos) {
   });
 }
 
-// Whether all that a participant says, and its announcements by itself, pass the transport; and
-// the library may be made to remove one just when others are found, as farewells do.
+// Where the library would keep records of who is dropped for its lease: whether all that a
+// participant says, and its announcements by itself, pass the transport; and the library may be
+// made to remove one just when others are found, as farewells do.
 bool SaysFarewell(const LinkOptions& options, const dds::DomainParticipantQos& qos) {
   const auto& discovery = qos.wire_protocol().builtin.discovery_config;
-  return kRemovesWhileItSends && options.discovery_servers.empty() &&
+  return !ForgetsDroppedWriters() && kRemovesWhileItSends && options.discovery_servers.empty() &&
          discovery.discoveryProtocol == Discovery::SIMPLE &&
          qos.transport().user_transports.size() == 1;
 }

@@ -69,7 +69,10 @@ inline constexpr std::array<Respelt, 0> kRespelt{};
 inline constexpr bool kServersByPrefix = true;  // in discoveryServersList
 // Whether readers of a writer may be removed while it sends to others. 2.9.1 holds the locks of its
 // senders while it removes one, and may wait for the thread that sends, which waits for them: where
-// an instance was unregistered that the removed reader had not acknowledged.
+// an instance was unregistered that the removed reader had not acknowledged (corrected in 2.10.7
+// and 3.1.1, eProsima/Fast-DDS#5432). The end of a lease takes the same locks, but on the thread
+// that answers requests, so that no more samples are repeated meanwhile. 2.9.1 needs no farewell:
+// see dropped_writers.h.
 inline constexpr bool kRemovesWhileItSends = false;
 
 inline bool Ok(const ReturnCode& code) { return code == ReturnCode::RETCODE_OK; }
