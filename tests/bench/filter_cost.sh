@@ -114,7 +114,7 @@ done
 
 # With two lines a pair. Student's t for 95 %, two-sided.
 awk -v names="${columns[*]}" '
-  BEGIN { count = split(names, name, " ")
+  NR == 1 { count = split(names, name, " ")
     split("0 12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262", t, " ") }
   $1 == "with" { for (i = 2; i <= count; ++i) with[i] = $i; next }
   $1 == "without" { ++n; for (i = 2; i <= count; ++i) { r = with[i] / $i; sum[i] += r; square[i] += r * r } }
