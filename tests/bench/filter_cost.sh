@@ -37,7 +37,7 @@ ended() {
   rm -rf "$work"
 }
 trap ended EXIT
-# fleetctl takes the services next to it.
+# fleetctl takes the services that stand beside it.
 mkdir "${folder[without]}"
 cp "$build/tests/bench/unfiltered"/giveway-{vehicle,world} "$build/bin/fleetctl" "${folder[without]}"
 export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$project/config}
@@ -114,7 +114,7 @@ done
 
 # With two lines a pair. Student's t for 95 %, two-sided.
 awk -v names="${columns[*]}" '
-  BEGIN{ count = split(names, name, " ")
+  NR == 1 { count = split(names, name, " ")
     split("0 12.706 4.303 3.182 2.776 2.571 2.447 2.365 2.306 2.262", t, " ") }
   $1 == "with" { for (i = 2; i <= count; ++i) with[i] = $i; next }
   $1 == "without" { ++n; for (i = 2; i <= count; ++i) { r = with[i] / $i; sum[i] += r; square[i] += r * r } }

@@ -59,8 +59,8 @@ std::vector<PacketDrop> JudgeAll(Bytes bytes) {
     if (verdict.drop != PacketDrop::kNone) continue;
     GIVEWAY_CHECK(verdict.bytes <= packet.size());
     CheckHandedOn(Bytes(packet).first(verdict.bytes));
-    std::vector<std::uint8_t> hidden(packet.begin(),
-                                     packet.begin() + static_cast<std::ptrdiff_t>(verdict.bytes));
+    std::vector<std::uint8_t> hidden = packet;
+    hidden.resize(verdict.bytes);
     link::HideTypes(hidden);
     GIVEWAY_CHECK(verdict.announces ||
                   std::ranges::equal(hidden, Bytes(packet).first(verdict.bytes)));

@@ -354,7 +354,7 @@ TEST_F(StatusOfBefore, IsReadWithCountsOfZero) {
 }
 
 // So that its reader, which takes no notice of what follows, reads what is meant.
-TEST_F(StatusOfBefore, IsHowOneOfTodayBegins) {
+TEST_F(StatusOfBefore, IsTheStartOfOneOfToday) {
   VehicleStatus plain = Counted();
   plain.packets = {};
   plain.refused = {};

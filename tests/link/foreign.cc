@@ -137,6 +137,8 @@ Qos EndpointQos(const ForeignQos& asked) {
                     asked.deadline_ms == 0 ? DDS_INFINITY : DDS_MSECS(asked.deadline_ms));
   dds_qset_liveliness(qos.get(), asked.liveliness,
                       asked.lease_ms == 0 ? DDS_INFINITY : DDS_MSECS(asked.lease_ms));
+  const std::vector<char> user_data(asked.user_data_bytes, 'u');
+  if (!user_data.empty()) dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
   return qos;
 }
 
@@ -144,13 +146,6 @@ Qos EndpointQos(const ForeignQos& asked) {
 Qos GroupQos(const ForeignQos& asked) {
   Qos qos(dds_create_qos());
   if (asked.partition) dds_qset_partition1(qos.get(), asked.partition->c_str());
-  return qos;
-}
-
-Qos ParticipantQos(std::size_t user_data_bytes) {
-  Qos qos(dds_create_qos());
-  const std::vector<char> user_data(user_data_bytes, 'u');
-  if (user_data_bytes > 0) dds_qset_userdata(qos.get(), user_data.data(), user_data.size());
   return qos;
 }
 
@@ -197,11 +192,9 @@ ForeignBeacon ForeignFrom(const Beacon& beacon) {
           sent.crc()};
 }
 
-ForeignParticipant::ForeignParticipant(std::uint32_t domain,
-                                       const ForeignAnnouncement& announcement)
-    : domain_(Made(dds_create_domain(domain, OnLoopback(announcement.fragment_bytes).c_str()))),
-      participant_(Made(dds_create_participant(
-          domain, ParticipantQos(announcement.user_data_bytes).get(), nullptr))),
+ForeignParticipant::ForeignParticipant(std::uint32_t domain, std::size_t fragment_bytes)
+    : domain_(Made(dds_create_domain(domain, OnLoopback(fragment_bytes).c_str()))),
+      participant_(Made(dds_create_participant(domain, nullptr, nullptr))),
       topic_(
           Made(dds_create_topic(participant_, &Descriptor(), "fleet/beacon", nullptr, nullptr))) {}
 

@@ -37,18 +37,14 @@ struct ForeignQos {
   std::uint32_t lease_ms = 0;            // 0: endless
   dds_liveliness_kind_t liveliness = DDS_LIVELINESS_MANUAL_BY_TOPIC;
   bool reliable = false;
-};
-
-// What it says of itself in addition, and in pieces of which size; 0: Cyclone's 1344 bytes.
-struct ForeignAnnouncement {
-  std::size_t user_data_bytes = 0;
-  std::size_t fragment_bytes = 0;
+  std::size_t user_data_bytes = 0;  // that it is announced with
 };
 
 // Ends with everything in it.
 class ForeignParticipant {
  public:
-  explicit ForeignParticipant(std::uint32_t domain, const ForeignAnnouncement& announcement = {});
+  // It sends larger announcements in fragments of this size; 0: Cyclone's 1344 bytes.
+  explicit ForeignParticipant(std::uint32_t domain, std::size_t fragment_bytes = 0);
   ~ForeignParticipant();
   ForeignParticipant(const ForeignParticipant&) = delete;
   ForeignParticipant& operator=(const ForeignParticipant&) = delete;

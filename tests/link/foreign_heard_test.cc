@@ -1,9 +1,11 @@
 // What our vehicles hear of Cyclone DDS.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <optional>
 #include <set>
 
+#include "services/link/fastdds/packets_of_process.h"
 #include "tests/link/fleet.h"
 #include "tests/link/foreign.h"
 
@@ -125,7 +127,7 @@ TEST_F(ForeignWriter, IsAPeerWithItsName) {
   }));
   EXPECT_THAT(ears_.Told(QosEventKind::kMatched), Each(kFive));
   EXPECT_EQ(listener_.Counters().matched_peers, 1U);
-  EXPECT_EQ(listener_.Counters().unreadable_samples, 0U);
+  EXPECT_EQ(listener_.Counters().refused.unreadable_samples, 0U);
 }
 
 TEST_F(ForeignWriter, AndAnotherAreTwoVehicles) {
@@ -286,6 +288,44 @@ TEST_F(ForeignWriter, WithoutAPartitionIsNotHeard) {
   ForeignQos qos = AsRequested();
   qos.partition = std::nullopt;
   ExpectUnheard(stranger_->MakeWriter(qos));
+}
+
+// Of a writer with 2000 bytes of user data Cyclone makes an announcement of two fragments, of which
+// nothing can be judged before the library has taken both: they are dropped, as log and status say.
+class LongAnnouncement : public ::testing::Test {
+ protected:
+  static std::uint64_t Dropped() {
+    return link::PacketsOfProcess().Of(PacketDrop::kFragmentedAnnouncement);
+  }
+  static ForeignQos WithUserData() {
+    ForeignQos qos = AsRequested();
+    qos.user_data_bytes = 2000;
+    return qos;
+  }
+  bool Matches() {
+    listener_.Take(std::chrono::steady_clock::now().time_since_epoch());
+    return listener_.Counters().matched_peers == 1;
+  }
+
+  DomainLock domain_;
+  link::VehicleLink listener_{OptionsIn(domain_)};
+  std::uint64_t before_ = Dropped();
+};
+
+TEST_F(LongAnnouncement, InFragmentsIsDroppedAndCounted) {
+  listener_.Open(kListener);
+  ForeignParticipant stranger(domain_.Domain());
+  stranger.MakeWriter(WithUserData());
+  EXPECT_TRUE(Eventually([&] { return Dropped() > before_; }));
+  Repeat(milliseconds(500), [&] { EXPECT_FALSE(Matches()); });
+}
+
+TEST_F(LongAnnouncement, InOnePieceIsFound) {
+  listener_.Open(kListener);
+  ForeignParticipant stranger(domain_.Domain(), 8000);
+  stranger.MakeWriter(WithUserData());
+  EXPECT_TRUE(Eventually([&] { return Matches(); }));
+  EXPECT_EQ(Dropped(), before_);
 }
 
 }  // namespace

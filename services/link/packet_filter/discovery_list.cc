@@ -132,11 +132,11 @@ bool DescribesType(std::uint16_t id) {
 
 // `packet` holds the list.
 void HideTypesOf(const Submessage& list, std::span<std::uint8_t> packet) {
-  const auto start = static_cast<std::size_t>(list.body.data() - packet.data());
+  const auto first = static_cast<std::size_t>(list.body.data() - packet.data());
   for (std::size_t at = 0; at + kParameterHeader <= list.body.size();) {
     const std::uint16_t id = list.U16(at);
     if (id == kSentinel) return;
-    if (DescribesType(id)) packet[start + at] = packet[start + at + 1] = 0;  // of padding
+    if (DescribesType(id)) packet[first + at] = packet[first + at + 1] = 0;  // of padding
     at += kParameterHeader + Padded(list.U16(at + 2));
   }
 }
