@@ -37,7 +37,7 @@ ended() {
   rm -rf "$work"
 }
 trap ended EXIT
-# fleetctl takes the services that stand beside it.
+# fleetctl takes the services next to it.
 mkdir "${folder[without]}"
 cp "$build/tests/bench/unfiltered"/giveway-{vehicle,world} "$build/bin/fleetctl" "${folder[without]}"
 export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$project/config}
