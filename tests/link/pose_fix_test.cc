@@ -70,7 +70,7 @@ TEST(PoseFixTopic, AFixInAnotherVehiclesNameOrWithoutADeviationIsRefusedAndCount
   EXPECT_TRUE(Eventually([&] {
     writer.Write(link::ToWire(FixOf(VehicleId{8}, 1)));
     EXPECT_FALSE(vehicle.Take(SteadyTime{0}).inputs.pose_fix.has_value());
-    return vehicle.Counters().wrong_name_scans > 0;
+    return vehicle.Counters().refused.wrong_name_scans > 0;
   }));
   PoseFix none = FixOf(kSeven, 1);
   none.sigma_position_m = 0;

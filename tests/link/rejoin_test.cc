@@ -94,7 +94,7 @@ TEST(Rejoining, ASecondWorldFindsTheVehicleUnderItsIdAndIsHeard) {
   const auto took = std::chrono::steady_clock::now() - begin;
   // Usually a fifth of a second; a first match that is missed waits for the next announcement.
   EXPECT_LT(took, seconds(2));
-  EXPECT_EQ(vehicle.Counters().old_world_entries, 0U);
+  EXPECT_EQ(vehicle.Counters().refused.old_world_entries, 0U);
 }
 
 TEST(Rejoining, TheEntryThatLetAVehicleInIsNotToldAgainAndALaterOneOnce) {
@@ -142,7 +142,7 @@ TEST(Rejoining, ASecondWorldIsNotBelievedWhileTheFirstLivesAndIsOnceThatHasLeft)
   second.SendRoster(Accepted(kSession, kSeven, 2));
   const auto speak = [&] { first->SendScan(ScanOf(1)); };
   EXPECT_FALSE(ToldWithin(milliseconds(2500), vehicle, speak).has_value());
-  EXPECT_EQ(vehicle.Counters().old_world_entries, 1U);
+  EXPECT_EQ(vehicle.Counters().refused.old_world_entries, 1U);
   first.reset();
   std::optional<RosterEntry> told;
   ASSERT_TRUE(Eventually([&] {

@@ -218,7 +218,7 @@ TEST_F(FullyFitted, AScanInAnotherVehiclesNameIsRefusedAndCounted) {
   EXPECT_TRUE(Eventually([&] {
     raw.lidar.Write(misnamed);
     EXPECT_EQ(vehicle_.Take(SteadyTime{0}).inputs.lidar, nullptr);
-    return vehicle_.Counters().wrong_name_scans > 0;
+    return vehicle_.Counters().refused.wrong_name_scans > 0;
   }));
 }
 

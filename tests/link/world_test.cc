@@ -169,7 +169,7 @@ TEST_F(Pair, AScanOfAnotherVehicleDoesNotReachThisOne) {
   world_.SendScan(ScanOf(kSeven, 2));
   ASSERT_TRUE(vehicle_.WaitForScan(seconds(10)));
   EXPECT_EQ(vehicle_.Take(SteadyTime{0}).inputs.scan->vehicle, kSeven);
-  EXPECT_EQ(vehicle_.Counters().wrong_name_scans, 0U);
+  EXPECT_EQ(vehicle_.Counters().refused.wrong_name_scans, 0U);
 }
 
 TEST_F(Pair, ASilentWorldIsOneMissAndANewScanEndsIt) {

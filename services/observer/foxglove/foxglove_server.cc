@@ -50,31 +50,34 @@ bool IsAllowedOrigin(std::string_view origin, const std::vector<std::string>& ho
 
 std::string_view View(beast::string_view text) { return {text.data(), text.size()}; }
 
-struct Refusal {
+struct RefusedUpgrade {
   http::status status = http::status::bad_request;
   std::string why;
 };
 
 // What a connection asks for, checked before it becomes a client.
 using Handshake = http::request<http::empty_body>;
-std::optional<Refusal> RefusalOf(const Handshake& request, const std::vector<std::string>& hosts) {
+std::optional<RefusedUpgrade> RefusalOf(const Handshake& request,
+                                        const std::vector<std::string>& hosts) {
   if (!IsOwnHost(View(request[http::field::host]), hosts)) {
-    return Refusal{http::status::misdirected_request,
-                   "the Host header names neither an address nor localhost; --host-name allows a "
-                   "name"};
+    return RefusedUpgrade{
+        http::status::misdirected_request,
+        "the Host header names neither an address nor localhost; --host-name allows a "
+        "name"};
   }
   if (!IsAllowedOrigin(View(request[http::field::origin]), hosts)) {
-    return Refusal{http::status::forbidden,
-                   "a page of this origin may not read the fleet; --host-name allows its name"};
+    return RefusedUpgrade{
+        http::status::forbidden,
+        "a page of this origin may not read the fleet; --host-name allows its name"};
   }
   if (!websocket::is_upgrade(request)) {
-    return Refusal{http::status::upgrade_required,
-                   "this is a WebSocket for Foxglove; the page is at --port"};
+    return RefusedUpgrade{http::status::upgrade_required,
+                          "this is a WebSocket for Foxglove; the page is at --port"};
   }
   if (ChooseFoxgloveProtocol(View(request[http::field::sec_websocket_protocol])).empty()) {
-    return Refusal{http::status::bad_request,
-                   "no subprotocol that is spoken here; there are foxglove.websocket.v1 and "
-                   "foxglove.sdk.v1"};
+    return RefusedUpgrade{http::status::bad_request,
+                          "no subprotocol that is spoken here; there are foxglove.websocket.v1 and "
+                          "foxglove.sdk.v1"};
   }
   return std::nullopt;
 }
@@ -142,7 +145,7 @@ class FoxgloveServer::Impl::Connection : public std::enable_shared_from_this<Con
 
  private:
   void CheckHandshake();
-  void Refuse(const Refusal& refusal);
+  void Refuse(const RefusedUpgrade& refusal);
   void Greet();
   void ReadNext();
   void Handle();
@@ -201,7 +204,7 @@ void FoxgloveServer::Impl::Connection::CheckHandshake() {
   });
 }
 
-void FoxgloveServer::Impl::Connection::Refuse(const Refusal& refusal) {
+void FoxgloveServer::Impl::Connection::Refuse(const RefusedUpgrade& refusal) {
   ++server_.refused;
   refusal_ = {refusal.status, request_.get().version()};
   refusal_.set(http::field::content_type, "text/plain; charset=utf-8");
