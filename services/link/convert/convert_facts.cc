@@ -38,7 +38,6 @@ wire::ImpairCounts ToWirePart(const ImpairmentCounters& counters) {
   sent.held_back(counters.held_back);
   sent.duplicated(counters.duplicated);
   sent.corrupted(counters.corrupted);
-  sent.metered(counters.metered);
   return sent;
 }
 
@@ -52,8 +51,7 @@ ImpairmentCounters FromWirePart(const wire::ImpairCounts& sent) {
           .delayed = sent.delayed(),
           .held_back = sent.held_back(),
           .duplicated = sent.duplicated(),
-          .corrupted = sent.corrupted(),
-          .metered = sent.metered()};
+          .corrupted = sent.corrupted()};
 }
 
 BeaconCounters FromWirePart(const wire::BeaconCounts& sent) {
@@ -256,6 +254,7 @@ wire::Status ToWire(const VehicleStatus& status) {
   sent.timing(ToWirePart(status.timing));
   sent.packets(ToWirePart(status.packets));
   sent.refused(ToWirePart(status.refused));
+  sent.impaired_metered(status.impaired.metered);
   return sent;
 }
 
@@ -283,6 +282,7 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.impaired = FromWirePart(sample.impaired());
   status.packets = FromWirePart(sample.packets());
   status.refused = FromWirePart(sample.refused());
+  status.impaired.metered = sample.impaired_metered();
   return TakeTiming(sample.timing(), status.timing) &&
          TakeLastEvent(sample.last_qos_event(), status) &&
          FromWirePart(sample.decision(), status.decision);
