@@ -86,7 +86,7 @@ TEST(View, EachFiringIsGivenOnceAndNoDataNotAtAll) {
   view.Take(scan, At(50));
   const Batch batch = CollectAt(view, 50);
   EXPECT_EQ(Count(batch, "/giveway/v3/ultrasonics"), 2U);
-  const auto& first = Only<Range>(batch, "/giveway/v3/ultrasonics");
+  const Range first = Only<Range>(batch, "/giveway/v3/ultrasonics");
   EXPECT_EQ(first.range, 2);
   EXPECT_EQ(first.header.stamp.nanosec, 30U * kMs);  // when it fired
   scan.tick = Tick{9};
