@@ -178,7 +178,7 @@ void ProcessFaults::BeginOfSharedMemory(const faults::Fault& fault) {
       break;
     case Kind::kSharedMemoryLeftOver:
       files = tools_.shm->LeaveOver(fault.parameters.count.value_or(1));
-      if (files > 0) shm_effects_[&fault] = fmt::format("{} segments of nobody lie there", files);
+      if (files > 0) shm_effects_[&fault] = fmt::format("{} orphaned segments were made", files);
       break;
     case Kind::kSharedMemorySmall:
       if (tools_.shm->Fill()) shm_effects_[&fault] = "no byte of /dev/shm is free";

@@ -1,5 +1,5 @@
 // The samples that clients of Foxglove subscribe to, from the fleet to their server. Takes part in
-// the domain only while somebody subscribes: until then it costs neither the observer nor the fleet
+// the domain only while a client subscribes: until then it costs neither the observer nor the fleet
 // anything.
 #pragma once
 
@@ -31,7 +31,7 @@ class FoxgloveFeed {
   FoxgloveServer server_;
   std::unique_ptr<link::RawLink> link_;
   std::uint64_t open_ = 0;    // bits of the topics that are read
-  SteadyTime wanted_at_{0};   // when somebody subscribed to anything last
+  SteadyTime wanted_at_{0};   // of the last turn with a subscription
   SteadyTime not_before_{0};  // of another try, after one failed
 };
 

@@ -1,6 +1,6 @@
 // The Foxglove WebSocket protocol on one port: channels are advertised, and samples go to the
 // clients that subscribe to them. One thread of its own serves all; a client that is slow skips
-// samples, and nobody waits for it. Takes nothing from clients but subscriptions.
+// samples, and the fleet never waits for it. Takes nothing from clients but subscriptions.
 #pragma once
 
 #include <cstdint>

@@ -23,8 +23,8 @@ class PrivateShm {
 
   // Every file, also of who still maps it. How many there were.
   std::size_t DeleteAll();
-  // Copies of segments and ports that are there, under names nobody uses: what a process that was
-  // killed leaves. How many were made: none where nothing is there to be copied.
+  // Copies of segments that are there, under names no process uses: what one that was killed
+  // leaves. How many were made: none where nothing is there to be copied.
   std::size_t LeaveOver(std::size_t count);
   void RemoveLeftOver();
   // Leaves no byte free. False where that did not succeed.

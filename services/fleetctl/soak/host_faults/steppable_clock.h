@@ -16,7 +16,7 @@ std::filesystem::path ClockStepLibrary();
 
 class SteppableClock {
  public:
-  // Makes `file` anew, without a step. Throws StartError where it cannot be made.
+  // Creates or truncates `file`; the clock is not stepped. Throws StartError.
   explicit SteppableClock(const std::filesystem::path& file);
   ~SteppableClock();
   SteppableClock(SteppableClock&& other) noexcept;
