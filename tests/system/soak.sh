@@ -29,6 +29,7 @@ refusals() {
   refused 'no_such' patrol --faults no_such --duration 60
   refused '30 s' patrol --faults calm --duration 5
   refused 'vehicles' intersection_yield --faults calm --duration 60 --vehicles 3
+  refused 'has places for 8' patrol --faults calm --duration 60 --vehicles 9
   refused 'SCENARIO' --faults calm --duration 60
   refused 'excludes' patrol --faults calm --virtual --record-ring 60
   refused 'not carried out in virtual time\|cannot be carried out' patrol --faults everything --virtual --duration 60

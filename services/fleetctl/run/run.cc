@@ -11,6 +11,7 @@
 #include "services/config/impair.h"
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
+#include "services/fleetctl/args/places.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/live_screen.h"
 #include "services/fleetctl/output/output_file.h"
@@ -91,24 +92,11 @@ void RefuseRestartOfClosed(const RunOptions& options, const Scenario& scenario) 
                      "leave --restart out, or write spawn { ... } in the scenario"}});
 }
 
-void RefuseVehiclesWithoutPlace(const RunOptions& options, const Scenario& scenario) {
-  const std::size_t places = scenario.spawns.size();
-  if (!options.fleet.vehicles || (places != 0 && *options.fleet.vehicles <= places)) return;
-  if (places == 0) {
-    throw InputError({{options.scenario, 0, "", "",
-                       "--vehicles was given, but the scenario names all of its vehicles",
-                       "leave --vehicles out, or write spawn { ... } in the scenario"}});
-  }
-  throw InputError({{options.scenario, 0, "--vehicles", std::to_string(*options.fleet.vehicles),
-                     "it has places for " + std::to_string(places),
-                     "ask for no more, or write more spawn { ... } in the scenario"}});
-}
-
 int StartAndWatch(const RunOptions& options) {
   const ScenarioOverrides overrides{options.fleet.seed, options.fleet.behaviour,
                                     options.fleet.duration_s};
   const Scenario scenario = LoadScenario(options.scenario, overrides);
-  RefuseVehiclesWithoutPlace(options, scenario);
+  RefuseVehiclesWithoutPlace(options.scenario, options.fleet.vehicles, scenario);
   RefuseImpairedLockstep(options, scenario);
   RefuseRestartOfClosed(options, scenario);
   const std::string qos_file = ResolveQosFile(options.qos_file);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <thread>
 #include <utility>
@@ -19,6 +20,7 @@
 #include "services/faults/kind_table.h"
 #include "services/faults/schedule_text.h"
 #include "services/faults/unsupported.h"
+#include "services/fleetctl/args/places.h"
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/output/output_file.h"
 #include "services/fleetctl/output/terminal_text.h"
@@ -113,11 +115,7 @@ void Sift(const SoakOptions& options, Prepared* prepared) {
 Scenario LoadAndCheck(const SoakOptions& options) {
   const Scenario scenario =
       LoadScenario(options.scenario, {options.seed, std::nullopt, std::nullopt});
-  if (options.vehicles && scenario.spawns.empty()) {
-    throw InputError({{options.scenario, 0, "", "",
-                       "--vehicles was given, but the scenario names all of its vehicles",
-                       "leave --vehicles out, or write spawn { ... } in the scenario"}});
-  }
+  RefuseVehiclesWithoutPlace(options.scenario, options.vehicles, scenario);
   return scenario;
 }
 
@@ -191,26 +189,9 @@ std::string ImpairFlag(const fs::path& folder, VehicleId vehicle, const Impairme
   return "@" + file.string();
 }
 
-bool IsOfSharedMemory(faults::Kind kind) {
-  return kind == faults::Kind::kSharedMemoryGone || kind == faults::Kind::kSharedMemoryLeftOver ||
-         kind == faults::Kind::kSharedMemorySmall;
-}
-
-// Who has a clock of its own: it is a target of steps.
-bool IsStepped(const faults::Schedule& schedule, MemberId member) {
+bool Has(const faults::Schedule& schedule, std::initializer_list<faults::Kind> kinds) {
   return std::ranges::any_of(schedule, [&](const faults::Fault& fault) {
-    if (fault.kind != faults::Kind::kClockStep) return false;
-    switch (fault.target.what) {
-      case faults::Target::What::kVehicle:
-        return MemberOf(fault.target.vehicle) == member;
-      case faults::Target::What::kWorld:
-        return member == kTheWorld;
-      case faults::Target::What::kAll:
-        return true;
-      case faults::Target::What::kDiscoveryServer:
-        break;
-    }
-    return false;
+    return std::ranges::find(kinds, fault.kind) != kinds.end();
   });
 }
 
@@ -227,8 +208,9 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
     const auto found = impaired.find(vehicle);
     return found == impaired.end() ? std::string() : ImpairFlag(folder, vehicle, found->second);
   };
+  const bool steps_clocks = Has(prepared.schedule, {faults::Kind::kClockStep});
   for (MemberCommand& command : tools.commands) {
-    if (IsStepped(prepared.schedule, command.member)) {
+    if (steps_clocks) {
       const fs::path file = folder / fmt::format("{}.clock", command.member.number);
       const auto [clock, is_new] = tools.clocks.emplace(command.member, SteppableClock(file));
       command.child.environment = clock->second.Environment();
@@ -317,7 +299,10 @@ int SoakVirtually(const SoakOptions& options) {
 // `whole` is what this is the rest of, if it is.
 int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const SoakResult* whole) {
   std::optional<PrivateShm> shm;  // first: the threads and processes of the soak share it
-  if (std::ranges::any_of(prepared.schedule, IsOfSharedMemory, &faults::Fault::kind)) shm.emplace();
+  if (Has(prepared.schedule, {faults::Kind::kSharedMemoryGone, faults::Kind::kSharedMemoryLeftOver,
+                              faults::Kind::kSharedMemorySmall})) {
+    shm.emplace();
+  }
   const Interrupts interrupts;
   const DomainLock lock(options.domain);
   const RunKey key(options.admin_key, lock.Domain());
