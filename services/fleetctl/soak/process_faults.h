@@ -28,7 +28,7 @@ struct FaultTools {
   std::uint32_t domain = 0;
   std::string interface;
   std::string admin_key;  // the file of the key that the fleet's orders are sealed with
-  // Of members whose system clock is to be stepped, and who were started with it.
+  // Of every member, where the list steps clocks: each was started with its own.
   std::map<MemberId, SteppableClock> clocks;
   PrivateShm* shm = nullptr;  // null: no fault is of shared memory. Outlives the faults
   // What a vehicle that is started so many seconds after the start signal is given with --impair:
