@@ -53,6 +53,8 @@ bool IsSecured(const dds::DomainParticipantQos& qos) {
 // Where the library would keep records of who is dropped for its lease: whether all that a
 // participant says, and its announcements by itself, pass the transport; and the library may be
 // made to remove one just when others are found, as farewells do.
+// The call of ForgetsDroppedWriters is what links that file in, and with it what it puts in front
+// of the library's.
 bool SaysFarewell(const LinkOptions& options, const dds::DomainParticipantQos& qos) {
   const auto& discovery = qos.wire_protocol().builtin.discovery_config;
   return !ForgetsDroppedWriters() && kRemovesWhileItSends && options.discovery_servers.empty() &&

@@ -53,11 +53,13 @@ link::LinkOptions Ros2LinkOptions(const ObserverFlags& flags, link::LinkOptions 
   return options;
 }
 
+// Of one that the scenario does not name: that of its places, for which of them it has is not
+// known.
 VehicleProfile ProfileOf(const std::optional<Scenario>& scenario, VehicleId id) {
   if (!scenario) return PioneerP3dx();
   const auto found = std::ranges::find(scenario->vehicles, id, &VehicleOptions::id);
   if (found != scenario->vehicles.end()) return found->profile;
-  return scenario->vehicles.empty() ? PioneerP3dx() : scenario->vehicles.front().profile;
+  return scenario->spawns.empty() ? PioneerP3dx() : scenario->spawns.front().profile;
 }
 
 std::uint64_t SinceEpoch_ns() {
