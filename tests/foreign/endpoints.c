@@ -4,19 +4,7 @@
 #include <stdlib.h>
 
 #include "fleet.h"
-
-static const char kOnLoopback[] =
-    "<CycloneDDS><Domain><General><Interfaces>"
-    "<NetworkInterface name=\"lo\" multicast=\"true\"/>"
-    "</Interfaces></General></Domain></CycloneDDS>";
-
-static dds_entity_t Made(dds_entity_t entity) {
-  if (entity < 0) {
-    fprintf(stderr, "Cyclone DDS: %s\n", dds_strretcode(entity));
-    exit(2);
-  }
-  return entity;
-}
+#include "tests/foreign/on_loopback.h"
 
 /* Written once and kept for late joiners: joins and the roster. */
 static dds_qos_t* Kept(void) {
@@ -75,8 +63,7 @@ static dds_entity_t Reader(const struct endpoints* all, dds_entity_t topic, dds_
 
 void MakeJoinEndpoints(struct endpoints* all, uint32_t domain, bool volatile_join,
                        bool without_partition) {
-  Made(dds_create_domain(domain, kOnLoopback));
-  all->participant = Made(dds_create_participant(domain, NULL, NULL));
+  all->participant = ParticipantOnLoopback(domain);
   dds_qos_t* join = Kept();
   if (volatile_join) dds_qset_durability(join, DDS_DURABILITY_VOLATILE);
   all->join_writer = Writer(all, Topic(all, &giveway_wire_Join_desc, "fleet/join"),

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "ros2.h"
+#include "tests/foreign/on_loopback.h"
 
 enum { kTopics = 6, kBatch = 16 };
 
@@ -17,19 +18,6 @@ struct heard {
   dds_entity_t reader;
   void (*print)(const void* sample);
 };
-
-static const char kOnLoopback[] =
-    "<CycloneDDS><Domain><General><Interfaces>"
-    "<NetworkInterface name=\"lo\" multicast=\"true\"/>"
-    "</Interfaces></General></Domain></CycloneDDS>";
-
-static dds_entity_t Made(dds_entity_t entity) {
-  if (entity < 0) {
-    fprintf(stderr, "Cyclone DDS: %s\n", dds_strretcode(entity));
-    exit(2);
-  }
-  return entity;
-}
 
 static void PrintNumber(const char* name, double number) {
   if (isfinite(number)) {
@@ -143,8 +131,7 @@ int main(int argc, char** argv) {
   snprintf(odom, sizeof odom, "/giveway/v%s/odom", argv[2]);
   snprintf(ultrasonics, sizeof ultrasonics, "/giveway/v%s/ultrasonics", argv[2]);
   snprintf(command, sizeof command, "/giveway/v%s/cmd_vel", argv[2]);
-  Made(dds_create_domain(domain, kOnLoopback));
-  const dds_entity_t all = Made(dds_create_participant(domain, NULL, NULL));
+  const dds_entity_t all = ParticipantOnLoopback(domain);
   const dds_topic_descriptor_t* transforms = &tf2_msgs_msg_dds__TFMessage__desc;
   const struct heard heard[kTopics] = {
       {odom, ReaderOf(all, &nav_msgs_msg_dds__Odometry__desc, odom), PrintOdometry},
