@@ -132,8 +132,20 @@ build_jobs() {
   echo $((cores < gigabytes ? cores : gigabytes))
 }
 
+# alone_in PRESET FUNCTION...: one at a time in a build folder: ninja does not keep two apart.
+alone_in() {
+  local preset=$1
+  shift
+  mkdir -p "$GIVEWAY_ROOT/build"
+  (
+    flock 9
+    "$@" 9>&-
+  ) 9>"$GIVEWAY_ROOT/build/.$preset.lock" || exit
+}
+
 # configure PRESET [CMAKE_ARGUMENTS]: skipped where it is done already; ninja notices changed files.
-configure() {
+configure() { alone_in "$1" configure_alone "$@"; }
+configure_alone() {
   local preset=$1 folder="$GIVEWAY_ROOT/build/$1" fresh=()
   shift
   local wanted="$GIVEWAY_ROOT $*"
@@ -152,7 +164,8 @@ configure() {
 }
 
 # build PRESET [TARGETS]
-build() {
+build() { alone_in "$1" build_alone "$@"; }
+build_alone() {
   local preset=$1 targets=()
   shift
   [[ $# -gt 0 ]] && targets=(--target "$@")

@@ -5,22 +5,29 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-ALL_STAGES=(format rules deploy unit golden virtual planted model link system attack manuals web tsan debian13 containers)
-MORE_STAGES=(asan fuzz) # which debian13 runs in its container
+# With --all, what judges times runs in order, and what only computes beside it at idle priority, in two
+# runs: the second needs the images. asan, fuzz and asan_link run in the container of asan13 and
+# debian13.
+FIRST_STAGES=(unit golden images)
+JUDGED_STAGES=(link system attack manuals web containers)
+LAST_STAGES=(tsan debian13)
+BESIDE_STAGES=(format rules deploy tsan_build virtual planted model)
+BESIDE_IMAGES_STAGES=(asan13)
 
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [web]=180 [tsan]=180 [debian13]=480 [containers]=360
-  [asan]=240 [fuzz]=120)
+  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
+  [images]=60 [asan13]=240 [debian13]=240 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120)
 
 usage() {
   cat <<'TEXT'
 Usage: bash tests/run.sh [STAGE ...] [--all] [--full]
 
 Without a stage: format, rules, unit, golden, link, one crossing and 20 seeds a generator, some
-minutes. With --all, as CI: every stage but crossing, which is one of system, and asan and fuzz,
-which debian13 runs in its container. Stages:
+minutes. With --all, as CI: every stage but crossing, which is one of system, and asan, asan_link and
+fuzz, which asan13 and debian13 run in their container; what only computes runs at idle priority
+beside what judges times. Stages:
   format   clang-format over every tracked source
   rules    include arrows, sizes, names, shell scripts, generation
   deploy   the manifests of Kubernetes against its schemas and against each other
@@ -35,10 +42,14 @@ which debian13 runs in its container. Stages:
   attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
   web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
-  asan     unit, golden and link under the address and undefined-behaviour sanitizers
+  asan     unit and golden under the address and undefined-behaviour sanitizers
+  asan_link link under the same
   fuzz     spoilt scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
-  tsan     link and one crossing under the thread sanitizer
-  debian13 asan, fuzz and system tests on Debian 13 with Fast DDS 3.1, and a mixed fleet
+  tsan_build, tsan
+           what tsan needs is compiled; link and one crossing under the thread sanitizer
+  images   the images that asan13, debian13 and containers need
+  asan13   asan and fuzz on Debian 13 with Fast DDS 3.1
+  debian13 asan_link and system tests on Debian 13, and a mixed fleet
   containers  images, composed fleets of two and eight, and what may happen to them; needs root
 
   --all    every stage
@@ -49,6 +60,7 @@ The last line counts test cases: N passed, N failed.
 TEXT
 }
 
+all=false
 stages=()
 export GIVEWAY_REPEATS=10 GIVEWAY_KILLS=2 GIVEWAY_FULL=false
 seeds=''
@@ -64,15 +76,14 @@ for argument in "$@"; do
       GIVEWAY_REPEATS=50 GIVEWAY_KILLS=10 GIVEWAY_FULL=true
       fuzz_seconds=300 seeds=10000 full=true
       ;;
-    all | --all) stages=("${ALL_STAGES[@]}") ;;
+    all | --all) all=true ;;
     *)
-      [[ " ${ALL_STAGES[*]} ${MORE_STAGES[*]} " == *" $argument "* ]] ||
-        die "unknown stage '$argument'; known: --all ${ALL_STAGES[*]} ${MORE_STAGES[*]}"
+      [[ -v BUDGET[$argument] ]] || die "unknown stage '$argument'; known: --all $(printf '%s\n' "${!BUDGET[@]}" | sort | xargs)"
       stages+=("$argument")
       ;;
   esac
 done
-if [[ ${#stages[@]} -eq 0 ]]; then
+if [[ ${#stages[@]} -eq 0 && $all == false ]]; then
   stages=("${QUICK_STAGES[@]}")
   seeds=${seeds:-20}
 fi
@@ -100,6 +111,9 @@ passed=0
 failed=0
 stage=set-up
 said=$(mktemp) # what failed tests printed, said again at the end
+beside=()      # process and log of each lane beside this one
+beside_logs=()
+engine=$(mktemp) # the process of the container engine, where a stage had to start one
 
 # The end of every run, also of one that could not continue: then the stage it was in failed.
 ending() {
@@ -112,7 +126,10 @@ ending() {
     say "what failed tests printed"
     cat "$said"
   fi
-  rm -f "$said"
+  [[ ${#beside[@]} -eq 0 ]] || kill -- "${beside[@]/#/-}" 2>/dev/null || true
+  [[ -z ${built13:-} ]] || docker volume rm -f "$built13" >/dev/null 2>&1 || true
+  [[ ! -s $engine ]] || kill "$(<"$engine")" 2>/dev/null || true
+  rm -f "$said" "$engine" "${beside_logs[@]}"
   printf '\n%-10s %7s %7s %8s %8s\n' stage passed failed time budget
   printf '%s\n' "${table[@]}"
   [[ $failed_total -eq 0 ]] || printf 'failed: %s\n' "${failed_names[@]}"
@@ -315,8 +332,9 @@ stage_asan() {
   prepare asan unit_tests golden_tests link_tests
   run_ctest asan unit "$(nproc)"
   run_ctest asan golden "$(nproc)"
-  run_ctest asan link 2
 }
+
+stage_asan_link() { prepare asan link_tests && run_ctest asan link 2; }
 
 stage_fuzz() { prepare asan fuzz_tests && run_ctest asan fuzz "$(nproc)"; }
 
@@ -330,13 +348,16 @@ tsan_crossing() {
     bash tests/system/crossing.sh intersection_yield
 }
 
+stage_tsan_build() { prepare tsan link_tests giveway-vehicle giveway-world; }
 stage_tsan() {
   prepare release fleetctl
-  prepare tsan link_tests giveway-vehicle giveway-world
+  stage_tsan_build
   run_ctest tsan link 2
   check "a crossing under the thread sanitizer" tsan_crossing
 }
 
+stage_images() { check_lines env GIVEWAY_ENGINE_FILE="$engine" bash tests/containers/all.sh images; }
+stage_asan13() { check_lines bash tests/containers/all.sh asan13; }
 stage_debian13() {
   prepare release giveway-vehicle giveway-world
   check_lines bash tests/containers/all.sh debian13
@@ -354,14 +375,66 @@ mapfile -t packages < <(build_packages && test_packages && java_package)
 install_packages "${packages[@]}"
 check_java
 
-for stage in "${stages[@]}"; do
-  say "stage $stage"
-  passed=0 failed=0 started=$SECONDS
-  "stage_$stage"
+run_stages() {
+  local started
+  for stage in "$@"; do
+    say "stage $stage"
+    passed=0 failed=0 started=$SECONDS
+    "stage_$stage"
+    passed_total=$((passed_total + passed))
+    failed_total=$((failed_total + failed))
+    note_time "$stage" $((SECONDS - started))
+  done
+}
+
+# start_beside STAGE...: another run of this script, which takes only what other processes leave of the
+# processor. In a session of its own: the kernel shares the processor between sessions first.
+start_beside() {
+  local log words=("$@")
+  log=$(mktemp)
+  [[ $full == false ]] || words+=(--full)
+  # shellcheck disable=SC2016 # the variables of that shell
+  setsid bash -c '{ echo 19 >/proc/self/autogroup; } 2>/dev/null || true; exec chrt --idle 0 bash "$@"' bash \
+    tests/run.sh "${words[@]}" >"$log" 2>&1 </dev/null &
+  beside+=($!)
+  beside_logs+=("$log")
+}
+
+# Waits for the runs beside, prints what they printed, and counts their cases as one stage's.
+join_beside() {
+  local log
+  stage=beside passed=0 failed=0
+  say "the stages that ran beside"
+  for log in "${beside_logs[@]}"; do
+    wait "${beside[0]}" || true
+    beside=("${beside[@]:1}")
+    cat "$log"
+    check_lines of_run "$log"
+    mapfile -t -O "${#table[@]}" table < <(sed -nE 's/^([a-z0-9_]+ +[0-9]+ +[0-9]+ +[0-9]+ s) +[0-9]+ s.*/\1   beside/p' "$log")
+    sed -n '/^== what failed tests printed$/,/^stage  *passed/{//!p}' "$log" >>"$said"
+  done
   passed_total=$((passed_total + passed))
   failed_total=$((failed_total + failed))
-  note_time "$stage" $((SECONDS - started))
-done
+}
+
+# The count that ends another run's log, and the names of what failed.
+of_run() {
+  grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" || echo "FAILED  a run beside, which has no count"
+  grep '^failed: ' "$1" || true
+}
+
+if $all; then
+  # The build folder that asan13 and debian13 share.
+  export GIVEWAY_RUN=$EPOCHSECONDS-$$
+  built13=giveway-build13-$GIVEWAY_RUN
+  start_beside "${BESIDE_STAGES[@]}"
+  run_stages "${FIRST_STAGES[@]}"
+  start_beside "${BESIDE_IMAGES_STAGES[@]}"
+  run_stages "${JUDGED_STAGES[@]}"
+  join_beside
+  run_stages "${LAST_STAGES[@]}"
+fi
+run_stages "${stages[@]}"
 
 stage=
 [[ $failed_total -eq 0 && $passed_total -gt 0 ]]

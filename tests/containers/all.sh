@@ -2,7 +2,10 @@
 # The container tests of one stage of tests/run.sh, one engine for all of them: a line "ok NAME" or
 # "FAILED NAME" each, or as many as a line "N passed, N failed" counts.
 #
-#   bash tests/containers/all.sh debian13|containers
+#   bash tests/containers/all.sh images|asan13|debian13|containers
+#
+# images leaves the process of an engine that it started in the file GIVEWAY_ENGINE_FILE, for who ends it.
+# asan13 and debian13 of one tests/run.sh share one build folder, by its number in GIVEWAY_RUN.
 #
 # GIVEWAY_SUITE=bookworm puts the containers on Debian 12 with Fast DDS 2.9.1, without discovery
 # servers: those of compose.yaml have no number, and 2.9.1 starts none without.
@@ -16,6 +19,22 @@ case_of() {
   if bash "$HERE/$script.sh" "$@" >&2; then echo "ok      $name"; else echo "FAILED  $name"; fi
 }
 
+# The images of both suites that the others need.
+images() {
+  base_image trixie
+  base_image "$SUITE"
+  for target in check world vehicle tools; do build_image "$target"; done
+  echo "ok      images are built"
+}
+
+# run_of STAGE...: those of tests/run.sh in the container of Debian 13; its count and what failed.
+run_of() {
+  bash "$HERE/debian13.sh" "$@" | tee >(cat >&2) | grep -E '^([0-9]+ passed, [0-9]+ failed$|failed: )' ||
+    echo "FAILED  $* on Debian 13"
+}
+
+asan13() { run_of asan fuzz; }
+
 debian13() {
   local scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
     world_restart interrupt health qos)
@@ -24,8 +43,7 @@ debian13() {
   export GIVEWAY_SUITE=trixie
   SUITE=$GIVEWAY_SUITE
   base_image "$SUITE"
-  bash "$HERE/debian13.sh" asan fuzz | tee >(cat >&2) | grep -E '^([0-9]+ passed, [0-9]+ failed$|failed: )' ||
-    echo "FAILED  asan and fuzz on Debian 13"
+  run_of asan_link
   case_of "known vulnerabilities against the packages of Debian 13" debian13 --exposure
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle
@@ -53,5 +71,9 @@ containers() {
 mapfile -t wanted < <(container_packages)
 install_packages "${wanted[@]}"
 engine_up
-trap engine_down EXIT
+if [[ $1 == images && -n ${GIVEWAY_ENGINE_FILE:-} ]]; then
+  printf '%s' "${ENGINE:-}" >"$GIVEWAY_ENGINE_FILE"
+else
+  trap engine_down EXIT
+fi
 "$1"

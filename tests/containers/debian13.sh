@@ -12,14 +12,19 @@ trap engine_down EXIT
 base_image trixie
 build_image check
 
-# What the compiler cache holds outlives the container; what is built does not.
+# What the compiler cache holds outlives the container; what is built outlives it for the rest of one
+# tests/run.sh alone: another checkout's files may be older than what was built of this one's.
 mkdir -p "$GIVEWAY_ROOT/build" # where the volume is mounted
+BUILT=${GIVEWAY_RUN:+giveway-build13-$GIVEWAY_RUN:}/src/build
+# A container has the usual share of the processor, whatever who starts it has.
+share=() idle=()
+if chrt -p $$ | grep -q SCHED_IDLE; then share=(--cpu-shares 2) idle=(chrt --idle 0); fi
 in_container() {
-  docker run --rm --network none --shm-size 1g --cap-add SYS_PTRACE --cap-add NET_ADMIN \
+  docker run --rm "${share[@]}" --network none --shm-size 1g --cap-add SYS_PTRACE --cap-add NET_ADMIN \
     --cap-add SYS_ADMIN --security-opt seccomp=unconfined --security-opt apparmor=unconfined \
     -e CI="${CI:-}" -e GIVEWAY_FUZZ_SECONDS -e GIVEWAY_REPEATS -e GIVEWAY_KILLS \
-    -v "$GIVEWAY_ROOT:/src:ro" -v /src/build -v giveway-ccache13:/ccache -e CCACHE_DIR=/ccache \
-    giveway-check bash -c 'ip link set lo up; exec "$@"' bash "$@"
+    -v "$GIVEWAY_ROOT:/src:ro" -v "$BUILT" -v giveway-ccache13:/ccache -e CCACHE_DIR=/ccache \
+    giveway-check bash -c 'ip link set lo up; exec "$@"' bash "${idle[@]}" "$@"
 }
 
 # one_system SCRIPT[:ARGUMENT]: its line; where it failed, the end of what it printed too, marked for
