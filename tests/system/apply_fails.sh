@@ -49,7 +49,7 @@ for id in 1 2; do start "$id" giveway-vehicle --id "$id" --qos "$QOS/default.xml
 for id in 1 2; do await "at first: $id drives" 15 "$id" cruise; done
 [[ $failures -eq 0 ]] || exit 1
 listen_places 1 "$DOMAIN" 1
-await_beacons 1 25
+await_places 1 1 25
 line=$(lines_of 1)
 line_of_2=$(lines_of 2)
 
@@ -74,7 +74,7 @@ await "it drives on" 5 1 cruise "$(grep -n 'comes back' 1.log | cut -d: -f1)"
 alive 1 || fail "it is gone: $(tail -n 3 1.log)"
 timeout 20 "$FLEETCTL" qos show --live 1 --domain "$DOMAIN" --qos default >out 2>err ||
   fail "it has another set than before: $(grep not out; cat err)"
-await_beacons 1 "$(($(wc -l <1.beacon) + 10))"
+await_places 1 2 10
 if tail -n "+$((line_of_2 + 1))" 2.log | grep halt | grep -qv ranges_stale; then # that the machine is late
   fail "the other was stopped by it: $(tail -n 3 2.log)"
 fi
@@ -83,7 +83,7 @@ fi
 "$FLEETCTL" qos apply same_host --to 1 --domain "$DOMAIN" --json >out 2>err ||
   fail "with room: $(head -c 600 out err)"
 says "with room" '.verdict == "applied"'
-await_beacons 1 "$(($(wc -l <1.beacon) + 10))"
+await_places 1 3 10
 
 end_listening
 places 1 | jq -e 'length >= 3 and all(.[]; .beyond_m < 0.1) and

@@ -121,15 +121,6 @@ listen_places() {
     LISTENERS+=("$!")
   done
 }
-# await_beacons NAME COUNT: until so many were heard, or ten seconds have passed.
-await_beacons() {
-  local _
-  for _ in $(seq 200); do
-    (($(wc -l <"$SCRATCH/$1.beacon") < $2)) || return 0
-    sleep 0.05
-  done
-  fail "$1: heard $(wc -l <"$SCRATCH/$1.beacon") beacons of $2"
-}
 end_listening() {
   local pid
   for pid in "${LISTENERS[@]}"; do kill -INT "$pid" 2>/dev/null || true; done
@@ -152,4 +143,15 @@ places() {
     group_by(.life) | sort_by(.[0].heard_s) |
     map({beacons: length, beyond_m: (map(.beyond_m) | max), first_toward: .[0].toward,
          last_toward: .[-1].toward})'
+}
+
+# await_places NAME LIVES COUNT: until it has had so many lives, and so many beacons of the last can be
+# compared, or ten seconds have passed: the listener to either topic may be matched long after the other.
+await_places() {
+  local _
+  for _ in $(seq 50); do
+    places "$1" 2>/dev/null | jq -e "length >= $2 and .[-1].beacons >= $3" >/dev/null && return
+    sleep 0.2
+  done
+  fail "$1: $2 lives and $3 beacons were awaited: $(places "$1" | tr -d '\n ')"
 }

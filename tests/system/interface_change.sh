@@ -89,7 +89,7 @@ for vehicle in a b; do await "at first: $vehicle drives" 15 "$vehicle" cruise; d
 export GIVEWAY_INTERFACE=fleet
 listen_places a "$DOMAIN" 1
 listen_places b "$DOMAIN" 2
-for vehicle in a b; do await_beacons "$vehicle" 25; done
+for vehicle in a b; do await_places "$vehicle" 1 25; done
 
 line=$(lines_of a)
 ip link delete to_b
@@ -109,7 +109,7 @@ await "another address: drives on" 5 a2 cruise
 alive b2 || fail "another address: b is gone"
 drives_through "another address" b2 "$line"
 
-for vehicle in a b; do await_beacons "$vehicle" "$(($(wc -l <"$SCRATCH/$vehicle.beacon") + 10))"; done
+for vehicle in a b; do await_places "$vehicle" 2 10; done
 end_listening
 for vehicle in a b; do
   places "$vehicle" | jq -e 'length == 2 and all(.[]; .beacons > 5 and .beyond_m < 0.1) and

@@ -18,7 +18,7 @@ DRIVES='cruise|keep_clear|give_way|not_granted'
 # As itself: its id is asked for, and its body still stands where it was left.
 id=$(id_of b)
 listen_places b "$DOMAIN" "$id"
-await_beacons b 25 # it is on its way
+await_places b 1 25 # it is on its way
 kill_now b
 start b2 giveway-vehicle --id "$id"
 await "killed and restarted by its id" 5 b2 'cruise'
