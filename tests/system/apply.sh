@@ -50,6 +50,7 @@ done
 }
 pid=$(find_child "$fleet" 2)
 listen_places two "$domain" 2
+await_places two 1 21
 
 apply 0 "dry run" depth.xml --to 1,2,3,4 --domain "$domain" --dry-run
 grep -q 'depth  *[0-9] -> 9  (restart)' out || fail "dry run: $(cat out)"

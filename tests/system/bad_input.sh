@@ -127,20 +127,24 @@ refused "duration 0" 'duration' intersection_yield --duration 0
 refused "unknown behaviour" 'behaviour' intersection_yield --behaviour reckless
 refused "absent QoS file" 'no_such\.xml' intersection_yield --qos no_such.xml
 refused "QoS file that is no XML" 'good\.textproto' intersection_yield --qos "$good"
-# The library would loop for ever on it, deaf to SIGTERM: no program may hand it over.
-sed '/profile_name="fleet_beacon_reader"/,/<\/data_reader/ s/150000000/1500000000/' \
-  "$REPOSITORY/config/qos/default.xml" >"$SCRATCH/hangs.xml"
-refused "QoS file that hangs the library" 'hangs\.xml:[0-9]+: <nanosec>: "1500000000": .*; write' \
-  intersection_yield --qos "$SCRATCH/hangs.xml"
-for program in "giveway-vehicle --scenario $good" "giveway-world --scenario $good" "fleetctl top" \
-  "fleetctl listen fleet/beacon" "fleetctl qos show --live 1" \
-  "fleetctl qos apply lossy_radio --to 1"; do
-  code=0
-  # shellcheck disable=SC2086  # words of a command line
-  timeout 5 "$(dirname "$FLEETCTL")"/$program --domain 98 --qos "$SCRATCH/hangs.xml" \
-    >"$SCRATCH/out" 2>&1 || code=$?
-  { [[ $code -eq 2 ]] && grep -Eq 'hangs\.xml:[0-9]+: <nanosec>' "$SCRATCH/out"; } ||
-    fail "$program with a set that hangs the library: exit code $code: $(head -c 600 "$SCRATCH/out")"
+# The library would loop for ever on these, deaf to SIGTERM: no program may hand them over.
+for nanosec in 1500000000 -1; do
+  sed "/profile_name=\"fleet_beacon_reader\"/,/<\/data_reader/ s/150000000/$nanosec/" \
+    "$REPOSITORY/config/qos/default.xml" >"$SCRATCH/hangs.xml"
+  refused "QoS file that hangs the library" 'hangs\.xml:[0-9]+: <nanosec>: "'"$nanosec"'": .*; write' \
+    intersection_yield --qos "$SCRATCH/hangs.xml"
+  for program in "giveway-vehicle --domain 98 --scenario $good" "giveway-world --domain 98 --scenario $good" \
+    "giveway-observer --domain 98 --port 0" "fleetctl top --domain 98" \
+    "fleetctl listen fleet/beacon --domain 98" "fleetctl record $SCRATCH/hangs.mcap --domain 98" \
+    "fleetctl qos show --live 1 --domain 98" "fleetctl qos apply lossy_radio --to 1 --domain 98" \
+    "fleetctl stopwatch --quick" "fleetctl soak patrol --duration 60 --report $SCRATCH/hangs"; do
+    code=0
+    # shellcheck disable=SC2086  # words of a command line
+    timeout 5 "$(dirname "$FLEETCTL")"/$program --qos "$SCRATCH/hangs.xml" \
+      >"$SCRATCH/out" 2>&1 || code=$?
+    { [[ $code -eq 2 ]] && grep -Eq 'hangs\.xml:[0-9]+: <nanosec>' "$SCRATCH/out"; } ||
+      fail "$program with a set that hangs the library: exit code $code: $(head -c 600 "$SCRATCH/out")"
+  done
 done
 refused "unknown interface" 'nowhere0' intersection_yield --interface nowhere0
 refused "page without a name" 'html' intersection_yield --html ""

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "services/qos/check.h"
+#include "services/qos/profile_set.h"
 #include "services/qos/xml_tree.h"
 #include "tests/unit/qos/qos_files.h"
 
@@ -24,6 +25,19 @@ TEST(Check, FindsNothingInTheShippedSets) {
           << file << " with " << vehicles << " vehicles: " << findings.front().rule << " at "
           << findings.front().place.line;
     }
+  }
+}
+
+// The library re-arms a deadline for every vehicle that it ever heard, and the world decides by its own
+// clock whose command is old.
+TEST(ShippedSets, ArmNoDeadlineAtTheWorldForTheCommandsOfVehicles) {
+  for (const auto& file : XmlFilesIn(GIVEWAY_QOS_SETS)) {
+    const XmlRead read = ReadXml(BytesOf(file), file.filename());
+    ASSERT_TRUE(read.root.has_value()) << file;
+    const ProfileSet set = ReadProfiles(*read.root, file.filename());
+    const Profile* reader = set.Find(Owner::kReader, "fleet_motor_command_reader");
+    ASSERT_NE(reader, nullptr) << file;
+    EXPECT_EQ(reader->Number(Policy::kDeadline), kInfinite) << file;
   }
 }
 
