@@ -28,8 +28,8 @@ TEST(Check, FindsNothingInTheShippedSets) {
   }
 }
 
-// The library re-arms a deadline for every vehicle that it ever heard, and the world decides by its own
-// clock whose command is old.
+// The library re-arms a deadline for every vehicle that it ever heard, and the world decides by its
+// own clock whose command is old.
 TEST(ShippedSets, ArmNoDeadlineAtTheWorldForTheCommandsOfVehicles) {
   for (const auto& file : XmlFilesIn(GIVEWAY_QOS_SETS)) {
     const XmlRead read = ReadXml(BytesOf(file), file.filename());
