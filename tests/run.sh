@@ -7,7 +7,7 @@ cd "$GIVEWAY_ROOT"
 QUICK_STAGES=(format rules unit golden link crossing virtual)
 # With --all, what judges times runs in order, and what only computes beside it at idle priority, in two
 # runs: the second needs the images. asan, fuzz and asan_link run in the container of asan13 and
-# debian13.
+# debian13. dev takes half an hour, and is for --full.
 FIRST_STAGES=(unit golden images)
 JUDGED_STAGES=(link system attack manuals web containers)
 LAST_STAGES=(tsan debian13)
@@ -18,16 +18,16 @@ BESIDE_IMAGES_STAGES=(asan13)
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
   [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
-  [images]=60 [asan13]=240 [debian13]=240 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120)
+  [images]=60 [asan13]=240 [debian13]=240 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
 
 usage() {
   cat <<'TEXT'
 Usage: bash tests/run.sh [STAGE ...] [--all] [--full]
 
 Without a stage: format, rules, unit, golden, link, one crossing and 20 seeds a generator, some
-minutes. With --all, as CI: every stage but crossing, which is one of system, and asan, asan_link and
-fuzz, which asan13 and debian13 run in their container; what only computes runs at idle priority
-beside what judges times. Stages:
+minutes. With --all, as CI: every stage but crossing, which is one of system, asan, asan_link
+and fuzz, which asan13 and debian13 run in their container, and dev, which takes long. What only
+computes runs at idle priority beside what judges times. Stages:
   format   clang-format over every tracked source
   rules    include arrows, sizes, names, shell scripts, generation
   deploy   the manifests of Kubernetes against its schemas and against each other
@@ -47,6 +47,7 @@ beside what judges times. Stages:
   fuzz     spoilt scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan_build, tsan
            what tsan needs is compiled; link and one crossing under the thread sanitizer
+  dev      every file compiled alone, with the includes that it names, warned of hidden names
   images   the images that asan13, debian13 and containers need
   asan13   asan and fuzz on Debian 13 with Fast DDS 3.1
   debian13 asan_link and system tests on Debian 13, and a mixed fleet
@@ -54,7 +55,7 @@ beside what judges times. Stages:
 
   --all    every stage
   --full   more repetitions of the system tests, the largest models, five minutes a fuzz target,
-           10 000 seeds a generator (hours)
+           10 000 seeds a generator (hours); with --all dev too
 
 The last line counts test cases: N passed, N failed.
 TEXT
@@ -348,6 +349,8 @@ tsan_crossing() {
     bash tests/system/crossing.sh intersection_yield
 }
 
+stage_dev() { prepare dev && check "every file compiles alone" true; }
+
 stage_tsan_build() { prepare tsan link_tests giveway-vehicle giveway-world; }
 stage_tsan() {
   prepare release fleetctl
@@ -429,6 +432,7 @@ if $all; then
   built13=giveway-build13-$GIVEWAY_RUN
   start_beside "${BESIDE_STAGES[@]}"
   run_stages "${FIRST_STAGES[@]}"
+  ! $full || run_stages dev
   start_beside "${BESIDE_IMAGES_STAGES[@]}"
   run_stages "${JUDGED_STAGES[@]}"
   join_beside
