@@ -16,15 +16,30 @@ build_image check
 # tests/run.sh alone: another checkout's files may be older than what was built of this one's.
 mkdir -p "$GIVEWAY_ROOT/build" # where the volume is mounted
 BUILT=${GIVEWAY_RUN:+giveway-build13-$GIVEWAY_RUN:}/src/build
-# A container has the usual share of the processor, whatever who starts it has.
-share=() idle=()
-if chrt -p $$ | grep -q SCHED_IDLE; then share=(--cpu-shares 2) idle=(chrt --idle 0); fi
+# At idle priority where this script is. The engine's daemon starts the container, not this script, and in
+# a group of processes that has the usual share of the processor whatever the priorities within: hence a
+# group of our own, where there is a folder for it (version 1, 2 of control groups).
+place=()
+idle_group() {
+  local folder
+  [[ $(docker info -f '{{.CgroupDriver}}') == cgroupfs ]] || return 0
+  for folder in /sys/fs/cgroup/cpu /sys/fs/cgroup; do
+    [[ -e $folder/cgroup.procs && -w $folder ]] || continue
+    mkdir -p "$folder/giveway-idle"
+    echo 1 >"$folder/giveway-idle/cpu.idle" || return 0
+    place=(--cgroup-parent /giveway-idle)
+    # shellcheck disable=SC2064 # this folder
+    trap "rmdir '$folder/giveway-idle' || true; engine_down" EXIT
+    return
+  done
+}
+if chrt -p $$ | grep -q SCHED_IDLE; then idle_group; fi
 in_container() {
-  docker run --rm "${share[@]}" --network none --shm-size 1g --cap-add SYS_PTRACE --cap-add NET_ADMIN \
+  docker run --rm "${place[@]}" --network none --shm-size 1g --cap-add SYS_PTRACE --cap-add NET_ADMIN \
     --cap-add SYS_ADMIN --security-opt seccomp=unconfined --security-opt apparmor=unconfined \
     -e CI="${CI:-}" -e GIVEWAY_FUZZ_SECONDS -e GIVEWAY_REPEATS -e GIVEWAY_KILLS \
     -v "$GIVEWAY_ROOT:/src:ro" -v "$BUILT" -v giveway-ccache13:/ccache -e CCACHE_DIR=/ccache \
-    giveway-check bash -c 'ip link set lo up; exec "$@"' bash "${idle[@]}" "$@"
+    giveway-check bash -c 'ip link set lo up; exec "$@"' bash "$@"
 }
 
 # one_system SCRIPT[:ARGUMENT]: its line; where it failed, the end of what it printed too, marked for

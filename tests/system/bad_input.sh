@@ -26,7 +26,7 @@ refused() {
   local name=$1 pattern=$2 code=0 logs="$SCRATCH/logs"
   shift 2
   rm -rf "$logs"
-  timeout 5 "$FLEETCTL" run --logs "$logs" "$@" >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
+  timeout 15 "$FLEETCTL" run --logs "$logs" "$@" >"$SCRATCH/out" 2>"$SCRATCH/err" || code=$?
   [[ $code -eq 2 ]] || fail "$name: exit code $code"
   grep -Eq -- "$pattern" "$SCRATCH/err" ||
     fail "$name: the message has no '$pattern': $(head -c 600 "$SCRATCH/err")"
@@ -134,7 +134,7 @@ for nanosec in 1500000000 -1; do
   refused "QoS file that hangs the library" 'hangs\.xml:[0-9]+: <nanosec>: "'"$nanosec"'": .*; write' \
     intersection_yield --qos "$SCRATCH/hangs.xml"
   for program in "giveway-vehicle --domain 98 --scenario $good" "giveway-world --domain 98 --scenario $good" \
-    "giveway-observer --domain 98 --port 0" "fleetctl top --domain 98" \
+    "giveway-observer --domain 98 --port 18098" "fleetctl top --domain 98" \
     "fleetctl listen fleet/beacon --domain 98" "fleetctl record $SCRATCH/hangs.mcap --domain 98" \
     "fleetctl qos show --live 1 --domain 98" "fleetctl qos apply lossy_radio --to 1 --domain 98" \
     "fleetctl stopwatch --quick" "fleetctl soak patrol --duration 60 --report $SCRATCH/hangs"; do

@@ -117,7 +117,7 @@ listen_places() {
   local topic
   for topic in beacon truth; do
     "$FLEETCTL" listen "$([[ $topic == beacon ]] && echo fleet || echo world)/$topic" --json \
-      --domain "$2" --vehicle "$3" --qos lossy_radio >"$SCRATCH/$1.$topic" 2>/dev/null &
+      --domain "$2" --vehicle "$3" --qos lossy_radio >"$SCRATCH/$1.$topic" 2>"$SCRATCH/$1.$topic.err" &
     LISTENERS+=("$!")
   done
 }
@@ -153,5 +153,6 @@ await_places() {
     places "$1" 2>/dev/null | jq -e "length >= $2 and .[-1].beacons >= $3" >/dev/null && return
     sleep 0.2
   done
-  fail "$1: $2 lives and $3 beacons were awaited: $(places "$1" | tr -d '\n ')"
+  fail "$1: $2 lives and $3 beacons were awaited: $(places "$1" | tr -d '\n '); of beacons and truths" \
+    "$(wc -l "$SCRATCH/$1".{beacon,truth} | tr -s ' \n' ' ') were heard: $(tail -n 2 "$SCRATCH/$1".*.err)"
 }
