@@ -116,7 +116,7 @@ kept() {
   victim=$(find_child "$supervisor" 3)
   kill -9 "$victim"
   wait "$supervisor" || code=$?
-  [[ $code -eq 1 ]] || fail "a soak of which a process died ends with $code"
+  [[ $code -eq 1 ]] || fail "a soak of which a process died ends with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/kept.json")"
   jq -e '[.violations[] | select(.invariant == "process_ended")] | length == 1' "$SCRATCH/kept.json" >/dev/null ||
     fail "the process that died is not told of"
   jq -e '.kept_rings | length == 1 and .[0].kept >= 2' "$SCRATCH/kept.json" >/dev/null ||
