@@ -5,19 +5,20 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-# With --all, what judges times runs in order, and what only computes beside it at idle priority, in two
-# runs: the second needs the images. asan, fuzz and asan_link run in the container of asan13 and
-# debian13. dev takes a quarter of an hour, and is for --full.
+# With --all, what runs processes in real time goes in order, and what only computes beside it at idle
+# priority, in two runs: the second needs the images. The last stages run with nothing beside them.
+# asan, fuzz and asan_link run in the container of asan13 and debian13. dev takes a quarter of an hour,
+# and is for --full.
 FIRST_STAGES=(unit golden images)
-JUDGED_STAGES=(link system attack manuals web containers)
-LAST_STAGES=(tsan debian13)
+THEN_STAGES=(link system attack manuals web containers)
+LAST_STAGES=(timed tsan debian13)
 BESIDE_STAGES=(format rules deploy tsan_build virtual planted model)
 BESIDE_IMAGES_STAGES=(asan13)
 
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
-  [virtual]=150 [planted]=90 [model]=240 [system]=480 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
+  [virtual]=150 [planted]=90 [model]=240 [system]=420 [timed]=240 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
   [images]=60 [asan13]=240 [debian13]=240 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
 
 usage() {
@@ -27,7 +28,7 @@ Usage: bash tests/run.sh [STAGE ...] [--all] [--full]
 Without a stage: format, rules, unit, golden, link, one crossing and 20 seeds a generator, some
 minutes. With --all, as CI: every stage but crossing, which is one of system, asan, asan_link
 and fuzz, which asan13 and debian13 run in their container, and dev, which takes long. What only
-computes runs at idle priority beside what judges times. Stages:
+computes runs at idle priority beside those that run processes. Stages:
   format   clang-format over every tracked source
   rules    include arrows, sizes, names, shell scripts, generation
   deploy   the manifests of Kubernetes against its schemas and against each other
@@ -39,6 +40,7 @@ computes runs at idle priority beside what judges times. Stages:
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
+  timed    real processes held to times: stopwatch, tune, interrupt, health
   attack   an intruder on the network of a fleet that drives: forged, fuzzed and flooding; needs root
   manuals  every command that README.md and the manuals show
   web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
@@ -316,6 +318,7 @@ stage_model() {
 
 stage_link() { prepare release link_tests && run_ctest release link 4; }
 stage_system() { prepare release && run_ctest release system 4; }
+stage_timed() { prepare release && run_ctest release timed 1; }
 stage_manuals() {
   prepare release giveway-observer giveway-vehicle giveway-world fleetctl
   check_lines bash tests/manuals/commands.sh
@@ -437,7 +440,7 @@ if $all; then
   run_stages "${FIRST_STAGES[@]}"
   ! $full || run_stages dev
   start_beside "${BESIDE_IMAGES_STAGES[@]}"
-  run_stages "${JUDGED_STAGES[@]}"
+  run_stages "${THEN_STAGES[@]}"
   join_beside
   run_stages "${LAST_STAGES[@]}"
 fi
