@@ -279,12 +279,12 @@ stage_rules() {
 }
 
 # Kubernetes' schemas come as an npm package.
+deploy_packages() { node_packages && printf '%s\n' prometheus jq; }
 stage_deploy() {
-  mapfile -t node < <(node_packages)
-  [[ ${#node[@]} -eq 0 ]] || install_packages "${node[@]}"
+  mapfile -t wanted < <(deploy_packages)
+  install_packages "${wanted[@]}"
   check_lines bash tests/deploy/kubernetes.sh
   check_lines bash tests/deploy/kubernetes_test.sh
-  install_packages prometheus jq
   check_lines bash tests/deploy/monitoring.sh
 }
 
@@ -380,7 +380,8 @@ stage_web() {
 }
 stage_containers() { check_lines bash tests/containers/all.sh containers; }
 
-mapfile -t packages < <(build_packages && test_packages && java_package)
+# Those of deploy here and not beside: an installer at idle priority would keep others from installing.
+mapfile -t packages < <(build_packages && test_packages && java_package && { ! $all || deploy_packages; })
 install_packages "${packages[@]}"
 check_java
 
