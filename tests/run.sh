@@ -5,15 +5,15 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-# With --all, what runs processes in real time goes in order, and what only computes beside it at idle
-# priority, in two runs: the second needs the images. The last stages run with nothing beside them.
+# With --all, what runs processes in real time goes in order, and what only computes in the background at
+# idle priority, in two runs: the second needs the images. The last stages run alone.
 # asan, fuzz and asan_link run in the container of asan13 and debian13. dev takes a quarter of an hour,
 # and is for --full.
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers)
 LAST_STAGES=(timed tsan debian13)
-BESIDE_STAGES=(format rules deploy tsan_build virtual planted model)
-BESIDE_IMAGES_STAGES=(asan13)
+BACKGROUND_STAGES=(format rules deploy tsan_build virtual planted model)
+BACKGROUND_IMAGES_STAGES=(asan13)
 
 # Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
 # failure: machines are shared.
@@ -28,7 +28,7 @@ Usage: bash tests/run.sh [STAGE ...] [--all] [--full]
 Without a stage: format, rules, unit, golden, link, one crossing and 20 seeds a generator, some
 minutes. With --all, as CI: every stage but crossing, which is one of system, asan, asan_link
 and fuzz, which asan13 and debian13 run in their container, and dev, which takes long. What only
-computes runs at idle priority beside those that run processes. Stages:
+computes runs in the background, at idle priority. Stages:
   format   clang-format over every tracked source
   rules    include arrows, sizes, names, shell scripts, generation
   deploy   the manifests of Kubernetes against its schemas and against each other
@@ -114,8 +114,8 @@ passed=0
 failed=0
 stage=set-up
 said=$(mktemp) # what failed tests printed, said again at the end
-beside=()      # process and log of each lane beside this one
-beside_logs=()
+background=()  # process and log of each run in the background
+background_logs=()
 engine=$(mktemp) # the process of the container engine, where a stage had to start one
 
 # The end of every run, also of one that could not continue: then the stage it was in failed.
@@ -129,10 +129,10 @@ ending() {
     say "what failed tests printed"
     cat "$said"
   fi
-  [[ ${#beside[@]} -eq 0 ]] || kill -- "${beside[@]/#/-}" 2>/dev/null || true
+  [[ ${#background[@]} -eq 0 ]] || kill -- "${background[@]/#/-}" 2>/dev/null || true
   [[ -z ${built13:-} ]] || docker volume rm -f "$built13" >/dev/null 2>&1 || true
   [[ ! -s $engine ]] || kill "$(<"$engine")" 2>/dev/null || true
-  rm -f "$said" "$engine" "${beside_logs[@]}"
+  rm -f "$said" "$engine" "${background_logs[@]}"
   printf '\n%-10s %7s %7s %8s %8s\n' stage passed failed time budget
   printf '%s\n' "${table[@]}"
   [[ $failed_total -eq 0 ]] || printf 'failed: %s\n' "${failed_names[@]}"
@@ -380,7 +380,7 @@ stage_web() {
 }
 stage_containers() { check_lines bash tests/containers/all.sh containers; }
 
-# Those of deploy here and not beside: an installer at idle priority would keep others from installing.
+# Those of deploy now and not in the background: an installer at idle priority would keep others from installing.
 mapfile -t packages < <(build_packages && test_packages && java_package && { ! $all || deploy_packages; })
 install_packages "${packages[@]}"
 check_java
@@ -397,30 +397,30 @@ run_stages() {
   done
 }
 
-# start_beside STAGE...: another run of this script, which takes only what other processes leave of the
+# start_background STAGE...: another run of this script, which takes only what other processes leave of the
 # processor. In a session of its own: the kernel shares the processor between sessions first.
-start_beside() {
+start_background() {
   local log words=("$@")
   log=$(mktemp)
   [[ $full == false ]] || words+=(--full)
   # shellcheck disable=SC2016 # the variables of that shell
   setsid bash -c '{ echo 19 >/proc/self/autogroup; } 2>/dev/null || true; exec chrt --idle 0 bash "$@"' bash \
     tests/run.sh "${words[@]}" >"$log" 2>&1 </dev/null &
-  beside+=($!)
-  beside_logs+=("$log")
+  background+=($!)
+  background_logs+=("$log")
 }
 
-# Waits for the runs beside, prints what they printed, and counts their cases as one stage's.
-join_beside() {
+# Waits for the runs in the background, prints what they printed, and counts their cases as one stage's.
+join_background() {
   local log
-  stage=beside passed=0 failed=0
-  say "the stages that ran beside"
-  for log in "${beside_logs[@]}"; do
-    wait "${beside[0]}" || true
-    beside=("${beside[@]:1}")
+  stage=background passed=0 failed=0
+  say "the stages in the background"
+  for log in "${background_logs[@]}"; do
+    wait "${background[0]}" || true
+    background=("${background[@]:1}")
     cat "$log"
     check_lines of_run "$log"
-    mapfile -t -O "${#table[@]}" table < <(sed -nE 's/^([a-z0-9_]+ +[0-9]+ +[0-9]+ +[0-9]+ s) +[0-9]+ s.*/\1   beside/p' "$log")
+    mapfile -t -O "${#table[@]}" table < <(sed -nE 's/^([a-z0-9_]+ +[0-9]+ +[0-9]+ +[0-9]+ s) +[0-9]+ s.*/\1     idle/p' "$log")
     sed -n '/^== what failed tests printed$/,/^stage  *passed/{//!p}' "$log" >>"$said"
   done
   passed_total=$((passed_total + passed))
@@ -429,7 +429,7 @@ join_beside() {
 
 # The count that ends another run's log, and the names of what failed.
 of_run() {
-  grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" || echo "FAILED  a run beside, which has no count"
+  grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" || echo "FAILED  a run in the background, which has no count"
   grep '^failed: ' "$1" || true
 }
 
@@ -437,12 +437,12 @@ if $all; then
   # The build folder that asan13 and debian13 share.
   export GIVEWAY_RUN=$EPOCHSECONDS-$$
   built13=giveway-build13-$GIVEWAY_RUN
-  start_beside "${BESIDE_STAGES[@]}"
+  start_background "${BACKGROUND_STAGES[@]}"
   run_stages "${FIRST_STAGES[@]}"
   ! $full || run_stages dev
-  start_beside "${BESIDE_IMAGES_STAGES[@]}"
+  start_background "${BACKGROUND_IMAGES_STAGES[@]}"
   run_stages "${THEN_STAGES[@]}"
-  join_beside
+  join_background
   run_stages "${LAST_STAGES[@]}"
 fi
 run_stages "${stages[@]}"
