@@ -56,12 +56,19 @@ class FullyFitted : public ::testing::Test {
     world_.OpenVehicle(kSeven, Fitted(true, true, true));
     vehicle_.Open(kSeven, Fitted(true, true, true), true);
   }
+  // A writer may have matched a reader that has not matched it yet, and loses what it sends until
+  // then: hence each is heard once.
   void SetUp() override {
-    bool signal_came = false;
+    bool scan = false, radar = false, lidar = false, camera = false, signal = false;
     ASSERT_TRUE(Eventually([&] {
       Speak(1);
-      signal_came |= !vehicle_.Take(SteadyTime{0}).inputs.signals.empty();
-      return signal_came && world_.IsMatched(kSeven);
+      const Inputs inputs = vehicle_.Take(SteadyTime{0}).inputs;
+      scan |= inputs.scan.has_value();
+      radar |= inputs.radar != nullptr;
+      lidar |= inputs.lidar != nullptr;
+      camera |= inputs.camera != nullptr;
+      signal |= !inputs.signals.empty();
+      return scan && radar && lidar && camera && signal && world_.IsMatched(kSeven);
     }));
     HearAll(2);
   }
