@@ -1,12 +1,8 @@
 #include "services/fleetctl/soak/ring_keeper.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <utility>
-
-#include "services/fleetctl/output/finding_text.h"
-#include "services/types/refusal.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -84,15 +80,7 @@ void RingKeeper::Keep(SteadyTime now, double time_s) {
 
 void RingKeeper::Turn(SteadyTime now) {
   for (const AdminAnswer& answer : link_.Take()) {
-    if (const auto keep = orders_.Take(answer)) {
-      ++kept_[*keep].kept;
-    } else if (answer.state == AnswerState::kRefused) {
-      std::fprintf(stderr, "vehicle %u does not keep its ring: %s\n", Number(answer.vehicle),
-                   Shown(answer.reason).c_str());
-    }
-  }
-  for (const Refusal& refusal : link_.TakeRefusals()) {
-    std::fprintf(stderr, "%s\n", Describe(refusal).c_str());
+    if (const auto keep = orders_.Take(answer)) ++kept_[*keep].kept;
   }
   if (now < next_prune_) return;
   next_prune_ = now + kPruneEvery;
