@@ -7,8 +7,8 @@ cd "$GIVEWAY_ROOT"
 QUICK_STAGES=(format rules unit golden link crossing virtual)
 # With --all, what runs processes in real time goes in order, and what only computes in the background at
 # idle priority, in two runs: the second needs the images. The last stages run alone.
-# asan, fuzz and asan_link run in the container of asan13 and debian13. dev takes a quarter of an hour,
-# and is for --full.
+# asan runs in the container of asan13, asan_link and fuzz, which is given a time, in that of debian13.
+# dev is for --full.
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers)
 LAST_STAGES=(timed tsan debian13)
@@ -19,7 +19,7 @@ BACKGROUND_IMAGES_STAGES=(asan13)
 # failure: machines are shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
   [virtual]=150 [planted]=90 [model]=240 [system]=420 [timed]=240 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
-  [images]=60 [asan13]=240 [debian13]=240 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
+  [images]=60 [asan13]=180 [debian13]=330 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
 
 usage() {
   cat <<'TEXT'
@@ -27,7 +27,7 @@ Usage: bash tests/run.sh [STAGE ...] [--all] [--full]
 
 Without a stage: format, rules, unit, golden, link, one crossing and 20 seeds a generator, some
 minutes. With --all, as CI: every stage but crossing, which is one of system, asan, asan_link
-and fuzz, which asan13 and debian13 run in their container, and dev, which takes long. What only
+and fuzz, which asan13 and debian13 run in their container, and dev, which is for --full. What only
 computes runs in the background, at idle priority. Stages:
   format   clang-format over every tracked source
   rules    include arrows, sizes, names, shell scripts, generation
@@ -51,8 +51,8 @@ computes runs in the background, at idle priority. Stages:
            what tsan needs is compiled; link and one crossing under the thread sanitizer
   dev      every file of the services compiled alone, with the includes it names, warned of hidden names
   images   the images that asan13, debian13 and containers need
-  asan13   asan and fuzz on Debian 13 with Fast DDS 3.1
-  debian13 asan_link and system tests on Debian 13, and a mixed fleet
+  asan13   asan on Debian 13 with Fast DDS 3.1
+  debian13 asan_link, fuzz and system tests on Debian 13, and a mixed fleet
   containers  images, composed fleets of two and eight, and what may happen to them; needs root
 
   --all    every stage
@@ -372,18 +372,13 @@ stage_debian13() {
   check_lines bash tests/containers/all.sh debian13
 }
 stage_web() {
-  mapfile -t wanted < <(web_packages && node_packages && printf '%s\n' prometheus jq curl)
+  mapfile -t wanted < <(web_packages && deploy_packages && echo curl)
   install_packages "${wanted[@]}"
   prepare release giveway-observer giveway-vehicle giveway-world fleetctl
   check_lines bash tests/web/web.sh
   check_lines env GIVEWAY_BIN_DIR="$GIVEWAY_ROOT/build/release/bin" bash tests/web/scrape.sh
 }
 stage_containers() { check_lines bash tests/containers/all.sh containers; }
-
-# Those of deploy now and not in the background: an installer at idle priority would keep others from installing.
-mapfile -t packages < <(build_packages && test_packages && java_package && { ! $all || deploy_packages; })
-install_packages "${packages[@]}"
-check_java
 
 run_stages() {
   local started
@@ -432,6 +427,11 @@ of_run() {
   grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" || echo "FAILED  a run in the background, which has no count"
   grep '^failed: ' "$1" || true
 }
+
+# Those of deploy now and not in the background: an installer at idle priority would keep others from installing.
+mapfile -t packages < <(build_packages && test_packages && java_package && { ! $all || deploy_packages; })
+install_packages "${packages[@]}"
+check_java
 
 if $all; then
   # The build folder that asan13 and debian13 share.

@@ -19,11 +19,13 @@ case_of() {
   if bash "$HERE/$script.sh" "$@" >&2; then echo "ok      $name"; else echo "FAILED  $name"; fi
 }
 
-# The images of both suites that the others need.
+# What asan13 and the container tests need.
 images() {
-  base_image trixie
   base_image "$SUITE"
-  for target in check world vehicle tools; do build_image "$target"; done
+  for target in world vehicle tools; do build_image "$target"; done
+  SUITE=trixie
+  base_image "$SUITE"
+  build_image check
   echo "ok      images are built"
 }
 
@@ -33,7 +35,7 @@ run_of() {
     echo "FAILED  $* on Debian 13"
 }
 
-asan13() { run_of asan fuzz; }
+asan13() { run_of asan; }
 
 debian13() {
   local scripts=(crossing:intersection_yield crossing:peer_dies crossing:four_way rejoin
@@ -43,7 +45,7 @@ debian13() {
   export GIVEWAY_SUITE=trixie
   SUITE=$GIVEWAY_SUITE
   base_image "$SUITE"
-  run_of asan_link
+  run_of asan_link fuzz
   case_of "known vulnerabilities against the packages of Debian 13" debian13 --exposure
   bash "$HERE/debian13.sh" --system "${scripts[@]}" || true
   build_image vehicle

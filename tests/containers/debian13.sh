@@ -5,11 +5,12 @@
 #   bash tests/containers/debian13.sh --system SCRIPT[:ARGUMENT] ...   scripts of tests/system with the
 #                                                 programs as they are installed; a line each
 #   bash tests/containers/debian13.sh --exposure  known vulnerabilities against its packages' changelogs
+GIVEWAY_SUITE=trixie # whatever the other containers stand on
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 [[ $# -gt 0 ]] || die "name stages of tests/run.sh, or --system and scripts of tests/system, or --exposure"
 engine_up
 trap engine_down EXIT
-base_image trixie
+base_image "$SUITE"
 build_image check
 
 # What the compiler cache holds outlives the container; what is built outlives it for the rest of one
@@ -28,8 +29,7 @@ idle_group() {
     mkdir -p "$folder/giveway-idle"
     echo 1 >"$folder/giveway-idle/cpu.idle" || return 0
     place=(--cgroup-parent /giveway-idle)
-    # shellcheck disable=SC2064 # this folder
-    trap "rmdir '$folder/giveway-idle' || true; engine_down" EXIT
+    trap 'rmdir /sys/fs/cgroup{,/*}/giveway-idle 2>/dev/null || true; engine_down' EXIT
     return
   done
 }

@@ -146,13 +146,15 @@ places() {
 }
 
 # await_places NAME LIVES COUNT: until it has had so many lives, and so many beacons of the last can be
-# compared, or ten seconds have passed: the listener to either topic may be matched long after the other.
+# compared; a failure after ten seconds. The listener to either topic may be matched long after the other.
 await_places() {
-  local _
-  for _ in $(seq 50); do
-    places "$1" 2>/dev/null | jq -e "length >= $2 and .[-1].beacons >= $3" >/dev/null && return
+  local until=$((SECONDS + 10))
+  until places "$1" 2>/dev/null | jq -e "length >= $2 and .[-1].beacons >= $3" >/dev/null; do
+    if ((SECONDS > until)); then
+      fail "$1: $2 lives and $3 beacons were awaited: $(places "$1" | tr -d '\n '); of beacons and truths" \
+        "$(wc -l "$SCRATCH/$1".{beacon,truth} | tr -s ' \n' ' ') were heard: $(tail -n 2 "$SCRATCH/$1".*.err)"
+      return
+    fi
     sleep 0.2
   done
-  fail "$1: $2 lives and $3 beacons were awaited: $(places "$1" | tr -d '\n '); of beacons and truths" \
-    "$(wc -l "$SCRATCH/$1".{beacon,truth} | tr -s ' \n' ' ') were heard: $(tail -n 2 "$SCRATCH/$1".*.err)"
 }

@@ -210,7 +210,7 @@ beside() {
 }
 
 echo 'at { name: "stop" time_s: 14 kind: "pause" vehicle: 1 for_s: 10 }' >"$SCRATCH/long.textproto"
-# Nobody is paused any more when everyone is to keep its ring.
+# The pause is over when the vehicles are ordered to keep their rings.
 echo 'at { name: "stop" time_s: 11 kind: "pause" vehicle: 1 for_s: 1 }' >"$SCRATCH/short.textproto"
 echo 'at { name: "rest" time_s: 30 kind: "pause" vehicle: 1 for_s: 2 }' >"$SCRATCH/rest.textproto"
 cat >"$SCRATCH/host.textproto" <<'FAULTS'
