@@ -46,7 +46,7 @@ mapfile -t packages < <(build_packages && java_package)
 install_packages "${packages[@]}"
 check_java
 configure release
-build release giveway-observer giveway-vehicle giveway-world fleetctl
+build release giveway-vehicle giveway-world fleetctl
 
 fleetctl="$GIVEWAY_ROOT/build/release/bin/fleetctl"
 if $setup_only; then

@@ -27,7 +27,7 @@ struct LibraryLinesAtEnd {
   LibraryLinesAtEnd& operator=(const LibraryLinesAtEnd&) = delete;
 };
 
-constexpr const char* kFooter = R"(
+constexpr const char* kFleetctlFooter = R"(
 Examples
   fleetctl run intersection_yield          # two vehicles, one verdict
   fleetctl virtual crossing --seeds 1..20  # the same brains in virtual time
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   const std::string version =
       "fleetctl " GIVEWAY_VERSION ", " + std::string(giveway::link::LibraryName());
   fleetctl.set_version_flag("--version", version);
-  fleetctl.footer(kFooter);
+  fleetctl.footer(kFleetctlFooter);
   int exit_code = giveway::fleetctl::kCouldNotRun;
   giveway::fleetctl::AddCampaignVerb(&fleetctl, &exit_code);
   giveway::fleetctl::AddDoctorVerb(&fleetctl, &exit_code);

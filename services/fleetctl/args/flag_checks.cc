@@ -1,9 +1,19 @@
 #include "services/fleetctl/args/flag_checks.h"
 
+#include "services/config/impair.h"
+
 namespace giveway::fleetctl {
 
 std::string CheckNotEmpty(const std::string& text) {
   return text.empty() ? "must not be empty" : "";
+}
+
+std::string CheckImpairment(const std::string& text) {
+  std::string wrong;
+  for (const ImpairTextProblem& problem : ParseImpairment(text).problems) {
+    wrong += (wrong.empty() ? "" : "\n") + problem.message + "; " + problem.remedy;
+  }
+  return wrong;
 }
 
 void AddDiscoveryFlag(CLI::App* verb, std::vector<DiscoveryServer>* servers) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,12 @@
 
 namespace giveway::fleetctl {
 
+// Vehicles of a fleet that a verb starts, and of one that it only reckons with.
+inline constexpr std::uint32_t kMostStarted = 1024;
+inline constexpr std::uint32_t kMostReckonedWith = 4096;
+
 std::string CheckNotEmpty(const std::string& text);
+std::string CheckImpairment(const std::string& text);
 
 void AddInterfaceFlag(CLI::App* verb, std::string* interface);
 // Servers as HOST[:PORT],...

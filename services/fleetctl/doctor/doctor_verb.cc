@@ -8,9 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr std::uint32_t kMostVehicles = 4096;
-
-constexpr const char* kFooter = R"(
+constexpr const char* kDoctorFooter = R"(
 Looks at what a fleet needs of this host: shared memory (unused files, files of other users, free space), network
 namespaces without a common shared memory, host ids, multicast, receive buffers, ports and participant
 ids, files and variables the library reads by itself, the wall clock, descriptors. Each finding says what
@@ -34,13 +32,13 @@ void AddDoctorVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<DoctorOptions>();
   CLI::App* verb =
       fleetctl->add_subcommand("doctor", "Examine this host, and clean up after fleets");
-  verb->footer(kFooter);
+  verb->footer(kDoctorFooter);
   verb->add_option("--domain", options->domain,
                    "DDS domain, and its processes; without it all that run, else 1")
       ->check(CLI::Range(kFirstDomain, kLastDomain))
       ->envname("GIVEWAY_DOMAIN");
   verb->add_option("--vehicles", options->vehicles, "How many are to run here")
-      ->check(CLI::Range(std::uint32_t{1}, kMostVehicles))
+      ->check(CLI::Range(1U, kMostReckonedWith))
       ->capture_default_str();
   verb->add_option("--qos", options->qos,
                    "Profile file, or name of a shipped set, they are started with")

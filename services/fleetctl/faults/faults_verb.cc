@@ -3,13 +3,12 @@
 #include <string>
 
 #include "services/fleetctl/args/duration_flag.h"
+#include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/faults/faults.h"
 
 namespace giveway::fleetctl {
 namespace {
-
-constexpr std::uint32_t kMostVehicles = 4096;
 
 constexpr const char* kExpandFooter = R"(
 Prints the concrete faults that FILE makes with this seed, duration and fleet: target, kind, time and
@@ -51,7 +50,7 @@ void AddExpand(CLI::App* group, int* exit_code) {
       ->required();
   verb->add_option("--vehicles", options->vehicles, "Fleet size")
       ->required()
-      ->check(CLI::Range(1U, kMostVehicles));
+      ->check(CLI::Range(1U, kMostReckonedWith));
   AddDurationFlag(verb, "--warm-up", &course.warm_up_s, "No random fault starts before it; 10s");
   AddDurationFlag(verb, "--healing", &course.healing_s, "At the end all faults are over; 15s");
   auto* text = verb->add_flag("--text", options->text, "Print a line a fault, for people");

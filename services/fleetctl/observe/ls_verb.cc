@@ -14,7 +14,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kLsFooter = R"(
 A fleet is the processes of one DDS domain on one interface in one network namespace. Reads /proc
 alone: joins nothing, sends nothing. Processes of other users are listed as far as they can be seen.
 
@@ -96,7 +96,7 @@ int RunLs(bool json) {
 void AddLsVerb(CLI::App* fleetctl, int* exit_code) {
   const auto json = std::make_shared<bool>(false);
   CLI::App* verb = fleetctl->add_subcommand("ls", "List the fleets of this machine");
-  verb->footer(kFooter);
+  verb->footer(kLsFooter);
   verb->add_flag("--json", *json, "Print one JSON array on stdout and nothing else");
   verb->callback([json, exit_code] { *exit_code = RunLs(*json); });
 }

@@ -19,7 +19,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kPlanFooter = R"(
 Estimates before anything is started, from what fleets of 2 to 32 vehicles were measured to cost here
 (tests/bench/fleet_costs.sh measures them on another machine), and holds the QoS set against so many
 vehicles. Nothing is started, no network is touched. Cores and memory of a host are this machine's,
@@ -75,7 +75,7 @@ void AddPlanVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<PlanOptions>();
   PlanRequest& request = options->request;
   CLI::App* verb = fleetctl->add_subcommand("plan", "Will so many vehicles fit on so many hosts?");
-  verb->footer(kFooter);
+  verb->footer(kPlanFooter);
   verb->add_option("N,--vehicles", request.vehicles, "Vehicles")
       ->required()
       ->check(CLI::Range(1, 4096));

@@ -15,7 +15,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kApplyFooter = R"(
 A PROFILE is a path, or the name of a shipped set. It is checked first, alone and together with what
 every process of the fleet runs with; a child process then makes every endpoint of it with Fast DDS.
 A deadline takes effect while the vehicle drives. Everything else is fixed once a participant is
@@ -63,7 +63,7 @@ void CheckTargets(const QosApplyOptions& options) {
 void AddQosApply(CLI::App* qos, int* exit_code) {
   const auto options = std::make_shared<QosApplyOptions>();
   CLI::App* verb = qos->add_subcommand("apply", "Give running vehicles other QoS");
-  verb->footer(kFooter);
+  verb->footer(kApplyFooter);
   verb->add_option("PROFILE", options->profile, "The set they are to run with")
       ->required()
       ->check(CheckNotEmpty);

@@ -1,6 +1,7 @@
 #include <limits>
 #include <memory>
 
+#include "services/fleetctl/args/flag_checks.h"
 #include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/qos/qos_check.h"
@@ -10,8 +11,6 @@
 
 namespace giveway::fleetctl {
 namespace {
-
-constexpr std::int64_t kMostVehicles = 4096;
 
 constexpr const char* kCheckFooter = R"(
 A FILE is a path, or the name of a shipped set: default, lossy_radio, same_host,
@@ -55,7 +54,7 @@ void AddCheck(CLI::App* qos, int* exit_code) {
   verb->add_option("--scenario", options->scenario,
                    "Fleet size and tick rate are this scenario's; 2 vehicles at 20 Hz without it");
   verb->add_option("--vehicles", options->vehicles, "Fleet size, instead of the scenario's")
-      ->check(CLI::Range(std::int64_t{1}, kMostVehicles));
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{kMostReckonedWith}));
   verb->add_option(
       "--compose", options->compose,
       "A compose file: the sets its services are given, and how many vehicles they are");
@@ -82,7 +81,7 @@ void AddShow(CLI::App* qos, int* exit_code) {
       ->envname("GIVEWAY_INTERFACE");
   verb->add_option("--vehicles", options->vehicles, "Fleet size: some values follow from it")
       ->capture_default_str()
-      ->check(CLI::Range(std::uint32_t{1}, static_cast<std::uint32_t>(kMostVehicles)));
+      ->check(CLI::Range(1U, kMostReckonedWith));
   auto* vehicle = verb->add_option("--live", live->vehicle,
                                    "What this vehicle runs with, held against the file")
                       ->check(CLI::Range(1U, std::numeric_limits<std::uint32_t>::max()));

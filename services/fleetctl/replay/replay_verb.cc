@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kReplayFooter = R"(
 A recording is what giveway-vehicle --record FILE, or fleetctl run --record FOLDER, writes. A fresh
 brain is given the same inputs; every command, every beacon and the hash of its state must come out
 bit for bit as recorded. A file cut off by kill -9, or by a full disk, is replayed up to its last whole
@@ -33,7 +33,7 @@ void AddReplayVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<ReplayOptions>();
   CLI::App* verb =
       fleetctl->add_subcommand("replay", "Repeat recorded decisions, and compare them bit for bit");
-  verb->footer(kFooter);
+  verb->footer(kReplayFooter);
   verb->add_option("FILE", options->files, "Recordings")->required();
   verb->add_flag("--json", options->json, "Print one JSON object on stdout and nothing else");
   verb->add_option("--trace", options->trace_file, "Write every decision of the only recording");

@@ -17,7 +17,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kReportFooter = R"(
 A report is what fleetctl soak --report FOLDER wrote: the folder, or its report.json. One is printed as a
 summary. Of two, what got worse from the first to the second, with the chance that equal soaks
 differ so much; all tests together call equal soaks worse at most once in 200. A leak that
@@ -118,7 +118,7 @@ void AddReportVerb(CLI::App* fleetctl, int* exit_code) {
   CLI::App* verb = fleetctl->add_subcommand(
       "report",
       "Show the report of a soak or of a recorded run, or say what got worse between two soaks");
-  verb->footer(kFooter);
+  verb->footer(kReportFooter);
   verb->add_option("REPORT", options->reports, "One report or two: before, after; or an MCAP file")
       ->required()
       ->expected(1, 2);

@@ -15,7 +15,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kRunFooter = R"(
 Every flag but --html, --json, --picture and --logs has a twin in the environment: --domain is also
 GIVEWAY_DOMAIN. The flag wins.
 
@@ -32,16 +32,6 @@ Examples
 Exit code: 0 passed, 1 failed or interrupted, or passed and a picture or recording could not be
 written; 2 could not run.
 )";
-
-constexpr std::uint32_t kMostVehicles = 1024;
-
-std::string CheckImpairment(const std::string& text) {
-  std::string wrong;
-  for (const ImpairTextProblem& problem : ParseImpairment(text).problems) {
-    wrong += (wrong.empty() ? "" : "\n") + problem.message + "; " + problem.remedy;
-  }
-  return wrong;
-}
 
 std::string CheckSplit(const std::string& text) {
   const std::optional<std::uint64_t> bytes = ParseByteSize(text);
@@ -75,7 +65,7 @@ void AddScenarioFlags(CLI::App* verb, RunOptions* options) {
       ->envname("GIVEWAY_SEED");
   verb->add_option("--vehicles", options->fleet.vehicles,
                    "Of an open fleet: start so many that the scenario does not name")
-      ->check(CLI::Range(0U, kMostVehicles))
+      ->check(CLI::Range(0U, kMostStarted))
       ->envname("GIVEWAY_VEHICLES");
   verb->add_flag(
           "--restart", options->restart,
@@ -154,7 +144,7 @@ void AddRunVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb =
       fleetctl->add_subcommand("run", "Run a scenario here, one process a vehicle, and judge it");
-  verb->footer(kFooter);
+  verb->footer(kRunFooter);
   AddScenarioFlags(verb, options.get());
   AddLinkFlags(verb, options.get());
   AddOutputFlags(verb, options.get());

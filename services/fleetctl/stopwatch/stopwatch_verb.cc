@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kStopwatchFooter = R"(
 Starts fleets of real processes, strikes vehicles one by one, and takes the time until each peer says
 in its log that it noticed, by each mechanism: the age of the newest beacon, DEADLINE, LIVELINESS, the
 participant's lease, a good-bye. --table says which must see which fault, and within what time.
@@ -28,7 +28,7 @@ Exit code: 0 every promise was kept; 1 one was broken, or it was interrupted; 2 
 )";
 
 // Above 32 vehicles code sets another lease; one place stays free.
-constexpr std::uint32_t kMostVehicles = 31;
+constexpr std::uint32_t kMostVictims = 31;
 constexpr std::uint32_t kMostTrials = 100'000;
 constexpr std::uint32_t kMostFleets = 16;
 constexpr std::uint32_t kQuickTrials = 10;
@@ -62,7 +62,7 @@ struct Given {
 void AddFlags(CLI::App* verb, Given* given) {
   StopwatchOptions* const options = &given->options;
   verb->add_option("--vehicles", options->vehicles, "Of each fleet; half of them observe")
-      ->check(CLI::Range(2U, kMostVehicles))
+      ->check(CLI::Range(2U, kMostVictims))
       ->capture_default_str();
   CLI::Option* trials = verb->add_option("--trials", options->trials, "Of each fault")
                             ->check(CLI::Range(1U, kMostTrials))
@@ -92,7 +92,7 @@ void AddStopwatchVerb(CLI::App* fleetctl, int* exit_code) {
   const auto given = std::make_shared<Given>();
   CLI::App* verb =
       fleetctl->add_subcommand("stopwatch", "How long until peers notice that a vehicle is gone?");
-  verb->footer(kFooter);
+  verb->footer(kStopwatchFooter);
   AddFlags(verb, given.get());
   verb->callback([given, exit_code] {
     given->options.faults = ParseFaults(given->faults);

@@ -11,7 +11,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kTuneFooter = R"(
 Searched, of fleet/beacon: requested and offered deadline, liveliness lease, reliability, the reader's
 depth. Not searched: the beacon period, which is the scenario's tick and no QoS; the heartbeat of
 reliable writers, which code sets to 100 ms and no profile changes; the beacon age limit, which is
@@ -41,13 +41,9 @@ Examples
 Exit code: 0 better than the base, and verified; 1 not so, or interrupted; 2 could not run.
 )";
 
-std::string CheckImpairment(const std::string& text) {
-  const ParsedImpairment parsed = ParseImpairment(text);
-  std::string wrong;
-  for (const ImpairTextProblem& problem : parsed.problems) {
-    wrong += (wrong.empty() ? "" : "\n") + problem.message + "; " + problem.remedy;
-  }
-  if (wrong.empty() && parsed.impairment.seed) {
+std::string CheckTrialImpairment(const std::string& text) {
+  const std::string wrong = CheckImpairment(text);
+  if (wrong.empty() && ParseImpairment(text).impairment.seed) {
     return "seed: every trial has one of its own; leave it out, and give --seed";
   }
   return wrong;
@@ -58,9 +54,9 @@ std::string CheckImpairment(const std::string& text) {
 void AddQosTune(CLI::App* qos, int* exit_code) {
   const auto options = std::make_shared<QosTuneOptions>();
   CLI::App* verb = qos->add_subcommand("tune", "Search better beacon QoS on real vehicles");
-  verb->footer(kFooter);
+  verb->footer(kTuneFooter);
   verb->add_option("--impair", options->impair, "What every vehicle receives through, as of run")
-      ->check(CheckImpairment)
+      ->check(CheckTrialImpairment)
       ->capture_default_str();
   verb->add_option("--vehicles", options->vehicles, "Of each fleet")
       ->check(CLI::Range(2U, 64U))

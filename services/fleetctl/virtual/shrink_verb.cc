@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kShrinkFooter = R"(
 Takes the flags of `fleetctl virtual` with which the seed failed. Leaves out vehicles, faults, walls
 and what goes wrong on the radio, one after the other, as long as the same invariant breaks. What is
 left of --faults is written next to the scenario, as NAME_SEED.faults.textproto.
@@ -26,7 +26,7 @@ void AddShrinkVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<ShrinkOptions>();
   CLI::App* verb = fleetctl->add_subcommand(
       "shrink", "Reduce a failing virtual run to the smallest that still fails");
-  verb->footer(kFooter);
+  verb->footer(kShrinkFooter);
   AddCaseFlags(verb, &options->made_by);
   verb->add_option("--seed", options->seed, "The seed that fails")
       ->check(CLI::Range(0U, std::numeric_limits<std::uint32_t>::max()))

@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kVirtualFooter = R"(
 SCENARIO is a scenario file, the name of a shipped one, or a generator:
 crossing, roundabout, corridor, swarm, merge, convoy, warehouse,
 door, one_lane, antipodal, parking, shared_goal, mixed_yard.
@@ -30,7 +30,7 @@ void AddVirtualVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<VirtualOptions>();
   CLI::App* verb = fleetctl->add_subcommand(
       "virtual", "Run a scenario in virtual time, many times over, and check the invariants");
-  verb->footer(kFooter);
+  verb->footer(kVirtualFooter);
   AddCaseFlags(verb, &options->made_by);
   const auto take_seeds = [options](const std::string& text) {
     options->seeds = WholesOf("--seeds", text, 0, 4294967295.0);

@@ -9,7 +9,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kWhyFooter = R"(
 A and B are running processes of this machine: the id of a vehicle, "world", or pid:NUMBER, in
 whatever network namespace or container. First it predicts, from each process's launch options and
 network environment, whether A receives B's samples; then a reader of its own takes A's place (its
@@ -38,7 +38,7 @@ Named Parse(const std::string& name, const std::string& text) {
 void AddWhyVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<WhyOptions>();
   CLI::App* verb = fleetctl->add_subcommand("why", "Can A hear B? And if not, why");
-  verb->footer(kFooter);
+  verb->footer(kWhyFooter);
   verb->add_option_function<std::string>(
           "A", [options](const std::string& text) { options->hearer = Parse("A", text); },
           "Who hears")

@@ -14,7 +14,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr const char* kFooter = R"(
+constexpr const char* kSoakFooter = R"(
 Starts a world and one process a vehicle, waits until all drive, breaks things
 by a seeded schedule, heals everything, and judges: every invariant, every
 fault's effect, how soon peers noticed, that all drive again within 5 s, that no
@@ -49,8 +49,6 @@ Exit code: 0 passed; 1 failed or interrupted; 2 could not run, or the machine
 was too busy to judge.
 )";
 
-constexpr std::uint32_t kMostVehicles = 1024;
-
 void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("SCENARIO", options->scenario, "A scenario file, or the name of a shipped one");
   verb->add_option("--faults", options->faults, "A fault file, or the name of a shipped one")
@@ -64,7 +62,7 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_option("--report", options->report_folder, "Folder of the report; made where it is not")
       ->check(CheckNotEmpty);
   verb->add_option("--vehicles", options->vehicles, "Of an open fleet; without it one a place")
-      ->check(CLI::Range(1U, kMostVehicles));
+      ->check(CLI::Range(1U, kMostStarted));
   verb->add_option("--qos", options->qos_file, "QoS profiles: a file, or the name of a shipped set")
       ->check(CheckNotEmpty)
       ->envname("GIVEWAY_QOS");
@@ -107,7 +105,7 @@ void AddSoakVerb(CLI::App* fleetctl, int* exit_code) {
   const auto options = std::make_shared<SoakOptions>();
   CLI::App* verb = fleetctl->add_subcommand(
       "soak", "Drive a fleet under faults for minutes or days, and judge it");
-  verb->footer(kFooter);
+  verb->footer(kSoakFooter);
   AddSoakFlags(verb, options.get());
   verb->callback([options, exit_code] {
     if (!options->around.empty()) {
