@@ -1,61 +1,155 @@
 #!/usr/bin/env bash
-# What an observer costs a fleet, side by side: pairs of runs without one and with one that a client
-# follows; and what it takes itself. Prints a line a run and the medians.
-# Usage: observer_cost.sh [--scenario NAME] [--seconds S] [--pairs N]   (fleet_20, 20, 3)
+# What whoever watches costs a fleet that drives: pairs of two fleets side by side, each in a domain of its
+# own, one of them watched. Which of the two starts first alternates. Prints a line a fleet, the ratio of
+# each figure (fleet_pairs.sh says what they are) watched to unwatched, and what the observer took itself.
+#
+#   client    giveway-observer, and one client that follows the page's stream
+#   paused    the same, stopped by SIGSTOP as long as it is measured
+#   killed    the same, ended by kill -9 at the begin and at half of that time, and started again at once
+#   unread    giveway-observer, and 16 clients that never read
+#   full      fleetctl record onto a full disk, again and again; needs root
+#
+# Usage: observer_cost.sh [--seconds S] [--pairs N] [--vehicles N] [WATCHED ...]   (20, 10, 8, all)
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 programs=${GIVEWAY_BIN_DIR:-$project/build/release/bin}
-scenario=fleet_20 seconds=20 pairs=3
+seconds=20 pairs=10 vehicles=8 ways=()
 while [[ $# -gt 0 ]]; do
   case $1 in
-    --scenario) scenario=$2 ;;
-    --seconds) seconds=$2 ;;
-    --pairs) pairs=$2 ;;
+    --seconds) seconds=$2 && shift ;;
+    --pairs) pairs=$2 && shift ;;
+    --vehicles) vehicles=$2 && shift ;;
+    client | paused | killed | unread | full) ways+=("$1") ;;
     *)
       echo "unknown argument $1" >&2
       exit 2
       ;;
   esac
-  shift 2
+  shift
 done
+[[ ${#ways[@]} -gt 0 ]] || ways=(client paused killed unread full)
 work=$(mktemp -d)
+source "$project/tests/bench/fleet_pairs.sh"
+export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$project/config}
+folder=([with]=$programs [without]=$programs)
 port=$((20000 + RANDOM % 20000))
-trap 'rm -rf "$work"' EXIT
+watchers=() # processes that watch, but for the observer
+observer=''
+ended() {
+  end_watching
+  end_fleets
+  umount "$work/disk" 2>/dev/null || true
+  rm -rf "$work"
+}
+trap ended EXIT
 
-# Clock ticks of processor time that a process has taken.
-ticks_of() { awk '{print $14 + $15}' "/proc/$1/stat"; }
+# Crossings of eight vehicles each, so far apart that nobody of one hears anybody of another.
+bash "$project/tests/deploy/fleet_scenario.sh" "$vehicles" $(((vehicles + 7) / 8)) "$vehicles" |
+  sed 's/^duration_s:.*/duration_s: 3600/' >"$work/fleet.textproto"
 
-# one WITH: a line "WITH misses vehicle_cpu_ms_s observer_cpu_percent observer_rss_MB kB_s".
-one() {
-  local with=$1 run domain observer='' client='' before=0 after=0 rss=0 kilobytes=0
-  "$programs/fleetctl" run "$scenario" --duration "$seconds" --json >"$work/run.json" 2>"$work/run.err" &
-  run=$!
-  until domain=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' "$work/run.err") && [[ -n $domain ]]; do sleep 0.1; done
-  if [[ $with == with ]]; then
-    "$programs/giveway-observer" --domain "$domain" --port "$port" --scenario "$scenario" 2>"$work/observer.err" &
-    observer=$!
-    until curl -fs "http://127.0.0.1:$port/livez" >/dev/null; do sleep 0.1; done
-    curl -sN "http://127.0.0.1:$port/api/v1/stream" >"$work/stream" &
-    client=$!
-  fi
-  sleep $((seconds / 2))
-  if [[ -n $observer ]]; then
-    before=$(ticks_of "$observer") kilobytes=$(stat -c %s "$work/stream")
-    sleep 5
-    after=$(ticks_of "$observer") kilobytes=$((($(stat -c %s "$work/stream") - kilobytes) / 5000))
-    rss=$(awk '/^VmRSS:/ {print int($2 / 1024)}' "/proc/$observer/status")
-  fi
-  wait "$run" || true
-  [[ -z $client ]] || kill "$client" 2>/dev/null || true
-  [[ -z $observer ]] || kill "$observer"
-  wait || true
-  jq -r --arg with "$with" --argjson cpu $(((after - before) * 200 / $(getconf CLK_TCK))) \
-    --argjson rss "$rss" --argjson kb "$kilobytes" \
-    '"\($with) misses=\([.. | .deadline_missed? // empty] | add // 0) verdict=\(.verdict) observer_cpu=\($cpu / 10)% rss=\($rss)MB stream=\($kb)kB/s"' \
-    "$work/run.json"
+start_observer() {
+  "$programs/giveway-observer" --domain "${domain[with]}" --port "$port" --scenario "$work/fleet.textproto" \
+    2>>"$work/observer.err" &
+  observer=$!
+}
+# follow: reads the stream, and connects again by itself as the page does.
+follow() {
+  until curl -fsN "http://127.0.0.1:$port/api/v1/stream" >>"$work/stream"; do sleep 0.2; done
+}
+# ignore: asks for the stream, never reads it, and asks again after it was left.
+ignore() {
+  while sleep 0.2; do
+    exec 5<>"/dev/tcp/127.0.0.1/$port" || continue
+    printf 'GET /api/v1/stream HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n' >&5
+    sleep 6
+    exec 5>&-
+  done 2>/dev/null
+}
+# record_on_full: a recording onto a disk of 256 kB, again and again; each is ended by it.
+record_on_full() {
+  while sleep 0.2; do
+    rm -f "$work/disk"/*
+    "$programs/fleetctl" record "$work/disk/full.mcap" --domain "${domain[with]}" 2>>"$work/observer.err"
+  done
+}
+beside() { # FUNCTION [TIMES]: in processes of their own, each the first of a session
+  local i
+  for ((i = 0; i < ${2:-1}; ++i)); do
+    setsid bash -c "$(declare -f "$1"); port=$port programs=$programs work=$work; declare -A domain=([with]=${domain[with]}); $1" &
+    watchers+=($!)
+  done
+}
+start_watching() { # WAY
+  case $1 in
+    full)
+      mkdir -p "$work/disk"
+      mountpoint -q "$work/disk" || mount -t tmpfs -o size=256k none "$work/disk"
+      beside record_on_full
+      ;;
+    unread)
+      start_observer
+      beside ignore 16
+      ;;
+    *)
+      start_observer
+      beside follow
+      ;;
+  esac
+}
+end_watching() {
+  local process
+  for process in "${watchers[@]}"; do kill -- -"$process" 2>/dev/null || true; done
+  [[ -z $observer ]] || kill -CONT "$observer" 2>/dev/null || true
+  [[ -z $observer ]] || kill "$observer" 2>/dev/null || true
+  for process in "${watchers[@]}" $observer; do wait "$process" 2>/dev/null || true; done
+  watchers=() observer=''
 }
 
-for ((i = 0; i < pairs; ++i)); do
-  one without
-  one with
+observer_ns() { cat "/proc/$observer/task"/*/schedstat | awk '{sum += $1} END {printf "%.0f\n", sum}'; }
+while_watched() {
+  local before
+  case $way in
+    paused)
+      kill -STOP "$observer"
+      sleep "$seconds"
+      kill -CONT "$observer"
+      ;;
+    killed)
+      for ((half = 0; half < 2; ++half)); do
+        kill -KILL "$observer"
+        wait "$observer" 2>/dev/null || true
+        start_observer
+        sleep "$(jq -n "$seconds / 2")"
+      done
+      ;;
+    full) sleep "$seconds" ;;
+    *)
+      before=$(observer_ns)
+      sleep "$seconds"
+      awk -v way="$way" -v ns=$(($(observer_ns) - before)) -v seconds="$seconds" '
+        /^VmRSS:/ {printf "%s observer %.1f %% of a core, %.1f MB\n", way, ns / seconds / 1e7, $2 / 1024}' \
+        "/proc/$observer/status" >>"$work/observer.$way"
+      ;;
+  esac
+}
+
+(IFS=$'\t' && echo "watched	${FIGURES[*]}")
+for way in "${ways[@]}"; do
+  for ((pair = 1; pair <= pairs; ++pair)); do
+    order=(with without)
+    ((pair % 2)) || order=(without with)
+    for name in "${order[@]}"; do start_fleet "$name" "$pair" "$work/fleet.textproto"; done
+    sleep 6
+    start_watching "$way"
+    sleep 4 # all drive, and the announcements of the start are over
+    watch "${order[@]}"
+    end_watching
+    end_fleets
+    for name in with without; do
+      printf '%s\t%s\n' "$name" "$(figures "$name")" | tee -a "$work/lines.$way" | sed "s/^with\t/$way\t/; s/^without/-/"
+    done
+  done
+  echo "== $way"
+  ratios "$work/lines.$way"
+  cat "$work/observer.$way" 2>/dev/null || true
 done

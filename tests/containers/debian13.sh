@@ -8,6 +8,8 @@
 GIVEWAY_SUITE=trixie # whatever the other containers stand on
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 [[ $# -gt 0 ]] || die "name stages of tests/run.sh, or --system and scripts of tests/system, or --exposure"
+mapfile -t packages < <(container_packages)
+install_packages "${packages[@]}"
 engine_up
 trap engine_down EXIT
 base_image "$SUITE"

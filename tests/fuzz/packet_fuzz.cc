@@ -25,7 +25,11 @@ constexpr std::uint32_t kSource = 0x7f000001;
 constexpr std::uint32_t kLargestSample = 65536;
 constexpr Nanoseconds kApart = std::chrono::milliseconds(7);
 
-const link::PacketFilterOptions kOptions{.largest_sample = kLargestSample, .loopback_only = true};
+// Few writers are remembered: then they are forgotten often, and a filter is made in a microsecond.
+constexpr std::size_t kWriters = 16;
+
+const link::PacketFilterOptions kOptions{
+    .largest_sample = kLargestSample, .writers = kWriters, .loopback_only = true};
 
 // Every submessage of what is handed on is sound, and of a kind the library knows.
 void CheckHandedOn(Bytes packet) {

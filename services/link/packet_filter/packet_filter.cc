@@ -86,8 +86,8 @@ WriterGuid CounterGuid(const Submessage& submessage, const std::uint8_t* prefix)
 
 PacketFilter::PacketFilter(const PacketFilterOptions& options)
     : options_(options),
-      writers_(WritersOf(options.fleet_size), options.seed, options.fleet_size,
-               options.of_all_bodies),
+      writers_(options.writers != 0 ? options.writers : WritersOf(options.fleet_size), options.seed,
+               options.fleet_size, options.of_all_bodies),
       tokens_(kStrangersAtOnce + 2 * std::int64_t{options.fleet_size}) {}
 
 PacketVerdict PacketFilter::Judge(Bytes packet, std::uint32_t source, SteadyTime now) {

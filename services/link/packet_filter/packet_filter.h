@@ -7,6 +7,7 @@
 // taken. A packet that is sound, of a plausible sequence number and a forged GUID passes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "services/link/packet_filter/rtps_bytes.h"
@@ -19,6 +20,7 @@ namespace giveway::link {
 struct PacketFilterOptions {
   std::uint32_t largest_sample = 65536;  // bytes of the largest type
   std::uint32_t fleet_size = 2;          // decides how many writers are remembered
+  std::size_t writers = 0;               // to remember, at least; 0: as fleet_size decides
   bool loopback_only = false;            // hears 127.0.0.0/8 and nothing else
   bool secured = false;                  // DDS-Security is on: its submessages pass
   bool of_all_bodies = false;            // hears of every body of the fleet: of an observer
