@@ -5,12 +5,13 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 usage() {
   cat <<'TEXT'
-Usage: bash services/run.sh [--setup-only] [-- FLEETCTL_ARGUMENTS]
+Usage: bash services/run.sh [--setup-only] [--observer] [-- FLEETCTL_ARGUMENTS]
 
 Installs missing Debian packages (root or sudo), builds into build/release, and runs
 the crossing of two vehicles.
 
   --setup-only  stop after the build
+  --observer    build giveway-observer too, the live map of a fleet
   -- ARGUMENTS  hand these to fleetctl instead of running the crossing
   --help        this text
 
@@ -23,10 +24,12 @@ TEXT
 }
 
 setup_only=false
+programs=(giveway-vehicle giveway-world fleetctl)
 fleetctl_arguments=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --setup-only) setup_only=true ;;
+    --observer) programs+=(giveway-observer) ;;
     --help | -h)
       usage
       exit 0
@@ -46,7 +49,7 @@ mapfile -t packages < <(build_packages && java_package)
 install_packages "${packages[@]}"
 check_java
 configure release
-build release giveway-vehicle giveway-world fleetctl
+build release "${programs[@]}"
 
 fleetctl="$GIVEWAY_ROOT/build/release/bin/fleetctl"
 if $setup_only; then
