@@ -75,7 +75,7 @@ class SoakSession {
   ResourceSeries resources_;
   FleetCourse course_;
   PauseMeter pauses_;
-  StallMonitor stalls_;
+  StallMonitor stalls_{std::chrono::milliseconds(5)};  // limits of detection are 100 ms and more
   NearMisses near_;
   FleetTiming timing_;
   std::optional<RingKeeper> rings_;

@@ -10,9 +10,8 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr Nanoseconds kPeriod = std::chrono::milliseconds(1);
-// A timer and a waking thread need some of it: shorter gaps are no stalls, and are not kept.
-constexpr Nanoseconds kKept = std::chrono::microseconds(1200);
+// A timer and a waking thread need it: gaps that are longer than a period by less are not kept.
+constexpr Nanoseconds kLate = std::chrono::microseconds(200);
 constexpr Nanoseconds kForgotten = std::chrono::minutes(10);
 
 // A pause of one CPU is not seen from another.
@@ -25,7 +24,7 @@ void StayOn(int cpu) {
 
 }  // namespace
 
-StallMonitor::StallMonitor() {
+StallMonitor::StallMonitor(Nanoseconds period) : period_(period) {
   cpu_set_t allowed;
   CPU_ZERO(&allowed);
   if (sched_getaffinity(0, sizeof(allowed), &allowed) != 0) CPU_SET(0, &allowed);
@@ -39,9 +38,9 @@ void StallMonitor::Watch(const std::stop_token& stop, int cpu) {
   StayOn(cpu);
   SteadyTime before = SteadyNow();
   while (!stop.stop_requested()) {
-    SleepUntil(before + kPeriod);
+    SleepUntil(before + period_);
     const SteadyTime now = SteadyNow();
-    if (now - before > kKept) Note({before, now});
+    if (now - before > period_ + kLate) Note({before, now});
     before = now;
   }
 }
@@ -54,7 +53,7 @@ void StallMonitor::Note(const Gap& gap) {
 
 Nanoseconds StallMonitor::LongestPause(SteadyTime from, SteadyTime to) const {
   const std::scoped_lock lock(mutex_);
-  Nanoseconds longest = kKept;
+  Nanoseconds longest = period_ + kLate;
   // Gaps of several threads are a little out of order: start early enough.
   const auto by_end = [](const Gap& gap, SteadyTime time) { return gap.to < time; };
   auto gap = std::lower_bound(gaps_.begin(), gaps_.end(), from - std::chrono::seconds(1), by_end);
