@@ -94,11 +94,12 @@ void Invariants::Tell(Invariant invariant, Tick tick, VehicleId vehicle, Vehicle
   if (kept.size() < kKeptViolations) kept.push_back({invariant, tick, vehicle, other, rule});
 }
 
-bool Invariants::Held() const {
+std::uint64_t Invariants::Broken() const {
+  std::uint64_t broken = 0;
   for (std::size_t i = 0; i < kInvariantCount; ++i) {
-    if (counts_[i] > 0 && limits_.required.test(i)) return false;
+    if (limits_.required.test(i)) broken += counts_[i];
   }
-  return true;
+  return broken;
 }
 
 std::uint32_t Invariants::IndexOf(VehicleId vehicle) const {

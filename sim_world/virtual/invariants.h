@@ -101,8 +101,9 @@ class Invariants {
   std::uint32_t Count(Invariant invariant) const {
     return counts_[static_cast<std::size_t>(invariant)];
   }
-  // Of those that are required.
-  bool Held() const;
+  // Of those that are required: how often one was broken, and whether none was.
+  std::uint64_t Broken() const;
+  bool Held() const { return Broken() == 0; }
   // The first ones of those that are required, in order of time.
   std::span<const Violation> First() const { return first_; }
   // The first ones of the others.

@@ -132,9 +132,7 @@ SoakSeen SoakSession::Run(const Saved& save) {
 void SoakSession::Gather(SoakSeen* seen) const {
   seen->courses.assign(watch_.Courses().begin(), watch_.Courses().end());
   const sim::Invariants& judged = invariants_.Judged();
-  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-    seen->broken_counted += judged.Count(static_cast<sim::Invariant>(i));
-  }
+  seen->broken_counted = judged.Broken();
   for (const sim::Violation& broken : judged.First()) {
     seen->broken.push_back({TimeOfTick(broken.tick), broken});
   }
@@ -221,11 +219,7 @@ void SoakSession::Drain() {
 // What is known to be broken while it runs: invariants, decisions on stale beacons, processes that
 // ended.
 std::uint64_t SoakSession::BrokenSoFar() const {
-  std::uint64_t broken = seen_.restarts + timing_.Stale().size();
-  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-    broken += invariants_.Judged().Count(static_cast<sim::Invariant>(i));
-  }
-  return broken;
+  return seen_.restarts + timing_.Stale().size() + invariants_.Judged().Broken();
 }
 
 void SoakSession::KeepRings(SteadyTime now) {
@@ -338,17 +332,13 @@ void SoakSession::ShowProgress(SteadyTime now) {
   next_progress_ = now + kProgressEvery;
   std::size_t begun = 0;
   for (const FaultCourse& course : watch_.Courses()) begun += course.began ? 1 : 0;
-  std::uint32_t broken = 0;
-  for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-    broken += invariants_.Judged().Count(static_cast<sim::Invariant>(i));
-  }
   const auto unwell = watch_.Unwell(now);
   std::string names;
   for (const VehicleId vehicle : unwell) names += fmt::format(" {}", Number(vehicle));
   std::fprintf(
-      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu under way  invariants broken %u%s%s\n",
+      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu under way  invariants broken %lu%s%s\n",
       watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(), clock_.UnderWay().size(),
-      broken, names.empty() ? "" : "  not driving:", names.c_str());
+      invariants_.Judged().Broken(), names.empty() ? "" : "  not driving:", names.c_str());
 }
 
 // The world first, so that it announces the end and the vehicles leave in good order.

@@ -102,12 +102,14 @@ TEST_F(ClearanceTest, IsNoReasonToFailUnlessAskedFor) {
   counted.Observe(Tick{1}, 0.05, now_, {});
   EXPECT_EQ(counted.Count(Invariant::kClearance), 1U);
   EXPECT_TRUE(counted.Held());
+  EXPECT_EQ(counted.Broken(), 0U);
   EXPECT_TRUE(counted.First().empty());
   ASSERT_EQ(counted.FirstNoted().size(), 1U);
   limits.required.set(static_cast<std::size_t>(Invariant::kClearance));
   Invariants held_to(scenario_, limits);
   held_to.Observe(Tick{1}, 0.05, now_, {});
   EXPECT_FALSE(held_to.Held());
+  EXPECT_EQ(held_to.Broken(), 1U);
   EXPECT_EQ(held_to.First().size(), 1U);
 }
 

@@ -153,9 +153,7 @@ class VirtualSoak {
     seen_.courses.assign(watch_.Courses().begin(), watch_.Courses().end());
     const double now_s = Time_s();
     const Tick now = fleet_.World().Now();
-    for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-      seen_.broken_counted += invariants_.Count(static_cast<sim::Invariant>(i));
-    }
+    seen_.broken_counted = invariants_.Broken();
     for (const sim::Violation& broken : invariants_.First()) {
       const double ago_s = TicksBetween(broken.tick, now) * Seconds(scenario_.tick_period);
       seen_.broken.push_back({std::max(0.0, now_s - ago_s), broken});

@@ -44,6 +44,17 @@ class SoakVirtualTest : public testing::Test {
   faults::Schedule schedule_;
 };
 
+// Of the invariants that are counted only, where a run is not held to them, nothing is broken.
+TEST_F(SoakVirtualTest, NeverFailsWithoutSayingWhy) {
+  scenario_ = WithPlacesFilled(LoadScenario("warehouse_loop", {0, std::nullopt, std::nullopt}), 20);
+  for (std::uint32_t vehicle = 1; vehicle <= 20; ++vehicle) {
+    schedule_.push_back(Planned(faults::Kind::kEncoderWrong, 25, 8, vehicle));
+    schedule_.back().parameters.factor = 1.02;  // 6 cm: less than may be, but than claims allow for
+  }
+  const SoakSeen seen = RunSoakVirtually(scenario_, schedule_, PhasesOf(90, 20));
+  EXPECT_EQ(seen.broken_counted, seen.broken.size());
+}
+
 TEST_F(SoakVirtualTest, CarriesOutItsListAndJudgesIt) {
   schedule_ = {Planned(faults::Kind::kPause, 20, 0.8, 2), Planned(faults::Kind::kLoss, 25, 10, 3),
                Planned(faults::Kind::kRestart, 30, 2, 4),
