@@ -50,6 +50,21 @@ Schedule Without(const Schedule& schedule, const Incapable& incapable) {
   return rest;
 }
 
+Incapable IncapableWithSensorsOf(const Scenario& scenario) {
+  const auto fitted = [](const VehicleOptions& vehicle) {
+    return vehicle.profile.pose_fix.Fitted();
+  };
+  if (std::ranges::any_of(scenario.vehicles, fitted) ||
+      std::ranges::any_of(scenario.spawns, fitted)) {
+    return {};
+  }
+  Incapable incapable;
+  for (const Kind kind : {Kind::kEncoderWrong, Kind::kPoseFixLost, Kind::kPoseFixWrong}) {
+    incapable.kinds[kind] = "no vehicle of this scenario has pose fixes (sensors.pose_fix)";
+  }
+  return incapable;
+}
+
 Incapable IncapableInVirtualTime() {
   Incapable incapable;
   for (const KindRow& row : KindTable()) {

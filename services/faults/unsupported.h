@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/faults/fault.h"
+#include "services/types/scenario.h"
 
 namespace giveway::faults {
 
@@ -28,6 +29,10 @@ struct Unsupported {
 std::vector<Unsupported> UnsupportedIn(const Schedule& schedule, const Incapable& incapable);
 // The rest, in the same order.
 Schedule Without(const Schedule& schedule, const Incapable& incapable);
+
+// What no vehicle of the scenario has a sensor for. Without pose fixes nothing shows a vehicle that
+// its encoders are wrong: where it believes to be would be wrong from then on.
+Incapable IncapableWithSensorsOf(const Scenario& scenario);
 
 // Of the virtual fleet: whatever the table says it cannot, and the world and servers as targets.
 Incapable IncapableInVirtualTime();

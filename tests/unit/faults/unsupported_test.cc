@@ -60,5 +60,16 @@ TEST(Unsupported, TheVirtualFleetHasTheFaultsOfItsWorldItsProcessesAndItsRadio) 
   EXPECT_FALSE(can(Kind::kFlooded, Vehicle(1)));
 }
 
+TEST(Unsupported, FaultsOfFixesAndEncodersNeedAVehicleWithPoseFixes) {
+  Scenario scenario;
+  scenario.spawns.resize(2);
+  const Schedule schedule = {
+      Of(Kind::kEncoderWrong, Vehicle(1), 1, 1), Of(Kind::kPoseFixLost, Vehicle(1), 1, 1),
+      Of(Kind::kPoseFixWrong, Vehicle(2), 1, 1), Of(Kind::kSonarOff, Vehicle(1), 1, 1)};
+  EXPECT_THAT(Without(schedule, IncapableWithSensorsOf(scenario)), ElementsAre(schedule[3]));
+  scenario.spawns[1].profile.pose_fix = {.every_s = 1, .sigma_m = 0.05};
+  EXPECT_EQ(Without(schedule, IncapableWithSensorsOf(scenario)), schedule);
+}
+
 }  // namespace
 }  // namespace giveway::faults

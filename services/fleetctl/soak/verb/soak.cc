@@ -82,23 +82,25 @@ std::string InWords(const faults::Fault& fault) {
                      faults::ToString(fault.kind), faults::ToString(fault.target), fault.at_s);
 }
 
-// Of a virtual run, by the table.
-std::string WhyNotVirtually(const faults::Fault& fault) {
-  const auto cannot = faults::UnsupportedIn({fault}, faults::IncapableInVirtualTime());
+std::string WhyNotOf(const faults::Incapable& incapable, const faults::Fault& fault) {
+  const auto cannot = faults::UnsupportedIn({fault}, incapable);
   return cannot.empty() ? "" : cannot.front().reason;
 }
 
-std::string WhyNot(const SoakOptions& options, const faults::Fault& fault) {
-  if (options.in_virtual_time) return WhyNotVirtually(fault);
+std::string WhyNot(const SoakOptions& options, const Scenario& scenario,
+                   const faults::Fault& fault) {
+  const std::string sensors = WhyNotOf(faults::IncapableWithSensorsOf(scenario), fault);
+  if (!sensors.empty()) return sensors;
+  if (options.in_virtual_time) return WhyNotOf(faults::IncapableInVirtualTime(), fault);
   const char* const why = WhyNot(fault);
   return why == nullptr ? "" : why;
 }
 
 // Refuses what cannot be carried out here, all at once; or leaves it out and says so.
-void Sift(const SoakOptions& options, Prepared* prepared) {
+void Sift(const SoakOptions& options, const Scenario& scenario, Prepared* prepared) {
   std::vector<Problem> problems;
   std::erase_if(prepared->schedule, [&](const faults::Fault& fault) {
-    const std::string why = WhyNot(options, fault);
+    const std::string why = WhyNot(options, scenario, fault);
     if (why.empty()) return false;
     if (options.skip_unsupported) {
       prepared->skipped.push_back(InWords(fault) + ": " + why);
@@ -133,7 +135,7 @@ Prepared Prepare(const SoakOptions& options) {
                               prepared.phases.end_s - prepared.phases.faults_until_s};
   prepared.fleet = SoakFleet(as_shipped, prepared.newcomers);
   prepared.schedule = LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
-  Sift(options, &prepared);
+  Sift(options, as_shipped, &prepared);
   ForgetSoFar(options.report_folder);
 
   CheckFolder(options.report_folder);
