@@ -147,7 +147,7 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
   for (int i = 0; i < 100 && out.command.decision.rule != Rule::kArrived; ++i)
     out = bench.Step(Rolling(3));
   ASSERT_EQ(out.command.decision.rule, Rule::kArrived);
-  for (int i = 0; i < 5; ++i) {  // so many are believed against the wheels
+  for (int i = 0; i < 8; ++i) {  // so many are believed against the wheels
     ASSERT_EQ(out.command.decision.rule, Rule::kArrived) << i;
     bench.WithNext().pose_fix = PoseFix{.world_from_body = {{0.8, 0.05}, 0},
                                         .sigma_position_m = 0.01,

@@ -232,7 +232,7 @@ TEST(PoseKeeping, AHeadingThatDoesNotFitIsDoubtedToo) {
   keeper.Drive({});
   keeper.Give(turned(-0.5));
   EXPECT_EQ(keeper.keeping.disagreement.fixes, 1U) << "they do not agree";
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < 7; ++i) {
     keeper.Drive({});
     keeper.Give(turned(-0.5));
   }
