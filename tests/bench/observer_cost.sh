@@ -13,13 +13,13 @@
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 programs=${GIVEWAY_BIN_DIR:-$project/build/release/bin}
-seconds=20 pairs=10 vehicles=8 ways=()
+seconds=20 pairs=10 vehicles=8 conditions=()
 while [[ $# -gt 0 ]]; do
   case $1 in
     --seconds) seconds=$2 && shift ;;
     --pairs) pairs=$2 && shift ;;
     --vehicles) vehicles=$2 && shift ;;
-    client | paused | killed | unread | full) ways+=("$1") ;;
+    client | paused | killed | unread | full) conditions+=("$1") ;;
     *)
       echo "unknown argument $1" >&2
       exit 2
@@ -27,7 +27,7 @@ while [[ $# -gt 0 ]]; do
   esac
   shift
 done
-[[ ${#ways[@]} -gt 0 ]] || ways=(client paused killed unread full)
+[[ ${#conditions[@]} -gt 0 ]] || conditions=(client paused killed unread full)
 work=$(mktemp -d)
 source "$project/tests/bench/fleet_pairs.sh"
 export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$project/config}
@@ -72,27 +72,27 @@ record_on_full() {
     "$programs/fleetctl" record "$work/disk/full.mcap" --domain "${domain[with]}" 2>>"$work/observer.err"
   done
 }
-beside() { # FUNCTION [TIMES]: in processes of their own, each the first of a session
+in_background() { # FUNCTION [TIMES]: in processes of their own, each the first of a session
   local i
   for ((i = 0; i < ${2:-1}; ++i)); do
     setsid bash -c "$(declare -f "$1"); port=$port programs=$programs work=$work; declare -A domain=([with]=${domain[with]}); $1" &
     watchers+=($!)
   done
 }
-start_watching() { # WAY
+start_watching() { # CONDITION
   case $1 in
     full)
       mkdir -p "$work/disk"
       mountpoint -q "$work/disk" || mount -t tmpfs -o size=256k none "$work/disk"
-      beside record_on_full
+      in_background record_on_full
       ;;
     unread)
       start_observer
-      beside ignore 16
+      in_background ignore 16
       ;;
     *)
       start_observer
-      beside follow
+      in_background follow
       ;;
   esac
 }
@@ -108,7 +108,7 @@ end_watching() {
 observer_ns() { cat "/proc/$observer/task"/*/schedstat | awk '{sum += $1} END {printf "%.0f\n", sum}'; }
 while_watched() {
   local before
-  case $way in
+  case $condition in
     paused)
       kill -STOP "$observer"
       sleep "$seconds"
@@ -126,30 +126,30 @@ while_watched() {
     *)
       before=$(observer_ns)
       sleep "$seconds"
-      awk -v way="$way" -v ns=$(($(observer_ns) - before)) -v seconds="$seconds" '
-        /^VmRSS:/ {printf "%s observer %.1f %% of a core, %.1f MB\n", way, ns / seconds / 1e7, $2 / 1024}' \
-        "/proc/$observer/status" >>"$work/observer.$way"
+      awk -v condition="$condition" -v ns=$(($(observer_ns) - before)) -v seconds="$seconds" '
+        /^VmRSS:/ {printf "%s observer %.1f %% of a core, %.1f MB\n", condition, ns / seconds / 1e7, $2 / 1024}' \
+        "/proc/$observer/status" >>"$work/observer.$condition"
       ;;
   esac
 }
 
 (IFS=$'\t' && echo "watched	${FIGURES[*]}")
-for way in "${ways[@]}"; do
+for condition in "${conditions[@]}"; do
   for ((pair = 1; pair <= pairs; ++pair)); do
     order=(with without)
     ((pair % 2)) || order=(without with)
     for name in "${order[@]}"; do start_fleet "$name" "$pair" "$work/fleet.textproto"; done
     sleep 6
-    start_watching "$way"
+    start_watching "$condition"
     sleep 4 # all drive, and the announcements of the start are over
     watch "${order[@]}"
     end_watching
     end_fleets
     for name in with without; do
-      printf '%s\t%s\n' "$name" "$(figures "$name")" | tee -a "$work/lines.$way" | sed "s/^with\t/$way\t/; s/^without/-/"
+      printf '%s\t%s\n' "$name" "$(figures "$name")" | tee -a "$work/lines.$condition" | sed "s/^with\t/$condition\t/; s/^without/-/"
     done
   done
-  echo "== $way"
-  ratios "$work/lines.$way"
-  cat "$work/observer.$way" 2>/dev/null || true
+  echo "== $condition"
+  ratios "$work/lines.$condition"
+  cat "$work/observer.$condition" 2>/dev/null || true
 done
