@@ -18,32 +18,32 @@ constexpr std::uint32_t kDeafStaggerSteps = 8;
 
 // A cone that swings along a wall makes its echo come nearer faster than any of the formulas say.
 void Vehicle::NoteTurning(Situation* s) {
-  VehicleState& state = *state_;
+  MoverWatch& movers = state_->movers;
   if (s->turn_rad_s > kSharpTurn_rad_s || s->turn_rad_s < -kSharpTurn_rad_s) {
-    state.turned_tick = s->tick;
+    movers.turned_tick = s->tick;
   }
   s->turns =
-      state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
+      movers.turned_tick != kNoTick && TicksBetween(movers.turned_tick, s->tick) <= kTurnEchoTicks;
 }
 
 void Vehicle::ListenForMovers(Situation* s) {
-  VehicleState& state = *state_;
+  MoverWatch& movers = state_->movers;
   bool moving = false;
-  const double near_m = state.deaf ? options_.gate_exit_m : options_.gate_enter_m;
+  const double near_m = movers.deaf ? options_.gate_exit_m : options_.gate_enter_m;
   for (const std::size_t i : BitsOf(s->turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
     if (s->ranges[i].range_m >= near_m || !MovesByItself(i, *s)) continue;
     moving = true;
-    state.deaf_sensor = static_cast<int>(i);
+    movers.deaf_sensor = static_cast<int>(i);
   }
   if (moving) {
-    state.trust.echo_without_beacon += state.deaf ? 0 : 1;
-    state.deaf = true;
-    state.deaf_since = s->now;
+    state_->counters.trust.echo_without_beacon += movers.deaf ? 0 : 1;
+    movers.deaf = true;
+    movers.deaf_since = s->now;
   }
   const double hold_s = kDeafHold_s + kDeafStagger_s * (Number(options_.id) % kDeafStaggerSteps);
-  if (state.deaf && Seconds(s->now - state.deaf_since) > hold_s) state.deaf = false;
-  s->deaf = state.deaf;
-  s->deaf_sensor = state.deaf ? state.deaf_sensor : -1;
+  if (movers.deaf && Seconds(s->now - movers.deaf_since) > hold_s) movers.deaf = false;
+  s->deaf = movers.deaf;
+  s->deaf_sensor = movers.deaf ? movers.deaf_sensor : -1;
 }
 
 }  // namespace giveway

@@ -7,24 +7,24 @@ namespace giveway {
 // Those of a world that has not placed it yet say nothing.
 void Vehicle::TakeFix(const Inputs& inputs) {
   VehicleState& state = *state_;
-  if (state.tick == kNoTick) return;
+  if (state.world.tick == kNoTick) return;
   const FixTaker taker{.vehicle = options_.id,
-                       .epoch = state.epoch,
-                       .tick = state.tick,
+                       .epoch = state.world.epoch,
+                       .tick = state.world.tick,
                        .tick_s = Seconds(options_.tick_period)};
-  TakeWaiting(options_.profile, taker, &state.odometry, &state.pose);
+  TakeWaiting(options_.profile, taker, &state.motion.odometry, &state.motion.pose);
   if (inputs.pose_fix) {
-    Take(*inputs.pose_fix, options_.profile, taker, &state.odometry, &state.pose);
+    Take(*inputs.pose_fix, options_.profile, taker, &state.motion.odometry, &state.motion.pose);
   }
 }
 
 void Vehicle::LookAtOwnPose(Situation* s) {
   VehicleState& state = *state_;
-  s->world_from_body = state.odometry.WorldFromBody();
-  s->forward_world = state.odometry.ForwardWorld();
-  s->covariance = PromisedCovariance(state.odometry, state.pose);
-  s->known_share = JudgeCertainty(options_.profile, s->covariance, &state.pose);
-  s->lost = state.pose.lost;
+  s->world_from_body = state.motion.odometry.WorldFromBody();
+  s->forward_world = state.motion.odometry.ForwardWorld();
+  s->covariance = PromisedCovariance(state.motion.odometry, state.motion.pose);
+  s->known_share = JudgeCertainty(options_.profile, s->covariance, &state.motion.pose);
+  s->lost = state.motion.pose.lost;
 }
 
 }  // namespace giveway

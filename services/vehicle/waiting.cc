@@ -8,7 +8,8 @@ namespace giveway {
 // changes, and two that wait for each other need not hear of every tick.
 std::uint32_t Vehicle::AgedTicks() const {
   const auto limit = static_cast<std::uint32_t>(options_.ageing_limit / options_.tick_period);
-  return limit == 0 ? state_->waited_ticks : state_->waited_ticks / limit * limit;
+  const std::uint32_t waited = state_->waiting.waited_ticks;
+  return limit == 0 ? waited : waited / limit * limit;
 }
 
 // Its place in the order stands while encounters are under way. But once it has let somebody pass
@@ -16,7 +17,7 @@ std::uint32_t Vehicle::AgedTicks() const {
 // What it waited is forgotten when it is through: away from where it stood, and meeting nobody.
 void Vehicle::KeepOrder(const Situation& s, bool waits) {
   constexpr double kThrough_m = 2.5;
-  VehicleState& state = *state_;
+  Waiting& state = state_->waiting;
   const Vec2 position_world = s.world_from_body.position_world;
   state.let_pass = state.waited_ticks > 0 && (state.let_pass || s.let_pass);
   if (waits) {

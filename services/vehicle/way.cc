@@ -28,10 +28,10 @@ constexpr std::uint32_t kCaughtTicks = 200;
 
 // A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
 bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
-  if (state.waypoint >= route.count) return false;
-  const double away_m = Norm(route.waypoints_world[state.waypoint] - position_world);
+  if (state.route.waypoint >= route.count) return false;
+  const double away_m = Norm(route.waypoints_world[state.route.waypoint] - position_world);
   return away_m <= route.radius_m ||
-         (state.detour_tick != kNoTick && away_m <= kPassedAtDistance_m);
+         (state.progress.detour_tick != kNoTick && away_m <= kPassedAtDistance_m);
 }
 
 }  // namespace
@@ -44,27 +44,27 @@ void Vehicle::LookAhead(Situation* s) {
   s->path = {position, s->forward_world};
   s->distance_to_goal_m = kNoGoal_m;
   for (std::uint32_t i = 0; i < route.count && PassesWaypoint(state, route, position); ++i) {
-    ++state.waypoint;
-    if (route.loop && state.waypoint == route.count) state.waypoint = 0;
-    state.nearest_m = kNoGoal_m;
-    state.aimless_ticks = 0;
+    ++state.route.waypoint;
+    if (route.loop && state.route.waypoint == route.count) state.route.waypoint = 0;
+    state.progress.nearest_m = kNoGoal_m;
+    state.progress.aimless_ticks = 0;
   }
-  const bool on_route = state.waypoint < route.count;
+  const bool on_route = state.route.waypoint < route.count;
   if (!on_route && !options_.goal.set) return;
   const Vec2 way =
-      (on_route ? route.waypoints_world[state.waypoint] : options_.goal.at_world) - position;
+      (on_route ? route.waypoints_world[state.route.waypoint] : options_.goal.at_world) - position;
   s->distance_to_goal_m = Norm(way);
   s->stops_there = !on_route;
   if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
   // Well inside the radius, so that the truth is inside too.
-  if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
+  if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.route.arrived = true;
   // A fix may say that it was not there.
   const bool shown = options_.profile.pose_fix.Fitted();
   const double surely_m = s->distance_to_goal_m - SigmaPosition(s->covariance);
-  if (!state.arrived || !shown || surely_m <= options_.goal.radius_m) return;
-  state.arrived = false;
-  state.nearest_m = kNoGoal_m;
-  state.aimless_ticks = 0;
+  if (!state.route.arrived || !shown || surely_m <= options_.goal.radius_m) return;
+  state.route.arrived = false;
+  state.progress.nearest_m = kNoGoal_m;
+  state.progress.aimless_ticks = 0;
 }
 
 // Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand
@@ -72,48 +72,51 @@ void Vehicle::LookAhead(Situation* s) {
 // circle is none.
 void Vehicle::NoteCaught(Situation* s, bool queues) {
   VehicleState& state = *state_;
-  const Vec2 moved = s->world_from_body.position_world - state.caught_world;
+  const Vec2 moved = s->world_from_body.position_world - state.progress.caught_world;
   if (!s->aimless || SquaredNorm(moved) > kCaughtWithin_m * kCaughtWithin_m) {
-    state.caught_world = s->world_from_body.position_world;
-    state.caught_ticks = 0;
+    state.progress.caught_world = s->world_from_body.position_world;
+    state.progress.caught_ticks = 0;
     return;
   }
-  if (queues && !IsBehind(state.blocked_by, options_.id, s->peers)) return;
-  state.caught_ticks += s->new_tick ? 1 : 0;
-  if (state.caught_ticks < kCaughtTicks) return;
-  s->tries = static_cast<int>((state.caught_ticks - kCaughtTicks) / kAwayTicks);
+  if (queues && !IsBehind(state.last.blocked_by, options_.id, s->peers)) return;
+  state.progress.caught_ticks += s->new_tick ? 1 : 0;
+  if (state.progress.caught_ticks < kCaughtTicks) return;
+  s->tries = static_cast<int>((state.progress.caught_ticks - kCaughtTicks) / kAwayTicks);
 }
 
 // Where steering round what stands leads nowhere, the way is looked up on a map of it.
 void Vehicle::Detour(Situation* s) {
   VehicleState& state = *state_;
-  if (s->distance_to_goal_m < state.nearest_m - kProgress_m) {
-    state.nearest_m = s->distance_to_goal_m;
-    state.aimless_ticks = 0;
-    state.detour_tick = kNoTick;
+  if (s->distance_to_goal_m < state.progress.nearest_m - kProgress_m) {
+    state.progress.nearest_m = s->distance_to_goal_m;
+    state.progress.aimless_ticks = 0;
+    state.progress.detour_tick = kNoTick;
   }
-  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal || s->lost) return;
+  if (IsGiveWay(state.last.decision.rule) || state.last.decision.rule == Rule::kSignal || s->lost)
+    return;
   // Nor does it look for a way while it hears nothing. Where ultrasonics are exact this counts on:
   // what was recorded of them replays bit for bit.
-  if (state.decision.rule == Rule::kRangesStale && Remembers(options_)) return;
-  const bool queues =
-      state.caught_ticks < kCaughtTicks && std::ranges::any_of(s->peers, [](const PeerView& view) {
-        return view.leads && view.gap_m < kQueued_m;
-      });
+  if (state.last.decision.rule == Rule::kRangesStale && Remembers(options_)) return;
+  const bool queues = state.progress.caught_ticks < kCaughtTicks &&
+                      std::ranges::any_of(s->peers, [](const PeerView& view) {
+                        return view.leads && view.gap_m < kQueued_m;
+                      });
   // Nor does it look about there more often, or it would end up across the lane.
   if (queues && Number(s->tick) % kQueuePatience != 0) return;
-  state.aimless_ticks += s->new_tick ? 1 : 0;
-  if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
-  if (Has(Defect::kPatienceDropped)) state.aimless_ticks += 1000;
-  const std::uint32_t away_ticks =
-      state.away_tick == kNoTick ? kStuckTicks + 1 : TicksBetween(state.away_tick, s->tick);
-  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s ||
+  state.progress.aimless_ticks += s->new_tick ? 1 : 0;
+  if (s->distance_to_goal_m >= kNoGoal_m || state.route.arrived) return;
+  if (Has(Defect::kPatienceDropped)) state.progress.aimless_ticks += 1000;
+  const std::uint32_t away_ticks = state.progress.away_tick == kNoTick
+                                       ? kStuckTicks + 1
+                                       : TicksBetween(state.progress.away_tick, s->tick);
+  s->aimless = Seconds(state.progress.aimless_ticks * options_.tick_period) >= kNoProgress_s ||
                away_ticks <= kStuckTicks;
-  s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
+  s->very_aimless = Seconds(state.progress.aimless_ticks * options_.tick_period) >= kNoPatience_s;
   NoteCaught(s, queues);
   if (!s->aimless) return;
-  if (away_ticks <= kAwayTicks) s->away_rad = state.away_rad;
-  if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
+  if (away_ticks <= kAwayTicks) s->away_rad = state.progress.away_rad;
+  if (state.progress.detour_tick == kNoTick ||
+      TicksBetween(state.progress.detour_tick, s->tick) >= kDetourTicks) {
     std::array<KeepOut, 64> discs;
     std::size_t count = 0;
     for (const PeerView& view : s->peers) {
@@ -123,10 +126,10 @@ void Vehicle::Detour(Situation* s) {
     }
     const auto turn =
         FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
-    state.detour_tick = turn ? s->tick : kNoTick;
-    if (turn) state.detour_world = *turn;
+    state.progress.detour_tick = turn ? s->tick : kNoTick;
+    if (turn) state.progress.detour_world = *turn;
   }
-  if (state.detour_tick != kNoTick) s->detour_world = state.detour_world;
+  if (state.progress.detour_tick != kNoTick) s->detour_world = state.progress.detour_world;
 }
 
 }  // namespace giveway

@@ -126,8 +126,8 @@ TEST(HeldUp, TheWordToItIsTakenBackOnceItIsTooLateToStop) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   double said_last_m = 0;
   DriveUntilStopped(&bench, [&](std::uint32_t tick) {
-    if (bench.Brain().State().gives_way_to == kPeer) {
-      said_last_m = bench.Brain().State().odometry.WorldFromBody().position_world.x;
+    if (bench.Brain().State().published.gives_way_to == kPeer) {
+      said_last_m = bench.Brain().State().motion.odometry.WorldFromBody().position_world.x;
     }
     return std::vector{PeerGivingWayTo(kThird, tick)};
   });

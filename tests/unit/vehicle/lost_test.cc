@@ -159,8 +159,8 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
   // How near it came by its wheels alone does not count: it has yet to come nearer.
   const VehicleState& state = bench.Brain().State();
-  EXPECT_LE(state.aimless_ticks, 1U);
-  EXPECT_GT(state.nearest_m, 0.1);
+  EXPECT_LE(state.progress.aimless_ticks, 1U);
+  EXPECT_GT(state.progress.nearest_m, 0.1);
 }
 
 }  // namespace

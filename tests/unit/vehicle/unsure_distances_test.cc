@@ -112,7 +112,7 @@ TEST(Beacon, TellsTheCovarianceOfItsPose) {
   Outputs out;
   for (int i = 0; i < 200; ++i) out = bench.Step(scan);
   const PoseCovariance& told = out.beacon.covariance;
-  EXPECT_EQ(told, bench.Brain().State().odometry.Covariance());
+  EXPECT_EQ(told, bench.Brain().State().motion.odometry.Covariance());
   EXPECT_GT(told.xx_m2, 0);
   EXPECT_GT(told.yy_m2, 10 * told.xx_m2);
   EXPECT_GT(told.yh_m_rad, 0);
