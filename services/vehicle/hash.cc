@@ -1,12 +1,9 @@
-// What a brain knows of its world and its peers, as one number. What it remembers beside that, such
-// as detours or where it waited, shows here as soon as it drives by it.
-#include "services/vehicle/vehicle.h"
+#include "services/vehicle/vehicle_state.h"
 
 namespace giveway {
 
-std::uint64_t Vehicle::Hash() const {
+std::uint64_t HashOf(const VehicleState& state, const VehicleProfile& profile) {
   StateHash hash;
-  const VehicleState& state = *state_;
   hash.Add(VehicleState::kVersion);
   hash.Add(state.published.seq);
   hash.Add(state.world.epoch);
@@ -17,7 +14,7 @@ std::uint64_t Vehicle::Hash() const {
   hash.Add(state.motion.counted.left_rad);
   hash.Add(state.motion.counted.right_rad);
   state.motion.odometry.AddTo(&hash);
-  if (KeepsPose(options_.profile)) giveway::AddTo(state.motion.pose, &hash);
+  if (KeepsPose(profile)) AddTo(state.motion.pose, &hash);
   hash.Add(state.route.arrived);
   hash.Add(state.waiting.order.waited_ticks);
   hash.Add(state.waiting.waited_ticks);

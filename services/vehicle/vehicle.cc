@@ -12,6 +12,8 @@
 #include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/estimation/scan_check.h"
 #include "services/vehicle/evidence.h"
+#include "services/vehicle/listen.h"
+#include "services/vehicle/placing.h"
 #include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/box.h"
 #include "services/vehicle/situation/echo_trust.h"
@@ -19,6 +21,8 @@
 #include "services/vehicle/situation/encounter.h"
 #include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/look.h"
+#include "services/vehicle/waiting.h"
+#include "services/vehicle/way.h"
 
 namespace giveway {
 namespace {
@@ -54,6 +58,22 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
   state_->waiting.order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
 
+void Vehicle::Reseat(const VehicleOptions& options) {
+  GIVEWAY_CHECK(options.id == options_.id, Number(options.id));
+  options_ = options;
+  cones_ = ConesOf(options.profile);
+  state_->waiting.order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
+  state_->world.placed_in = kNoEpoch;
+}
+
+std::optional<Handover> Vehicle::HandOver() const { return HandoverOf(*state_); }
+
+bool Vehicle::TakeOver(const Handover& handover) {
+  return giveway::TakeOver(handover, options_, state_.get());
+}
+
+std::uint64_t Vehicle::Hash() const { return HashOf(*state_, options_.profile); }
+
 // Dead reckoning: the encoders give the constant wheel speeds since the last tick, or what they
 // counted since the pose was true that the vehicle was told.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
@@ -64,7 +84,8 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   }
   // A world that has not said where the vehicle stands in it, or one that is gone.
   if (state.world.placed_in != kNoEpoch && scan.epoch != state.world.placed_in) return;
-  if (scan.epoch != state.world.epoch) EnterWorld(scan.epoch, options_.start_world);
+  if (scan.epoch != state.world.epoch)
+    EnterWorld(scan.epoch, options_.start_world, options_, &state);
   // Out of order: older than known. The scan of the very tick it was placed at is still to be seen.
   if (scan.tick < state.motion.reckoned ||
       (state.world.tick != kNoTick && scan.tick == state.world.tick))
@@ -106,6 +127,20 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   }
 }
 
+// Those of a world that has not placed it yet say nothing.
+void Vehicle::TakeFix(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  if (state.world.tick == kNoTick) return;
+  const FixTaker taker{.vehicle = options_.id,
+                       .epoch = state.world.epoch,
+                       .tick = state.world.tick,
+                       .tick_s = Seconds(options_.tick_period)};
+  TakeWaiting(options_.profile, taker, &state.motion.odometry, &state.motion.pose);
+  if (inputs.pose_fix) {
+    Take(*inputs.pose_fix, options_.profile, taker, &state.motion.odometry, &state.motion.pose);
+  }
+}
+
 void Vehicle::TakePeers(const Inputs& inputs) {
   VehicleState& state = *state_;
   const Self self{options_.id, state.world.epoch, state.world.tick,
@@ -132,127 +167,170 @@ void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
   state.counters.scans_refused += TakeObjects(inputs, observer, &state.sensed.objects);
 }
 
-Situation Vehicle::Look(const Inputs& inputs) {
-  VehicleState& state = *state_;
-  const Twist twist = TwistFromWheels(options_.profile.drive, state.motion.wheels);
-  HearEchoes(state.sensed.ranges, state.world.tick, options_, &echoes_);
-  Situation s{.options = options_,
-              .ranges = state.sensed.ranges,
-              .echoes = echoes_,
-              .cones = cones_,
-              .objects = state.sensed.objects};
-  s.now = inputs.now;
-  s.tick = state.world.tick;
-  s.new_tick = state.world.tick != state.last.decided_tick;
-  s.run_state = state.world.run_state;
-  s.leaving = inputs.leaving;
-  s.halting = inputs.halting;
-  LookAtOwnPose(&s);
-  s.speed_m_s = twist.forward_m_s;
-  s.turn_rad_s = twist.turn_rad_s;
-  s.wheels = state.motion.wheels;
-  s.reaction_s = ReactionSeconds(options_);
-  s.slows_m =
-      StoppingDistance(options_.cruise_m_s, s.reaction_s, options_.profile.deceleration_m_s2);
-  s.sweeps_m = OwnSweep(s);
-  s.looks_m = LooksAround(options_.profile);
-  s.order = ActingOrder(state.waiting.order, state.heard.peers, options_.id);
-  s.steer_side = state.last.steer_side;
-  s.blind_sensor =
-      state.sensed.ranges.FirstBlind(inputs.now, state.world.tick, options_, cones_.enabled);
-  LookAhead(&s);
-  s.path_rad = state.route.way.Of(s.path.direction_world);
-  s.arrived = state.route.arrived;
-  return s;
+OwnPose Vehicle::LookAtOwnPose() {
+  MeasuredMotion& motion = state_->motion;
+  const PoseCovariance promised = PromisedCovariance(motion.odometry, motion.pose);
+  const double known_share = JudgeCertainty(options_.profile, promised, &motion.pose);
+  return {.world_from_body = motion.odometry.WorldFromBody(),
+          .forward_world = motion.odometry.ForwardWorld(),
+          .covariance = promised,
+          .known_share = known_share,
+          .lost = motion.pose.lost};
+}
+
+OwnMotion Vehicle::LookAtOwnMotion() {
+  const WheelSpeeds wheels = state_->motion.wheels;
+  const Twist twist = TwistFromWheels(options_.profile.drive, wheels);
+  OwnMotion motion{.speed_m_s = twist.forward_m_s,
+                   .turn_rad_s = twist.turn_rad_s,
+                   .wheels = wheels,
+                   .reaction_s = ReactionSeconds(options_),
+                   .looks_m = LooksAround(options_.profile)};
+  motion.slows_m =
+      StoppingDistance(options_.cruise_m_s, motion.reaction_s, options_.profile.deceleration_m_s2);
+  motion.sweeps_m = OwnSweep(motion, options_);
+  // The printed scripts look at nobody.
+  motion.turns = options_.behaviour != Behaviour::kLecturePrinted &&
+                 NoteTurning(motion.turn_rad_s, state_->world.tick, &state_->movers);
+  return motion;
 }
 
 // Lights are for cooperative vehicles; the lecture's behaviours know none.
-void Vehicle::LookAtSignals(Situation* s) {
-  if (options_.behaviour != Behaviour::kCooperative || s->run_state != RunState::kRunning) return;
+Lights Vehicle::LookAtSignals(const Moment& moment, const OwnMotion& motion,
+                              const OwnCourse& course) {
+  if (options_.behaviour != Behaviour::kCooperative || moment.run_state != RunState::kRunning) {
+    return {};
+  }
   const VehicleProfile& profile = options_.profile;
-  const double stopping_m =
-      StoppingDistance(std::max(0.0, s->speed_m_s), s->reaction_s, profile.deceleration_m_s2);
-  s->stop_line = state_->heard.signals.MustStopAt({.path = s->path,
-                                                   .distance_to_goal_m = s->distance_to_goal_m,
-                                                   .body_radius_m = profile.body_radius_m,
-                                                   .stopping_m = stopping_m},
-                                                  s->now);
-  s->at_signal = state_->last.decision.rule == Rule::kSignal;
+  const double stopping_m = StoppingDistance(std::max(0.0, motion.speed_m_s), motion.reaction_s,
+                                             profile.deceleration_m_s2);
+  return {.stop_line =
+              state_->heard.signals.MustStopAt({.path = course.path,
+                                                .distance_to_goal_m = course.distance_to_goal_m,
+                                                .body_radius_m = profile.body_radius_m,
+                                                .stopping_m = stopping_m},
+                                               moment.now),
+          .at_signal = state_->last.decision.rule == Rule::kSignal};
+}
+
+OwnView Vehicle::LookAtSelf(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  HearEchoes(state.sensed.ranges, state.world.tick, options_, &echoes_);
+  const Moment moment{.now = inputs.now,
+                      .tick = state.world.tick,
+                      .new_tick = state.world.tick != state.last.decided_tick,
+                      .run_state = state.world.run_state,
+                      .leaving = inputs.leaving,
+                      .halting = inputs.halting};
+  const OwnPose pose = LookAtOwnPose();
+  const OwnMotion motion = LookAtOwnMotion();
+  const OwnCourse course = LookAhead(pose, options_, &state.route, &state.progress);
+  const SensorsNow sensors{.ranges = state.sensed.ranges,
+                           .echoes = echoes_,
+                           .cones = cones_,
+                           .objects = state.sensed.objects,
+                           .blind_sensor = state.sensed.ranges.FirstBlind(
+                               inputs.now, moment.tick, options_, cones_.enabled)};
+  const Lights lights = LookAtSignals(moment, motion, course);
+  return {moment,
+          pose,
+          motion,
+          course,
+          sensors,
+          lights,
+          options_,
+          ActingOrder(state.waiting.order, state.heard.peers, options_.id),
+          state.last.steer_side};
 }
 
 // Views are made where they stay: copying one costs as much as making it.
-std::span<PeerView> Vehicle::ThoseThatMatter(Situation* s) {
+std::span<PeerView> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) {
   std::uint32_t count = 0;
   std::uint32_t heard = 0;
   bool someone_lost = false;
   for (Peer& peer : state_->heard.peers.Peers()) {
     if (!peer.known) continue;
-    const bool fresh = IsFresh(peer, s->now, s->tick, options_);
+    const bool fresh = IsFresh(peer, s.now, s.tick, options_);
     heard += fresh ? 1 : 0;
     someone_lost = someone_lost || IsLost(peer, fresh);
-    if (!CanMatter(peer, fresh, *s)) continue;
+    if (!CanMatter(peer, fresh, s)) continue;
     auto* view = new (&(*views_)[count++]) PeerView;
     view->peer = &peer;
     view->fresh = fresh;
   }
   peers_heard_ = heard;
-  s->someone_lost = someone_lost;
+  *any_lost = someone_lost;
   return {views_->data(), count};
 }
 
-void Vehicle::LookAtPeers(Situation* s) {
-  const std::span<PeerView> views = ThoseThatMatter(s);
-  CarryForward(views, *s);
+PeersNow Vehicle::LookAtPeers(const OwnView& s) {
+  PeersNow near;
+  const std::span<PeerView> views = ThoseThatMatter(s, &near.someone_lost);
+  CarryForward(views, s);
   for (PeerView& view : views) {
-    LookAt(&view, *s);
-    s->someone_doubted = s->someone_doubted || (view.fresh && !view.believed);
+    LookAt(&view, s);
+    near.someone_doubted = near.someone_doubted || (view.fresh && !view.believed);
     // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
     // lecture's behaviours a known body is kept from no less than an unknown one.
     const bool explains = view.believed || options_.behaviour != Behaviour::kCooperative;
-    s->explained |= explains ? view.explains : 0;
+    near.explained |= explains ? view.explains : 0;
   }
-  JudgeEchoes(views, *s, &state_->counters.trust);
-  s->blocked_box = FindBoxes(views, *s);
-  UpdateEncounters(views, s);
-  s->peers = views;
+  JudgeEchoes(views, near.someone_lost, s, &state_->counters.trust);
+  near.blocked_box = FindBoxes(views, s);
+  near.encounters = UpdateEncounters(views, s);
+  near.peers = views;
+  return near;
 }
 
-// The printed scripts look at nobody: they know neither places nor ways, only the one variable.
-void Vehicle::LookAround(Situation* s) {
-  if (options_.behaviour != Behaviour::kLecturePrinted) {
-    NoteTurning(s);
-    LookAtPeers(s);
-    ListenForMovers(s);
-    if (Remembers(options_)) {
-      RememberEchoes(*s, &state_->sensed.grid);
-      ListPlaces(state_->sensed.grid, *s, &places_);
-      s->places = places_.All();
-    }
-    Detour(s);
-    return;
-  }
+// The printed scripts know neither places nor ways, only the one variable.
+PeersNow Vehicle::HearTheLastAlone(const OwnView& s) {
   const std::span<const Peer> peers = state_->heard.peers.Peers();
   peers_heard_ =
       static_cast<std::uint32_t>(std::count_if(peers.begin(), peers.end(), [&](const Peer& peer) {
-        return IsFresh(peer, s->now, s->tick, options_);
+        return IsFresh(peer, s.now, s.tick, options_);
       }));
   HearTheLast(peers, &state_->heard.last_heard);
-  s->last_heard = state_->heard.last_heard;
+  return {};
+}
+
+PeersNow Vehicle::LookAround(const OwnView& s) {
+  return options_.behaviour == Behaviour::kLecturePrinted ? HearTheLastAlone(s) : LookAtPeers(s);
+}
+
+// Where something was heard, this tick's firings among it.
+std::span<const Vec2> Vehicle::PlacesHeard(const OwnView& s, const PeersNow& near) {
+  if (!Remembers(options_)) return {};
+  RememberEchoes(s, near, &state_->sensed.grid);
+  ListPlaces(state_->sensed.grid, s, &places_);
+  return places_.All();
+}
+
+Situation Vehicle::BuildSituation(const OwnView& own, const PeersNow& near) {
+  VehicleState& state = *state_;
+  if (options_.behaviour == Behaviour::kLecturePrinted) {
+    return {.own = own, .near = near, .last_heard = state.heard.last_heard};
+  }
+  return {.own = own,
+          .near = near,
+          .movers = ListenForMovers(own, near, &state.movers, &state.counters.trust),
+          .places = PlacesHeard(own, near),
+          .escape = Detour(own, near, state.last, &state.progress)};
 }
 
 // What the next step must know.
 void Vehicle::Remember(const Situation& s, const Action& action) {
   const Decision& decision = action.decision;
   VehicleState& state = *state_;
-  KeepOrder(s, IsGiveWay(decision.rule) && s.speed_m_s < kStandingSpeed_m_s);
+  const bool waits = IsGiveWay(decision.rule) && s.own.speed_m_s < kStandingSpeed_m_s;
+  KeepOrder(s.own, s.near.encounters, waits, &state.waiting);
   if (Has(Defect::kMeasuredSpeedInOrder))
-    state.waiting.order.speed_bucket = SpeedBucket(s.speed_m_s);
+    state.waiting.order.speed_bucket = SpeedBucket(s.own.speed_m_s);
   state.last.decision = decision;
-  state.last.decided_tick = s.tick;
+  state.last.decided_tick = s.own.tick;
   state.last.steer_side = action.steer_side;
   if (action.away_rad) {
     state.progress.away_rad = *action.away_rad;
-    state.progress.away_tick = s.tick;
+    state.progress.away_tick = s.own.tick;
   }
   KeepBlocked(BlockedBy(s, decision, action.blocked_by), s);
 }
@@ -262,11 +340,11 @@ void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
   VehicleState& state = *state_;
   if (blocked_by != kNobody) {
     state.last.blocked_by = blocked_by;
-    state.last.blocked_tick = s.tick;
+    state.last.blocked_tick = s.own.tick;
     return;
   }
-  const bool recent = state.last.blocked_tick != kNoTick && !s.arrived &&
-                      TicksBetween(state.last.blocked_tick, s.tick) <= kBlockedTicks;
+  const bool recent = state.last.blocked_tick != kNoTick && !s.own.arrived &&
+                      TicksBetween(state.last.blocked_tick, s.own.tick) <= kBlockedTicks;
   if (!recent || !IsStillNear(state.last.blocked_by, s)) state.last.blocked_by = kNobody;
 }
 
@@ -282,30 +360,30 @@ Beacon Vehicle::Say(const Situation& s) {
           .tick = state.world.tick,
           .wheels = state.motion.wheels,
           .cruise_m_s = options_.cruise_m_s,
-          .world_from_body = s.world_from_body,
-          .covariance = s.covariance,
+          .world_from_body = s.own.world_from_body,
+          .covariance = s.own.covariance,
           .body_radius_m = options_.profile.body_radius_m,
           .drive = options_.profile.drive,
           .acceleration_m_s2 = options_.profile.acceleration_m_s2,
           .deceleration_m_s2 = options_.profile.deceleration_m_s2,
-          .toward_world = Toward(s),
+          .toward_world = Toward(s.own),
           .mode = state.last.decision.mode,
           .rule = state.last.decision.rule,
           .gives_way_to = state.published.gives_way_to,
           .blocked_by = state.last.blocked_by,
-          .order = s.order};
+          .order = s.own.order};
 }
 
 Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   VehicleState& state = *state_;
-  if (inputs.roster) TakeRoster(*inputs.roster);
+  if (inputs.roster) TakeRoster(*inputs.roster, options_, &state);
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
   TakeFix(inputs);
   TakePeers(inputs);
   TakeSignalsAndObjects(inputs);
-  Situation s = Look(inputs);
-  LookAtSignals(&s);
-  LookAround(&s);
+  const OwnView own = LookAtSelf(inputs);
+  const PeersNow near = LookAround(own);
+  const Situation s = BuildSituation(own, near);
   const Action action = Decide(s);
   const bool changed = !SameReason(action.decision, state.last.decision);
   Remember(s, action);

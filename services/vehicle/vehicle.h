@@ -58,26 +58,23 @@ class Vehicle {
   std::span<const RefusedBeacon> Refused() const { return {refused_.data(), refused_count_}; }
 
  private:
-  void EnterWorld(WorldEpoch epoch, const Pose& world_from_body);
-  void GoOn(TaskProgress task);
-  void TakeRoster(const RosterEntry& entry);
+  // Estimation.
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakeFix(const Inputs& inputs);
   void TakePeers(const Inputs& inputs);
   void TakeSignalsAndObjects(const Inputs& inputs);
-  Situation Look(const Inputs& inputs);
-  void LookAtOwnPose(Situation* situation);
-  void LookAhead(Situation* situation);
-  void LookAtSignals(Situation* situation);
-  void LookAround(Situation* situation);
-  std::span<PeerView> ThoseThatMatter(Situation* situation);
-  void LookAtPeers(Situation* situation);
-  void NoteTurning(Situation* situation);
-  void ListenForMovers(Situation* situation);
-  void Detour(Situation* situation);
-  void NoteCaught(Situation* situation, bool queues);
-  std::uint32_t AgedTicks() const;
-  void KeepOrder(const Situation& situation, bool waits);
+  // The stages of a situation: situation/situation.h.
+  OwnView LookAtSelf(const Inputs& inputs);
+  OwnPose LookAtOwnPose();
+  OwnMotion LookAtOwnMotion();
+  Lights LookAtSignals(const Moment& moment, const OwnMotion& motion, const OwnCourse& course);
+  PeersNow LookAround(const OwnView& own);
+  PeersNow LookAtPeers(const OwnView& own);
+  PeersNow HearTheLastAlone(const OwnView& own);
+  std::span<PeerView> ThoseThatMatter(const OwnView& own, bool* any_lost);
+  std::span<const Vec2> PlacesHeard(const OwnView& own, const PeersNow& near);
+  Situation BuildSituation(const OwnView& own, const PeersNow& near);
+  // After the decision.
   void Remember(const Situation& situation, const Action& action);
   void KeepBlocked(VehicleId blocked_by, const Situation& situation);
   Beacon Say(const Situation& situation);

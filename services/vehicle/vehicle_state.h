@@ -1,11 +1,11 @@
 // Everything a brain remembers from one step to the next, by what writes it. Trivially copyable: a
 // snapshot is a copy. What one step makes of it is a Situation (situation/situation.h).
 //
-//   world      placing.cc: where and when it is     progress  way.cc: whether it gets nearer
-//   motion     TakeScan, TakeFix: its own pose      waiting   waiting.cc: its place in the order
-//   sensed     TakeScan: its own sensors            movers    listen.cc: what moves unexplained
-//   heard      TakePeers: peers and lights          last      Remember: what it decided
-//   route      way.cc: how far along it is          published Say: what its beacons go on from
+//   world     EnterWorld, TakeScan: which it is in     progress   Detour: whether it gets nearer
+//   motion    TakeScan, TakeFix: its own pose          waiting    KeepOrder: its place in the order
+//   sensed    TakeScan: its own sensors                movers     ListenForMovers: unexplained ones
+//   heard     TakePeers: peers and lights              last       Remember: what it decided
+//   route     PassWaypoints: how far along it is       published  its last beacon
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@
 
 namespace giveway {
 
-// What its beacons go on from: which life they are of, and what the last one said.
+// What its beacons continue from: which life they are of, and what the last one said.
 struct Published {
   std::uint32_t boot_epoch = 0;
   std::uint32_t seq = 0;
@@ -41,7 +41,7 @@ struct InWorld {
 };
 
 // Where it takes itself to be, and what that was made from.
-struct OwnMotion {
+struct MeasuredMotion {
   Odometry odometry;
   PoseKeeping pose;
   Tick reckoned = kNoTick;  // the tick of odometry's pose; kNoTick: the one before the next scan
@@ -70,7 +70,7 @@ struct RouteProgress {
   KnownBearing way;  // to where it drives next
 };
 
-// Whether it gets nearer to where it drives, and what it tries where it does not.
+// Whether it gets nearer to where it drives, and what it does where it does not.
 struct GoalProgress {
   double nearest_m = 1e9;           // the least distance to the goal so far
   std::uint32_t aimless_ticks = 0;  // driven since without coming nearer
@@ -107,7 +107,7 @@ struct LastStep {
   Tick blocked_tick = kNoTick;     // when it was last seen in the way
 };
 
-// Since the process began; a new world does not reset them.
+// Since the process started; a new world does not reset them.
 struct BrainCounters {
   std::uint32_t scans_refused = 0;  // of any sensor
   std::uint32_t signals_refused = 0;
@@ -121,7 +121,7 @@ struct VehicleState {
 
   Published published;
   InWorld world;
-  OwnMotion motion;
+  MeasuredMotion motion;
   RouteProgress route;
   GoalProgress progress;
   Waiting waiting;
@@ -131,5 +131,9 @@ struct VehicleState {
   Heard heard;
   BrainCounters counters;
 };
+
+// What a brain knows of its world and its peers, as one number. What it remembers beside that, such
+// as detours or where it waited, shows here as soon as it drives by it.
+std::uint64_t HashOf(const VehicleState& state, const VehicleProfile& profile);
 
 }  // namespace giveway

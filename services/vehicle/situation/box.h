@@ -14,6 +14,6 @@ namespace giveway {
 
 // Sets `box_begin_m` of every view that crosses the own way. The nearest box ahead that the vehicle
 // would come to stand in, as things are now.
-std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const Situation& s);
+std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const OwnView& s);
 
 }  // namespace giveway

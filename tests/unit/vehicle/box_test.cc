@@ -178,7 +178,7 @@ TEST(Box, BeginsWithTheFirstOfThoseThatLeaveNoRoomBetween) {
   std::vector<PeerView> views = {Crossing(&peer, {3, 4}, 1), Crossing(&peer, {3.5, 4.5}, 1),
                                  Crossing(&peer, {5, 6}, 10), Crossing(&peer, {5.3, 6}, 10),
                                  Crossing(&peer, {2, 2.5}, 10)};
-  FindBoxes(views, onlooker.Situation());
+  FindBoxes(views, onlooker.Own());
   EXPECT_EQ(views[0].box_begin_m, 3);
   EXPECT_EQ(views[1].box_begin_m, 3);
   EXPECT_EQ(views[2].box_begin_m, 3);

@@ -133,7 +133,7 @@ TEST(Lost, OneThatIsIsPassedAsFarAwayAsItIsUnsure) {
     const test::Onlooker onlooker;
     Peer peer = test::PeerAt({{3, 0}, 0}, {.xx_m2 = 0.09, .yy_m2 = 0.09});
     peer.beacon.rule = rule;
-    return RoomBeside(onlooker.LookAt(&peer), onlooker.Situation());
+    return RoomBeside(onlooker.LookAt(&peer), onlooker.Own());
   };
   EXPECT_NEAR(room_m(Rule::kLost), room_m(Rule::kArrived) + kSigmas * 0.3, 1e-9);
 }
