@@ -243,8 +243,7 @@ OwnView Vehicle::LookAtSelf(const Inputs& inputs) {
           state.last.steer_side};
 }
 
-// Views are made where they stay: copying one costs as much as making it.
-std::span<PeerView> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) {
+PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) {
   std::uint32_t count = 0;
   std::uint32_t heard = 0;
   bool someone_lost = false;
@@ -254,32 +253,27 @@ std::span<PeerView> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) {
     heard += fresh ? 1 : 0;
     someone_lost = someone_lost || IsLost(peer, fresh);
     if (!CanMatter(peer, fresh, s)) continue;
-    auto* view = new (&(*views_)[count++]) PeerView;
+    HeardPeer* const view = new (&(*views_)[count++]) PeerView;
     view->peer = &peer;
     view->fresh = fresh;
   }
   peers_heard_ = heard;
   *any_lost = someone_lost;
-  return {views_->data(), count};
+  return PeerViews<HeardPeer>({views_->data(), count});
 }
 
 PeersNow Vehicle::LookAtPeers(const OwnView& s) {
-  PeersNow near;
-  const std::span<PeerView> views = ThoseThatMatter(s, &near.someone_lost);
-  CarryForward(views, s);
-  for (PeerView& view : views) {
-    LookAt(&view, s);
-    near.someone_doubted = near.someone_doubted || (view.fresh && !view.believed);
-    // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
-    // lecture's behaviours a known body is kept from no less than an unknown one.
-    const bool explains = view.believed || options_.behaviour != Behaviour::kCooperative;
-    near.explained |= explains ? view.explains : 0;
-  }
-  JudgeEchoes(views, near.someone_lost, s, &state_->counters.trust);
-  near.blocked_box = FindBoxes(views, s);
-  near.encounters = UpdateEncounters(views, s);
-  near.peers = views;
-  return near;
+  bool someone_lost = false;
+  const PeerViews<HeardPeer> heard = ThoseThatMatter(s, &someone_lost);
+  const RelatedPeers related = LookAt(CarryForward(heard, s), s);
+  const Boxes boxes = FindBoxes(related.views, s);
+  JudgeEchoes(boxes.views, someone_lost, s, &state_->counters.trust);
+  return {.peers = boxes.views,
+          .explained = related.explained,
+          .someone_lost = someone_lost,
+          .someone_doubted = related.someone_doubted,
+          .blocked_box = boxes.blocked,
+          .encounters = UpdateEncounters(boxes.views, s)};
 }
 
 // The printed scripts know neither places nor ways, only the one variable.

@@ -71,7 +71,7 @@ class Vehicle {
   PeersNow LookAround(const OwnView& own);
   PeersNow LookAtPeers(const OwnView& own);
   PeersNow HearTheLastAlone(const OwnView& own);
-  std::span<PeerView> ThoseThatMatter(const OwnView& own, bool* any_lost);
+  PeerViews<HeardPeer> ThoseThatMatter(const OwnView& own, bool* any_lost);
   std::span<const Vec2> PlacesHeard(const OwnView& own, const PeersNow& near);
   Situation BuildSituation(const OwnView& own, const PeersNow& near);
   // After the decision.

@@ -34,9 +34,10 @@ class Onlooker {
 
   // The view refers to the peer.
   PeerView LookAt(Peer* peer) const {
-    PeerView view{.peer = peer, .fresh = IsFresh(*peer, {}, own_.tick, options_)};
-    CarryForward({&view, 1}, own_);
-    giveway::LookAt(&view, own_);
+    PeerView view{};
+    view.peer = peer;
+    view.fresh = IsFresh(*peer, {}, own_.tick, options_);
+    giveway::LookAt(CarryForward(PeerViews<HeardPeer>({&view, 1}), own_), own_);
     return view;
   }
 

@@ -55,7 +55,7 @@ double BoxBegin(const Crossings& crossings, double point_m) {
   return begin_m;
 }
 
-double AlongOwnWay(const PeerView& view, const OwnView& s) {
+double AlongOwnWay(const CarriedPeer& view, const OwnView& s) {
   return Dot(view.offset_world, s.path.direction_world);
 }
 
@@ -84,7 +84,7 @@ double NextStop(double from_m, const Crossings& crossings) {
 }
 
 // How far along the own way the leader gets if it is stopped.
-double LeaderStops(const PeerView& leader, const Crossings& crossings, const OwnView& s) {
+double LeaderStops(const RelatedPeer& leader, const Crossings& crossings, const OwnView& s) {
   const double along_m = AlongOwnWay(leader, s);
   if (leader.standing) return along_m;
   const double stops_m = along_m + StoppingDistanceOf(leader, s);
@@ -96,7 +96,7 @@ double LeaderStops(const PeerView& leader, const Crossings& crossings, const Own
 // How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not. Up
 // to a claim it is measured along the heading, which is the way unless the vehicle steers round
 // something.
-double StopsBehind(const PeerView& view, std::span<const PeerView> views,
+double StopsBehind(const RelatedPeer& view, std::span<const PeerView> views,
                    const Crossings& crossings, const OwnView& s) {
   if (!view.fresh) return kNever_m;
   if (!view.leads) return view.standing ? view.free_m : kNever_m;
@@ -133,14 +133,15 @@ std::optional<BlockedBox> NearestBlocked(std::span<const PeerView> views,
 
 }  // namespace
 
-std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const OwnView& s) {
+Boxes FindBoxes(PeerViews<RelatedPeer> related, const OwnView& s) {
+  const std::span<PeerView> views = related.ToMakeTheNextPart();
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   const Crossings crossings = cooperative ? CrossingsAhead(views) : Crossings{};
   for (PeerView& view : views) {
     if (!view.crossing) continue;
     view.box_begin_m = BoxBegin(crossings, view.crossing->own.begin_m);
   }
-  return NearestBlocked(views, crossings, s);
+  return {views, NearestBlocked(views, crossings, s)};
 }
 
 }  // namespace giveway

@@ -130,14 +130,14 @@ bool IsEchoOf(const Sight& centre, double radius_m, double range_m, double unsur
 }
 
 // Where a peer comes to stand if it brakes as soon as this vehicle does.
-Vec2 WhereItStops(const PeerView& peer, const OwnView& s) {
+Vec2 WhereItStops(const CarriedPeer& peer, const OwnView& s) {
   const double on_m = ClosingSpeed(peer, s) > 0 ? StoppingDistanceOf(peer, s) : 0;
   return peer.position_world + on_m * peer.forward_world;
 }
 
 // Where the peer's body was to the own one when a sensor fired, both moving as now: their turning
 // is slow against that.
-Vec2 CentreBefore(double age_s, const PeerView& peer, const OwnView& s) {
+Vec2 CentreBefore(double age_s, const CarriedPeer& peer, const OwnView& s) {
   const Vec2 centre_world = peer.position_world - age_s * VelocityOf(peer);
   return InBody(s, centre_world) + Vec2{age_s * s.speed_m_s, 0};
 }
@@ -181,7 +181,7 @@ void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& option
   }
 }
 
-std::uint32_t EchoesOf(const PeerView& peer, const OwnView& s) {
+std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
   const HeardEchoes& echoes = s.echoes;
   if (echoes.count == 0) return 0;
   const double radius_m = peer.peer->beacon.body_radius_m;

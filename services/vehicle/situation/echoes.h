@@ -15,7 +15,7 @@ void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& option
 
 // Bit i is set if the echo of sensor i is where the peer's body would have echoed when the sensor
 // fired.
-std::uint32_t EchoesOf(const PeerView& peer, const OwnView& s);
+std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s);
 
 // How far straight on until the own disc touches a disc at `centre_body`; empty if it passes with
 // a margin to spare. `sum_of_radii` is that of both.

@@ -24,11 +24,14 @@
 
 namespace giveway {
 
-// A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
-// CarryForward fills in everything up to the way, LookAt what is below it, FindBoxes `box_begin_m`.
-struct PeerView {
+// A peer that may matter.
+struct HeardPeer {
   Peer* peer;
   bool fresh;
+};
+
+// Carried forward by its wheel speeds to this tick, as it lies to this vehicle: by CarryForward.
+struct CarriedPeer : HeardPeer {
   double speed_m_s;  // forward, as measured by the peer
   double turn_rad_s;
   Vec2 position_world;
@@ -43,7 +46,11 @@ struct PeerView {
   // peer is there already.
   double way_m;
   Vec2 way_direction_world;
+};
 
+// Related to the own path and to the right of way, by its beacon and the own state alone: by
+// LookAt.
+struct RelatedPeer : CarriedPeer {
   bool lost;
   bool standing;      // below kStandingSpeed
   bool goes_first;    // before this vehicle, by both keys as published
@@ -53,13 +60,31 @@ struct PeerView {
   bool leads;         // drives ahead in the own lane
   double gap_m;       // shell to shell
   double gate_gap_m;  // the same by the metric of the gates; never above gap_m
-  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
-  std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
-  double box_begin_m;  // of `crossing`: how far to drive without standing in anyone's way
   // Straight on until the own shell is at the peer's claim; huge if never, or so far on that the
   // own cruise speed is not too fast for it.
   double free_m;
   std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
+  std::optional<Conflict> conflict;  // as `crossing`, where it is a matter of right of way
+  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
+};
+
+// What this vehicle knows of one peer, all of it: with what follows from all peers together, by
+// FindBoxes.
+struct PeerView : RelatedPeer {
+  double box_begin_m;  // of `crossing`: how far to drive without standing in anyone's way
+};
+static_assert(sizeof(PeerView) <= 336);  // a step makes up to a thousand: they must not grow
+
+// Views in the making. They are made where they stay, a part of all of them at a time: copying one
+// costs as much as making it. `Part` is the last that is made; only who makes the next sees them.
+template <typename Part>
+class PeerViews {
+ public:
+  explicit PeerViews(std::span<PeerView> views) : views_(views) {}
+  std::span<PeerView> ToMakeTheNextPart() const { return views_; }
+
+ private:
+  std::span<PeerView> views_;
 };
 
 // The echoes that the sensors hold, entry by entry `count` of them. What comes after them, up to
@@ -223,11 +248,11 @@ double OwnStoppingDistance(const OwnView& s);
 double OwnSweep(const OwnMotion& s, const VehicleOptions& options);
 
 // Distance the peer needs to stand still from its present speed, by what it says of its brakes.
-double StoppingDistanceOf(const PeerView& view, const OwnView& s);
+double StoppingDistanceOf(const CarriedPeer& view, const OwnView& s);
 
 // The distance, shell to shell, at which two closing vehicles must begin to stop: both stopping
 // distances, margin and uncertainty; never below the gate.
-double CriticalDistance(const OwnView& s, const PeerView& view);
+double CriticalDistance(const OwnView& s, const CarriedPeer& view);
 
 // A point given in the world, in the own body frame.
 inline Vec2 InBody(const OwnView& s, Vec2 point_world) {
@@ -236,22 +261,22 @@ inline Vec2 InBody(const OwnView& s, Vec2 point_world) {
 }
 
 // How far the two axle centres keep apart when one steers round the other.
-double RoomBeside(const PeerView& view, const OwnView& s);
+double RoomBeside(const CarriedPeer& view, const OwnView& s);
 
 // Where the vehicle drives to in a straight line; without a goal straight on, as far as anybody
 // looks; its own place if it has arrived.
 Vec2 Toward(const OwnView& s);
 
 // True if the own body leaves the peer no room where it drives to.
-bool IsOnGoalOf(const PeerView& view, const OwnView& s);
+bool IsOnGoalOf(const CarriedPeer& view, const OwnView& s);
 
 // True if the peer's body leaves no room for the own one at that point.
-bool Occupies(const PeerView& view, Vec2 point_world, const OwnView& s);
+bool Occupies(const CarriedPeer& view, Vec2 point_world, const OwnView& s);
 
 // The velocity of a peer where it is now.
-Vec2 VelocityOf(const PeerView& view);
+Vec2 VelocityOf(const CarriedPeer& view);
 
 // How fast the gap to a peer shrinks.
-double ClosingSpeed(const PeerView& view, const OwnView& s);
+double ClosingSpeed(const CarriedPeer& view, const OwnView& s);
 
 }  // namespace giveway
