@@ -220,30 +220,34 @@ bool IsKnown(std::uint32_t format) {
 std::string BytesIn(StateFormat format, const VehicleState& state) {
   StateWriter writer(format);
   writer(static_cast<std::uint32_t>(format), VehicleState::kVersion, state);
-  if (writer.Has(StateFormat::kWithGrid)) writer(state.grid);
-  if (writer.Has(StateFormat::kWithDoubtedHeading)) writer(state.pose.disagreement.off_rad);
+  if (writer.Has(StateFormat::kWithGrid)) writer(state.sensed.grid);
+  if (writer.Has(StateFormat::kWithDoubtedHeading)) writer(state.motion.pose.disagreement.off_rad);
   return writer.Take();
 }
 
 // What a number is used as a place by.
 bool IsSound(const VehicleState& state, const VehicleOptions& options) {
-  const bool on_route = OnRoute(options.route, {state.waypoint, 0}).waypoint == state.waypoint;
-  const PoseCovariance covariance = state.odometry.Covariance();
+  const bool on_route =
+      OnRoute(options.route, {state.route.waypoint, 0}).waypoint == state.route.waypoint;
+  const PoseCovariance covariance = state.motion.odometry.Covariance();
   const bool can_be_there =
       covariance.xx_m2 >= 0 && covariance.yy_m2 >= 0 && covariance.hh_rad2 >= 0;
-  return state.boot_epoch != 0 && can_be_there && on_route && IsSensor(state.deaf_sensor) &&
-         IsSensor(state.decision.sensor) && state.steer_side >= -1 && state.steer_side <= 1 &&
-         (StateFields::SensorBitsOf(state.ranges) & ~kAllSensors) == 0 &&
-         IsSound(state.ranges, options) && IsSound(state.pose) && AreSound(state.peers.Peers()) &&
-         AreSound(state.signals) && IsSound(state.grid) && IsSound(state.objects.radar) &&
-         IsSound(state.objects.lidar) && IsSound(state.objects.camera);
+  return state.published.boot_epoch != 0 && can_be_there && on_route &&
+         IsSensor(state.movers.deaf_sensor) && IsSensor(state.last.decision.sensor) &&
+         state.last.steer_side >= -1 && state.last.steer_side <= 1 &&
+         (StateFields::SensorBitsOf(state.sensed.ranges) & ~kAllSensors) == 0 &&
+         IsSound(state.sensed.ranges, options) && IsSound(state.motion.pose) &&
+         AreSound(state.heard.peers.Peers()) && AreSound(state.heard.signals) &&
+         IsSound(state.sensed.grid) && IsSound(state.sensed.objects.radar) &&
+         IsSound(state.sensed.objects.lidar) && IsSound(state.sensed.objects.camera);
 }
 
 }  // namespace
 
 std::string BytesOf(const VehicleState& state) {
-  if (state.pose.disagreement.off_rad != 0) return BytesIn(StateFormat::kWithDoubtedHeading, state);
-  return BytesIn(state.grid.IsActive() ? StateFormat::kWithGrid : kStateFormat, state);
+  if (state.motion.pose.disagreement.off_rad != 0)
+    return BytesIn(StateFormat::kWithDoubtedHeading, state);
+  return BytesIn(state.sensed.grid.IsActive() ? StateFormat::kWithGrid : kStateFormat, state);
 }
 
 bool AreBytesOf(std::string_view bytes, const VehicleState& state) {
@@ -261,10 +265,10 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   if (!IsKnown(format) || version != VehicleState::kVersion) return nullptr;
   reader.SetFormat(StateFormat{format});
   auto state = std::make_unique_for_overwrite<VehicleState>();
-  Begin(options.profile, &state->pose);  // an image without it
+  Begin(options.profile, &state->motion.pose);  // an image without it
   reader(*state);
-  if (reader.Has(StateFormat::kWithGrid)) reader(state->grid);
-  if (reader.Has(StateFormat::kWithDoubtedHeading)) reader(state->pose.disagreement.off_rad);
+  if (reader.Has(StateFormat::kWithGrid)) reader(state->sensed.grid);
+  if (reader.Has(StateFormat::kWithDoubtedHeading)) reader(state->motion.pose.disagreement.off_rad);
   if (!reader.IsSound() || !reader.IsAtEnd() || !IsSound(*state, options)) return nullptr;
   return state;
 }

@@ -174,15 +174,24 @@ concept KeepsItsOwn = Is<T, Odometry> || Is<T, RangeView> || Is<T, ObstacleGrid>
 
 void Visit(auto& fields, KeepsItsOwn auto& part) { StateFields::Of(fields, part); }
 
-// What is appended to the state is led over apart, by the format that has it, and the grid behind
-// the rest where it is used: brain_state.cc.
+// In the order of format 1, which is older than the groups. What is appended to the state is led
+// over apart, by the format that has it, and the grid behind the rest where it is used:
+// brain_state.cc.
 void Visit(auto& fields, Is<VehicleState> auto& state) {
-  auto& [boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
-         way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,
-         decided_tick, deaf, deaf_sensor, decision, gives_way_to, blocked_by, blocked_tick,
-         steer_side, nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught,
-         caught_ticks, ranges, grid, peers, signals, objects, last_heard, scans_refused,
-         signals_refused, beacons, qos, trust, pose] = state;
+  auto& [published, world, motion, route, progress, waiting, movers, last, sensed, heard,
+         counters] = state;
+  auto& [boot_epoch, seq, gives_way_to] = published;
+  auto& [epoch, placed_in, tick, run_state] = world;
+  auto& [odometry, pose, reckoned, wheels, counted] = motion;
+  auto& [waypoint, arrived, way] = route;
+  auto& [nearest, aimless_ticks, detour, detour_tick, away, away_tick, caught, caught_ticks] =
+      progress;
+  auto& [order, waited_ticks, waited, let_pass] = waiting;
+  auto& [deaf, deaf_sensor, deaf_since, turned_tick] = movers;
+  auto& [decided_tick, decision, steer_side, blocked_by, blocked_tick] = last;
+  auto& [ranges, grid, objects] = sensed;
+  auto& [peers, signals, last_heard] = heard;
+  auto& [scans_refused, signals_refused, beacons, qos, trust] = counters;
   static_cast<void>(grid);
   fields(boot_epoch, seq, epoch, tick, placed_in, run_state, odometry, reckoned, wheels, counted,
          way, waypoint, arrived, order, waited_ticks, waited, let_pass, deaf_since, turned_tick,

@@ -15,7 +15,7 @@ std::optional<double> FreeOf(const Situation& s, const Decision& decision) {
     case Rule::kNotGranted:
     case Rule::kPeerLost:
     case Rule::kKeepClear:
-      for (const PeerView& view : s.peers) {
+      for (const PeerView& view : s.near.peers) {
         if (view.peer->id == decision.peer) return view.gap_m;
       }
       return std::nullopt;
@@ -25,10 +25,10 @@ std::optional<double> FreeOf(const Situation& s, const Decision& decision) {
       if (decision.sensor < 0) return FreeOfPlaces({1, 0}, s);
       return FreeAhead(static_cast<std::size_t>(decision.sensor), s);
     case Rule::kObject:
-      if (const auto object = NearestObstacle(s.objects, s)) return object->free_m;
+      if (const auto object = NearestObstacle(s.own.objects, s)) return object->free_m;
       return std::nullopt;
     case Rule::kSignal:
-      return s.stop_line ? std::optional(s.stop_line->free_m) : std::nullopt;
+      return s.own.stop_line ? std::optional(s.own.stop_line->free_m) : std::nullopt;
     default:
       return std::nullopt;
   }
@@ -38,9 +38,9 @@ std::optional<double> FreeOf(const Situation& s, const Decision& decision) {
 
 DecisionEvidence EvidenceOf(const Situation& s, const Decision& decision, bool is_new) {
   DecisionEvidence evidence;
-  for (const PeerView& view : s.peers) {
+  for (const PeerView& view : s.near.peers) {
     if (!view.fresh) continue;
-    const Nanoseconds age = Age(*view.peer, s.now, s.tick, s.options.tick_period);
+    const Nanoseconds age = Age(*view.peer, s.own.now, s.own.tick, s.own.options.tick_period);
     evidence.oldest_beacon = std::max(evidence.oldest_beacon.value_or(age), age);
   }
   if (!is_new) return evidence;

@@ -1,6 +1,6 @@
-// What moves by itself near the vehicle, though no fresh beacon says who it is: critical but deaf.
+#include "services/vehicle/listen.h"
+
 #include "services/vehicle/situation/echoes.h"
-#include "services/vehicle/vehicle.h"
 
 namespace giveway {
 namespace {
@@ -16,34 +16,28 @@ constexpr std::uint32_t kDeafStaggerSteps = 8;
 
 }  // namespace
 
-// A cone that swings along a wall makes its echo come nearer faster than any of the formulas say.
-void Vehicle::NoteTurning(Situation* s) {
-  VehicleState& state = *state_;
-  if (s->turn_rad_s > kSharpTurn_rad_s || s->turn_rad_s < -kSharpTurn_rad_s) {
-    state.turned_tick = s->tick;
-  }
-  s->turns =
-      state.turned_tick != kNoTick && TicksBetween(state.turned_tick, s->tick) <= kTurnEchoTicks;
+bool NoteTurning(double turn_rad_s, Tick tick, MoverWatch* watch) {
+  if (turn_rad_s > kSharpTurn_rad_s || turn_rad_s < -kSharpTurn_rad_s) watch->turned_tick = tick;
+  return watch->turned_tick != kNoTick && TicksBetween(watch->turned_tick, tick) <= kTurnEchoTicks;
 }
 
-void Vehicle::ListenForMovers(Situation* s) {
-  VehicleState& state = *state_;
+Movers ListenForMovers(const OwnView& s, const PeersNow& near, MoverWatch* watch,
+                       TrustCounters* counters) {
   bool moving = false;
-  const double near_m = state.deaf ? options_.gate_exit_m : options_.gate_enter_m;
-  for (const std::size_t i : BitsOf(s->turns ? 0 : s->ranges.Echoes() & ~s->explained)) {
-    if (s->ranges[i].range_m >= near_m || !MovesByItself(i, *s)) continue;
+  const double near_m = watch->deaf ? s.options.gate_exit_m : s.options.gate_enter_m;
+  for (const std::size_t i : BitsOf(s.turns ? 0 : s.ranges.Echoes() & ~near.explained)) {
+    if (s.ranges[i].range_m >= near_m || !MovesByItself(i, s)) continue;
     moving = true;
-    state.deaf_sensor = static_cast<int>(i);
+    watch->deaf_sensor = static_cast<int>(i);
   }
   if (moving) {
-    state.trust.echo_without_beacon += state.deaf ? 0 : 1;
-    state.deaf = true;
-    state.deaf_since = s->now;
+    counters->echo_without_beacon += watch->deaf ? 0 : 1;
+    watch->deaf = true;
+    watch->deaf_since = s.now;
   }
-  const double hold_s = kDeafHold_s + kDeafStagger_s * (Number(options_.id) % kDeafStaggerSteps);
-  if (state.deaf && Seconds(s->now - state.deaf_since) > hold_s) state.deaf = false;
-  s->deaf = state.deaf;
-  s->deaf_sensor = state.deaf ? state.deaf_sensor : -1;
+  const double hold_s = kDeafHold_s + kDeafStagger_s * (Number(s.options.id) % kDeafStaggerSteps);
+  if (watch->deaf && Seconds(s.now - watch->deaf_since) > hold_s) watch->deaf = false;
+  return {.deaf = watch->deaf, .deaf_sensor = watch->deaf ? watch->deaf_sensor : -1};
 }
 
 }  // namespace giveway

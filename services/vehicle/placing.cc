@@ -1,100 +1,96 @@
-// Where a brain takes itself to be as it begins, in a world or in the next one: as the world says,
-// or as the process before it knew.
+#include "services/vehicle/placing.h"
+
 #include <cmath>
 
-#include "services/types/check.h"
 #include "services/vehicle/estimation/beacon_check.h"
 #include "services/vehicle/estimation/planted.h"
-#include "services/vehicle/vehicle.h"
+#include "services/vehicle/situation/situation.h"
+#include "services/vehicle/waiting.h"
 
 namespace giveway {
 
-void Vehicle::Reseat(const VehicleOptions& options) {
-  GIVEWAY_CHECK(options.id == options_.id, Number(options.id));
-  options_ = options;
-  cones_ = ConesOf(options.profile);
-  state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
-  state_->placed_in = kNoEpoch;
+void EnterWorld(WorldEpoch epoch, const Pose& world_from_body, const VehicleOptions& options,
+                VehicleState* entering) {
+  VehicleState& state = *entering;
+  state.world.epoch = epoch;
+  state.world.tick = kNoTick;
+  state.world.run_state = RunState::kWaiting;
+  state.motion.odometry = Odometry(world_from_body);
+  Begin(options.profile, &state.motion.pose);
+  state.motion.reckoned = kNoTick;
+  state.motion.wheels = {};
+  state.route.waypoint = 0;
+  state.progress.nearest_m = kNoGoal_m;
+  state.progress.aimless_ticks = 0;
+  state.progress.detour_tick = kNoTick;
+  state.progress.away_tick = kNoTick;
+  state.progress.caught_ticks = 0;
+  state.last.blocked_tick = kNoTick;
+  state.movers.turned_tick = kNoTick;
+  state.last.decided_tick = kNoTick;
+  state.route.arrived = false;
+  state.waiting.order.waited_ticks = 0;
+  state.waiting.waited_ticks = 0;
+  state.waiting.let_pass = false;
+  state.movers.deaf = false;
+  state.sensed.ranges = {};
+  state.sensed.grid = {};
+  state.heard.signals.LeaveWorld();
+  state.sensed.objects = {};
+  state.heard.last_heard = {};
+  state.heard.peers.LeaveWorld();
 }
 
-// What was seen, heard and waited for belongs to the world before.
-void Vehicle::EnterWorld(WorldEpoch epoch, const Pose& world_from_body) {
-  VehicleState& state = *state_;
-  state.epoch = epoch;
-  state.tick = kNoTick;
-  state.run_state = RunState::kWaiting;
-  state.odometry = Odometry(world_from_body);
-  Begin(options_.profile, &state.pose);
-  state.reckoned = kNoTick;
-  state.wheels = {};
-  state.waypoint = 0;
-  state.nearest_m = kNoGoal_m;
-  state.aimless_ticks = 0;
-  state.detour_tick = kNoTick;
-  state.away_tick = kNoTick;
-  state.caught_ticks = 0;
-  state.blocked_tick = kNoTick;
-  state.turned_tick = kNoTick;
-  state.decided_tick = kNoTick;
-  state.arrived = false;
-  state.order.waited_ticks = 0;
-  state.waited_ticks = 0;
-  state.let_pass = false;
-  state.deaf = false;
-  state.ranges = {};
-  state.grid = {};
-  state.signals.LeaveWorld();
-  state.objects = {};
-  state.last_heard = {};
-  state.peers.LeaveWorld();
-}
+namespace {
 
 // With the task that was begun. What it waited it waited here. The order by it is its own again.
-void Vehicle::GoOn(TaskProgress task) {
-  VehicleState& state = *state_;
-  state.waypoint = OnRoute(options_.route, task).waypoint;
-  state.waited_ticks = task.waited_ticks <= Number(state.reckoned) ? task.waited_ticks : 0;
-  state.waited_world = state.odometry.WorldFromBody().position_world;
-  state.order.waited_ticks = AgedTicks();
+void GoOn(TaskProgress task, const VehicleOptions& options, VehicleState* going_on) {
+  VehicleState& state = *going_on;
+  state.route.waypoint = OnRoute(options.route, task).waypoint;
+  state.waiting.waited_ticks =
+      task.waited_ticks <= Number(state.motion.reckoned) ? task.waited_ticks : 0;
+  state.waiting.waited_world = state.motion.odometry.WorldFromBody().position_world;
+  state.waiting.order.waited_ticks = AgedTicks(state.waiting, options);
 }
 
-std::optional<Handover> Vehicle::HandOver() const {
-  const VehicleState& state = *state_;
-  if (state.epoch == kNoEpoch || state.reckoned == kNoTick) return std::nullopt;
-  return Handover{.epoch = state.epoch,
-                  .tick = state.reckoned,
-                  .counted = state.counted,
-                  .world_from_body = state.odometry.WorldFromBody(),
-                  .covariance = PromisedCovariance(state.odometry, state.pose),
-                  .task = {state.waypoint, state.waited_ticks}};
+}  // namespace
+
+std::optional<Handover> HandoverOf(const VehicleState& state) {
+  if (state.world.epoch == kNoEpoch || state.motion.reckoned == kNoTick) return std::nullopt;
+  return Handover{.epoch = state.world.epoch,
+                  .tick = state.motion.reckoned,
+                  .counted = state.motion.counted,
+                  .world_from_body = state.motion.odometry.WorldFromBody(),
+                  .covariance = PromisedCovariance(state.motion.odometry, state.motion.pose),
+                  .task = {state.route.waypoint, state.waiting.waited_ticks}};
 }
 
-bool Vehicle::TakeOver(const Handover& handover) {
+bool TakeOver(const Handover& handover, const VehicleOptions& options, VehicleState* taking) {
   if (!IsSound(handover)) return false;
-  VehicleState& state = *state_;
-  EnterWorld(handover.epoch, handover.world_from_body);
-  state.placed_in = handover.epoch;
-  state.odometry = Odometry(handover.world_from_body, handover.covariance);
-  state.reckoned = handover.tick;
-  state.counted = handover.counted;
-  GoOn(handover.task);
+  VehicleState& state = *taking;
+  EnterWorld(handover.epoch, handover.world_from_body, options, &state);
+  state.world.placed_in = handover.epoch;
+  state.motion.odometry = Odometry(handover.world_from_body, handover.covariance);
+  state.motion.reckoned = handover.tick;
+  state.motion.counted = handover.counted;
+  GoOn(handover.task, options, &state);
   return true;
 }
 
-// Only the first entry of an epoch says something new: later ones are repeated, or tell of the run.
-void Vehicle::TakeRoster(const RosterEntry& entry) {
-  VehicleState& state = *state_;
+void TakeRoster(const RosterEntry& entry, const VehicleOptions& options, VehicleState* taking) {
+  VehicleState& state = *taking;
   const Pose& pose = entry.start_world;
   const bool sound = std::isfinite(pose.position_world.x) && std::isfinite(pose.position_world.y) &&
                      std::isfinite(pose.heading_rad) && std::isfinite(entry.counted.left_rad) &&
                      std::isfinite(entry.counted.right_rad);
-  if (!entry.accepted || entry.epoch == kNoEpoch || entry.epoch == state.placed_in || !sound)
+  if (!entry.accepted || entry.epoch == kNoEpoch || entry.epoch == state.world.placed_in || !sound)
     return;
-  EnterWorld(entry.epoch, Has(Defect::kPlaceForgotten) ? options_.start_world : pose);
-  state.placed_in = entry.epoch;
-  state.reckoned = entry.tick;
-  state.counted = entry.counted;
-  GoOn(Has(Defect::kRouteForgotten) ? TaskProgress{} : entry.task);
+  EnterWorld(entry.epoch, Has(Defect::kPlaceForgotten) ? options.start_world : pose, options,
+             &state);
+  state.world.placed_in = entry.epoch;
+  state.motion.reckoned = entry.tick;
+  state.motion.counted = entry.counted;
+  GoOn(Has(Defect::kRouteForgotten) ? TaskProgress{} : entry.task, options, &state);
 }
 
 }  // namespace giveway

@@ -16,7 +16,7 @@ const Peer* PeerOf(const PeerTable& peers, VehicleId id) {
 }
 
 void SayReplayed(const Beacon& beacon, const VehicleState& state, Refusal* refusal) {
-  const Peer* const peer = PeerOf(state.peers, beacon.vehicle);
+  const Peer* const peer = PeerOf(state.heard.peers, beacon.vehicle);
   refusal->counter = "rejected_replayed";
   refusal->passing = true;
   if (peer != nullptr && peer->boot_epoch != beacon.boot_epoch) {
@@ -71,7 +71,7 @@ Refusal Explain(const ReceivedBeacon& received, BeaconRefusal why, const Vehicle
     case BeaconRefusal::kWrongEpoch:
       say("rejected_wrong_epoch", "world_epoch",
           "world_epoch is " + Text(Number(beacon.world_epoch)) + ", must be " +
-              Text(Number(state.epoch)) + " as the ranges and the roster say");
+              Text(Number(state.world.epoch)) + " as the ranges and the roster say");
       refusal.passing = true;
       break;
     case BeaconRefusal::kTableFull:

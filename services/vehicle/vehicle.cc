@@ -12,6 +12,8 @@
 #include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/estimation/scan_check.h"
 #include "services/vehicle/evidence.h"
+#include "services/vehicle/listen.h"
+#include "services/vehicle/placing.h"
 #include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/box.h"
 #include "services/vehicle/situation/echo_trust.h"
@@ -19,6 +21,8 @@
 #include "services/vehicle/situation/encounter.h"
 #include "services/vehicle/situation/heard_places.h"
 #include "services/vehicle/situation/look.h"
+#include "services/vehicle/waiting.h"
+#include "services/vehicle/way.h"
 
 namespace giveway {
 namespace {
@@ -48,33 +52,52 @@ Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
       views_(std::make_unique_for_overwrite<std::array<PeerView, kMaxPeers>>()) {
   GIVEWAY_CHECK(options.id != kNobody);
   GIVEWAY_CHECK(boot_epoch != 0);
-  state_->boot_epoch = boot_epoch;
-  state_->odometry = Odometry(options.start_world);
-  Begin(options.profile, &state_->pose);
-  state_->order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
+  state_->published.boot_epoch = boot_epoch;
+  state_->motion.odometry = Odometry(options.start_world);
+  Begin(options.profile, &state_->motion.pose);
+  state_->waiting.order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
 }
+
+void Vehicle::Reseat(const VehicleOptions& options) {
+  GIVEWAY_CHECK(options.id == options_.id, Number(options.id));
+  options_ = options;
+  cones_ = ConesOf(options.profile);
+  state_->waiting.order = {.speed_bucket = SpeedBucket(options.cruise_m_s), .vehicle = options.id};
+  state_->world.placed_in = kNoEpoch;
+}
+
+std::optional<Handover> Vehicle::HandOver() const { return HandoverOf(*state_); }
+
+bool Vehicle::TakeOver(const Handover& handover) {
+  return giveway::TakeOver(handover, options_, state_.get());
+}
+
+std::uint64_t Vehicle::Hash() const { return HashOf(*state_, options_.profile); }
 
 // Dead reckoning: the encoders give the constant wheel speeds since the last tick, or what they
 // counted since the pose was true that the vehicle was told.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   VehicleState& state = *state_;
   if (!IsBelievable(scan, options_)) {  // as if none had come: the ranges grow old, and it halts
-    ++state.scans_refused;
+    ++state.counters.scans_refused;
     return;
   }
   // A world that has not said where the vehicle stands in it, or one that is gone.
-  if (state.placed_in != kNoEpoch && scan.epoch != state.placed_in) return;
-  if (scan.epoch != state.epoch) EnterWorld(scan.epoch, options_.start_world);
+  if (state.world.placed_in != kNoEpoch && scan.epoch != state.world.placed_in) return;
+  if (scan.epoch != state.world.epoch)
+    EnterWorld(scan.epoch, options_.start_world, options_, &state);
   // Out of order: older than known. The scan of the very tick it was placed at is still to be seen.
-  if (scan.tick < state.reckoned || (state.tick != kNoTick && scan.tick == state.tick)) return;
+  if (scan.tick < state.motion.reckoned ||
+      (state.world.tick != kNoTick && scan.tick == state.world.tick))
+    return;
   const std::uint32_t ticks =
-      state.reckoned == kNoTick ? 1 : TicksBetween(state.reckoned, scan.tick);
+      state.motion.reckoned == kNoTick ? 1 : TicksBetween(state.motion.reckoned, scan.tick);
   const double dt_s = Seconds(ticks * options_.tick_period);
   const VehicleProfile& profile = options_.profile;
-  const Vec2 from_world = state.odometry.WorldFromBody().position_world;
-  const Vec2 forward_world = state.odometry.ForwardWorld();
-  const double from_rad = state.odometry.WorldFromBody().heading_rad;
-  const WayGone gone = ticks > 1 ? WayOfLostTicks(state.counted, scan, options_, dt_s)
+  const Vec2 from_world = state.motion.odometry.WorldFromBody().position_world;
+  const Vec2 forward_world = state.motion.odometry.ForwardWorld();
+  const double from_rad = state.motion.odometry.WorldFromBody().heading_rad;
+  const WayGone gone = ticks > 1 ? WayOfLostTicks(state.motion.counted, scan, options_, dt_s)
                                  : WayGone{.wheels = scan.wheels};
   const PoseCovariance added = Roll(profile,
                                     {.wheels = gone.wheels,
@@ -82,171 +105,226 @@ void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
                                      .wheel_error = WheelError(profile),
                                      .guessed_m = gone.guessed_m,
                                      .tick = scan.tick},
-                                    &state.odometry, &state.pose);
+                                    &state.motion.odometry, &state.motion.pose);
   if (Remembers(options_)) {
-    const Pose& after = state.odometry.WorldFromBody();
+    const Pose& after = state.motion.odometry.WorldFromBody();
     const Vec2 way = after.position_world - from_world;
-    state.grid.Move({Dot(forward_world, way), Cross(forward_world, way)},
-                    after.heading_rad - from_rad, VarianceOfPlaces(added));
+    state.sensed.grid.Move({Dot(forward_world, way), Cross(forward_world, way)},
+                           after.heading_rad - from_rad, VarianceOfPlaces(added));
   }
-  state.tick = scan.tick;
-  state.reckoned = scan.tick;
-  state.counted = scan.counted;
-  state.run_state = scan.run_state;
-  state.wheels = scan.wheels;
+  state.world.tick = scan.tick;
+  state.motion.reckoned = scan.tick;
+  state.motion.counted = scan.counted;
+  state.world.run_state = scan.run_state;
+  state.motion.wheels = scan.wheels;
   if (HasImperfectSonar(options_)) {
     const Twist twist = TwistFromWheels(profile.drive, scan.wheels);
     const double turned_rad = twist.turn_rad_s * dt_s;
     const OwnWay moved{twist.forward_m_s * dt_s, turned_rad < 0 ? -turned_rad : turned_rad};
-    state.ranges.TakeImperfect(scan, now, options_.tick_period, moved);
+    state.sensed.ranges.TakeImperfect(scan, now, options_.tick_period, moved);
   } else {
-    state.ranges.Take(scan, now, options_.tick_period);
+    state.sensed.ranges.Take(scan, now, options_.tick_period);
+  }
+}
+
+// Those of a world that has not placed it yet say nothing.
+void Vehicle::TakeFix(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  if (state.world.tick == kNoTick) return;
+  const FixTaker taker{.vehicle = options_.id,
+                       .epoch = state.world.epoch,
+                       .tick = state.world.tick,
+                       .tick_s = Seconds(options_.tick_period)};
+  TakeWaiting(options_.profile, taker, &state.motion.odometry, &state.motion.pose);
+  if (inputs.pose_fix) {
+    Take(*inputs.pose_fix, options_.profile, taker, &state.motion.odometry, &state.motion.pose);
   }
 }
 
 void Vehicle::TakePeers(const Inputs& inputs) {
   VehicleState& state = *state_;
-  const Self self{options_.id, state.epoch, state.tick,
-                  state.odometry.WorldFromBody().position_world};
-  state.peers.Advance(inputs.now, state.tick);
+  const Self self{options_.id, state.world.epoch, state.world.tick,
+                  state.motion.odometry.WorldFromBody().position_world};
+  state.heard.peers.Advance(inputs.now, state.world.tick);
   refused_count_ = 0;
   for (std::uint32_t i = 0; i < inputs.beacons.size(); ++i) {
-    const BeaconRefusal why =
-        state.peers.Take(inputs.beacons[i], self, options_, &state.beacons, &state.trust);
+    const BeaconRefusal why = state.heard.peers.Take(
+        inputs.beacons[i], self, options_, &state.counters.beacons, &state.counters.trust);
     if (why == BeaconRefusal::kNone || refused_count_ == refused_.size()) continue;
     refused_[refused_count_++] = {i, why};
   }
-  for (const QosEvent& event : inputs.events) state.peers.Note(event, &state.qos);
+  for (const QosEvent& event : inputs.events) state.heard.peers.Note(event, &state.counters.qos);
 }
 
 void Vehicle::TakeSignalsAndObjects(const Inputs& inputs) {
   VehicleState& state = *state_;
   for (const SignalState& signal : inputs.signals) {
-    state.signals_refused += state.signals.Take(signal, state.epoch, inputs.now) ? 0 : 1;
+    state.counters.signals_refused +=
+        state.heard.signals.Take(signal, state.world.epoch, inputs.now) ? 0 : 1;
   }
-  const Observer observer{state.epoch, state.tick, state.odometry.WorldFromBody(), SpeedMps()};
-  state.scans_refused += TakeObjects(inputs, observer, &state.objects);
+  const Observer observer{state.world.epoch, state.world.tick,
+                          state.motion.odometry.WorldFromBody(), SpeedMps()};
+  state.counters.scans_refused += TakeObjects(inputs, observer, &state.sensed.objects);
 }
 
-Situation Vehicle::Look(const Inputs& inputs) {
-  VehicleState& state = *state_;
-  const Twist twist = TwistFromWheels(options_.profile.drive, state.wheels);
-  HearEchoes(state.ranges, state.tick, options_, &echoes_);
-  Situation s{.options = options_,
-              .ranges = state.ranges,
-              .echoes = echoes_,
-              .cones = cones_,
-              .objects = state.objects};
-  s.now = inputs.now;
-  s.tick = state.tick;
-  s.new_tick = state.tick != state.decided_tick;
-  s.run_state = state.run_state;
-  s.leaving = inputs.leaving;
-  s.halting = inputs.halting;
-  LookAtOwnPose(&s);
-  s.speed_m_s = twist.forward_m_s;
-  s.turn_rad_s = twist.turn_rad_s;
-  s.wheels = state.wheels;
-  s.reaction_s = ReactionSeconds(options_);
-  s.slows_m =
-      StoppingDistance(options_.cruise_m_s, s.reaction_s, options_.profile.deceleration_m_s2);
-  s.sweeps_m = OwnSweep(s);
-  s.looks_m = LooksAround(options_.profile);
-  s.order = ActingOrder(state.order, state.peers, options_.id);
-  s.steer_side = state.steer_side;
-  s.blind_sensor = state.ranges.FirstBlind(inputs.now, state.tick, options_, cones_.enabled);
-  LookAhead(&s);
-  s.path_rad = state.way.Of(s.path.direction_world);
-  s.arrived = state.arrived;
-  return s;
+OwnPose Vehicle::LookAtOwnPose() {
+  MeasuredMotion& motion = state_->motion;
+  const PoseCovariance promised = PromisedCovariance(motion.odometry, motion.pose);
+  const double known_share = JudgeCertainty(options_.profile, promised, &motion.pose);
+  return {.world_from_body = motion.odometry.WorldFromBody(),
+          .forward_world = motion.odometry.ForwardWorld(),
+          .covariance = promised,
+          .known_share = known_share,
+          .lost = motion.pose.lost};
+}
+
+OwnMotion Vehicle::LookAtOwnMotion() {
+  const WheelSpeeds wheels = state_->motion.wheels;
+  const Twist twist = TwistFromWheels(options_.profile.drive, wheels);
+  OwnMotion motion{.speed_m_s = twist.forward_m_s,
+                   .turn_rad_s = twist.turn_rad_s,
+                   .wheels = wheels,
+                   .reaction_s = ReactionSeconds(options_),
+                   .looks_m = LooksAround(options_.profile)};
+  motion.slows_m =
+      StoppingDistance(options_.cruise_m_s, motion.reaction_s, options_.profile.deceleration_m_s2);
+  motion.sweeps_m = OwnSweep(motion, options_);
+  // The printed scripts look at nobody.
+  motion.turns = options_.behaviour != Behaviour::kLecturePrinted &&
+                 NoteTurning(motion.turn_rad_s, state_->world.tick, &state_->movers);
+  return motion;
 }
 
 // Lights are for cooperative vehicles; the lecture's behaviours know none.
-void Vehicle::LookAtSignals(Situation* s) {
-  if (options_.behaviour != Behaviour::kCooperative || s->run_state != RunState::kRunning) return;
+Lights Vehicle::LookAtSignals(const Moment& moment, const OwnMotion& motion,
+                              const OwnCourse& course) {
+  if (options_.behaviour != Behaviour::kCooperative || moment.run_state != RunState::kRunning) {
+    return {};
+  }
   const VehicleProfile& profile = options_.profile;
-  const double stopping_m =
-      StoppingDistance(std::max(0.0, s->speed_m_s), s->reaction_s, profile.deceleration_m_s2);
-  s->stop_line = state_->signals.MustStopAt({.path = s->path,
-                                             .distance_to_goal_m = s->distance_to_goal_m,
-                                             .body_radius_m = profile.body_radius_m,
-                                             .stopping_m = stopping_m},
-                                            s->now);
-  s->at_signal = state_->decision.rule == Rule::kSignal;
+  const double stopping_m = StoppingDistance(std::max(0.0, motion.speed_m_s), motion.reaction_s,
+                                             profile.deceleration_m_s2);
+  return {.stop_line =
+              state_->heard.signals.MustStopAt({.path = course.path,
+                                                .distance_to_goal_m = course.distance_to_goal_m,
+                                                .body_radius_m = profile.body_radius_m,
+                                                .stopping_m = stopping_m},
+                                               moment.now),
+          .at_signal = state_->last.decision.rule == Rule::kSignal};
 }
 
-// Views are made where they stay: copying one costs as much as making it.
-std::span<PeerView> Vehicle::ThoseThatMatter(Situation* s) {
+OwnView Vehicle::LookAtSelf(const Inputs& inputs) {
+  VehicleState& state = *state_;
+  HearEchoes(state.sensed.ranges, state.world.tick, options_, &echoes_);
+  const Moment moment{.now = inputs.now,
+                      .tick = state.world.tick,
+                      .new_tick = state.world.tick != state.last.decided_tick,
+                      .run_state = state.world.run_state,
+                      .leaving = inputs.leaving,
+                      .halting = inputs.halting};
+  const OwnPose pose = LookAtOwnPose();
+  const OwnMotion motion = LookAtOwnMotion();
+  const OwnCourse course = LookAhead(pose, options_, &state.route, &state.progress);
+  const SensorsNow sensors{.ranges = state.sensed.ranges,
+                           .echoes = echoes_,
+                           .cones = cones_,
+                           .objects = state.sensed.objects,
+                           .blind_sensor = state.sensed.ranges.FirstBlind(
+                               inputs.now, moment.tick, options_, cones_.enabled)};
+  const Lights lights = LookAtSignals(moment, motion, course);
+  return {moment,
+          pose,
+          motion,
+          course,
+          sensors,
+          lights,
+          options_,
+          ActingOrder(state.waiting.order, state.heard.peers, options_.id),
+          state.last.steer_side};
+}
+
+PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) {
   std::uint32_t count = 0;
   std::uint32_t heard = 0;
   bool someone_lost = false;
-  for (Peer& peer : state_->peers.Peers()) {
+  for (Peer& peer : state_->heard.peers.Peers()) {
     if (!peer.known) continue;
-    const bool fresh = IsFresh(peer, s->now, s->tick, options_);
+    const bool fresh = IsFresh(peer, s.now, s.tick, options_);
     heard += fresh ? 1 : 0;
     someone_lost = someone_lost || IsLost(peer, fresh);
-    if (!CanMatter(peer, fresh, *s)) continue;
-    auto* view = new (&(*views_)[count++]) PeerView;
+    if (!CanMatter(peer, fresh, s)) continue;
+    HeardPeer* const view = new (&(*views_)[count++]) PeerView;
     view->peer = &peer;
     view->fresh = fresh;
   }
   peers_heard_ = heard;
-  s->someone_lost = someone_lost;
-  return {views_->data(), count};
+  *any_lost = someone_lost;
+  return PeerViews<HeardPeer>({views_->data(), count});
 }
 
-void Vehicle::LookAtPeers(Situation* s) {
-  const std::span<PeerView> views = ThoseThatMatter(s);
-  CarryForward(views, *s);
-  for (PeerView& view : views) {
-    LookAt(&view, *s);
-    s->someone_doubted = s->someone_doubted || (view.fresh && !view.believed);
-    // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
-    // lecture's behaviours a known body is kept from no less than an unknown one.
-    const bool explains = view.believed || options_.behaviour != Behaviour::kCooperative;
-    s->explained |= explains ? view.explains : 0;
-  }
-  JudgeEchoes(views, *s, &state_->trust);
-  s->blocked_box = FindBoxes(views, *s);
-  UpdateEncounters(views, s);
-  s->peers = views;
+PeersNow Vehicle::LookAtPeers(const OwnView& s) {
+  bool someone_lost = false;
+  const PeerViews<HeardPeer> heard = ThoseThatMatter(s, &someone_lost);
+  const RelatedPeers related = LookAt(CarryForward(heard, s), s);
+  const Boxes boxes = FindBoxes(related.views, s);
+  JudgeEchoes(boxes.views, someone_lost, s, &state_->counters.trust);
+  return {.peers = boxes.views,
+          .explained = related.explained,
+          .someone_lost = someone_lost,
+          .someone_doubted = related.someone_doubted,
+          .blocked_box = boxes.blocked,
+          .encounters = UpdateEncounters(boxes.views, s)};
 }
 
-// The printed scripts look at nobody: they know neither places nor ways, only the one variable.
-void Vehicle::LookAround(Situation* s) {
-  if (options_.behaviour != Behaviour::kLecturePrinted) {
-    NoteTurning(s);
-    LookAtPeers(s);
-    ListenForMovers(s);
-    if (Remembers(options_)) {
-      RememberEchoes(*s, &state_->grid);
-      ListPlaces(state_->grid, *s, &places_);
-      s->places = places_.All();
-    }
-    Detour(s);
-    return;
-  }
-  const std::span<const Peer> peers = state_->peers.Peers();
+// The printed scripts know neither places nor ways, only the one variable.
+PeersNow Vehicle::HearTheLastAlone(const OwnView& s) {
+  const std::span<const Peer> peers = state_->heard.peers.Peers();
   peers_heard_ =
       static_cast<std::uint32_t>(std::count_if(peers.begin(), peers.end(), [&](const Peer& peer) {
-        return IsFresh(peer, s->now, s->tick, options_);
+        return IsFresh(peer, s.now, s.tick, options_);
       }));
-  HearTheLast(peers, &state_->last_heard);
-  s->last_heard = state_->last_heard;
+  HearTheLast(peers, &state_->heard.last_heard);
+  return {};
+}
+
+PeersNow Vehicle::LookAround(const OwnView& s) {
+  return options_.behaviour == Behaviour::kLecturePrinted ? HearTheLastAlone(s) : LookAtPeers(s);
+}
+
+// Where something was heard, this tick's firings among it.
+std::span<const Vec2> Vehicle::PlacesHeard(const OwnView& s, const PeersNow& near) {
+  if (!Remembers(options_)) return {};
+  RememberEchoes(s, near, &state_->sensed.grid);
+  ListPlaces(state_->sensed.grid, s, &places_);
+  return places_.All();
+}
+
+Situation Vehicle::BuildSituation(const OwnView& own, const PeersNow& near) {
+  VehicleState& state = *state_;
+  if (options_.behaviour == Behaviour::kLecturePrinted) {
+    return {.own = own, .near = near, .last_heard = state.heard.last_heard};
+  }
+  return {.own = own,
+          .near = near,
+          .movers = ListenForMovers(own, near, &state.movers, &state.counters.trust),
+          .places = PlacesHeard(own, near),
+          .escape = Detour(own, near, state.last, &state.progress)};
 }
 
 // What the next step must know.
 void Vehicle::Remember(const Situation& s, const Action& action) {
   const Decision& decision = action.decision;
   VehicleState& state = *state_;
-  KeepOrder(s, IsGiveWay(decision.rule) && s.speed_m_s < kStandingSpeed_m_s);
-  if (Has(Defect::kMeasuredSpeedInOrder)) state.order.speed_bucket = SpeedBucket(s.speed_m_s);
-  state.decision = decision;
-  state.decided_tick = s.tick;
-  state.steer_side = action.steer_side;
+  const bool waits = IsGiveWay(decision.rule) && s.own.speed_m_s < kStandingSpeed_m_s;
+  KeepOrder(s.own, s.near.encounters, waits, &state.waiting);
+  if (Has(Defect::kMeasuredSpeedInOrder))
+    state.waiting.order.speed_bucket = SpeedBucket(s.own.speed_m_s);
+  state.last.decision = decision;
+  state.last.decided_tick = s.own.tick;
+  state.last.steer_side = action.steer_side;
   if (action.away_rad) {
-    state.away_rad = *action.away_rad;
-    state.away_tick = s.tick;
+    state.progress.away_rad = *action.away_rad;
+    state.progress.away_tick = s.own.tick;
   }
   KeepBlocked(BlockedBy(s, decision, action.blocked_by), s);
 }
@@ -255,69 +333,69 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
 void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
   VehicleState& state = *state_;
   if (blocked_by != kNobody) {
-    state.blocked_by = blocked_by;
-    state.blocked_tick = s.tick;
+    state.last.blocked_by = blocked_by;
+    state.last.blocked_tick = s.own.tick;
     return;
   }
-  const bool recent = state.blocked_tick != kNoTick && !s.arrived &&
-                      TicksBetween(state.blocked_tick, s.tick) <= kBlockedTicks;
-  if (!recent || !IsStillNear(state.blocked_by, s)) state.blocked_by = kNobody;
+  const bool recent = state.last.blocked_tick != kNoTick && !s.own.arrived &&
+                      TicksBetween(state.last.blocked_tick, s.own.tick) <= kBlockedTicks;
+  if (!recent || !IsStillNear(state.last.blocked_by, s)) state.last.blocked_by = kNobody;
 }
 
 Beacon Vehicle::Say(const Situation& s) {
   VehicleState& state = *state_;
-  ++state.seq;
-  state.gives_way_to = GivesWayTo(s);
-  ++state.beacons.sent;
+  ++state.published.seq;
+  state.published.gives_way_to = GivesWayTo(s);
+  ++state.counters.beacons.sent;
   return {.vehicle = options_.id,
-          .boot_epoch = state.boot_epoch,
-          .seq = state.seq,
-          .world_epoch = state.epoch,
-          .tick = state.tick,
-          .wheels = state.wheels,
+          .boot_epoch = state.published.boot_epoch,
+          .seq = state.published.seq,
+          .world_epoch = state.world.epoch,
+          .tick = state.world.tick,
+          .wheels = state.motion.wheels,
           .cruise_m_s = options_.cruise_m_s,
-          .world_from_body = s.world_from_body,
-          .covariance = s.covariance,
+          .world_from_body = s.own.world_from_body,
+          .covariance = s.own.covariance,
           .body_radius_m = options_.profile.body_radius_m,
           .drive = options_.profile.drive,
           .acceleration_m_s2 = options_.profile.acceleration_m_s2,
           .deceleration_m_s2 = options_.profile.deceleration_m_s2,
-          .toward_world = Toward(s),
-          .mode = state.decision.mode,
-          .rule = state.decision.rule,
-          .gives_way_to = state.gives_way_to,
-          .blocked_by = state.blocked_by,
-          .order = s.order};
+          .toward_world = Toward(s.own),
+          .mode = state.last.decision.mode,
+          .rule = state.last.decision.rule,
+          .gives_way_to = state.published.gives_way_to,
+          .blocked_by = state.last.blocked_by,
+          .order = s.own.order};
 }
 
 Outputs Vehicle::Step(const Inputs& inputs) noexcept {
   VehicleState& state = *state_;
-  if (inputs.roster) TakeRoster(*inputs.roster);
+  if (inputs.roster) TakeRoster(*inputs.roster, options_, &state);
   if (inputs.scan) TakeScan(*inputs.scan, inputs.now);
   TakeFix(inputs);
   TakePeers(inputs);
   TakeSignalsAndObjects(inputs);
-  Situation s = Look(inputs);
-  LookAtSignals(&s);
-  LookAround(&s);
+  const OwnView own = LookAtSelf(inputs);
+  const PeersNow near = LookAround(own);
+  const Situation s = BuildSituation(own, near);
   const Action action = Decide(s);
-  const bool changed = !SameReason(action.decision, state.decision);
+  const bool changed = !SameReason(action.decision, state.last.decision);
   Remember(s, action);
   evidence_ = EvidenceOf(s, action.decision, changed);
 
   return {.command = {.vehicle = options_.id,
-                      .epoch = state.epoch,
-                      .tick = state.tick,
+                      .epoch = state.world.epoch,
+                      .tick = state.world.tick,
                       .target = action.target,
                       .decision = action.decision,
                       .decision_changed = changed,
-                      .task = {state.waypoint, state.waited_ticks}},
+                      .task = {state.route.waypoint, state.waiting.waited_ticks}},
           .beacon = Say(s),
           .decision_changed = changed};
 }
 
 double Vehicle::SpeedMps() const {
-  return TwistFromWheels(options_.profile.drive, state_->wheels).forward_m_s;
+  return TwistFromWheels(options_.profile.drive, state_->motion.wheels).forward_m_s;
 }
 
 }  // namespace giveway

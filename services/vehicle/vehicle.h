@@ -15,67 +15,10 @@
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
 #include "services/vehicle/decision/decide.h"
-#include "services/vehicle/estimation/obstacle_grid.h"
-#include "services/vehicle/estimation/odometry.h"
-#include "services/vehicle/estimation/peer_table.h"
-#include "services/vehicle/estimation/pose_keeping.h"
-#include "services/vehicle/estimation/range_view.h"
 #include "services/vehicle/situation/situation.h"
+#include "services/vehicle/vehicle_state.h"
 
 namespace giveway {
-
-// Everything a brain remembers. Trivially copyable: a snapshot is a copy.
-struct VehicleState {
-  static constexpr std::uint32_t kVersion = 2;
-
-  std::uint32_t boot_epoch = 0;
-  std::uint32_t seq = 0;
-  WorldEpoch epoch = kNoEpoch;
-  Tick tick = kNoTick;
-  WorldEpoch placed_in = kNoEpoch;  // the epoch of the last roster entry that said where it stands
-  RunState run_state = RunState::kWaiting;
-  Odometry odometry;
-  Tick reckoned = kNoTick;     // the tick of odometry's pose; kNoTick: the one before the next scan
-  WheelSpeeds wheels;          // as last measured
-  WheelAngles counted;         // by the encoders, as last heard
-  KnownBearing way;            // to where it drives next
-  std::uint32_t waypoint = 0;  // the next one of the route; its count: on to the goal
-  bool arrived = false;
-  OrderKey order;
-  std::uint32_t waited_ticks = 0;  // halted to give way, on the way to where it is through
-  Vec2 waited_world;               // where it halted last
-  bool let_pass = false;           // somebody that comes first has passed since it waits
-  SteadyTime deaf_since{0};        // last time something near moved unexplained
-  Tick turned_tick = kNoTick;      // when it last turned sharply
-  Tick decided_tick = kNoTick;     // of the last step
-  bool deaf = false;
-  int deaf_sensor = -1;
-  Decision decision;
-  VehicleId gives_way_to = kNobody;  // as last published
-  VehicleId blocked_by = kNobody;    // as last published
-  Tick blocked_tick = kNoTick;       // when it was last seen in the way
-  int steer_side = 0;                // 1 left, -1 right, 0 straight on
-  double nearest_m = 1e9;            // the least distance to the goal so far
-  std::uint32_t aimless_ticks = 0;   // driven since without coming nearer
-  Vec2 detour_world;                 // where the way round leads first, if detour_tick is set
-  Tick detour_tick = kNoTick;        // when it was looked for
-  double away_rad = 0;               // the heading taken from what stopped it, if away_tick is set
-  Tick away_tick = kNoTick;          // when it was taken
-  Vec2 caught_world;                 // from where it gets no farther
-  std::uint32_t caught_ticks = 0;    // for how long, not counting where it waits or queues
-  RangeView ranges;
-  ObstacleGrid grid;  // of imperfect ultrasonics
-  PeerTable peers;
-  SignalTable signals;
-  SeenObjects objects;
-  LastHeard last_heard;             // of lecture_printed
-  std::uint32_t scans_refused = 0;  // of any sensor
-  std::uint32_t signals_refused = 0;
-  BeaconCounters beacons;
-  QosCounters qos;
-  TrustCounters trust;
-  PoseKeeping pose;
-};
 
 // A beacon of the last step's inputs that was refused.
 struct RefusedBeacon {
@@ -106,7 +49,7 @@ class Vehicle {
   // Forward speed as last measured, m/s.
   double SpeedMps() const;
   // Neither rolls nor turns, as last measured. Until it is told it is taken to.
-  bool Stands() const { return state_->wheels == WheelSpeeds{}; }
+  bool Stands() const { return state_->motion.wheels == WheelSpeeds{}; }
   // What the last step decided by.
   const DecisionEvidence& Evidence() const { return evidence_; }
   // Peers with a fresh beacon in the last step.
@@ -115,26 +58,23 @@ class Vehicle {
   std::span<const RefusedBeacon> Refused() const { return {refused_.data(), refused_count_}; }
 
  private:
-  void EnterWorld(WorldEpoch epoch, const Pose& world_from_body);
-  void GoOn(TaskProgress task);
-  void TakeRoster(const RosterEntry& entry);
+  // Estimation.
   void TakeScan(const RangeScan& scan, SteadyTime now);
   void TakeFix(const Inputs& inputs);
   void TakePeers(const Inputs& inputs);
   void TakeSignalsAndObjects(const Inputs& inputs);
-  Situation Look(const Inputs& inputs);
-  void LookAtOwnPose(Situation* situation);
-  void LookAhead(Situation* situation);
-  void LookAtSignals(Situation* situation);
-  void LookAround(Situation* situation);
-  std::span<PeerView> ThoseThatMatter(Situation* situation);
-  void LookAtPeers(Situation* situation);
-  void NoteTurning(Situation* situation);
-  void ListenForMovers(Situation* situation);
-  void Detour(Situation* situation);
-  void NoteCaught(Situation* situation, bool queues);
-  std::uint32_t AgedTicks() const;
-  void KeepOrder(const Situation& situation, bool waits);
+  // The stages of a situation: situation/situation.h.
+  OwnView LookAtSelf(const Inputs& inputs);
+  OwnPose LookAtOwnPose();
+  OwnMotion LookAtOwnMotion();
+  Lights LookAtSignals(const Moment& moment, const OwnMotion& motion, const OwnCourse& course);
+  PeersNow LookAround(const OwnView& own);
+  PeersNow LookAtPeers(const OwnView& own);
+  PeersNow HearTheLastAlone(const OwnView& own);
+  PeerViews<HeardPeer> ThoseThatMatter(const OwnView& own, bool* any_lost);
+  std::span<const Vec2> PlacesHeard(const OwnView& own, const PeersNow& near);
+  Situation BuildSituation(const OwnView& own, const PeersNow& near);
+  // After the decision.
   void Remember(const Situation& situation, const Action& action);
   void KeepBlocked(VehicleId blocked_by, const Situation& situation);
   Beacon Say(const Situation& situation);

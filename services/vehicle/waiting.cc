@@ -1,26 +1,24 @@
-// How waiting moves a vehicle up in the order, and when it is forgotten.
+#include "services/vehicle/waiting.h"
+
 #include "services/vehicle/estimation/planted.h"
-#include "services/vehicle/vehicle.h"
 
 namespace giveway {
 
-// How long it has waited, by which it comes first: whole ageing limits only, so that this seldom
-// changes, and two that wait for each other need not hear of every tick.
-std::uint32_t Vehicle::AgedTicks() const {
-  const auto limit = static_cast<std::uint32_t>(options_.ageing_limit / options_.tick_period);
-  return limit == 0 ? state_->waited_ticks : state_->waited_ticks / limit * limit;
+std::uint32_t AgedTicks(const Waiting& state, const VehicleOptions& options) {
+  const auto limit = static_cast<std::uint32_t>(options.ageing_limit / options.tick_period);
+  return limit == 0 ? state.waited_ticks : state.waited_ticks / limit * limit;
 }
 
 // Its place in the order stands while encounters are under way. But once it has let somebody pass
 // it rises all the same while it waits: in a stream of vehicles that come first they always are.
 // What it waited is forgotten when it is through: away from where it stood, and meeting nobody.
-void Vehicle::KeepOrder(const Situation& s, bool waits) {
+void KeepOrder(const OwnView& own, const Encounters& s, bool waits, Waiting* waiting) {
   constexpr double kThrough_m = 2.5;
-  VehicleState& state = *state_;
-  const Vec2 position_world = s.world_from_body.position_world;
+  Waiting& state = *waiting;
+  const Vec2 position_world = own.world_from_body.position_world;
   state.let_pass = state.waited_ticks > 0 && (state.let_pass || s.let_pass);
   if (waits) {
-    state.waited_ticks += s.new_tick ? 1 : 0;
+    state.waited_ticks += own.new_tick ? 1 : 0;
     state.waited_world = position_world;
   } else if (!s.meets &&
              SquaredNorm(position_world - state.waited_world) > kThrough_m * kThrough_m) {
@@ -28,7 +26,9 @@ void Vehicle::KeepOrder(const Situation& s, bool waits) {
     state.let_pass = false;
   }
   if (Has(Defect::kWaitingNeverCounts)) return;
-  if ((waits && state.let_pass) || !s.meets) state.order.waited_ticks = AgedTicks();
+  if ((waits && state.let_pass) || !s.meets) {
+    state.order.waited_ticks = AgedTicks(state, own.options);
+  }
 }
 
 }  // namespace giveway

@@ -1,4 +1,5 @@
-// Which way a vehicle is on: along its route, to its goal, or round a crowd.
+#include "services/vehicle/way.h"
+
 #include <algorithm>
 #include <array>
 
@@ -6,7 +7,6 @@
 #include "services/vehicle/estimation/planted.h"
 #include "services/vehicle/situation/blocked.h"
 #include "services/vehicle/situation/heard_places.h"
-#include "services/vehicle/vehicle.h"
 
 namespace giveway {
 namespace {
@@ -27,106 +27,139 @@ constexpr double kCaughtWithin_m = 0.1;
 constexpr std::uint32_t kCaughtTicks = 200;
 
 // A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
-bool PassesWaypoint(const VehicleState& state, const Route& route, Vec2 position_world) {
-  if (state.waypoint >= route.count) return false;
-  const double away_m = Norm(route.waypoints_world[state.waypoint] - position_world);
-  return away_m <= route.radius_m ||
-         (state.detour_tick != kNoTick && away_m <= kPassedAtDistance_m);
+bool PassesWaypoint(std::uint32_t waypoint, const Route& route, bool detours, Vec2 position_world) {
+  if (waypoint >= route.count) return false;
+  const double away_m = Norm(route.waypoints_world[waypoint] - position_world);
+  return away_m <= route.radius_m || (detours && away_m <= kPassedAtDistance_m);
+}
+
+void BeginAnew(GoalProgress* progress) {
+  progress->nearest_m = kNoGoal_m;
+  progress->aimless_ticks = 0;
+}
+
+void PassWaypoints(const Route& of, Vec2 position_world, RouteProgress* route,
+                   GoalProgress* progress) {
+  const bool detours = progress->detour_tick != kNoTick;
+  for (std::uint32_t i = 0; i < of.count; ++i) {
+    if (!PassesWaypoint(route->waypoint, of, detours, position_world)) return;
+    ++route->waypoint;
+    if (of.loop && route->waypoint == of.count) route->waypoint = 0;
+    BeginAnew(progress);
+  }
+}
+
+void NoteArrival(const OwnCourse& course, const OwnPose& pose, const VehicleOptions& options,
+                 RouteProgress* route, GoalProgress* progress) {
+  // Well inside the radius, so that the truth is inside too.
+  if (course.stops_there && course.distance_to_goal_m <= options.goal.radius_m / 2) {
+    route->arrived = true;
+  }
+  // A fix may say that it was not there.
+  const bool shown = options.profile.pose_fix.Fitted();
+  const double surely_m = course.distance_to_goal_m - SigmaPosition(pose.covariance);
+  if (!route->arrived || !shown || surely_m <= options.goal.radius_m) return;
+  route->arrived = false;
+  BeginAnew(progress);
 }
 
 }  // namespace
 
-// The straight way to the next waypoint or the goal; straight on without either.
-void Vehicle::LookAhead(Situation* s) {
-  VehicleState& state = *state_;
-  const Route& route = options_.route;
-  const Vec2 position = s->world_from_body.position_world;
-  s->path = {position, s->forward_world};
-  s->distance_to_goal_m = kNoGoal_m;
-  for (std::uint32_t i = 0; i < route.count && PassesWaypoint(state, route, position); ++i) {
-    ++state.waypoint;
-    if (route.loop && state.waypoint == route.count) state.waypoint = 0;
-    state.nearest_m = kNoGoal_m;
-    state.aimless_ticks = 0;
+OwnCourse LookAhead(const OwnPose& pose, const VehicleOptions& options, RouteProgress* route,
+                    GoalProgress* progress) {
+  const Vec2 position = pose.world_from_body.position_world;
+  PassWaypoints(options.route, position, route, progress);
+  OwnCourse course{.path = {position, pose.forward_world}, .distance_to_goal_m = kNoGoal_m};
+  const bool on_route = route->waypoint < options.route.count;
+  if (on_route || options.goal.set) {
+    const Vec2 to =
+        on_route ? options.route.waypoints_world[route->waypoint] : options.goal.at_world;
+    const Vec2 way = to - position;
+    course.distance_to_goal_m = Norm(way);
+    course.stops_there = !on_route;
+    if (course.distance_to_goal_m > 0) {
+      course.path.direction_world = (1 / course.distance_to_goal_m) * way;
+    }
+    NoteArrival(course, pose, options, route, progress);
   }
-  const bool on_route = state.waypoint < route.count;
-  if (!on_route && !options_.goal.set) return;
-  const Vec2 way =
-      (on_route ? route.waypoints_world[state.waypoint] : options_.goal.at_world) - position;
-  s->distance_to_goal_m = Norm(way);
-  s->stops_there = !on_route;
-  if (s->distance_to_goal_m > 0) s->path.direction_world = (1 / s->distance_to_goal_m) * way;
-  // Well inside the radius, so that the truth is inside too.
-  if (!on_route && s->distance_to_goal_m <= options_.goal.radius_m / 2) state.arrived = true;
-  // A fix may say that it was not there.
-  const bool shown = options_.profile.pose_fix.Fitted();
-  const double surely_m = s->distance_to_goal_m - SigmaPosition(s->covariance);
-  if (!state.arrived || !shown || surely_m <= options_.goal.radius_m) return;
-  state.arrived = false;
-  state.nearest_m = kNoGoal_m;
-  state.aimless_ticks = 0;
+  course.path_rad = route->way.Of(course.path.direction_world);
+  course.arrived = route->arrived;
+  return course;
 }
+
+namespace {
 
 // Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand
 // in each other's way, or before something that it hears and cannot place. A queue that closes to a
-// circle is none.
-void Vehicle::NoteCaught(Situation* s, bool queues) {
-  VehicleState& state = *state_;
-  const Vec2 moved = s->world_from_body.position_world - state.caught_world;
-  if (!s->aimless || SquaredNorm(moved) > kCaughtWithin_m * kCaughtWithin_m) {
-    state.caught_world = s->world_from_body.position_world;
-    state.caught_ticks = 0;
-    return;
+// circle is none. Returns `tries` of Escape.
+int NoteCaught(const OwnView& s, bool no_progress, bool queues, bool in_ring,
+               GoalProgress* progress) {
+  const Vec2 moved = s.world_from_body.position_world - progress->caught_world;
+  if (!no_progress || SquaredNorm(moved) > kCaughtWithin_m * kCaughtWithin_m) {
+    progress->caught_world = s.world_from_body.position_world;
+    progress->caught_ticks = 0;
+    return -1;
   }
-  if (queues && !IsBehind(state.blocked_by, options_.id, s->peers)) return;
-  state.caught_ticks += s->new_tick ? 1 : 0;
-  if (state.caught_ticks < kCaughtTicks) return;
-  s->tries = static_cast<int>((state.caught_ticks - kCaughtTicks) / kAwayTicks);
+  if (queues && !in_ring) return -1;
+  progress->caught_ticks += s.new_tick ? 1 : 0;
+  if (progress->caught_ticks < kCaughtTicks) return -1;
+  return static_cast<int>((progress->caught_ticks - kCaughtTicks) / kAwayTicks);
 }
 
-// Where steering round what stands leads nowhere, the way is looked up on a map of it.
-void Vehicle::Detour(Situation* s) {
-  VehicleState& state = *state_;
-  if (s->distance_to_goal_m < state.nearest_m - kProgress_m) {
-    state.nearest_m = s->distance_to_goal_m;
-    state.aimless_ticks = 0;
-    state.detour_tick = kNoTick;
+// Where the path past all that stand leads first.
+std::optional<Vec2> WayRound(const OwnView& s, std::span<const PeerView> peers) {
+  std::array<KeepOut, 64> discs;
+  std::size_t count = 0;
+  for (const PeerView& view : peers) {
+    const double room_m = RoomBeside(view, s);
+    if (count == discs.size() || !view.standing) continue;
+    discs[count++] = {view.position_world, room_m};
   }
-  if (IsGiveWay(state.decision.rule) || state.decision.rule == Rule::kSignal || s->lost) return;
+  return FirstTurn(s.world_from_body.position_world, Toward(s), {discs.data(), count});
+}
+
+}  // namespace
+
+Escape Detour(const OwnView& s, const PeersNow& near, const LastStep& last, GoalProgress* of) {
+  GoalProgress& progress = *of;
+  Escape escape;
+  if (s.distance_to_goal_m < progress.nearest_m - kProgress_m) {
+    progress.nearest_m = s.distance_to_goal_m;
+    progress.aimless_ticks = 0;
+    progress.detour_tick = kNoTick;
+  }
+  const Rule rule = last.decision.rule;
+  if (IsGiveWay(rule) || rule == Rule::kSignal || s.lost) return escape;
   // Nor does it look for a way while it hears nothing. Where ultrasonics are exact this counts on:
   // what was recorded of them replays bit for bit.
-  if (state.decision.rule == Rule::kRangesStale && Remembers(options_)) return;
-  const bool queues =
-      state.caught_ticks < kCaughtTicks && std::ranges::any_of(s->peers, [](const PeerView& view) {
-        return view.leads && view.gap_m < kQueued_m;
-      });
+  if (rule == Rule::kRangesStale && Remembers(s.options)) return escape;
+  const bool queues = progress.caught_ticks < kCaughtTicks &&
+                      std::ranges::any_of(near.peers, [](const PeerView& view) {
+                        return view.leads && view.gap_m < kQueued_m;
+                      });
   // Nor does it look about there more often, or it would end up across the lane.
-  if (queues && Number(s->tick) % kQueuePatience != 0) return;
-  state.aimless_ticks += s->new_tick ? 1 : 0;
-  if (s->distance_to_goal_m >= kNoGoal_m || state.arrived) return;
-  if (Has(Defect::kPatienceDropped)) state.aimless_ticks += 1000;
+  if (queues && Number(s.tick) % kQueuePatience != 0) return escape;
+  progress.aimless_ticks += s.new_tick ? 1 : 0;
+  if (s.distance_to_goal_m >= kNoGoal_m || s.arrived) return escape;
+  if (Has(Defect::kPatienceDropped)) progress.aimless_ticks += 1000;
   const std::uint32_t away_ticks =
-      state.away_tick == kNoTick ? kStuckTicks + 1 : TicksBetween(state.away_tick, s->tick);
-  s->aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoProgress_s ||
-               away_ticks <= kStuckTicks;
-  s->very_aimless = Seconds(state.aimless_ticks * options_.tick_period) >= kNoPatience_s;
-  NoteCaught(s, queues);
-  if (!s->aimless) return;
-  if (away_ticks <= kAwayTicks) s->away_rad = state.away_rad;
-  if (state.detour_tick == kNoTick || TicksBetween(state.detour_tick, s->tick) >= kDetourTicks) {
-    std::array<KeepOut, 64> discs;
-    std::size_t count = 0;
-    for (const PeerView& view : s->peers) {
-      const double room_m = RoomBeside(view, *s);
-      if (count == discs.size() || !view.standing) continue;
-      discs[count++] = {view.position_world, room_m};
-    }
-    const auto turn =
-        FirstTurn(s->world_from_body.position_world, Toward(*s), {discs.data(), count});
-    state.detour_tick = turn ? s->tick : kNoTick;
-    if (turn) state.detour_world = *turn;
+      progress.away_tick == kNoTick ? kStuckTicks + 1 : TicksBetween(progress.away_tick, s.tick);
+  const double aimless_s = Seconds(progress.aimless_ticks * s.options.tick_period);
+  const bool no_progress = aimless_s >= kNoProgress_s || away_ticks <= kStuckTicks;
+  escape.aimless = no_progress;
+  escape.very_aimless = aimless_s >= kNoPatience_s;
+  const bool in_ring = queues && no_progress && IsBehind(last.blocked_by, s.options.id, near.peers);
+  escape.tries = NoteCaught(s, no_progress, queues, in_ring, &progress);
+  if (!no_progress) return escape;
+  if (away_ticks <= kAwayTicks) escape.away_rad = progress.away_rad;
+  if (progress.detour_tick == kNoTick ||
+      TicksBetween(progress.detour_tick, s.tick) >= kDetourTicks) {
+    const std::optional<Vec2> turn = WayRound(s, near.peers);
+    progress.detour_tick = turn ? s.tick : kNoTick;
+    if (turn) progress.detour_world = *turn;
   }
-  if (state.detour_tick != kNoTick) s->detour_world = state.detour_world;
+  if (progress.detour_tick != kNoTick) escape.detour_world = progress.detour_world;
+  return escape;
 }
 
 }  // namespace giveway

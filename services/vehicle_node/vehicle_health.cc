@@ -39,9 +39,9 @@ void VehicleHealthTeller::Turned(const link::Taken& taken,
 void VehicleHealthTeller::Reported(const VehicleStatus& status, const VehicleState& brain) {
   VehicleHealth& now = service_.Now();
   now.status = status;
-  now.pose_sigma_m = SigmaPosition(PromisedCovariance(brain.odometry, brain.pose));
-  now.fixes_used = brain.pose.fixes_used;
-  now.fixes_refused = brain.pose.fixes_refused;
+  now.pose_sigma_m = SigmaPosition(PromisedCovariance(brain.motion.odometry, brain.motion.pose));
+  now.fixes_used = brain.motion.pose.fixes_used;
+  now.fixes_refused = brain.motion.pose.fixes_refused;
 }
 
 void VehicleHealthTeller::Leaves() {

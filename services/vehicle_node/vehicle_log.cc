@@ -10,7 +10,7 @@ namespace giveway {
 namespace {
 
 bool HasLeft(VehicleId peer, const Vehicle& vehicle) {
-  const auto peers = vehicle.State().peers.Peers();
+  const auto peers = vehicle.State().heard.peers.Peers();
   const auto found = std::ranges::find(peers, peer, &Peer::id);
   return found != peers.end() && found->left;
 }
@@ -58,7 +58,7 @@ void VehicleLog::TellOfRefusals(std::span<const ReceivedBeacon> beacons, const V
 
 void VehicleLog::TellOfBeacons(const Vehicle& vehicle, const VehicleOptions& options,
                                SteadyTime now, SteadyTime woke) {
-  beacon_news_.Look(vehicle.State().peers.Peers(), now, vehicle.State().tick, options);
+  beacon_news_.Look(vehicle.State().heard.peers.Peers(), now, vehicle.State().world.tick, options);
   for (const BeaconNewsItem& item : beacon_news_.Items()) {
     const bool is_trouble = item.kind == BeaconNewsKind::kStale;
     is_trouble ? LogWarning(Describe(item), woke) : LogInfo(Describe(item), woke);

@@ -106,26 +106,26 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::DriveLin
   const link::VehicleLinkCounters counters = link.Counters();
   const link::EffectiveBeaconQos qos = link.BeaconQos();
   VehicleStatus status;
-  status.vehicle = state.order.vehicle;
-  status.epoch = state.epoch;
-  status.tick = state.tick;
-  status.decision = state.decision;
-  status.gives_way_to = state.gives_way_to;
+  status.vehicle = state.waiting.order.vehicle;
+  status.epoch = state.world.epoch;
+  status.tick = state.world.tick;
+  status.decision = state.last.decision;
+  status.gives_way_to = state.published.gives_way_to;
   status.forward_m_s = vehicle.SpeedMps();
-  const double nearest = state.ranges.NearestEcho();
+  const double nearest = state.sensed.ranges.NearestEcho();
   if (nearest >= 0) status.nearest_echo_m = nearest;
   status.peers_heard = vehicle.PeersHeard();
-  status.beacons = state.beacons;
-  status.trust = state.trust;
+  status.beacons = state.counters.beacons;
+  status.trust = state.counters.trust;
   status.beacons_superseded = counters.beacons_superseded;
-  status.qos = state.qos;
-  status.last_deadline_missed = state.peers.LastDeadlineMissed();
-  status.last_liveliness_lost = state.peers.LastLivelinessLost();
+  status.qos = state.counters.qos;
+  status.last_deadline_missed = state.heard.peers.LastDeadlineMissed();
+  status.last_liveliness_lost = state.heard.peers.LastLivelinessLost();
   if (last_event_) {
     status.last_event = last_event_->kind;
     status.last_event_about = last_event_->vehicle;
   }
-  status.last_rejected_id = Number(state.peers.LastRejected());
+  status.last_rejected_id = Number(state.heard.peers.LastRejected());
   status.step_p99_us = StepP99Us();
   status.loop_max_ms = longest_turn_ms_;
   status.beacon_deadline_offered_ms = qos.deadline_offered_ms;

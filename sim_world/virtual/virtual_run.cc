@@ -61,7 +61,7 @@ void Conclude(const VirtualFleet& fleet, const Invariants& invariants, VirtualOu
   hash.Add(fleet.CommandsHash());
   for (std::size_t i = 0; i < fleet.Size(); ++i) {
     hash.Add(fleet.Brain(i).Hash());
-    outcome->trust += fleet.Brain(i).State().trust;
+    outcome->trust += fleet.Brain(i).State().counters.trust;
   }
   outcome->hash = hash.Value();
 }

@@ -45,7 +45,7 @@ class Session {
   }
 
   void Step(const Record& record) {
-    const BeaconCounters before = brain_.State().beacons;
+    const BeaconCounters before = brain_.State().counters.beacons;
     now_ += std::chrono::milliseconds(record.Says(kLate) ? 300 : 50);
     Inputs inputs{.now = now_, .beacons = heard_};
     if (!record.Says(kBlind)) {
@@ -68,11 +68,11 @@ class Session {
   }
 
   void CheckCounters(const BeaconCounters& before) const {
-    const BeaconCounters& now = brain_.State().beacons;
+    const BeaconCounters& now = brain_.State().counters.beacons;
     GIVEWAY_CHECK(now.taken == before.taken + heard_.size(), now.taken, before.taken);
     GIVEWAY_CHECK(now.taken == now.accepted + now.not_heard + now.Rejected(), now.taken,
                   now.accepted, now.not_heard, now.Rejected());
-    GIVEWAY_CHECK(brain_.PeersHeard() <= brain_.State().peers.Peers().size());
+    GIVEWAY_CHECK(brain_.PeersHeard() <= brain_.State().heard.peers.Peers().size());
   }
 
   VehicleOptions options_;

@@ -43,7 +43,7 @@ class Session {
     constexpr int kSteps = 4;
     for (int i = 0; i < kSteps; ++i) {
       now_ += options_.tick_period;
-      RangeScan scan = test::ClearScan(Number(brain_.State().tick) + 1);
+      RangeScan scan = test::ClearScan(Number(brain_.State().world.tick) + 1);
       scan.epoch = epoch_;
       Step({.now = now_, .scan = scan});
     }
@@ -85,7 +85,7 @@ class Session {
     Beacon beacon =
         test::BeaconOf(2, 1 + static_cast<std::uint32_t>(hashes_.size()), {{1.5, 1.0}, -kPi / 2});
     beacon.wheels = {3, 3};
-    beacon.tick = brain_.State().tick;
+    beacon.tick = brain_.State().world.tick;
     beacon.world_epoch = epoch_;
     return test::Received(beacon, now_);
   }

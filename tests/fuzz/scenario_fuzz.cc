@@ -23,7 +23,7 @@ void CheckDrives(const Scenario& scenario) {
     running = fleet.Advance();
     for (std::size_t i = 0; i < scenario.vehicles.size(); ++i) {
       CheckOutputs(fleet.Said(i), scenario.vehicles[i]);
-      GIVEWAY_CHECK(fleet.Brain(i).State().beacons.Rejected() == 0, i);
+      GIVEWAY_CHECK(fleet.Brain(i).State().counters.beacons.Rejected() == 0, i);
     }
   }
 }

@@ -11,17 +11,17 @@ namespace giveway::test {
 class Onlooker {
  public:
   explicit Onlooker(const VehicleOptions& options = DefaultOptions()) : options_(options) {
-    situation_.tick = Tick{2};
-    situation_.forward_world = {1, 0};
-    situation_.path = {{0, 0}, {1, 0}};
-    situation_.distance_to_goal_m = 100;
-    situation_.reaction_s = ReactionSeconds(options_);
-    situation_.slows_m = 10;
-    situation_.looks_m = LooksAround(options_.profile);
+    own_.tick = Tick{2};
+    own_.forward_world = {1, 0};
+    own_.path = {{0, 0}, {1, 0}};
+    own_.distance_to_goal_m = 100;
+    own_.reaction_s = ReactionSeconds(options_);
+    own_.slows_m = 10;
+    own_.looks_m = LooksAround(options_.profile);
   }
-  Onlooker(const Onlooker&) = delete;  // the situation refers to the others
+  Onlooker(const Onlooker&) = delete;  // its view refers to the others
 
-  const giveway::Situation& Situation() const { return situation_; }
+  const OwnView& Own() const { return own_; }
 
   // One echo, and nothing else.
   void Hear(std::size_t sensor, double range_m) {
@@ -29,14 +29,15 @@ class Onlooker {
     SetEcho(&scan, static_cast<int>(sensor), range_m);
     ranges_ = {};
     ranges_.Take(scan, SteadyTime{0}, options_.tick_period);
-    HearEchoes(ranges_, situation_.tick, options_, &echoes_);
+    HearEchoes(ranges_, own_.tick, options_, &echoes_);
   }
 
   // The view refers to the peer.
   PeerView LookAt(Peer* peer) const {
-    PeerView view{.peer = peer, .fresh = IsFresh(*peer, {}, situation_.tick, options_)};
-    CarryForward({&view, 1}, situation_);
-    giveway::LookAt(&view, situation_);
+    PeerView view{};
+    view.peer = peer;
+    view.fresh = IsFresh(*peer, {}, own_.tick, options_);
+    giveway::LookAt(CarryForward(PeerViews<HeardPeer>({&view, 1}), own_), own_);
     return view;
   }
 
@@ -46,11 +47,13 @@ class Onlooker {
   HeardEchoes echoes_{};
   SeenObjects objects_;
   Cones cones_ = ConesOf(options_.profile);
-  giveway::Situation situation_{.options = options_,
-                                .ranges = ranges_,
-                                .echoes = echoes_,
-                                .cones = cones_,
-                                .objects = objects_};
+  OwnView own_{{},
+               {},
+               {},
+               {},
+               {.ranges = ranges_, .echoes = echoes_, .cones = cones_, .objects = objects_},
+               {},
+               options_};
 };
 
 // One that told so with the tick before.

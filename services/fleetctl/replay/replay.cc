@@ -95,12 +95,12 @@ class Tracer {
   ReplayWatcher Watcher() {
     return [this](const RecordedStep& step, const Vehicle& brain, const Outputs& said) {
       if (!begun_) begun_ = step.now;
-      AppendLine({.tick = brain.State().tick,
+      AppendLine({.tick = brain.State().world.tick,
                   .time_s = Seconds(step.now - *begun_),
                   .vehicle = said.command.vehicle,
                   .world_from_body = said.beacon.world_from_body,
                   .forward_m_s = brain.SpeedMps(),
-                  .arrived = brain.State().arrived},
+                  .arrived = brain.State().route.arrived},
                  said, &text_);
     };
   }

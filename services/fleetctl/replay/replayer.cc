@@ -53,7 +53,7 @@ std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcom
     if (AreBytesOf(image.state, brain_->State())) return "";
     outcome->difference = {
         outcome->steps,
-        brain_->State().tick,
+        brain_->State().world.tick,
         {"state", fmt::format("{:016x}", image.hash), fmt::format("{:016x}", brain_->Hash())}};
     return "";
   }
@@ -102,7 +102,8 @@ void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFil
     const Outputs replayed = brain_->Step(step.AsInputs());
     if (watch) watch(step, *brain_, replayed);
     if (auto difference = Compare(step, replayed, brain_->Hash())) {
-      outcome->difference = {outcome->steps + 1, brain_->State().tick, std::move(*difference)};
+      outcome->difference = {outcome->steps + 1, brain_->State().world.tick,
+                             std::move(*difference)};
       return;
     }
     ++outcome->steps;

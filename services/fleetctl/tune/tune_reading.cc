@@ -21,13 +21,13 @@ class Reader {
 
   void See(SteadyTime now, const VehicleState& state) {
     const bool counts = now >= window_.from && now <= window_.to;
-    if (counts) NoteTold(state.qos);
+    if (counts) NoteTold(state.counters.qos);
     // To the end: a machine that stands still while a target's silence is waited for makes it late.
     if (reading_.last_step > window_.from) {
       reading_.longest_pause = std::max(reading_.longest_pause, now - reading_.last_step);
     }
     reading_.last_step = now;
-    for (const Peer& peer : state.peers.Peers()) SeePeer(peer, now, state.tick, counts);
+    for (const Peer& peer : state.heard.peers.Peers()) SeePeer(peer, now, state.world.tick, counts);
   }
 
  private:

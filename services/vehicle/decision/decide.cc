@@ -19,36 +19,37 @@ bool IsAvoiding(Behaviour behaviour) {
 
 // The ladder: how much of what a decision wants to know is known.
 Mode ModeOf(const Situation& s) {
-  if (s.leaving) return Mode::kLeaving;
-  if (s.blind_sensor >= 0 || s.lost) return Mode::kHalt;
-  return s.deaf || s.someone_lost || s.someone_doubted ? Mode::kSensorOnly : Mode::kCooperative;
+  if (s.own.leaving) return Mode::kLeaving;
+  if (s.own.blind_sensor >= 0 || s.own.lost) return Mode::kHalt;
+  return s.movers.deaf || s.near.someone_lost || s.near.someone_doubted ? Mode::kSensorOnly
+                                                                        : Mode::kCooperative;
 }
 
 Action AvoidingAction(const Situation& s) {
-  const Avoidance avoidance = Avoid(s.options.braitenberg, s.ranges);
+  const Avoidance avoidance = Avoid(s.own.options.braitenberg, s.own.ranges);
   Action action{.target = avoidance.wheels};
   action.decision.rule = avoidance.sensor >= 0 ? Rule::kAvoid : Rule::kCruise;
   action.decision.sensor = avoidance.sensor;
-  action.decision.cause_tick = avoidance.sensor >= 0 ? s.tick : kNoTick;
+  action.decision.cause_tick = avoidance.sensor >= 0 ? s.own.tick : kNoTick;
   return action;
 }
 
 // The turn that this vehicle is too fast for, if it is.
 std::optional<TurnLimit> TurnTooFast(const Steering& steering, const Situation& s) {
-  if (s.options.behaviour != Behaviour::kCooperative) return std::nullopt;
+  if (s.own.options.behaviour != Behaviour::kCooperative) return std::nullopt;
   const std::optional<TurnLimit> turn = LimitOfTurn(steering, s);
-  return turn && turn->max_speed_m_s < s.speed_m_s ? turn : std::nullopt;
+  return turn && turn->max_speed_m_s < s.own.speed_m_s ? turn : std::nullopt;
 }
 
 // Drives to the goal no faster than `limit`, slowing so that it can stop there.
 Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
-  const VehicleProfile& profile = s.options.profile;
+  const VehicleProfile& profile = s.own.options.profile;
   Steering steering = SteerToGoal(s);
   Action action;
-  double speed = s.options.cruise_m_s;
-  if (s.stops_there) {
-    speed = std::min(
-        speed, SpeedToStopWithin(s.distance_to_goal_m, s.reaction_s, profile.deceleration_m_s2));
+  double speed = s.own.options.cruise_m_s;
+  if (s.own.stops_there) {
+    speed = std::min(speed, SpeedToStopWithin(s.own.distance_to_goal_m, s.own.reaction_s,
+                                              profile.deceleration_m_s2));
   }
   action.decision.rule = Rule::kCruise;
   if (steering.round != kNobody) {
@@ -77,8 +78,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   action.blocked_by = steering.blocked_by;
   action.steer_side = steering.side;
   action.away_rad = steering.away_rad;
-  action.target = Drive(profile, {s.speed_m_s, s.turn_rad_s}, steering,
-                        {speed, may_turn, Seconds(s.options.tick_period)});
+  action.target = Drive(profile, {s.own.speed_m_s, s.own.turn_rad_s}, steering,
+                        {speed, may_turn, Seconds(s.own.options.tick_period)});
   return action;
 }
 
@@ -103,7 +104,7 @@ bool IsToldBeforeLight(Rule rule) {
 bool StandsAtLine(const StopLine& line, const Situation& s) {
   constexpr double kTellWithin_m = 2.5;
   return line.free_m < kTellWithin_m &&
-         std::none_of(s.peers.begin(), s.peers.end(), [&line](const PeerView& view) {
+         std::none_of(s.near.peers.begin(), s.near.peers.end(), [&line](const PeerView& view) {
            return view.conflict && view.conflict->own.begin_m < line.free_m;
          });
 }
@@ -112,11 +113,13 @@ bool StandsAtLine(const StopLine& line, const Situation& s) {
 
 Action Decide(const Situation& s) {
   const std::optional<Proposal> limit = MostRestrictive(s);
-  const bool avoids = IsAvoiding(s.options.behaviour) && !limit;
+  const bool avoids = IsAvoiding(s.own.options.behaviour) && !limit;
   Action action = avoids ? AvoidingAction(s) : DrivingAction(s, limit);
-  if (s.options.behaviour == Behaviour::kLecturePrinted && !limit) action = AsPrinted(s, action);
-  if (s.stop_line && !IsToldBeforeLight(action.decision.rule) && StandsAtLine(*s.stop_line, s)) {
-    action.decision = {.rule = Rule::kSignal, .cause_tick = s.stop_line->tick};
+  if (s.own.options.behaviour == Behaviour::kLecturePrinted && !limit)
+    action = AsPrinted(s, action);
+  if (s.own.stop_line && !IsToldBeforeLight(action.decision.rule) &&
+      StandsAtLine(*s.own.stop_line, s)) {
+    action.decision = {.rule = Rule::kSignal, .cause_tick = s.own.stop_line->tick};
   }
   action.decision.mode = ModeOf(s);
   return action;
@@ -124,8 +127,8 @@ Action Decide(const Situation& s) {
 
 VehicleId GivesWayTo(const Situation& s) {
   const PeerView* nearest = nullptr;
-  for (const PeerView& view : s.peers) {
-    if (!view.peer->encounter.active || !view.fresh || !CanGiveWay(view, s)) continue;
+  for (const PeerView& view : s.near.peers) {
+    if (!view.peer->encounter.active || !view.fresh || !CanGiveWay(view, s.own)) continue;
     if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
   }
   return nearest == nullptr ? kNobody : nearest->peer->id;

@@ -11,10 +11,10 @@ double Compared(WheelSpeeds wheels) {
 // The nearest echo within the gate, of whatever it may be; -1 where there is none.
 int CriticalSensor(const Situation& s) {
   int critical = -1;
-  double nearest_m = s.options.gate_enter_m;
+  double nearest_m = s.own.options.gate_enter_m;
   for (std::size_t i = 0; i < kSensorCount; ++i) {
-    if (s.ranges[i].kind != Echo::kEcho || s.ranges[i].range_m >= nearest_m) continue;
-    nearest_m = s.ranges[i].range_m;
+    if (s.own.ranges[i].kind != Echo::kEcho || s.own.ranges[i].range_m >= nearest_m) continue;
+    nearest_m = s.own.ranges[i].range_m;
     critical = static_cast<int>(i);
   }
   return critical;
@@ -25,10 +25,10 @@ int CriticalSensor(const Situation& s) {
 Action AsPrinted(const Situation& s, const Action& wanted) {
   const LastHeard& peer = s.last_heard;
   const int sensor = CriticalSensor(s);
-  if (sensor < 0 || Compared(s.wheels) > Compared(peer.wheels)) return wanted;
+  if (sensor < 0 || Compared(s.own.wheels) > Compared(peer.wheels)) return wanted;
   Action copied{.target = peer.wheels};
   copied.decision = {
-      .rule = Rule::kGiveWay, .peer = peer.vehicle, .sensor = sensor, .cause_tick = s.tick};
+      .rule = Rule::kGiveWay, .peer = peer.vehicle, .sensor = sensor, .cause_tick = s.own.tick};
   return copied;
 }
 

@@ -15,9 +15,9 @@ Proposal DeadStop(Rule rule) { return {.max_speed_m_s = 0, .may_turn = false, .r
 // A dead stop for the nearest peer that this vehicle holds for and `applies` to.
 template <typename Predicate>
 std::optional<Proposal> HoldFor(Rule rule, const Situation& s, Predicate applies) {
-  if (!s.holds) return std::nullopt;
+  if (!s.near.encounters.holds) return std::nullopt;
   const PeerView* nearest = nullptr;
-  for (const PeerView& view : s.peers) {
+  for (const PeerView& view : s.near.peers) {
     if (!view.peer->encounter.holds || !applies(view)) continue;
     if (nearest == nullptr || view.gap_m < nearest->gap_m) nearest = &view;
   }
@@ -48,33 +48,33 @@ std::optional<Proposal> LowestOf(const Situation& s) {
 std::optional<Proposal> HeardPlace(const Situation& s) {
   const std::optional<double> free_m = FreeOfPlaces({1, 0}, s);
   if (!free_m || Has(Defect::kObstacleIgnored)) return std::nullopt;
-  const double limit =
-      SpeedToStopWithin(*free_m - kStandOff_m, s.reaction_s, s.options.profile.deceleration_m_s2);
-  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  const double limit = SpeedToStopWithin(*free_m - kStandOff_m, s.own.reaction_s,
+                                         s.own.options.profile.deceleration_m_s2);
+  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
   return Proposal{.max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObstacle};
 }
 
 }  // namespace
 
 std::optional<Proposal> Leaving(const Situation& s) {
-  if (!s.leaving && !s.halting) return std::nullopt;
+  if (!s.own.leaving && !s.own.halting) return std::nullopt;
   return DeadStop(Rule::kLeaving);
 }
 
 std::optional<Proposal> NotRunning(const Situation& s) {
-  if (s.run_state == RunState::kRunning) return std::nullopt;
+  if (s.own.run_state == RunState::kRunning) return std::nullopt;
   return DeadStop(Rule::kNotRunning);
 }
 
 std::optional<Proposal> RangesStale(const Situation& s) {
-  if (s.blind_sensor < 0) return std::nullopt;
+  if (s.own.blind_sensor < 0) return std::nullopt;
   Proposal proposal = DeadStop(Rule::kRangesStale);
-  proposal.sensor = s.blind_sensor < static_cast<int>(kSensorCount) ? s.blind_sensor : -1;
+  proposal.sensor = s.own.blind_sensor < static_cast<int>(kSensorCount) ? s.own.blind_sensor : -1;
   return proposal;
 }
 
 std::optional<Proposal> Arrived(const Situation& s) {
-  if (!s.arrived) return std::nullopt;
+  if (!s.own.arrived) return std::nullopt;
   return DeadStop(Rule::kArrived);
 }
 
@@ -93,45 +93,45 @@ std::optional<Proposal> PeerLost(const Situation& s) {
 }
 
 std::optional<Proposal> Signal(const Situation& s) {
-  if (!s.stop_line || Has(Defect::kSignalIgnored)) return std::nullopt;
-  return Proposal{.max_speed_m_s = SpeedToStopWithin(s.stop_line->free_m, s.reaction_s,
-                                                     s.options.profile.deceleration_m_s2),
+  if (!s.own.stop_line || Has(Defect::kSignalIgnored)) return std::nullopt;
+  return Proposal{.max_speed_m_s = SpeedToStopWithin(s.own.stop_line->free_m, s.own.reaction_s,
+                                                     s.own.options.profile.deceleration_m_s2),
                   .may_turn = false,
                   .rule = Rule::kSignal,
-                  .cause_tick = s.stop_line->tick};
+                  .cause_tick = s.own.stop_line->tick};
 }
 
 std::optional<Proposal> Object(const Situation& s) {
-  const std::optional<ObjectAhead> object = NearestObstacle(s.objects, s);
+  const std::optional<ObjectAhead> object = NearestObstacle(s.own.objects, s);
   if (!object) return std::nullopt;
-  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, s.reaction_s,
-                                         s.options.profile.deceleration_m_s2);
-  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  const double limit = SpeedToStopWithin(object->free_m - kStandOff_m, s.own.reaction_s,
+                                         s.own.options.profile.deceleration_m_s2);
+  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
   return Proposal{
       .max_speed_m_s = limit, .may_turn = true, .rule = Rule::kObject, .cause_tick = object->tick};
 }
 
 std::optional<Proposal> Deaf(const Situation& s) {
-  if (!s.deaf || Has(Defect::kMoverIgnored)) return std::nullopt;
+  if (!s.movers.deaf || Has(Defect::kMoverIgnored)) return std::nullopt;
   Proposal proposal = DeadStop(Rule::kDeaf);
-  proposal.sensor = s.deaf_sensor;
-  proposal.cause_tick = s.tick;
+  proposal.sensor = s.movers.deaf_sensor;
+  proposal.cause_tick = s.own.tick;
   return proposal;
 }
 
 std::optional<Proposal> Obstacle(const Situation& s) {
   std::optional<Proposal> nearest;
-  for (const std::size_t i : BitsOf(s.ranges.Echoes())) {
+  for (const std::size_t i : BitsOf(s.own.ranges.Echoes())) {
     const std::optional<double> free_m = FreeAhead(i, s);
     if (!free_m || Has(Defect::kObstacleIgnored)) continue;
-    const double limit =
-        SpeedToStopWithin(*free_m - kStandOff_m, s.reaction_s, s.options.profile.deceleration_m_s2);
-    if (limit >= s.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
+    const double limit = SpeedToStopWithin(*free_m - kStandOff_m, s.own.reaction_s,
+                                           s.own.options.profile.deceleration_m_s2);
+    if (limit >= s.own.options.cruise_m_s || (nearest && limit >= nearest->max_speed_m_s)) continue;
     nearest = Proposal{.max_speed_m_s = limit,
                        .may_turn = true,
                        .rule = Rule::kObstacle,
                        .sensor = static_cast<int>(i),
-                       .cause_tick = s.tick};
+                       .cause_tick = s.own.tick};
   }
   const std::optional<Proposal> heard = HeardPlace(s);
   return heard && (!nearest || heard->max_speed_m_s < nearest->max_speed_m_s) ? heard : nearest;
@@ -139,12 +139,12 @@ std::optional<Proposal> Obstacle(const Situation& s) {
 
 std::optional<Proposal> KeepClear(const Situation& s) {
   std::optional<Proposal> lowest;
-  for (const PeerView& view : s.peers) {
-    if (view.free_m >= s.slows_m || Has(Defect::kClaimIgnored)) continue;
+  for (const PeerView& view : s.near.peers) {
+    if (view.free_m >= s.own.slows_m || Has(Defect::kClaimIgnored)) continue;
     if (Has(Defect::kBrakesTooLate) && view.free_m > 0) continue;
     const double limit =
-        SpeedToStopWithin(view.free_m, s.reaction_s, s.options.profile.deceleration_m_s2);
-    if (limit >= s.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
+        SpeedToStopWithin(view.free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
+    if (limit >= s.own.options.cruise_m_s || (lowest && limit >= lowest->max_speed_m_s)) continue;
     lowest = Proposal{.max_speed_m_s = limit,
                       .may_turn = true,
                       .rule = Rule::kKeepClear,
@@ -155,20 +155,20 @@ std::optional<Proposal> KeepClear(const Situation& s) {
 }
 
 std::optional<Proposal> KeepBoxClear(const Situation& s) {
-  if (!s.blocked_box) return std::nullopt;
-  const double limit = SpeedToStopWithin(s.blocked_box->begin_m - kInHand_m, s.reaction_s,
-                                         s.options.profile.deceleration_m_s2);
-  if (limit >= s.options.cruise_m_s) return std::nullopt;
+  if (!s.near.blocked_box) return std::nullopt;
+  const double limit = SpeedToStopWithin(s.near.blocked_box->begin_m - kInHand_m, s.own.reaction_s,
+                                         s.own.options.profile.deceleration_m_s2);
+  if (limit >= s.own.options.cruise_m_s) return std::nullopt;
   return Proposal{.max_speed_m_s = limit,
                   .may_turn = true,
                   .rule = Rule::kKeepClear,
-                  .peer = s.blocked_box->by,
-                  .cause_tick = s.blocked_box->told};
+                  .peer = s.near.blocked_box->by,
+                  .cause_tick = s.near.blocked_box->told};
 }
 
 // The more telling reason comes first in each list.
 std::optional<Proposal> MostRestrictive(const Situation& s) {
-  switch (s.options.behaviour) {
+  switch (s.own.options.behaviour) {
     case Behaviour::kLectureAvoid:
     case Behaviour::kStockAvoid:
     case Behaviour::kLecturePrinted:

@@ -57,7 +57,7 @@ bool Queues(const PeerView& view, const Situation& s) {
   constexpr double kSameWay = 0.87;  // the cosine of 30 degrees
   const double way_m = Norm(view.way_world);
   return way_m > 0.5 && view.fresh &&
-         Dot(view.way_world, s.path.direction_world) > kSameWay * way_m;
+         Dot(view.way_world, s.own.path.direction_world) > kSameWay * way_m;
 }
 
 // Stands only because another one does, and goes on with it.
@@ -68,12 +68,12 @@ bool IsHeldUp(const PeerView& view) {
 // Whom to steer round: whoever stands. One that comes first and could start at any time is left to
 // the right of way while it says that it will.
 bool StandsInTheWay(const PeerView& view, const Situation& s) {
-  if (s.options.behaviour != Behaviour::kCooperative) {
+  if (s.own.options.behaviour != Behaviour::kCooperative) {
     return view.fresh && view.standing && view.grants && !view.goes_first;
   }
   if (!view.standing || view.peer->left || Has(Defect::kSteersRoundNobody)) return false;
-  if (IsHeldUp(view) && !s.aimless) return false;
-  return !Queues(view, s) || (s.very_aimless && !view.at_signal);
+  if (IsHeldUp(view) && !s.escape.aimless) return false;
+  return !Queues(view, s) || (s.escape.very_aimless && !view.at_signal);
 }
 
 // Headings past which nothing gets within `way_m`.
@@ -82,13 +82,14 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   // Whoever stands on the very goal is waited for: there is no way round to where it stands. But
   // not by one that stands on the other's, nor for ever: three can stand so in a ring.
   const Vec2 target =
-      s.world_from_body.position_world + s.distance_to_goal_m * s.path.direction_world;
-  for (const PeerView& view : s.peers) {
+      s.own.world_from_body.position_world + s.own.distance_to_goal_m * s.own.path.direction_world;
+  for (const PeerView& view : s.near.peers) {
     if (!StandsInTheWay(view, s) || headings.count == headings.of.size()) continue;
-    const bool waited_for = !s.aimless && Occupies(view, target, s) && !IsOnGoalOf(view, s);
+    const bool waited_for =
+        !s.escape.aimless && Occupies(view, target, s.own) && !IsOnGoalOf(view, s.own);
     if (waited_for) continue;
     const double distance_m = view.distance_m;
-    const double clearance_m = RoomBeside(view, s);
+    const double clearance_m = RoomBeside(view, s.own);
     if (distance_m - clearance_m > way_m) continue;
     const double half_rad =
         distance_m > clearance_m
@@ -107,9 +108,9 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   constexpr double kHalf_rad = 0.6;
   constexpr double kTurnAway_rad = 0.15;  // at a time, from what stops the vehicle as it stands
   constexpr double kCreeps_m = 0.05;      // so near to where it would stop it comes no further
-  const VehicleProfile& profile = s.options.profile;
-  for (const std::size_t i : BitsOf(s.ranges.Echoes() & ~s.explained)) {
-    const SensorView& view = s.ranges[i];
+  const VehicleProfile& profile = s.own.options.profile;
+  for (const std::size_t i : BitsOf(s.own.ranges.Echoes() & ~s.near.explained)) {
+    const SensorView& view = s.own.ranges[i];
     if (view.range_m > kNear_m || headings->count == headings->of.size()) continue;
     const double bearing_rad = profile.sonar[i].bearing_rad;
     const std::optional<double> free_m = FreeAhead(i, s);
@@ -117,7 +118,7 @@ void AddEchoes(const Situation& s, BlockedHeadings* headings) {
     headings->echoes = true;
     headings->stops = headings->stops || stops;
     headings->of[headings->count++] = {
-        WrapAngle(s.world_from_body.heading_rad + bearing_rad),
+        WrapAngle(s.own.world_from_body.heading_rad + bearing_rad),
         std::max(kHalf_rad, stops ? Magnitude(bearing_rad) + kTurnAway_rad : 0), view.range_m,
         kNobody};
   }
@@ -130,7 +131,7 @@ void AddPlaces(const Situation& s, BlockedHeadings* headings) {
   constexpr double kPasses_m = 0.08;  // between the shell and the middle of a cell
   constexpr double kCreeps_m = 0.05;
   constexpr std::size_t kDirections = 32;
-  const double room_m = s.options.profile.body_radius_m + kPasses_m;
+  const double room_m = s.own.options.profile.body_radius_m + kPasses_m;
   std::array<const Vec2*, kDirections> nearest{};
   for (const Vec2& place : s.places) {
     if (SquaredNorm(place) > (room_m + kNear_m) * (room_m + kNear_m)) continue;
@@ -148,8 +149,8 @@ void AddPlaces(const Situation& s, BlockedHeadings* headings) {
                                 : kBesideIt_rad;
     headings->echoes = true;
     headings->of[headings->count++] = {
-        WrapAngle(s.world_from_body.heading_rad + Atan2(place->y, place->x)), half_rad, distance_m,
-        kNobody};
+        WrapAngle(s.own.world_from_body.heading_rad + Atan2(place->y, place->x)), half_rad,
+        distance_m, kNobody};
   }
 }
 
@@ -168,7 +169,7 @@ const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad,
 
 // The nearest vehicle on the straight way to the goal.
 VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
-  const Blocked* vehicle = BlockedAt(headings, s.path_rad, true);
+  const Blocked* vehicle = BlockedAt(headings, s.own.path_rad, true);
   return vehicle == nullptr ? kNobody : vehicle->peer;
 }
 
@@ -207,10 +208,11 @@ std::optional<double> WayOut(double wanted_rad, const Situation& s) {
   constexpr int kHeadings = 24;
   constexpr double kOut_m = 0.1;
   for (int i = 0; i < kHeadings; ++i) {
-    const double heading_rad = WrapAngle(wanted_rad + (s.tries + i) * kGoldenAngle_rad);
+    const double heading_rad = WrapAngle(wanted_rad + (s.escape.tries + i) * kGoldenAngle_rad);
     const Vec2 forward_world = {Cos(heading_rad), Sin(heading_rad)};
-    const bool leads_out = std::ranges::all_of(
-        s.peers, [&](const PeerView& view) { return FreeAlong(view, forward_world, s) >= kOut_m; });
+    const bool leads_out = std::ranges::all_of(s.near.peers, [&](const PeerView& view) {
+      return FreeAlong(view, forward_world, s.own) >= kOut_m;
+    });
     if (leads_out) return heading_rad;
   }
   return std::nullopt;
@@ -238,9 +240,9 @@ Turn TurnPast(const BlockedHeadings& headings, double wanted_rad, int side) {
 // the way of more.
 bool HasCompany(const Situation& s) {
   constexpr double kNear_m = 1;
-  return std::ranges::any_of(s.peers, [&s](const PeerView& view) {
+  return std::ranges::any_of(s.near.peers, [&s](const PeerView& view) {
     return view.gap_m < kNear_m && !view.peer->left &&
-           Dot(view.offset_world, s.path.direction_world) > 0;
+           Dot(view.offset_world, s.own.path.direction_world) > 0;
   });
 }
 
@@ -248,16 +250,16 @@ bool HasCompany(const Situation& s) {
 // too, it looks for another.
 std::optional<double> KeptHeading(const BlockedHeadings& headings, const Situation& s) {
   constexpr double kTurned_rad = 0.1;
-  if (!s.away_rad) return std::nullopt;
-  const double error_rad = WrapAngle(*s.away_rad - s.world_from_body.heading_rad);
+  if (!s.escape.away_rad) return std::nullopt;
+  const double error_rad = WrapAngle(*s.escape.away_rad - s.own.world_from_body.heading_rad);
   const bool stopped_there = headings.stops && Magnitude(error_rad) <= kTurned_rad;
-  return stopped_there ? std::nullopt : s.away_rad;
+  return stopped_there ? std::nullopt : s.escape.away_rad;
 }
 
 // True if the vehicle stands, and turns before it drives.
 bool TurnsOnTheSpot(double heading_rad, const Situation& s) {
-  const double error_rad = WrapAngle(heading_rad - s.world_from_body.heading_rad);
-  return s.speed_m_s < kStandingSpeed_m_s && Magnitude(error_rad) > kTurnOnTheSpot_rad;
+  const double error_rad = WrapAngle(heading_rad - s.own.world_from_body.heading_rad);
+  return s.own.speed_m_s < kStandingSpeed_m_s && Magnitude(error_rad) > kTurnOnTheSpot_rad;
 }
 
 double Activation(const BraitenbergWeights& weights, const SensorView& view) {
@@ -270,28 +272,28 @@ double Activation(const BraitenbergWeights& weights, const SensorView& view) {
 
 Steering SteerToGoal(const Situation& s) {
   Steering steering;
-  double wanted = s.path_rad;
-  double way_m = std::min(s.distance_to_goal_m, kLookAhead_m);
-  if (s.detour_world) {
-    const Vec2 way = *s.detour_world - s.world_from_body.position_world;
+  double wanted = s.own.path_rad;
+  double way_m = std::min(s.own.distance_to_goal_m, kLookAhead_m);
+  if (s.escape.detour_world) {
+    const Vec2 way = *s.escape.detour_world - s.own.world_from_body.position_world;
     wanted = Atan2(way.y, way.x);
     way_m = Norm(way);
   }
   double heading = wanted;
   BlockedHeadings headings = WhatBlocks(s, way_m);
-  if (s.aimless) {
+  if (s.escape.aimless) {
     AddEchoes(s, &headings);
     AddPlaces(s, &headings);
     steering.blocked_by = OnStraightWay(headings, s);
   }
-  if (s.tries >= 0 && !s.away_rad) steering.away_rad = WayOut(wanted, s);
+  if (s.escape.tries >= 0 && !s.escape.away_rad) steering.away_rad = WayOut(wanted, s);
   if (const auto kept = steering.away_rad ? steering.away_rad : KeptHeading(headings, s)) {
-    steering.side = s.steer_side;
-    steering.heading_error_rad = WrapAngle(*kept - s.world_from_body.heading_rad);
+    steering.side = s.own.steer_side;
+    steering.heading_error_rad = WrapAngle(*kept - s.own.world_from_body.heading_rad);
     return steering;
   }
   if (const Blocked* blocked = BlockedAt(headings, wanted)) {
-    const Turn turn = TurnPast(headings, wanted, s.steer_side);
+    const Turn turn = TurnPast(headings, wanted, s.own.steer_side);
     heading = turn.heading_rad;
     steering.round = blocked->peer;
     steering.side = WrapAngle(heading - wanted) > 0 ? 1 : -1;
@@ -300,7 +302,7 @@ Steering SteerToGoal(const Situation& s) {
       steering.away_rad = heading;
     }
   }
-  steering.heading_error_rad = WrapAngle(heading - s.world_from_body.heading_rad);
+  steering.heading_error_rad = WrapAngle(heading - s.own.world_from_body.heading_rad);
   return steering;
 }
 
@@ -353,33 +355,33 @@ double MostTurnOf(const VehicleProfile& profile) {
 // end or halfway; empty where the way straight on is no longer.
 std::optional<double> PlaceLimitOfTurn(double turned_rad, const Situation& s) {
   if (s.places.empty()) return std::nullopt;
-  const double straight_m = FreeOfPlaces({1, 0}, s).value_or(s.slows_m);
-  double free_m = s.slows_m;
+  const double straight_m = FreeOfPlaces({1, 0}, s).value_or(s.own.slows_m);
+  double free_m = s.own.slows_m;
   for (const double angle_rad : {turned_rad / 2, turned_rad}) {
     const Vec2 direction_body = {Cos(angle_rad), Sin(angle_rad)};
-    free_m = std::min(free_m, FreeOfPlaces(direction_body, s).value_or(s.slows_m));
+    free_m = std::min(free_m, FreeOfPlaces(direction_body, s).value_or(s.own.slows_m));
   }
-  if (free_m >= s.slows_m || free_m >= straight_m) return std::nullopt;
-  return SpeedToStopWithin(free_m, s.reaction_s, s.options.profile.deceleration_m_s2);
+  if (free_m >= s.own.slows_m || free_m >= straight_m) return std::nullopt;
+  return SpeedToStopWithin(free_m, s.own.reaction_s, s.own.options.profile.deceleration_m_s2);
 }
 
 }  // namespace
 
 std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s) {
-  if (s.speed_m_s < kStandingSpeed_m_s) return std::nullopt;
-  const VehicleProfile& profile = s.options.profile;
-  const double stops_s =
-      s.reaction_s + Seconds(s.options.tick_period) + s.speed_m_s / profile.deceleration_m_s2;
+  if (s.own.speed_m_s < kStandingSpeed_m_s) return std::nullopt;
+  const VehicleProfile& profile = s.own.options.profile;
+  const double stops_s = s.own.reaction_s + Seconds(s.own.options.tick_period) +
+                         s.own.speed_m_s / profile.deceleration_m_s2;
   const double most_rad = MostTurnOf(profile) * stops_s;
   const double turned_rad = std::clamp(steering.heading_error_rad, -most_rad, most_rad);
   if (Magnitude(turned_rad) < kSmallTurn_rad) return std::nullopt;
-  const double heading_rad = s.world_from_body.heading_rad + turned_rad;
+  const double heading_rad = s.own.world_from_body.heading_rad + turned_rad;
   const Vec2 forward_world = {Cos(heading_rad), Sin(heading_rad)};
   std::optional<TurnLimit> lowest;
-  for (const PeerView& view : s.peers) {
-    const double free_m = std::min(FreeAlong(view, forward_world, s), s.slows_m);
-    if (free_m >= s.slows_m || free_m >= view.free_m) continue;
-    const double limit = SpeedToStopWithin(free_m, s.reaction_s, profile.deceleration_m_s2);
+  for (const PeerView& view : s.near.peers) {
+    const double free_m = std::min(FreeAlong(view, forward_world, s.own), s.own.slows_m);
+    if (free_m >= s.own.slows_m || free_m >= view.free_m) continue;
+    const double limit = SpeedToStopWithin(free_m, s.own.reaction_s, profile.deceleration_m_s2);
     if (!lowest || limit < lowest->max_speed_m_s) {
       lowest = TurnLimit{limit, view.peer->id, view.peer->beacon.tick};
     }

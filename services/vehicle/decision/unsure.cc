@@ -5,13 +5,13 @@
 namespace giveway {
 
 std::optional<Proposal> Lost(const Situation& s) {
-  if (!s.lost) return std::nullopt;
+  if (!s.own.lost) return std::nullopt;
   return Proposal{.max_speed_m_s = 0, .may_turn = false, .rule = Rule::kLost};
 }
 
 std::optional<Proposal> Unsure(const Situation& s) {
-  if (s.known_share >= 1) return std::nullopt;
-  return Proposal{.max_speed_m_s = s.known_share * s.options.cruise_m_s,
+  if (s.own.known_share >= 1) return std::nullopt;
+  return Proposal{.max_speed_m_s = s.own.known_share * s.own.options.cruise_m_s,
                   .may_turn = true,
                   .rule = Rule::kUnsure};
 }

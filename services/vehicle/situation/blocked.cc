@@ -11,7 +11,7 @@ constexpr double kQueueWithin_m = 1.5;   // nearer than this, the one ahead in t
 constexpr double kOccupiedWithin_m = 2;  // nearer than this, what stands on the goal blocks
 
 // True if the peer leads in the own lane and is what keeps this vehicle below its cruise speed.
-bool SlowsDown(const PeerView& view, const Situation& s) {
+bool SlowsDown(const PeerView& view, const OwnView& s) {
   return view.leads && view.fresh && view.gap_m < kQueueWithin_m &&
          view.speed_m_s < s.options.cruise_m_s;
 }
@@ -19,9 +19,9 @@ bool SlowsDown(const PeerView& view, const Situation& s) {
 // The nearest of those that halt for this vehicle.
 VehicleId NearestThatWaits(const Situation& s) {
   const PeerView* nearest = nullptr;
-  for (const PeerView& view : s.peers) {
+  for (const PeerView& view : s.near.peers) {
     const bool waits =
-        view.fresh && view.standing && view.peer->beacon.gives_way_to == s.options.id;
+        view.fresh && view.standing && view.peer->beacon.gives_way_to == s.own.options.id;
     if (waits && (nearest == nullptr || view.gap_m < nearest->gap_m)) nearest = &view;
   }
   return nearest == nullptr ? kNobody : nearest->peer->id;
@@ -48,24 +48,24 @@ OrderKey ActingOrder(const OrderKey& own, const PeerTable& peers, VehicleId own_
 }
 
 VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_passed) {
-  if (s.arrived || s.lost) return kNobody;
-  for (const PeerView& view : s.peers) {
+  if (s.own.arrived || s.own.lost) return kNobody;
+  for (const PeerView& view : s.near.peers) {
     const bool there = view.fresh && (view.standing || view.gap_m < kOccupiedWithin_m);
-    if (there && Occupies(view, Toward(s), s)) return view.peer->id;
+    if (there && Occupies(view, Toward(s.own), s.own)) return view.peer->id;
   }
-  const auto leader =
-      std::ranges::find_if(s.peers, [&s](const PeerView& view) { return SlowsDown(view, s); });
-  if (leader != s.peers.end()) return leader->peer->id;
-  const bool stands = s.speed_m_s < kStandingSpeed_m_s;
+  const auto leader = std::ranges::find_if(
+      s.near.peers, [&s](const PeerView& view) { return SlowsDown(view, s.own); });
+  if (leader != s.near.peers.end()) return leader->peer->id;
+  const bool stands = s.own.speed_m_s < kStandingSpeed_m_s;
   if (decision.rule == Rule::kKeepClear && stands) return decision.peer;
-  if (!s.aimless) return kNobody;
+  if (!s.escape.aimless) return kNobody;
   // Whoever finds no way through those that wait for it lets one of them go.
-  const VehicleId waiting = s.very_aimless ? NearestThatWaits(s) : kNobody;
+  const VehicleId waiting = s.escape.very_aimless ? NearestThatWaits(s) : kNobody;
   return waiting != kNobody ? waiting : not_passed;
 }
 
 bool IsStillNear(VehicleId peer, const Situation& s) {
-  return std::ranges::any_of(s.peers, [peer](const PeerView& view) {
+  return std::ranges::any_of(s.near.peers, [peer](const PeerView& view) {
     return view.peer->id == peer && view.fresh && view.gap_m < kQueueWithin_m;
   });
 }

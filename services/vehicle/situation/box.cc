@@ -55,13 +55,13 @@ double BoxBegin(const Crossings& crossings, double point_m) {
   return begin_m;
 }
 
-double AlongOwnWay(const PeerView& view, const Situation& s) {
+double AlongOwnWay(const CarriedPeer& view, const OwnView& s) {
   return Dot(view.offset_world, s.path.direction_world);
 }
 
 // Room that the own lane needs for the vehicle and all between it and the place `along_m` on, where
 // they stand behind each other.
-double QueueLength(double along_m, std::span<const PeerView> views, const Situation& s) {
+double QueueLength(double along_m, std::span<const PeerView> views, const OwnView& s) {
   constexpr double kMoreThanClear_m = 0.01;
   double length_m = 0;
   for (const PeerView& view : views) {
@@ -84,7 +84,7 @@ double NextStop(double from_m, const Crossings& crossings) {
 }
 
 // How far along the own way the leader gets if it is stopped.
-double LeaderStops(const PeerView& leader, const Crossings& crossings, const Situation& s) {
+double LeaderStops(const RelatedPeer& leader, const Crossings& crossings, const OwnView& s) {
   const double along_m = AlongOwnWay(leader, s);
   if (leader.standing) return along_m;
   const double stops_m = along_m + StoppingDistanceOf(leader, s);
@@ -96,8 +96,8 @@ double LeaderStops(const PeerView& leader, const Crossings& crossings, const Sit
 // How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not. Up
 // to a claim it is measured along the heading, which is the way unless the vehicle steers round
 // something.
-double StopsBehind(const PeerView& view, std::span<const PeerView> views,
-                   const Crossings& crossings, const Situation& s) {
+double StopsBehind(const RelatedPeer& view, std::span<const PeerView> views,
+                   const Crossings& crossings, const OwnView& s) {
   if (!view.fresh) return kNever_m;
   if (!view.leads) return view.standing ? view.free_m : kNever_m;
   return LeaderStops(view, crossings, s) - QueueLength(AlongOwnWay(view, s), views, s);
@@ -118,7 +118,7 @@ double BoxRound(double point_m, const PeerView& but, const Crossings& crossings)
 }
 
 std::optional<BlockedBox> NearestBlocked(std::span<const PeerView> views,
-                                         const Crossings& crossings, const Situation& s) {
+                                         const Crossings& crossings, const OwnView& s) {
   if (crossings.count == 0) return std::nullopt;
   std::optional<BlockedBox> nearest;
   for (const PeerView& view : views) {
@@ -133,14 +133,15 @@ std::optional<BlockedBox> NearestBlocked(std::span<const PeerView> views,
 
 }  // namespace
 
-std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const Situation& s) {
+Boxes FindBoxes(PeerViews<RelatedPeer> related, const OwnView& s) {
+  const std::span<PeerView> views = related.ToMakeTheNextPart();
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   const Crossings crossings = cooperative ? CrossingsAhead(views) : Crossings{};
   for (PeerView& view : views) {
     if (!view.crossing) continue;
     view.box_begin_m = BoxBegin(crossings, view.crossing->own.begin_m);
   }
-  return NearestBlocked(views, crossings, s);
+  return {views, NearestBlocked(views, crossings, s)};
 }
 
 }  // namespace giveway

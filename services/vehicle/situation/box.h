@@ -12,8 +12,13 @@
 
 namespace giveway {
 
-// Sets `box_begin_m` of every view that crosses the own way. The nearest box ahead that the vehicle
-// would come to stand in, as things are now.
-std::optional<BlockedBox> FindBoxes(std::span<PeerView> views, const Situation& s);
+struct Boxes {
+  std::span<PeerView> views;          // whole now
+  std::optional<BlockedBox> blocked;  // the nearest ahead that the vehicle would come to stand in
+};
+
+// Makes the views whole: where the box begins, of each that crosses the own way. Blocked is a box
+// as things are now.
+Boxes FindBoxes(PeerViews<RelatedPeer> views, const OwnView& s);
 
 }  // namespace giveway

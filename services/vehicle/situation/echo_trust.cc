@@ -27,14 +27,14 @@ struct Place {
   double error_m = 0;
 };
 
-Place PlaceOf(const PeerView& view, const Situation& s) {
+Place PlaceOf(const PeerView& view, const OwnView& s) {
   const Vec2 centre = InBody(s, view.position_world);
   return {centre,
           kPoseSlack_m + kErrorSigmas * (view.sigma_m + SigmaHeading(s.covariance) * Norm(centre))};
 }
 
 // True if the centre surely lies in the cone, and not so near that it is all around it.
-bool IsSquarelyIn(std::size_t sensor, const Place& place, const Situation& s) {
+bool IsSquarelyIn(std::size_t sensor, const Place& place, const OwnView& s) {
   constexpr double kTooNear_m = 0.4;
   const Vec2 to = place.centre_body - s.options.profile.sonar[sensor].position_body;
   if (Dot(s.cones.of[sensor].axis_body, to) < kTooNear_m) return false;
@@ -45,7 +45,7 @@ bool IsSquarelyIn(std::size_t sensor, const Place& place, const Situation& s) {
 // True if a sensor that has just fired heard nothing as near as the centre, which lies in its cone:
 // whatever hides a body is nearer still. By the centre, not the shell, for the body need not be
 // round.
-bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
+bool MissesBody(std::size_t sensor, const Place& place, const OwnView& s) {
   if (!IsSquarelyIn(sensor, place, s)) return false;
   const SensorView& heard = s.ranges[sensor];
   const double free_m =
@@ -56,7 +56,7 @@ bool MissesBody(std::size_t sensor, const Place& place, const Situation& s) {
 }
 
 // True if no echo is where its body should be, and a sensor should have heard one.
-bool IsMissed(const PeerView& view, std::uint32_t listening, const Situation& s) {
+bool IsMissed(const PeerView& view, std::uint32_t listening, const OwnView& s) {
   if (view.explains != 0) return false;
   const double far_m = s.options.profile.sonar_max_range_m + s.options.profile.body_radius_m;
   if (SquaredNorm(view.offset_world) > far_m * far_m) return false;
@@ -77,21 +77,20 @@ bool IsItAlone(const PeerView& view, std::size_t sensor, std::span<const PeerVie
 // True where nothing that stands can seem to come nearer by more than the own speed: the vehicle
 // stands as well, or drives straight on and the cone holds what is straight ahead. Into any other
 // cone the end of a wall may come from the side, and its echo leaps.
-bool TellsMotion(std::size_t sensor, const Situation& s) {
+bool TellsMotion(std::size_t sensor, const OwnView& s) {
   if (s.turns || Magnitude(s.turn_rad_s) > kTurning_rad_s) return false;
   if (Magnitude(s.speed_m_s) < kStandingSpeed_m_s) return true;
   return s.speed_m_s > 0 && s.cones.of[sensor].nearest_cosine >= 1;
 }
 
 // True if whoever made the echo is surely in reach of the radio: its centre lies behind its shell.
-bool IsInReach(std::size_t sensor, const Situation& s) {
+bool IsInReach(std::size_t sensor, const OwnView& s) {
   constexpr double kDeepest_m = 1;
   return s.ranges[sensor].range_m + kDeepest_m < s.options.emission_radius_m;
 }
 
-// Whether its echo moves by itself. Not while one that has fallen silent may roll by.
-bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
-  if (s.someone_lost) return false;
+// Whether its echo moves by itself.
+bool ComesNearer(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   for (const std::size_t i : BitsOf(view.explains)) {
     if (!IsInReach(i, s) || !TellsMotion(i, s) || !MovesByItself(i, s)) continue;
     if (IsItAlone(view, i, views)) return true;
@@ -109,7 +108,8 @@ std::uint32_t TicksOf(double time_s, const VehicleOptions& options) {
 
 }  // namespace
 
-void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCounters* counters) {
+void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnView& s,
+                 TrustCounters* counters) {
   if (s.run_state != RunState::kRunning || !s.new_tick) return;
   const std::uint32_t stands = TicksOf(kStands_s, s.options);
   const std::uint32_t closes = TicksOf(kCloses_s + 2 * Seconds(s.options.sonar_refresh), s.options);
@@ -128,7 +128,9 @@ void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCount
     if (trust.missing_ticks >= kMissingTicks && believes_ears) Doubt(&trust, s.now);
 
     trust.standing_ticks = SaysItStands(view) ? trust.standing_ticks + 1 : 0;
-    const bool closing = trust.standing_ticks > stands && ComesNearer(view, views, s);
+    // Not while one that has fallen silent may roll by.
+    const bool closing =
+        trust.standing_ticks > stands && !someone_lost && ComesNearer(view, views, s);
     trust.closing_ticks = closing ? trust.closing_ticks + 1 : 0;
     if (trust.closing_ticks == closes) ++counters->halted_but_closing;
     if (trust.closing_ticks >= closes && believes_ears) Doubt(&trust, s.now);

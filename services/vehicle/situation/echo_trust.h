@@ -9,7 +9,8 @@
 
 namespace giveway {
 
-// What the near peers say against what the ultrasonics hear.
-void JudgeEchoes(std::span<const PeerView> views, const Situation& s, TrustCounters* counters);
+// What the near peers say against what the ultrasonics hear. `someone_lost`: of all peers.
+void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnView& s,
+                 TrustCounters* counters);
 
 }  // namespace giveway

@@ -130,21 +130,21 @@ bool IsEchoOf(const Sight& centre, double radius_m, double range_m, double unsur
 }
 
 // Where a peer comes to stand if it brakes as soon as this vehicle does.
-Vec2 WhereItStops(const PeerView& peer, const Situation& s) {
+Vec2 WhereItStops(const CarriedPeer& peer, const OwnView& s) {
   const double on_m = ClosingSpeed(peer, s) > 0 ? StoppingDistanceOf(peer, s) : 0;
   return peer.position_world + on_m * peer.forward_world;
 }
 
 // Where the peer's body was to the own one when a sensor fired, both moving as now: their turning
 // is slow against that.
-Vec2 CentreBefore(double age_s, const PeerView& peer, const Situation& s) {
+Vec2 CentreBefore(double age_s, const CarriedPeer& peer, const OwnView& s) {
   const Vec2 centre_world = peer.position_world - age_s * VelocityOf(peer);
   return InBody(s, centre_world) + Vec2{age_s * s.speed_m_s, 0};
 }
 
 // The echo's range less what the vehicle has driven towards it since, as far as the reaction time
 // does not allow for it already.
-double RangeAhead(const SensorView& view, const Situation& s) {
+double RangeAhead(const SensorView& view, const OwnView& s) {
   const double since_s =
       EchoAge(view, s.tick, s.options.tick_period) - Seconds(s.options.sonar_refresh);
   return std::max(0.0, view.range_m - std::max(0.0, s.speed_m_s) * std::max(0.0, since_s));
@@ -181,7 +181,7 @@ void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& option
   }
 }
 
-std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
+std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
   const HeardEchoes& echoes = s.echoes;
   if (echoes.count == 0) return 0;
   const double radius_m = peer.peer->beacon.body_radius_m;
@@ -209,23 +209,23 @@ std::uint32_t EchoesOf(const PeerView& peer, const Situation& s) {
 }
 
 std::optional<double> FreeAhead(std::size_t sensor, const Situation& s) {
-  const SensorView& view = s.ranges[sensor];
-  const VehicleProfile& profile = s.options.profile;
+  const SensorView& view = s.own.ranges[sensor];
+  const VehicleProfile& profile = s.own.options.profile;
   if (view.kind != Echo::kEcho || profile.sonar[sensor].position_body.x < 0) return std::nullopt;
-  const bool explained = (s.explained >> sensor & 1U) != 0;
+  const bool explained = (s.near.explained >> sensor & 1U) != 0;
   // A fresh peer's claim says more than its echo: rules.cc, KeepClear.
-  if (explained && s.options.behaviour == Behaviour::kCooperative) return std::nullopt;
-  for (const PeerView& peer : s.peers) {
+  if (explained && s.own.options.behaviour == Behaviour::kCooperative) return std::nullopt;
+  for (const PeerView& peer : s.near.peers) {
     if (!explained || (peer.explains >> sensor & 1U) == 0) continue;
-    return FreeBeforeDisc(InBody(s, WhereItStops(peer, s)),
+    return FreeBeforeDisc(InBody(s.own, WhereItStops(peer, s.own)),
                           profile.body_radius_m + peer.peer->beacon.body_radius_m);
   }
-  const Vec2 echo =
-      profile.sonar[sensor].position_body + RangeAhead(view, s) * s.cones.of[sensor].nearest_body;
+  const Vec2 echo = profile.sonar[sensor].position_body +
+                    RangeAhead(view, s.own) * s.own.cones.of[sensor].nearest_body;
   return FreeBeforeDisc(echo, profile.body_radius_m);
 }
 
-bool MovesByItself(std::size_t sensor, const Situation& s) {
+bool MovesByItself(std::size_t sensor, const OwnView& s) {
   const SensorView& view = s.ranges[sensor];
   const bool slow = s.options.sonar_refresh.count() > 0;
   if (view.kind != Echo::kEcho || view.streak < (slow ? kSlowMotionStreak : kMotionStreak)) {

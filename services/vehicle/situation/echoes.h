@@ -15,7 +15,7 @@ void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& option
 
 // Bit i is set if the echo of sensor i is where the peer's body would have echoed when the sensor
 // fired.
-std::uint32_t EchoesOf(const PeerView& peer, const Situation& s);
+std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s);
 
 // How far straight on until the own disc touches a disc at `centre_body`; empty if it passes with
 // a margin to spare. `sum_of_radii` is that of both.
@@ -30,6 +30,6 @@ inline constexpr double kStandOff_m = 0.15;
 std::optional<double> FreeAhead(std::size_t sensor, const Situation& s);
 
 // True if the sensor hears something that comes nearer than the own motion explains.
-bool MovesByItself(std::size_t sensor, const Situation& s);
+bool MovesByItself(std::size_t sensor, const OwnView& s);
 
 }  // namespace giveway

@@ -12,7 +12,7 @@ namespace {
 constexpr double kLostMargin_s = 1.0;  // on top of the time a silent peer may need to pass
 
 // This one is steering round the halted vehicle, which would stop it there by setting off.
-bool IsBeingPassed(const PeerView& view, const Situation& s) {
+bool IsBeingPassed(const PeerView& view, const OwnView& s) {
   if (s.options.behaviour != Behaviour::kCooperative || !view.peer->encounter.holds) return false;
   return view.fresh && !view.standing && view.goes_first &&
          view.peer->beacon.rule == Rule::kSteerRound &&
@@ -20,7 +20,7 @@ bool IsBeingPassed(const PeerView& view, const Situation& s) {
 }
 
 // The nearest echo that is this peer's body; huge if no sensor hears it.
-double NearestEchoOf(const PeerView& view, const Situation& s) {
+double NearestEchoOf(const PeerView& view, const OwnView& s) {
   double nearest = 1e9;
   for (const std::size_t i : BitsOf(view.explains)) {
     nearest = std::min(nearest, s.ranges[i].range_m);
@@ -30,7 +30,7 @@ double NearestEchoOf(const PeerView& view, const Situation& s) {
 
 // lecture_yield compares when the ultrasonics say "critically close"; cooperative as soon as the
 // paths conflict, by beacon, or when the ultrasonics do: the union of both.
-bool Begins(const PeerView& view, const Situation& s) {
+bool Begins(const PeerView& view, const OwnView& s) {
   if (!view.fresh || view.peer->beacon.mode == Mode::kLeaving) return false;
   const bool by_conflict = s.options.behaviour != Behaviour::kLectureYield;
   if (by_conflict && !view.conflict) return false;
@@ -44,14 +44,14 @@ bool Begins(const PeerView& view, const Situation& s) {
   return critically_close || !IsThroughFirst(view, s);
 }
 
-bool IsOver(const PeerView& view, const Situation& s) {
+bool IsOver(const PeerView& view, const OwnView& s) {
   if (view.conflict || IsBeingPassed(view, s)) return false;
   return view.gate_gap_m >= s.options.gate_exit_m || ClosingSpeed(view, s) <= 0;
 }
 
 // A silent peer holds nobody any longer once it had the time to pass and nothing near is heard; or
 // when the table forgets it.
-void UpdateLost(const PeerView& view, const Situation& s) {
+void UpdateLost(const PeerView& view, const OwnView& s) {
   Encounter& encounter = view.peer->encounter;
   if (!encounter.lost) {
     const double cruise = std::max(0.05, view.peer->beacon.cruise_m_s);
@@ -75,20 +75,20 @@ double HoldsBefore(const PeerView& view) {
 
 // True where only braking now still ends before the conflict. Inside it, standing still helps
 // nobody: the vehicle drives out.
-bool MustBrakeNow(const PeerView& view, const Situation& s) {
+bool MustBrakeNow(const PeerView& view, const OwnView& s) {
   return view.conflict && view.conflict->own.begin_m > 0 &&
          HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 
 // Of two in the conflict both: this one is ahead on the way of both.
-bool IsAhead(const PeerView& view, const Situation& s) {
+bool IsAhead(const PeerView& view, const OwnView& s) {
   return Dot(view.offset_world, s.path.direction_world) < 0 &&
          Dot(view.offset_world, view.way_world) < 0;
 }
 
 // Whoever is in the middle of the conflict clears it instead of standing in the way: if the other
 // is not in it yet, or behind, or it can be out before the other comes.
-bool MustClear(const PeerView& view, const Situation& s) {
+bool MustClear(const PeerView& view, const OwnView& s) {
   if (!view.conflict || view.conflict->own.begin_m > 0 || IsBeingPassed(view, s)) return false;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (cooperative && (view.conflict->peer.begin_m > 0 || IsAhead(view, s))) return true;
@@ -97,12 +97,12 @@ bool MustClear(const PeerView& view, const Situation& s) {
 
 // Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going:
 // also at the far end of a queue of those that are in each other's way.
-bool IsInTheWay(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
+bool IsInTheWay(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   return IsBehind(view.peer->beacon.blocked_by, s.options.id, views) || IsOnGoalOf(view, s);
 }
 
 // Whom the order puts second stops at the gate, or where only braking now is early enough.
-bool SecondMustStop(const PeerView& view, const Situation& s) {
+bool SecondMustStop(const PeerView& view, const OwnView& s) {
   if (Has(Defect::kSecondDrivesOn)) return false;
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
   if (!view.conflict) return false;
@@ -113,27 +113,27 @@ bool SecondMustStop(const PeerView& view, const Situation& s) {
 
 // Whom the order puts first needs the other's word, or to be through before it; the lecture's
 // behaviour trusts the order alone.
-bool FirstMayGo(const PeerView& view, const Situation& s) {
+bool FirstMayGo(const PeerView& view, const OwnView& s) {
   if (Has(Defect::kGrantNotNeeded)) return true;
   return s.options.behaviour == Behaviour::kLectureYield || view.grants || IsThroughFirst(view, s);
 }
 
 // A peer that a light held let this vehicle go: once it cannot stop before the conflict any more
 // it goes through, whatever the peer's light and the order say meanwhile.
-bool EntersOnSignal(const PeerView& view, const Situation& s) {
+bool EntersOnSignal(const PeerView& view, const OwnView& s) {
   return view.conflict->own.begin_m <= OwnStoppingDistance(s) && view.at_signal && view.grants &&
          !s.at_signal && !s.stop_line;
 }
 
 // Past the point where it could stop before the box: it drives through, whatever becomes of the
 // order meanwhile. The others hold because it does not say that it gives way.
-bool EntersBox(const PeerView& view, const Situation& s) {
+bool EntersBox(const PeerView& view, const OwnView& s) {
   if (s.options.behaviour != Behaviour::kCooperative || view.lost) return false;
   return s.speed_m_s >= kStandingSpeed_m_s && HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 
 // Standing before the box again, the vehicle has not entered it.
-bool HasLeftBox(const PeerView& view, const Situation& s) {
+bool HasLeftBox(const PeerView& view, const OwnView& s) {
   if (!view.conflict) return true;
   return s.speed_m_s < kStandingSpeed_m_s && view.box_begin_m > 0;
 }
@@ -143,7 +143,7 @@ bool HasLeftBox(const PeerView& view, const Situation& s) {
 // it drives through (EntersBox) and no longer says that it gives way, and without that word the
 // peer does not drive in. A peer that was sent off by an older word is still rolling up then: from
 // standstill to where it cannot stop takes longer than a beacon may be old.
-bool MayCrossBefore(const PeerView& view, const Situation& s) {
+bool MayCrossBefore(const PeerView& view, const OwnView& s) {
   if (s.options.behaviour != Behaviour::kCooperative) return false;
   if (!view.believed || !view.standing || !view.conflict || !view.conflict->across) return false;
   if (view.conflict->peer.begin_m <= 0) return false;
@@ -156,7 +156,7 @@ bool MayCrossBefore(const PeerView& view, const Situation& s) {
 
 // Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
 // stopping distance, and a stop that ends whenever it is short enough would never be one.
-bool Holds(const PeerView& view, const Situation& s) {
+bool Holds(const PeerView& view, const OwnView& s) {
   const bool held = view.peer->encounter.holds;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (view.lost) {
@@ -175,7 +175,7 @@ bool Holds(const PeerView& view, const Situation& s) {
 
 }  // namespace
 
-bool CanGiveWay(const PeerView& view, const Situation& s) {
+bool CanGiveWay(const PeerView& view, const OwnView& s) {
   const Encounter& encounter = view.peer->encounter;
   if (!view.goes_first || encounter.entered || encounter.clears || MustClear(view, s)) return false;
   const bool stands = s.speed_m_s < kStandingSpeed_m_s;
@@ -184,7 +184,7 @@ bool CanGiveWay(const PeerView& view, const Situation& s) {
 
 namespace {
 
-void BeginOrEnd(const PeerView& view, std::span<const PeerView> views, const Situation& s) {
+void BeginOrEnd(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   Encounter& encounter = view.peer->encounter;
   if (IsGone(*view.peer)) {
     encounter = {};
@@ -212,28 +212,23 @@ void BeginOrEnd(const PeerView& view, std::span<const PeerView> views, const Sit
 
 }  // namespace
 
-void UpdateEncounters(std::span<const PeerView> views, Situation* situation) {
-  const Situation& s = *situation;
-  bool holds = false;
-  bool let_pass = false;
-  bool meets = false;
+Encounters UpdateEncounters(std::span<const PeerView> views, const OwnView& s) {
+  Encounters all;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     const bool met = encounter.active;
     BeginOrEnd(view, views, s);
-    let_pass = let_pass || (met && !encounter.active && view.goes_first);
+    all.let_pass = all.let_pass || (met && !encounter.active && view.goes_first);
     encounter.holds = encounter.active && Holds(view, s);
-    holds = holds || encounter.holds;
-    meets = meets || encounter.active;
+    all.holds = all.holds || encounter.holds;
+    all.meets = all.meets || encounter.active;
   }
-  situation->holds = holds;
-  situation->let_pass = let_pass;
-  situation->meets = meets;
-  if (holds) return;
+  if (all.holds) return all;
   for (const PeerView& view : views) {
     Encounter& encounter = view.peer->encounter;
     if (encounter.active && view.conflict && EntersBox(view, s)) encounter.entered = true;
   }
+  return all;
 }
 
 }  // namespace giveway

@@ -6,11 +6,11 @@
 
 namespace giveway {
 
-// Moves every peer's encounter on by one tick, and fills in what the situation says of all of them.
-void UpdateEncounters(std::span<const PeerView> views, Situation* s);
+// Moves every peer's encounter on by one tick. What all of them together ask for.
+Encounters UpdateEncounters(std::span<const PeerView> views, const OwnView& s);
 
 // True if this vehicle is the one to wait in the encounter, and can: it stands, or will before
 // the conflict. Only then may it say that it gives way.
-bool CanGiveWay(const PeerView& view, const Situation& s);
+bool CanGiveWay(const PeerView& view, const OwnView& s);
 
 }  // namespace giveway

@@ -30,9 +30,9 @@ struct KnownBodies {
 };
 
 // Peers that say where they are.
-KnownBodies KnownNear(const Situation& s) {
+KnownBodies KnownNear(std::span<const PeerView> peers, const OwnView& s) {
   KnownBodies known;
-  for (const PeerView& view : s.peers) {
+  for (const PeerView& view : peers) {
     if (!view.believed || view.distance_m > kNearPeer_m || known.count == known.of.size()) continue;
     known.of[known.count++] = {
         InBody(s, view.position_world),
@@ -41,12 +41,11 @@ KnownBodies KnownNear(const Situation& s) {
   return known;
 }
 
-HeardCone HeardBy(std::size_t sensor, const Situation& s) {
+HeardCone HeardBy(std::size_t sensor, bool explained, const OwnView& s) {
   const SensorView& view = s.ranges[sensor];
   const double before_s = view.kind == Echo::kEcho && view.missed ? 0 : view.echo_before_s;
   const double age_s = Seconds(TicksBetween(view.tick, s.tick) * s.options.tick_period) + before_s;
   const bool echo = view.kind == Echo::kEcho && !view.missed;
-  const bool explained = (s.explained >> sensor & 1U) != 0;
   Vec2 apex = s.options.profile.sonar[sensor].position_body;
   Vec2 axis = s.cones.of[sensor].axis_body;
   if (age_s > 0) {
@@ -73,19 +72,20 @@ bool Remembers(const VehicleOptions& options) {
   return options.behaviour == Behaviour::kCooperative && HasImperfectSonar(options);
 }
 
-void RememberEchoes(const Situation& s, ObstacleGrid* grid) {
+void RememberEchoes(const OwnView& s, const PeersNow& near, ObstacleGrid* grid) {
   if (!s.new_tick) return;
-  const KnownBodies known = KnownNear(s);
+  const KnownBodies known = KnownNear(near.peers, s);
   for (const std::size_t i : BitsOf(s.cones.enabled)) {
     const SensorView& view = s.ranges[i];
     if (view.kind == Echo::kNoData || !grid->IsNew(i, view.tick)) continue;
-    grid->Hear(HeardBy(i, s), {known.of.data(), known.count});
+    const bool explained = (near.explained >> i & 1U) != 0;
+    grid->Hear(HeardBy(i, explained, s), {known.of.data(), known.count});
   }
   grid->StandsOn(kShare * InnerRadius(s.options.profile));
   grid->Fade(Seconds(s.options.tick_period));
 }
 
-void ListPlaces(const ObstacleGrid& grid, const Situation& s, HeardPlaces* places) {
+void ListPlaces(const ObstacleGrid& grid, const OwnView& s, HeardPlaces* places) {
   // As far as one is steered past, or slows the vehicle down.
   constexpr double kRound_m = 0.6;
   const double near_m =
@@ -99,7 +99,7 @@ void ListPlaces(const ObstacleGrid& grid, const Situation& s, HeardPlaces* place
 }
 
 std::optional<double> FreeOfPlaces(Vec2 direction_body, const Situation& s) {
-  const double body_m = s.options.profile.body_radius_m;
+  const double body_m = s.own.options.profile.body_radius_m;
   std::optional<double> nearest_m;
   for (const Vec2 place : s.places) {
     const Vec2 ahead = {Dot(direction_body, place), Cross(direction_body, place)};

@@ -15,10 +15,10 @@ namespace giveway {
 bool Remembers(const VehicleOptions& options);
 
 // Takes the firings of this tick into the grid, but for the echoes of peers that are believed.
-void RememberEchoes(const Situation& s, ObstacleGrid* grid);
+void RememberEchoes(const OwnView& s, const PeersNow& near, ObstacleGrid* grid);
 
 // Lists what the grid holds near the vehicle.
-void ListPlaces(const ObstacleGrid& grid, const Situation& s, HeardPlaces* places);
+void ListPlaces(const ObstacleGrid& grid, const OwnView& s, HeardPlaces* places);
 
 // How far straight on, in that direction from the axle centre, the own shell may go before it is at
 // a heard place; empty if at none. What it leaves behind, or passes beside already, does not

@@ -19,26 +19,26 @@ bool StaysPut(const Beacon& beacon) {
 }
 
 // Of where a peer is to this vehicle that was carried forward by a way since its beacon.
-PoseCovariance Apart(const Beacon& beacon, Vec2 way_world, const Situation& s) {
+PoseCovariance Apart(const Beacon& beacon, Vec2 way_world, const OwnView& s) {
   return s.covariance + Carried(beacon.covariance, way_world);
 }
 
 // At least as much as the above can be along any axis, for a fraction of the price.
-double SigmaAtMost(const Beacon& beacon, double moved_m, const Situation& s) {
+double SigmaAtMost(const Beacon& beacon, double moved_m, const OwnView& s) {
   const PoseCovariance both = s.covariance + beacon.covariance;
   const double trace_m2 = both.xx_m2 + both.yy_m2;
   return (trace_m2 > 0 ? Sqrt(trace_m2) : 0) + moved_m * SigmaHeading(beacon.covariance);
 }
 
 // How near the two centres may come: both bodies, a margin, and what is not known for sure.
-double Reach(const Beacon& beacon, double sigma_m, const Situation& s) {
+double Reach(const Beacon& beacon, double sigma_m, const OwnView& s) {
   constexpr double kMargin_m = 0.1;
   return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m + kSigmas * sigma_m;
 }
 
 // True if one drives behind the other in the same lane: that is a matter of distance, not of right
 // of way. Side by side, or coming from another lane, it is not following.
-bool Follows(const PeerView& view, const Situation& s) {
+bool Follows(const CarriedPeer& view, bool standing, const OwnView& s) {
   if (Has(Defect::kLeaderIsConflict)) return false;
   constexpr double kSameWay = 0.94;        // the cosine of 20 degrees
   constexpr double kThereAlready_m = 0.5;  // which way it is on says little
@@ -49,7 +49,7 @@ bool Follows(const PeerView& view, const Situation& s) {
   if (along <= bodies && along >= -bodies) return false;
   if (Dot(s.path.direction_world, view.forward_world) >= kSameWay) return true;
   // One that stands may be turned to whatever it looks for a way past; it means to go on.
-  if (s.options.behaviour != Behaviour::kCooperative || !view.standing) return false;
+  if (s.options.behaviour != Behaviour::kCooperative || !standing) return false;
   const double way_m = Norm(view.way_world);
   return way_m > kThereAlready_m && Dot(s.path.direction_world, view.way_world) >= kSameWay * way_m;
 }
@@ -61,8 +61,8 @@ bool IsTie(const OrderKey& a, const OrderKey& b) {
 
 // By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
 // it stands before its line, and would only block the ones with green.
-bool ComesFirst(const PeerView& view, const Situation& s) {
-  if (view.at_signal != s.at_signal) return s.at_signal;
+bool ComesFirst(const HeardPeer& view, bool at_signal, const OwnView& s) {
+  if (at_signal != s.at_signal) return s.at_signal;
   const OrderKey& peers = view.peer->beacon.order;
   if (Has(Defect::kPriorityReversed)) return GoesFirst(s.order, peers);
   if (Has(Defect::kTieYieldsBoth) && IsTie(s.order, peers)) return true;
@@ -72,7 +72,7 @@ bool ComesFirst(const PeerView& view, const Situation& s) {
 
 // The light's word counts only while the peer could still keep it: it stands, or can stop before
 // the conflict. Of two that lights stopped until now neither may count on the other's.
-bool WaitsAtSignal(const PeerView& view, const Situation& s) {
+bool WaitsAtSignal(const RelatedPeer& view, const OwnView& s) {
   if (!view.at_signal || s.at_signal) return false;
   return view.standing || !view.conflict ||
          view.conflict->peer.begin_m >= StoppingDistanceOf(view, s);
@@ -101,7 +101,7 @@ void Put(const Conflict& from, std::optional<Conflict>* to) {
 }
 
 // Where both vehicles' ways to where they drive next cross, of two that do not follow each other.
-void FindCrossing(PeerView* view, const Situation& s) {
+void FindCrossing(RelatedPeer* view, const OwnView& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (!view->way_is_near) return;
   const double reach_m = Reach(view->peer->beacon, view->sigma_m, s);
@@ -118,24 +118,24 @@ void FindCrossing(PeerView* view, const Situation& s) {
 constexpr double kClaimLasts_s = 1.0;
 
 // How long a peer may have done as it liked when what this decision moves comes to its end.
-double UnknownSeconds(const Beacon& beacon, const Situation& s) {
+double UnknownSeconds(const Beacon& beacon, const OwnView& s) {
   return Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
 }
 
 // How far apart the centre of this vehicle keeps from a claim.
-double ApartFrom(double sigma_m, const Situation& s) {
+double ApartFrom(double sigma_m, const OwnView& s) {
   return s.options.profile.body_radius_m + kClearance_m + s.sweeps_m + kSigmas * sigma_m;
 }
 
 // How far the centre of this vehicle surely keeps from a claim without length, and a bit more.
-double KeptFrom(const Beacon& beacon, double sigma_m, const Situation& s) {
+double KeptFrom(const Beacon& beacon, double sigma_m, const OwnView& s) {
   return ApartFrom(sigma_m, s) + beacon.body_radius_m + kWellAway_m;
 }
 
 // True if the claim lies beyond where it could slow this vehicle down: a claim reaches no farther
 // than its length and is no wider than that and the body.
 bool IsClaimFar(const Beacon& beacon, double speed_m_s, double sigma_m, double unknown_s,
-                const Situation& s) {
+                const OwnView& s) {
   const double length_m =
       ClaimLength(beacon, Magnitude(speed_m_s) + kTurnWhileDriving_rad_s * beacon.drive.axle_m / 4,
                   unknown_s, s.reaction_s) +
@@ -151,14 +151,14 @@ constexpr double kLooksAround_m = 8;
 constexpr double kSeesFar_m = 25;
 
 // For how long a peer is carried forward since its beacon, as views carry it forward.
-double CarriedSeconds(const Beacon& beacon, bool fresh, const Situation& s) {
+double CarriedSeconds(const Beacon& beacon, bool fresh, const OwnView& s) {
   // A silent peer is left where it was last heard: what it did since is not known.
   return fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
 }
 
 // How far it is, how sure that is, and which way it drives from there.
-void Measure(PeerView* measured, const Situation& s) {
-  PeerView& view = *measured;
+void Measure(CarriedPeer* measured, const OwnView& s) {
+  CarriedPeer& view = *measured;
   const Beacon& beacon = view.peer->beacon;
   view.offset_world = view.position_world - s.world_from_body.position_world;
   view.distance_m = Norm(view.offset_world);
@@ -184,7 +184,7 @@ double LooksAround(const VehicleProfile& profile) {
 
 // The claim stands on the beacon itself, not on where the peer is thought to be now. What it may
 // have done since is unknown up to the end of the tick that this decision moves.
-double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s) {
+double FreeAlong(const CarriedPeer& view, Vec2 forward_world, const OwnView& s) {
   const Beacon& beacon = view.peer->beacon;
   if (IsGone(*view.peer)) return kFarAway_m;
   const double unknown_s = UnknownSeconds(beacon, s);
@@ -197,7 +197,7 @@ double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s) {
                     ApartFrom(view.sigma_m, s));
 }
 
-bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
+bool CanMatter(const Peer& peer, bool fresh, const OwnView& s) {
   if (s.options.behaviour != Behaviour::kCooperative || peer.encounter.active) return true;
   const Beacon& beacon = peer.beacon;
   const double speed_m_s = TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s;
@@ -213,9 +213,10 @@ bool CanMatter(const Peer& peer, bool fresh, const Situation& s) {
          !IsClaimFar(beacon, speed_m_s, sigma_m, UnknownSeconds(beacon, s), s);
 }
 
-void CarryForward(std::span<PeerView> views, const Situation& s) {
-  for (const PeerView& view : views) view.peer->told.Follow(view.peer->beacon.world_from_body);
-  for (PeerView& view : views) {
+PeerViews<CarriedPeer> CarryForward(PeerViews<HeardPeer> heard, const OwnView& s) {
+  const std::span<PeerView> views = heard.ToMakeTheNextPart();
+  for (const HeardPeer& view : views) view.peer->told.Follow(view.peer->beacon.world_from_body);
+  for (CarriedPeer& view : views) {
     const Beacon& beacon = view.peer->beacon;
     const Facing told = {beacon.world_from_body.position_world, view.peer->told.forward_world};
     const Twist twist = TwistFromWheels(beacon.drive, beacon.wheels);
@@ -226,18 +227,21 @@ void CarryForward(std::span<PeerView> views, const Situation& s) {
     view.position_world = {now.position_world.x, now.position_world.y};
     view.forward_world = {now.forward_world.x, now.forward_world.y};
   }
-  for (PeerView& view : views) Measure(&view, s);
+  for (CarriedPeer& view : views) Measure(&view, s);
+  return PeerViews<CarriedPeer>(views);
 }
 
-void LookAt(PeerView* looked_at, const Situation& s) {
-  PeerView& view = *looked_at;
+namespace {
+
+void Relate(RelatedPeer* related, const OwnView& s) {
+  RelatedPeer& view = *related;
   const Beacon& beacon = view.peer->beacon;
   view.believed = view.fresh && !IsDoubted(view.peer->trust, s.now);
   view.lost = IsLost(*view.peer, view.fresh);
   view.standing = Magnitude(view.speed_m_s) < kStandingSpeed_m_s;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   view.at_signal = cooperative && view.believed && beacon.rule == Rule::kSignal;
-  view.goes_first = ComesFirst(view, s);
+  view.goes_first = ComesFirst(view, view.at_signal, s);
 
   const double radius_m = s.options.profile.body_radius_m;
   view.gap_m = view.distance_m - radius_m - beacon.body_radius_m;
@@ -249,19 +253,35 @@ void LookAt(PeerView* looked_at, const Situation& s) {
   // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
   // one that is gone, which has no way to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
-  const bool follows = goes_on && Follows(view, s);
+  const bool follows = goes_on && Follows(view, view.standing, s);
   view.leads = follows && Dot(view.offset_world, s.path.direction_world) > 0;
   if (goes_on && !follows) FindCrossing(&view, s);
   // One that stands and comes later in the order is a body to steer round.
   const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.goes_first;
   if (view.crossing && !steered_round) Put(*view.crossing, &view.conflict);
-  view.box_begin_m = 0;
   view.free_m = FreeAlong(view, s.forward_world, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
                                   halted || WaitsAtSignal(view, s));
   view.explains = view.fresh ? EchoesOf(view, s) : 0;
+}
+
+}  // namespace
+
+RelatedPeers LookAt(PeerViews<CarriedPeer> carried, const OwnView& s) {
+  const std::span<PeerView> views = carried.ToMakeTheNextPart();
+  RelatedPeers related{.views = PeerViews<RelatedPeer>(views)};
+  for (PeerView& view : views) {
+    Relate(&view, s);
+    view.box_begin_m = 0;  // FindBoxes need not fetch those without a crossing again
+    related.someone_doubted = related.someone_doubted || (view.fresh && !view.believed);
+    // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
+    // lecture's behaviours a known body is kept from no less than an unknown one.
+    const bool explains = view.believed || s.options.behaviour != Behaviour::kCooperative;
+    related.explained |= explains ? view.explains : 0;
+  }
+  return related;
 }
 
 }  // namespace giveway

@@ -14,19 +14,25 @@ double LooksAround(const VehicleProfile& profile);
 
 // False if the peer is so far away, and so is all of its way, that no rule has anything to say of
 // it. It costs a fraction of LookAt, and most of a large fleet is far away.
-bool CanMatter(const Peer& peer, bool fresh, const Situation& s);
+bool CanMatter(const Peer& peer, bool fresh, const OwnView& s);
 
 // Carries the peers of all views forward to now and measures how they lie to the own vehicle. For
 // all before LookAt at any: a sine or a root is a chain of operations of which each waits for the
 // one before, and those of several peers run side by side.
-void CarryForward(std::span<PeerView> views, const Situation& s);
+PeerViews<CarriedPeer> CarryForward(PeerViews<HeardPeer> views, const OwnView& s);
 
 // How far this vehicle may go along a unit vector until its shell is at the peer's claim, metres;
-// huge if it never is, or so far on that the own cruise speed is not too fast for it. Of a view
-// that CarryForward has filled in.
-double FreeAlong(const PeerView& view, Vec2 forward_world, const Situation& s);
+// huge if it never is, or so far on that the own cruise speed is not too fast for it.
+double FreeAlong(const CarriedPeer& view, Vec2 forward_world, const OwnView& s);
 
-// Relates the peer of `view`, which CarryForward alone has filled in, to the own path.
-void LookAt(PeerView* view, const Situation& s);
+// What LookAt makes of the views, and what it found of all of them.
+struct RelatedPeers {
+  PeerViews<RelatedPeer> views;
+  std::uint32_t explained = 0;  // see PeersNow
+  bool someone_doubted = false;
+};
+
+// Relates the peers of all views to the own path.
+RelatedPeers LookAt(PeerViews<CarriedPeer> views, const OwnView& s);
 
 }  // namespace giveway

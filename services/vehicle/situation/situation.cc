@@ -11,34 +11,34 @@ namespace {
 constexpr double kLongestWay_m = 1000;
 
 // Of the distance between the two centres: only what lies along it counts.
-double SigmaBetween(const PeerView& view) {
+double SigmaBetween(const CarriedPeer& view) {
   if (view.distance_m <= 0) return view.sigma_m;
   return SigmaAlong(view.apart, (1 / view.distance_m) * view.offset_world);
 }
 
 }  // namespace
 
-double OwnStoppingDistance(const Situation& s) {
+double OwnStoppingDistance(const OwnView& s) {
   const double speed = std::max(0.0, s.speed_m_s);
   return StoppingDistance(speed, s.reaction_s + Seconds(s.options.tick_period),
                           s.options.profile.deceleration_m_s2) +
          kInHand_m;
 }
 
-double OwnSweep(const Situation& s) {
+double OwnSweep(const OwnMotion& s, const VehicleOptions& options) {
   const double speed = std::max(0.0, s.speed_m_s);
-  const double steady_s = Seconds(s.options.tick_period) + s.reaction_s;
-  const double deceleration_m_s2 = s.options.profile.deceleration_m_s2;
+  const double steady_s = Seconds(options.tick_period) + s.reaction_s;
+  const double deceleration_m_s2 = options.profile.deceleration_m_s2;
   return StoppingDistance(speed, steady_s, deceleration_m_s2) *
          SwingOf(s.turn_rad_s, steady_s, speed, deceleration_m_s2);
 }
 
-double StoppingDistanceOf(const PeerView& view, const Situation& s) {
+double StoppingDistanceOf(const CarriedPeer& view, const OwnView& s) {
   return StoppingDistance(std::max(0.0, view.speed_m_s), s.reaction_s,
                           view.peer->beacon.deceleration_m_s2);
 }
 
-double CriticalDistance(const Situation& s, const PeerView& view) {
+double CriticalDistance(const OwnView& s, const CarriedPeer& view) {
   constexpr double kMargin_m = 0.1;
   const double own = StoppingDistance(std::max(0.0, s.speed_m_s), s.reaction_s,
                                       s.options.profile.deceleration_m_s2);
@@ -46,7 +46,7 @@ double CriticalDistance(const Situation& s, const PeerView& view) {
   return std::max(s.options.gate_enter_m, both + kMargin_m + kSigmas * SigmaBetween(view));
 }
 
-double RoomBeside(const PeerView& view, const Situation& s) {
+double RoomBeside(const CarriedPeer& view, const OwnView& s) {
   // Between the two shells; less than a vehicle keeps that halts before the own way, so that one
   // drives past it and not round it.
   constexpr double kRoundMargin_m = 0.12;
@@ -56,27 +56,27 @@ double RoomBeside(const PeerView& view, const Situation& s) {
          unsure_m;
 }
 
-Vec2 Toward(const Situation& s) {
+Vec2 Toward(const OwnView& s) {
   if (s.arrived || s.lost) return s.world_from_body.position_world;
   const double way_m = std::min(s.distance_to_goal_m, kLongestWay_m);
   return s.world_from_body.position_world + way_m * s.path.direction_world;
 }
 
-bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s) {
+bool Occupies(const CarriedPeer& view, Vec2 point_world, const OwnView& s) {
   const double room_m =
       s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kPassingMargin_m;
   return SquaredNorm(view.position_world - point_world) < room_m * room_m;
 }
 
-bool IsOnGoalOf(const PeerView& view, const Situation& s) {
+bool IsOnGoalOf(const CarriedPeer& view, const OwnView& s) {
   const Beacon& beacon = view.peer->beacon;
   const double room_m = s.options.profile.body_radius_m + beacon.body_radius_m + kPassingMargin_m;
   return SquaredNorm(beacon.toward_world - s.world_from_body.position_world) < room_m * room_m;
 }
 
-Vec2 VelocityOf(const PeerView& view) { return view.speed_m_s * view.forward_world; }
+Vec2 VelocityOf(const CarriedPeer& view) { return view.speed_m_s * view.forward_world; }
 
-double ClosingSpeed(const PeerView& view, const Situation& s) {
+double ClosingSpeed(const CarriedPeer& view, const OwnView& s) {
   const Vec2 velocity = VelocityOf(view) - s.speed_m_s * s.forward_world;
   return view.distance_m > 0 ? -Dot(view.offset_world, velocity) / view.distance_m : 0;
 }

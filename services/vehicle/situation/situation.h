@@ -1,5 +1,11 @@
-// One tick as the rules see it: the own state, the ranges, and every near peer carried forward to
-// now. Built once a step from the tables; the rules only read it.
+// One tick as the rules see it, in stages. Each is made whole by one function, of those before it,
+// and is only read from then on: what is not known yet cannot be asked for.
+//
+//   OwnView     Vehicle::LookAtSelf    this vehicle: pose, motion, course, sensors, lights
+//   PeersNow    Vehicle::LookAround    the peers that matter, related to it
+//   Movers      ListenForMovers        what moves near and is none of them
+//   Escape      Detour                 what to try where it gets no nearer
+//   Situation   BuildSituation         all of these: what the rules read
 #pragma once
 
 #include <array>
@@ -18,11 +24,14 @@
 
 namespace giveway {
 
-// A peer within reach of an encounter, carried forward by its wheel speeds to this tick.
-// CarryForward fills in everything up to the way, LookAt what is below it, FindBoxes `box_begin_m`.
-struct PeerView {
+// A peer that may matter.
+struct HeardPeer {
   Peer* peer;
   bool fresh;
+};
+
+// Carried forward by its wheel speeds to this tick, as it lies to this vehicle: by CarryForward.
+struct CarriedPeer : HeardPeer {
   double speed_m_s;  // forward, as measured by the peer
   double turn_rad_s;
   Vec2 position_world;
@@ -37,7 +46,11 @@ struct PeerView {
   // peer is there already.
   double way_m;
   Vec2 way_direction_world;
+};
 
+// Related to the own path and to the right of way, by its beacon and the own state alone: by
+// LookAt.
+struct RelatedPeer : CarriedPeer {
   bool lost;
   bool standing;      // below kStandingSpeed
   bool goes_first;    // before this vehicle, by both keys as published
@@ -47,13 +60,31 @@ struct PeerView {
   bool leads;         // drives ahead in the own lane
   double gap_m;       // shell to shell
   double gate_gap_m;  // the same by the metric of the gates; never above gap_m
-  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
-  std::optional<Conflict> conflict;  // the same, where it is a matter of right of way
-  double box_begin_m;  // of `crossing`: how far to drive without standing in anyone's way
   // Straight on until the own shell is at the peer's claim; huge if never, or so far on that the
   // own cruise speed is not too fast for it.
   double free_m;
   std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
+  std::optional<Conflict> conflict;  // as `crossing`, where it is a matter of right of way
+  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
+};
+
+// What this vehicle knows of one peer, all of it: with what follows from all peers together, by
+// FindBoxes.
+struct PeerView : RelatedPeer {
+  double box_begin_m;  // of `crossing`: how far to drive without standing in anyone's way
+};
+static_assert(sizeof(PeerView) <= 336);  // a step makes up to a thousand: they must not grow
+
+// Views in the making. They are made where they stay, a part of all of them at a time: copying one
+// costs as much as making it. `Part` is the last that is made; only who makes the next sees them.
+template <typename Part>
+class PeerViews {
+ public:
+  explicit PeerViews(std::span<PeerView> views) : views_(views) {}
+  std::span<PeerView> ToMakeTheNextPart() const { return views_; }
+
+ private:
+  std::span<PeerView> views_;
 };
 
 // The echoes that the sensors hold, entry by entry `count` of them. What comes after them, up to
@@ -84,61 +115,111 @@ struct BlockedBox {
   Tick told = kNoTick;  // of the beacon that shows it
 };
 
-struct Situation {
-  const VehicleOptions& options;
+// When it is, and what the step was called with.
+struct Moment {
   SteadyTime now{0};
   Tick tick = kNoTick;
   bool new_tick = false;  // a scan came since the last step
   RunState run_state = RunState::kWaiting;
   bool leaving = false;
   bool halting = false;
-  bool arrived = false;
+};
+
+// Where the vehicle takes itself to be.
+struct OwnPose {
   Pose world_from_body;
   Vec2 forward_world;         // unit vector of the own heading
-  double speed_m_s = 0;       // forward, measured
-  double turn_rad_s = 0;      // measured
-  WheelSpeeds wheels;         // measured
   PoseCovariance covariance;  // of world_from_body
-  double reaction_s = 0;      // see ReactionSeconds
-  double slows_m = 0;         // a free way no longer than this is too short for the cruise speed
-  double sweeps_m = 0;        // see OwnSweep
-  double looks_m = 0;         // see LooksAround
-  Path path;                  // towards the goal, or straight on
-  double path_rad = 0;        // the heading along it, world frame
-  double distance_to_goal_m = 0;     // or to the next waypoint; huge without either
-  bool stops_there = false;          // at the goal; a waypoint is driven through
-  OrderKey order;                    // as it publishes it with this step
-  bool very_aimless = false;         // for so long that it does not stay in line any more
+  double known_share = 1;  // of the cruise speed that it may drive, by how well it knows its pose
+  bool lost = false;       // it does not know well enough where it is
+};
+
+// How it moves, and how far that reaches.
+struct OwnMotion {
+  double speed_m_s = 0;   // forward, measured
+  double turn_rad_s = 0;  // measured
+  WheelSpeeds wheels;     // measured
+  double reaction_s = 0;  // see ReactionSeconds
+  double slows_m = 0;     // a free way no longer than this is too short for the cruise speed
+  double sweeps_m = 0;    // see OwnSweep
+  double looks_m = 0;     // see LooksAround
+  bool turns = false;     // sharply, or did just now: echoes do not say who moves
+};
+
+// Where it drives to.
+struct OwnCourse {
+  Path path;                      // towards the goal, or straight on
+  double path_rad = 0;            // the heading along it, world frame
+  double distance_to_goal_m = 0;  // or to the next waypoint; huge without either
+  bool stops_there = false;       // at the goal; a waypoint is driven through
+  bool arrived = false;
+};
+
+// What its sensors hold.
+struct SensorsNow {
+  const RangeView& ranges;
+  const HeardEchoes& echoes;  // in `ranges`
+  const Cones& cones;
+  const SeenObjects& objects;
+  int blind_sensor = -1;  // see RangeView::FirstBlind
+};
+
+// What traffic lights ask of it.
+struct Lights {
+  std::optional<StopLine> stop_line;  // a light ahead that says stop
+  bool at_signal = false;             // a light stops this vehicle, as last published
+};
+
+// The first stage: this vehicle, as estimation has it. Nothing of any single peer.
+struct OwnView : Moment, OwnPose, OwnMotion, OwnCourse, SensorsNow, Lights {
+  const VehicleOptions& options;
+  OrderKey order;      // as it publishes it with this step
+  int steer_side = 0;  // the side of the last turn past something: 1 left, -1 right
+};
+
+// What encounters ask for, all of them together: see encounter.h.
+struct Encounters {
+  bool holds = false;     // this vehicle holds for any of them
+  bool let_pass = false;  // one with a peer that comes first is over, just now
+  bool meets = false;     // one is under way
+};
+
+// The second stage: the peers, and what follows from all of them together.
+struct PeersNow {
+  // Those that are near, that cross the own way, or with whom an encounter is under way.
+  std::span<const PeerView> peers;
+  std::uint32_t explained = 0;   // union of the `explains` of peers it is believed of
+  bool someone_lost = false;     // of all peers
+  bool someone_doubted = false;  // of `peers`
+  std::optional<BlockedBox> blocked_box;
+  Encounters encounters;
+};
+
+// What moves by itself near the vehicle.
+struct Movers {
+  bool deaf = false;  // something near moves and no fresh beacon explains it
+  int deaf_sensor = -1;
+};
+
+// What a vehicle does that comes no nearer to where it drives.
+struct Escape {
   bool aimless = false;              // has driven about for seconds without coming nearer
+  bool very_aimless = false;         // for so long that it does not stay in line any more
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   // World frame: taken of late, past echoes or out of where it is caught. Echoes turn with the
   // vehicle: choosing anew with every tick it would turn to and fro for ever.
   std::optional<double> away_rad;
-  int tries = -1;      // headings tried since it is caught where it is; negative if it is not
-  int steer_side = 0;  // the side of the last turn past something: 1 left, -1 right
-  const RangeView& ranges;
-  const HeardEchoes& echoes;       // in `ranges`
+  int tries = -1;  // headings tried since it is caught where it is; negative if it is not
+};
+
+// The last stage, what the rules read: both before, and what follows from both.
+struct Situation {
+  const OwnView& own;
+  const PeersNow& near;
+  Movers movers;
   std::span<const Vec2> places{};  // where something was heard: see heard_places.h
-  const Cones& cones;
-  const SeenObjects& objects;
-  std::optional<StopLine> stop_line;  // a light ahead that says stop
-  bool at_signal = false;             // a light stops this vehicle, as last published
-  int blind_sensor = -1;              // see RangeView::FirstBlind
-  bool turns = false;                 // sharply, or did just now: echoes do not say who moves
-  std::uint32_t explained = 0;        // union of the `explains` of peers it is believed of
-  bool deaf = false;                  // something near moves and no fresh beacon explains it
-  int deaf_sensor = -1;
-  // Those that are near, that cross the own way, or with whom an encounter is under way.
-  std::span<const PeerView> peers;
-  bool someone_lost = false;     // of all peers
-  bool someone_doubted = false;  // of `peers`
-  bool holds = false;            // for any of them
-  bool let_pass = false;         // an encounter with one that comes first is over, just now
-  bool meets = false;            // an encounter with any of them is under way
-  std::optional<BlockedBox> blocked_box;
-  LastHeard last_heard;    // of lecture_printed alone, which has no peers
-  double known_share = 1;  // of the cruise speed that it may drive, by how well it knows its pose
-  bool lost = false;       // it does not know well enough where it is
+  Escape escape;
+  LastHeard last_heard;  // of lecture_printed alone, which has no peers
 };
 
 // Below this a vehicle stands still, as the verdict defines it.
@@ -161,41 +242,41 @@ inline double ReactionSeconds(const VehicleOptions& options) {
 }
 
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
-double OwnStoppingDistance(const Situation& s);
+double OwnStoppingDistance(const OwnView& s);
 
 // How far beside its straight stopping way this vehicle ends, turning as it does now.
-double OwnSweep(const Situation& s);
+double OwnSweep(const OwnMotion& s, const VehicleOptions& options);
 
 // Distance the peer needs to stand still from its present speed, by what it says of its brakes.
-double StoppingDistanceOf(const PeerView& view, const Situation& s);
+double StoppingDistanceOf(const CarriedPeer& view, const OwnView& s);
 
 // The distance, shell to shell, at which two closing vehicles must begin to stop: both stopping
 // distances, margin and uncertainty; never below the gate.
-double CriticalDistance(const Situation& s, const PeerView& view);
+double CriticalDistance(const OwnView& s, const CarriedPeer& view);
 
 // A point given in the world, in the own body frame.
-inline Vec2 InBody(const Situation& s, Vec2 point_world) {
+inline Vec2 InBody(const OwnView& s, Vec2 point_world) {
   const Vec2 offset = point_world - s.world_from_body.position_world;
   return {Dot(s.forward_world, offset), Cross(s.forward_world, offset)};
 }
 
 // How far the two axle centres keep apart when one steers round the other.
-double RoomBeside(const PeerView& view, const Situation& s);
+double RoomBeside(const CarriedPeer& view, const OwnView& s);
 
 // Where the vehicle drives to in a straight line; without a goal straight on, as far as anybody
 // looks; its own place if it has arrived.
-Vec2 Toward(const Situation& s);
+Vec2 Toward(const OwnView& s);
 
 // True if the own body leaves the peer no room where it drives to.
-bool IsOnGoalOf(const PeerView& view, const Situation& s);
+bool IsOnGoalOf(const CarriedPeer& view, const OwnView& s);
 
 // True if the peer's body leaves no room for the own one at that point.
-bool Occupies(const PeerView& view, Vec2 point_world, const Situation& s);
+bool Occupies(const CarriedPeer& view, Vec2 point_world, const OwnView& s);
 
 // The velocity of a peer where it is now.
-Vec2 VelocityOf(const PeerView& view);
+Vec2 VelocityOf(const CarriedPeer& view);
 
 // How fast the gap to a peer shrinks.
-double ClosingSpeed(const PeerView& view, const Situation& s);
+double ClosingSpeed(const CarriedPeer& view, const OwnView& s);
 
 }  // namespace giveway

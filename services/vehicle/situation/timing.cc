@@ -33,7 +33,7 @@ Conflict InTurn(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
 
 }  // namespace
 
-bool IsThroughFirst(const PeerView& view, const Situation& s) {
+bool IsThroughFirst(const RelatedPeer& view, const OwnView& s) {
   if (!view.conflict || Has(Defect::kThroughFirstGuessed)) return true;
   const Beacon& beacon = view.peer->beacon;
   const Conflict conflict =
@@ -47,7 +47,7 @@ bool IsThroughFirst(const PeerView& view, const Situation& s) {
   return own_s + kThroughMargin_s < peer_s;
 }
 
-bool IsGoneInTime(const PeerView& view, const Situation& s) {
+bool IsGoneInTime(const RelatedPeer& view, const OwnView& s) {
   if (!view.fresh || !view.conflict || view.speed_m_s < kStandingSpeed_m_s) return false;
   const Conflict conflict =
       Shrunk(*view.conflict, s.path.direction_world, view.way_direction_world);

@@ -8,10 +8,10 @@ namespace giveway {
 
 // True if every way of the peer at up to a tenth above its cruise speed leaves this vehicle out of
 // the conflict before the peer can reach it.
-bool IsThroughFirst(const PeerView& view, const Situation& s);
+bool IsThroughFirst(const RelatedPeer& view, const OwnView& s);
 
 // True if the peer moves and, driving on as it does, is out of the conflict before this vehicle can
 // reach it.
-bool IsGoneInTime(const PeerView& view, const Situation& s);
+bool IsGoneInTime(const RelatedPeer& view, const OwnView& s);
 
 }  // namespace giveway

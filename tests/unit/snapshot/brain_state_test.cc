@@ -82,7 +82,7 @@ TEST_P(BrainStateOfSeed, IsTheSameBrainAfterwards) {
   std::uint32_t tick = 0;
   while (tick < 3 * GetParam()) fate.Lead(&brain, ++tick);
   const std::string bytes = BytesOf(brain.State());
-  EXPECT_EQ(brain.State().grid.IsActive(), options.sonar_noise > 0);
+  EXPECT_EQ(brain.State().sensed.grid.IsActive(), options.sonar_noise > 0);
   const auto state = StateFrom(bytes, options);
   ASSERT_NE(state, nullptr);
   ASSERT_EQ(BytesOf(*state), bytes);
@@ -113,7 +113,7 @@ TEST(BrainState, KeepsWhatItHeardInAFewBytes) {
   const auto state = StateFrom(bytes, OptionsOfSeed(1));
   ASSERT_NE(state, nullptr);
   int held = 0;
-  state->grid.Held([&](Vec2) { ++held; });
+  state->sensed.grid.Held([&](Vec2) { ++held; });
   EXPECT_GT(held, 0);
 }
 
@@ -180,15 +180,15 @@ TEST(BrainState, AnImageOfBeforeThePoseWasKeptIsTheSameBrainWithItsPoseBegunAnew
 TEST(BrainState, AWaypointThatTheRouteDoesNotHaveIsRefused) {
   Vehicle brain(DefaultOptions(), 42);
   auto state = std::make_unique<VehicleState>(brain.State());
-  state->waypoint = 3;
+  state->route.waypoint = 3;
   EXPECT_EQ(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
-  state->waypoint = 0;
-  state->decision.sensor = kSensorCount;
+  state->route.waypoint = 0;
+  state->last.decision.sensor = kSensorCount;
   EXPECT_EQ(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
-  state->decision.sensor = -1;
-  state->nearest_m = std::numeric_limits<double>::infinity();
+  state->last.decision.sensor = -1;
+  state->progress.nearest_m = std::numeric_limits<double>::infinity();
   EXPECT_EQ(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
-  state->nearest_m = 5;
+  state->progress.nearest_m = 5;
   EXPECT_NE(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
 }
 
@@ -222,12 +222,12 @@ TEST(BrainState, KeepsAHeadingThatFixesDoubt) {
   Vehicle brain(DefaultOptions(), 42);
   auto state = std::make_unique<VehicleState>(brain.State());
   const std::size_t before = BytesOf(*state).size();
-  state->pose.disagreement = {{0.1, 0}, 0.5, 1};
+  state->motion.pose.disagreement = {{0.1, 0}, 0.5, 1};
   const std::string bytes = BytesOf(*state);
   EXPECT_GT(bytes.size(), before);
   const auto same = StateFrom(bytes, DefaultOptions());
   ASSERT_NE(same, nullptr);
-  EXPECT_EQ(same->pose.disagreement.off_rad, 0.5);
+  EXPECT_EQ(same->motion.pose.disagreement.off_rad, 0.5);
   EXPECT_TRUE(AreBytesOf(bytes, *state));
 }
 

@@ -126,8 +126,8 @@ TEST(HeldUp, TheWordToItIsTakenBackOnceItIsTooLateToStop) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   double said_last_m = 0;
   DriveUntilStopped(&bench, [&](std::uint32_t tick) {
-    if (bench.Brain().State().gives_way_to == kPeer) {
-      said_last_m = bench.Brain().State().odometry.WorldFromBody().position_world.x;
+    if (bench.Brain().State().published.gives_way_to == kPeer) {
+      said_last_m = bench.Brain().State().motion.odometry.WorldFromBody().position_world.x;
     }
     return std::vector{PeerGivingWayTo(kThird, tick)};
   });
@@ -165,7 +165,8 @@ TEST(HeldUp, OneThatIsHeldUpByThisVehicleOverAnotherIsNotWaitedFor) {
 
 // One whose way crosses the own one there, and who is so far before it.
 PeerView Crossing(Peer* peer, Stretch own, double away_m) {
-  PeerView view{.peer = peer};
+  PeerView view{};
+  view.peer = peer;
   view.crossing = Conflict{own, {away_m, away_m + 1}, true};
   return view;
 }
@@ -178,7 +179,7 @@ TEST(Box, BeginsWithTheFirstOfThoseThatLeaveNoRoomBetween) {
   std::vector<PeerView> views = {Crossing(&peer, {3, 4}, 1), Crossing(&peer, {3.5, 4.5}, 1),
                                  Crossing(&peer, {5, 6}, 10), Crossing(&peer, {5.3, 6}, 10),
                                  Crossing(&peer, {2, 2.5}, 10)};
-  FindBoxes(views, onlooker.Situation());
+  FindBoxes(PeerViews<RelatedPeer>(views), onlooker.Own());
   EXPECT_EQ(views[0].box_begin_m, 3);
   EXPECT_EQ(views[1].box_begin_m, 3);
   EXPECT_EQ(views[2].box_begin_m, 3);

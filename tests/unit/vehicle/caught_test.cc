@@ -25,8 +25,8 @@ std::vector<double> HeadingsTried(std::uint32_t ticks, const Neighbours& beside,
     RangeScan scan = test::ClearScan(0);
     scan.wheels = wheels;
     bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : beside(tick));
-    if (state.away_tick != last) tried.push_back(state.away_rad);
-    last = state.away_tick;
+    if (state.progress.away_tick != last) tried.push_back(state.progress.away_rad);
+    last = state.progress.away_tick;
   }
   return tried;
 }

@@ -84,9 +84,9 @@ TEST(Doubt, NeverRaisesTheMode) {
     }
     const Inputs last = AnyInputs(&random, ticks, &heard);
     *believing = vehicle.State();
-    for (Peer& peer : believing->peers.Peers()) peer.trust = {};
+    for (Peer& peer : believing->heard.peers.Peers()) peer.trust = {};
     *doubting = *believing;
-    for (Peer& peer : doubting->peers.Peers()) {
+    for (Peer& peer : doubting->heard.peers.Peers()) {
       peer.trust = {.ever_doubted = true, .doubted_at = last.now};
     }
     // Judged anew all the same: of that only the jumps are left out.

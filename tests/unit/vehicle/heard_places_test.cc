@@ -17,7 +17,7 @@ VehicleOptions Noisy() {
 }
 
 std::uint8_t Confidence(const test::BrainBench& bench, Vec2 point_body) {
-  return bench.Brain().State().grid.At(point_body);
+  return bench.Brain().State().sensed.grid.At(point_body);
 }
 
 // What sensor 3, at 10 degrees, hears from 0.5 m away.
@@ -41,12 +41,12 @@ TEST(HeardPlaces, AreKeptByImperfectUltrasonicsAlone) {
   EXPECT_GE(Confidence(noisy, kHeardBy3), ObstacleGrid::kHeld);
   test::BrainBench exact(test::DefaultOptions());
   HearThrice(&exact);
-  EXPECT_FALSE(exact.Brain().State().grid.IsActive());
+  EXPECT_FALSE(exact.Brain().State().sensed.grid.IsActive());
   VehicleOptions lecture = Noisy();
   lecture.behaviour = Behaviour::kLectureYield;
   test::BrainBench yielding(lecture);
   HearThrice(&yielding);
-  EXPECT_FALSE(yielding.Brain().State().grid.IsActive());
+  EXPECT_FALSE(yielding.Brain().State().sensed.grid.IsActive());
 }
 
 TEST(HeardPlaces, ThePeerThatABeaconExplainsIsNone) {
@@ -64,7 +64,7 @@ TEST(HeardPlaces, ANewWorldHasNone) {
   Inputs inputs;
   inputs.roster = RosterEntry{.vehicle = VehicleId{1}, .accepted = true, .epoch = WorldEpoch{9}};
   vehicle.Step(inputs);
-  EXPECT_FALSE(vehicle.State().grid.IsActive());
+  EXPECT_FALSE(vehicle.State().sensed.grid.IsActive());
 }
 
 // Heard at 50 degrees on the left, then the vehicle turns left until it is straight ahead, and no
@@ -78,7 +78,7 @@ TEST(HeardPlaces, WhatWasHeardBesideItIsAheadAfterATurn) {
   vehicle.Restore(bench.Brain().State());
   const Vec2 heard = Vec2{0.114, 0.119} + 0.3 * Vec2{Cos(Radians(50)), Sin(Radians(50))};
   const double bearing_rad = Atan2(heard.y, heard.x);
-  ASSERT_GE(vehicle.State().grid.At(heard), ObstacleGrid::kHeld);
+  ASSERT_GE(vehicle.State().sensed.grid.At(heard), ObstacleGrid::kHeld);
   const std::uint32_t first = bench.NextTick() - 1;
   scan.wheels = WheelsFromTwist(Noisy().profile.drive, {0, bearing_rad / (20 * 0.05)});
   Outputs outputs;
@@ -86,11 +86,12 @@ TEST(HeardPlaces, WhatWasHeardBesideItIsAheadAfterATurn) {
     scan.tick = Tick{first + i};
     scan.counted = CountOn(scan.counted, scan.wheels, 0.05);
     // Still those that fired before.
-    for (std::size_t j = 0; j < 8; ++j) scan.readings[j].tick = vehicle.State().ranges[j].tick;
+    for (std::size_t j = 0; j < 8; ++j)
+      scan.readings[j].tick = vehicle.State().sensed.ranges[j].tick;
     outputs = vehicle.Step({.now = bench.Now() + i * Noisy().tick_period, .scan = scan});
   }
-  EXPECT_GE(vehicle.State().grid.At({Norm(heard), 0}), ObstacleGrid::kHeld);
-  EXPECT_LT(vehicle.State().grid.At(heard), ObstacleGrid::kHeld);
+  EXPECT_GE(vehicle.State().sensed.grid.At({Norm(heard), 0}), ObstacleGrid::kHeld);
+  EXPECT_LT(vehicle.State().sensed.grid.At(heard), ObstacleGrid::kHeld);
 }
 
 // Heard three times by that sensor, 0.3 m before it, and then not, by two firings of all: the last
@@ -106,7 +107,7 @@ Decision AfterSilence(VehicleOptions options, int sensor, double speed_m_s, Vec2
   bench.Step(scan);
   scan.wheels = WheelsFromTwist(options.profile.drive, {speed_m_s, 0});
   const Outputs outputs = bench.Step(scan);
-  EXPECT_EQ(bench.Brain().State().ranges.Echoes(), 0U);
+  EXPECT_EQ(bench.Brain().State().sensed.ranges.Echoes(), 0U);
   return outputs.command.decision;
 }
 
@@ -134,7 +135,7 @@ TEST(HeardPlaces, StaleRangesAreNoLackOfProgress) {
     for (int i = 0; i < 100; ++i) {
       ASSERT_EQ(bench.Step(stale).command.decision.rule, Rule::kRangesStale);
     }
-    EXPECT_EQ(bench.Brain().State().aimless_ticks > 50, !remembers);
+    EXPECT_EQ(bench.Brain().State().progress.aimless_ticks > 50, !remembers);
   }
 }
 

@@ -133,7 +133,7 @@ TEST(Lost, OneThatIsIsPassedAsFarAwayAsItIsUnsure) {
     const test::Onlooker onlooker;
     Peer peer = test::PeerAt({{3, 0}, 0}, {.xx_m2 = 0.09, .yy_m2 = 0.09});
     peer.beacon.rule = rule;
-    return RoomBeside(onlooker.LookAt(&peer), onlooker.Situation());
+    return RoomBeside(onlooker.LookAt(&peer), onlooker.Own());
   };
   EXPECT_NEAR(room_m(Rule::kLost), room_m(Rule::kArrived) + kSigmas * 0.3, 1e-9);
 }
@@ -159,8 +159,8 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
   // How near it came by its wheels alone does not count: it has yet to come nearer.
   const VehicleState& state = bench.Brain().State();
-  EXPECT_LE(state.aimless_ticks, 1U);
-  EXPECT_GT(state.nearest_m, 0.1);
+  EXPECT_LE(state.progress.aimless_ticks, 1U);
+  EXPECT_GT(state.progress.nearest_m, 0.1);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST_P(ALyingPeer, TouchesNobodyAndIsFoundOut) {
     while (fleet.Advance()) {
     }
     EXPECT_EQ(fleet.World().Figures().contacts, 0U) << i;
-    found_out += fleet.Brain(0).State().trust.*GetParam().kind > 0 ? 1 : 0;
+    found_out += fleet.Brain(0).State().counters.trust.*GetParam().kind > 0 ? 1 : 0;
   }
   EXPECT_GE(found_out, 5U);
 }
@@ -116,10 +116,10 @@ TEST_P(HonestPeers, AreNotDoubted) {
     while (fleet.Advance()) {
     }
     for (std::size_t i = 0; i < 8; ++i) {
-      for (const Peer& peer : fleet.Brain(i).State().peers.Peers()) {
+      for (const Peer& peer : fleet.Brain(i).State().heard.peers.Peers()) {
         doubted += peer.trust.ever_doubted ? 1 : 0;
       }
-      counted += fleet.Brain(i).State().trust;
+      counted += fleet.Brain(i).State().counters.trust;
     }
     EXPECT_EQ(doubted, 0U) << seed << ": " << counted.beacon_without_echo << " without echo, "
                            << counted.halted_but_closing << " closing, " << counted.jumps

@@ -168,7 +168,7 @@ TEST_F(Objects, NonsenseIsRefusedAndCounted) {
   CameraScan camera = CameraOf(SeenClass::kCart, 9);
   bench_.WithNext().camera = camera;
   Step(0);
-  EXPECT_EQ(bench_.Brain().State().scans_refused, 4U);
+  EXPECT_EQ(bench_.Brain().State().counters.scans_refused, 4U);
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(RefusedBeacon, OfAStepIsExplained) {
   const auto bench_options = test::DefaultOptions();
   Vehicle vehicle(bench_options, 9);
   const auto state = std::make_unique<VehicleState>(vehicle.State());
-  state->epoch = test::kEpoch;
+  state->world.epoch = test::kEpoch;
   Beacon beacon = test::BeaconOf(5, 3, {});
   beacon.cruise_m_s = 3;
   const ReceivedBeacon received = test::Received(beacon, SteadyTime{0});
@@ -112,7 +112,7 @@ TEST(RefusedBeacon, IsNamedByTheStepThatRefusedIt) {
   Inputs inputs;
   inputs.beacons = beacons;
   vehicle.Step(inputs);
-  EXPECT_EQ(vehicle.State().beacons.rejected_out_of_range, 11U);
+  EXPECT_EQ(vehicle.State().counters.beacons.rejected_out_of_range, 11U);
   ASSERT_EQ(vehicle.Refused().size(), 8U);  // of more only the first: the counter has all
   EXPECT_EQ(vehicle.Refused()[0].index, 1U);
   EXPECT_EQ(vehicle.Refused()[0].why, BeaconRefusal::kOutOfRange);

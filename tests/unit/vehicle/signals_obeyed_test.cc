@@ -160,7 +160,7 @@ TEST(SignalsObeyed, NonsenseAndOtherWorldsAreRefusedAndCounted) {
   for (const SignalState& signal : bad) {
     EXPECT_EQ(Hear(&bench, signal, 0).command.decision.rule, Rule::kCruise);
   }
-  EXPECT_EQ(bench.Brain().State().signals_refused, 5U);
+  EXPECT_EQ(bench.Brain().State().counters.signals_refused, 5U);
 }
 
 // ---- the table
@@ -271,7 +271,7 @@ TEST(SignalsOfOthers, OfTwoThatLightsStoppedNeitherCountsOnTheOthersLight) {
   bench.WithNext().signals = {Head(SignalPhase::kDark, 1.17)};
   const Outputs out = bench.Step(Driving(0), {other});
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
-  EXPECT_FALSE(bench.Brain().State().peers.Peers()[0].encounter.entered);
+  EXPECT_FALSE(bench.Brain().State().heard.peers.Peers()[0].encounter.entered);
 }
 
 TEST(SignalsOfOthers, AQueueAtALightIsNotOvertaken) {

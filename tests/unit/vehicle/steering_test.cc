@@ -262,7 +262,7 @@ TEST(Steering, WhereEchoesAloneCoverTheWayItIsKept) {
     scan.wheels = {};  // it is held where it stands
     out = bench.Step(scan, tick == 0 ? std::vector<Beacon>{} : std::vector{beside});
   }
-  EXPECT_GE(bench.Brain().State().aimless_ticks, 120U);
+  EXPECT_GE(bench.Brain().State().progress.aimless_ticks, 120U);
   EXPECT_NEAR(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0, 0.1);
 }
 

@@ -39,10 +39,10 @@ class Trust : public testing::Test {
   }
   void Begin(const VehicleOptions& options) { bench_ = BrainBench(options); }
 
-  const TrustCounters& Counted() const { return bench_.Brain().State().trust; }
+  const TrustCounters& Counted() const { return bench_.Brain().State().counters.trust; }
   Mode TheMode() const { return out_.command.decision.mode; }
   bool Doubted() const {
-    return IsDoubted(bench_.Brain().State().peers.Peers()[0].trust, bench_.Now());
+    return IsDoubted(bench_.Brain().State().heard.peers.Peers()[0].trust, bench_.Now());
   }
 
   BrainBench bench_{test::DefaultOptions()};

@@ -19,7 +19,7 @@ VehicleOptions WithGate(double gate_enter_m) {
 double CriticalDistanceWith(const PoseCovariance& covariance, double gate_enter_m = 0) {
   const test::Onlooker onlooker(WithGate(gate_enter_m));
   Peer peer = test::PeerAt({{3, 3}, 0}, covariance);
-  return CriticalDistance(onlooker.Situation(), onlooker.LookAt(&peer));
+  return CriticalDistance(onlooker.Own(), onlooker.LookAt(&peer));
 }
 
 // Of a peer that comes from the right.
@@ -36,7 +36,7 @@ double FreeWith(const PoseCovariance& covariance) {
 
 bool MattersBeside(const PoseCovariance& covariance) {
   const Peer peer = test::PeerAt({{30, -3}, 0}, covariance);
-  return CanMatter(peer, true, test::Onlooker().Situation());
+  return CanMatter(peer, true, test::Onlooker().Own());
 }
 
 // Whether an echo straight ahead, so much nearer than the body of a peer 1.5 m ahead, is its own.
@@ -112,7 +112,7 @@ TEST(Beacon, TellsTheCovarianceOfItsPose) {
   Outputs out;
   for (int i = 0; i < 200; ++i) out = bench.Step(scan);
   const PoseCovariance& told = out.beacon.covariance;
-  EXPECT_EQ(told, bench.Brain().State().odometry.Covariance());
+  EXPECT_EQ(told, bench.Brain().State().motion.odometry.Covariance());
   EXPECT_GT(told.xx_m2, 0);
   EXPECT_GT(told.yy_m2, 10 * told.xx_m2);
   EXPECT_GT(told.yh_m_rad, 0);

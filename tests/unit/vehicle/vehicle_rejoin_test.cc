@@ -55,10 +55,10 @@ TEST(VehicleInARestartedWorld, ARefusalOrAPoseThatIsNoneMovesNothing) {
   RosterEntry entry = Placed(WorldEpoch{8}, {{1, 1}, 0});
   entry.accepted = false;
   brain.Step({.now = std::chrono::milliseconds(50), .roster = entry});
-  EXPECT_EQ(brain.State().epoch, kNoEpoch);
+  EXPECT_EQ(brain.State().world.epoch, kNoEpoch);
   entry = Placed(WorldEpoch{8}, {{std::numeric_limits<double>::quiet_NaN(), 1}, 0});
   brain.Step({.now = std::chrono::milliseconds(100), .roster = entry});
-  EXPECT_EQ(brain.State().epoch, kNoEpoch);
+  EXPECT_EQ(brain.State().world.epoch, kNoEpoch);
 }
 
 TEST(VehicleInARestartedWorld, OnAnotherPlaceItDrivesByOtherOptionsAsTheSameVehicle) {
@@ -105,7 +105,7 @@ class Rounds {
     Vehicle brain(options, 42);
     brain.Step({.now = Nanoseconds{0}, .roster = Placed(kWorld, {})});
     WheelSpeeds wheels;
-    while (brain.State().waypoint < 1 || tick < 200) {
+    while (brain.State().route.waypoint < 1 || tick < 200) {
       wheels = Step(&brain, Scan(wheels)).command.target;
     }
     last = wheels;
@@ -155,7 +155,7 @@ TEST(VehicleThatRestarts, KeepsWhatItHasWaitedAndItsPlaceInTheOrder) {
       static_cast<std::uint32_t>(rounds.options.ageing_limit / rounds.options.tick_period);
   Handover handover{.epoch = Rounds::kWorld, .tick = Tick{5000}, .task = {2, limit + 7}};
   ASSERT_TRUE(brain.TakeOver(handover));
-  EXPECT_EQ(brain.State().order.waited_ticks, limit);
+  EXPECT_EQ(brain.State().waiting.order.waited_ticks, limit);
   EXPECT_EQ(brain.HandOver(), handover);
   handover.task = {5, 5001};  // neither has the route so many, nor the world lasted so long
   ASSERT_TRUE(brain.TakeOver(handover));

@@ -183,13 +183,13 @@ TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
     Vehicle brain(test::DefaultOptions(), 42);
     RangeScan scan = ClearScan(1);
     brain.Step({.now = std::chrono::milliseconds(50), .scan = scan});
-    const Pose before = brain.State().odometry.WorldFromBody();
+    const Pose before = brain.State().motion.odometry.WorldFromBody();
     scan = ClearScan(2);
     spoil(&scan);
     const Outputs out = brain.Step({.now = std::chrono::milliseconds(100), .scan = scan});
     EXPECT_EQ(out.beacon.tick, Tick{1});
     EXPECT_EQ(out.beacon.world_from_body, before);
-    return brain.State().scans_refused == 1;
+    return brain.State().counters.scans_refused == 1;
   };
   EXPECT_FALSE(refused([](RangeScan* scan) { *scan = ClearScan(1); }));
   EXPECT_TRUE(refused([](RangeScan* scan) { scan->wheels.left_rad_s = kNan; }));
@@ -224,11 +224,11 @@ TEST(Vehicle, AScanOlderThanTheLastMovesNothing) {
     inputs.scan = scan;
     vehicle.Step(inputs);
   }
-  const Vec2 before = vehicle.State().odometry.WorldFromBody().position_world;
+  const Vec2 before = vehicle.State().motion.odometry.WorldFromBody().position_world;
   inputs.scan->tick = Tick{2};
   vehicle.Step(inputs);
-  EXPECT_EQ(vehicle.State().odometry.WorldFromBody().position_world, before);
-  EXPECT_EQ(vehicle.State().tick, Tick{3});
+  EXPECT_EQ(vehicle.State().motion.odometry.WorldFromBody().position_world, before);
+  EXPECT_EQ(vehicle.State().world.tick, Tick{3});
 }
 
 TEST(Vehicle, TheSameInputsGiveTheSameBits) {

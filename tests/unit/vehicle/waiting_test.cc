@@ -39,12 +39,12 @@ class Waiting {
 
   // True if an encounter with that peer is under way.
   bool Meets(std::uint32_t id) const {
-    const auto peers = bench_.Brain().State().peers.Peers();
+    const auto peers = bench_.Brain().State().heard.peers.Peers();
     return std::ranges::any_of(peers, [id](const Peer& peer) {
       return peer.id == VehicleId{id} && peer.encounter.active;
     });
   }
-  std::uint32_t WaitedTicks() const { return bench_.Brain().State().waited_ticks; }
+  std::uint32_t WaitedTicks() const { return bench_.Brain().State().waiting.waited_ticks; }
   std::uint32_t PlaceInOrder() const { return out_.beacon.order.waited_ticks; }
   double X() const { return out_.beacon.world_from_body.position_world.x; }
 

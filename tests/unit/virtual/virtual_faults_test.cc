@@ -146,9 +146,9 @@ TEST(VirtualFaults, ARestartThatOutlastsItsBodyBeginsAtTheStart) {
 TEST(VirtualFaults, APartitionIsHeardByNobodyAndEnds) {
   VirtualFleet fleet(TwoOnARoad(), Planned({FaultFor(Kind::kPartition, 2, 1)}));
   const auto heard = [&] {
-    const std::uint32_t before = fleet.Brain(0).State().beacons.taken;
+    const std::uint32_t before = fleet.Brain(0).State().counters.beacons.taken;
     AdvanceBy(&fleet, 1);
-    return fleet.Brain(0).State().beacons.taken - before;
+    return fleet.Brain(0).State().counters.beacons.taken - before;
   };
   AdvanceBy(&fleet, 39);
   for (int i = 0; i < 20; ++i) EXPECT_EQ(heard(), 0U) << i;

@@ -74,7 +74,7 @@ TEST(VirtualFleet, APausedVehicleSaysNothingBrakesAndGoesOn) {
   EXPECT_TRUE(fleet.Answered(1));
   EXPECT_EQ(fleet.Said(1).beacon.boot_epoch, 2U);
   // Of what was said meanwhile its reader kept the last four, and one is new.
-  EXPECT_EQ(fleet.Brain(1).State().beacons.taken, 78U + 5U);
+  EXPECT_EQ(fleet.Brain(1).State().counters.beacons.taken, 78U + 5U);
   fleet.Finish();
   EXPECT_EQ(fleet.World().EndReason(), "all_arrived");
 }
@@ -104,13 +104,13 @@ TEST(VirtualFleet, ARestartedVehicleGoesOnAlongItsRoute) {
       {.kind = ProcessFaultKind::kRestart, .vehicle = VehicleId{2}, .at_s = 9, .for_s = 0.5}};
   VirtualFleet fleet(scenario, plan);
   Advance(&fleet, 178);
-  EXPECT_EQ(fleet.Brain(1).State().waypoint, 1U);
+  EXPECT_EQ(fleet.Brain(1).State().route.waypoint, 1U);
   const double x_m = fleet.World().Truths()[1].world_from_body.position_world.x;
   Advance(&fleet, 14);
   EXPECT_EQ(fleet.Said(1).beacon.boot_epoch, 3U);
-  EXPECT_EQ(fleet.Brain(1).State().waypoint, 1U);
+  EXPECT_EQ(fleet.Brain(1).State().route.waypoint, 1U);
   double least_x_m = 1e9;
-  while (fleet.Brain(1).State().waypoint == 1) {
+  while (fleet.Brain(1).State().route.waypoint == 1) {
     Advance(&fleet, 1);
     least_x_m = std::min(least_x_m, fleet.World().Truths()[1].world_from_body.position_world.x);
   }
@@ -125,8 +125,8 @@ TEST(VirtualFleet, TheOthersHearOfASilentOneWhatTheMiddlewareWouldSay) {
   plan.faults = {{.kind = ProcessFaultKind::kCrash, .vehicle = VehicleId{2}, .at_s = 3}};
   VirtualFleet fleet(ALongRoad(), plan);
   Advance(&fleet, 80);
-  EXPECT_EQ(fleet.Brain(0).State().qos.deadline_missed, 1U);
-  EXPECT_EQ(fleet.Brain(0).State().qos.liveliness_lost, 1U);
+  EXPECT_EQ(fleet.Brain(0).State().counters.qos.deadline_missed, 1U);
+  EXPECT_EQ(fleet.Brain(0).State().counters.qos.liveliness_lost, 1U);
 }
 
 TEST(VirtualFleet, WhatTheRadioLosesTheBrainCountsAsLost) {
@@ -135,7 +135,7 @@ TEST(VirtualFleet, WhatTheRadioLosesTheBrainCountsAsLost) {
   plan.radio.loss = 0.3;
   VirtualFleet fleet(ALongRoad(), plan);
   Advance(&fleet, 400);
-  const BeaconCounters& counters = fleet.Brain(0).State().beacons;
+  const BeaconCounters& counters = fleet.Brain(0).State().counters.beacons;
   EXPECT_NEAR(counters.lost, 0.3 * 400, 45);
   EXPECT_NEAR(counters.taken + counters.lost, 399, 6);
 }
