@@ -110,9 +110,14 @@ void Vehicle::TakePeers(const Inputs& inputs) {
                   state.odometry.WorldFromBody().position_world};
   state.peers.Advance(inputs.now, state.tick);
   refused_count_ = 0;
+  fates_.clear();
   for (std::uint32_t i = 0; i < inputs.beacons.size(); ++i) {
+    const std::uint32_t accepted = state.beacons.accepted;
     const BeaconRefusal why =
         state.peers.Take(inputs.beacons[i], self, options_, &state.beacons, &state.trust);
+    fates_.push_back(why != BeaconRefusal::kNone          ? BeaconFate::kRefused
+                     : state.beacons.accepted != accepted ? BeaconFate::kAccepted
+                                                          : BeaconFate::kNotHeard);
     if (why == BeaconRefusal::kNone || refused_count_ == refused_.size()) continue;
     refused_[refused_count_++] = {i, why};
   }
