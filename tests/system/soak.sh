@@ -2,8 +2,8 @@
 # A soak of real processes: everything that can go wrong here passes, the report says so and is whole;
 # wrong input is refused before anything starts; Ctrl-C ends it with a report; a supervisor that is
 # killed leaves nobody behind, and its soak continues; a broken promise makes everyone keep its ring,
-# which replays; and in virtual time the same list gives the same report twice. Each in a domain of
-# its own, side by side, in under two minutes.
+# which replays; every beacon of a lossy network is accounted for; and in virtual time the same list
+# gives the same report twice. Each in a domain of its own, side by side, in about two minutes.
 # shellcheck disable=SC2317,SC2030,SC2031 # what runs beside is called by name
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
