@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "services/types/figures/drive_figures.h"
 #include "services/types/figures/packet_counters.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/time.h"
@@ -79,7 +80,8 @@ struct WorldHealth {
   std::uint32_t joins_refused = 0;       // unread: without a session, or too many of one writer
   std::uint32_t orders_refused = 0;      // of a writer that names too many vehicles
   std::uint32_t write_failures = 0;
-  PacketCounters packets;  // of this process
+  FigureSummary command_latency;  // us: from publishing a command to the tick that applies it
+  PacketCounters packets;         // of this process
 };
 
 // One sentence a reason; none: it is live, it is ready. Who is not live is not ready.

@@ -204,6 +204,14 @@ void AddTiming(const DriveFigures& timing, Metrics* metrics) {
                    timing.Of(DriveFigure::kReactionWay));
   metrics->Summary("reaction_ratio", "The same as a share of the distance free at the cause.",
                    timing.Of(DriveFigure::kReactionShare));
+  metrics->Summary(
+      "beacon_latency_seconds",
+      "From publishing to reception of beacons, the longest of a turn, by wall clocks.",
+      timing.Of(DriveFigure::kBeaconLatency));
+  metrics->Summary("scan_latency_seconds", "From publishing to reception of scans, by wall clocks.",
+                   timing.Of(DriveFigure::kScanLatency));
+  metrics->Counter("samples_received_before_sent", "Samples that by wall clocks came too early.",
+                   timing.received_before_sent);
   if (timing.narrowest) {
     metrics->Gauge("narrowest_margin_ratio",
                    "The least of its free distance that a reaction has left.",
@@ -288,6 +296,9 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
   metrics.Add({{"reason", "unbound"}}, world.commands_unbound);
   metrics.Add({{"reason", "not_finite"}}, world.commands_not_finite);
   metrics.Add({{"reason", "stranger"}}, world.commands_strangers);
+  metrics.Summary("command_latency_seconds",
+                  "From publishing a motor command to the tick that applies it, by wall clocks.",
+                  world.command_latency);
   metrics.Counter("joins_rejected", "Requests to join that were not looked at.",
                   world.joins_refused);
   metrics.Counter("orders_rejected", "Orders of a writer that names too many vehicles.",

@@ -22,6 +22,12 @@ struct Taken {
   // The first few samples that are broken, misnamed, unreadable, out of range or a stranger's, with
   // what is wrong with them.
   std::span<const Refusal> refusals;
+  // From publishing to reception, by the wall clocks of both hosts: the longest of the beacons, and
+  // the newest scan. Nothing where no sample came, or none says when it was published.
+  std::optional<Nanoseconds> beacon_latency;
+  std::optional<Nanoseconds> scan_latency;
+  // Writers, of whatever topic, that have left: their identities, as beacons name them.
+  std::span<const std::uint64_t> left;
 };
 
 // Counters of the link alone; the brain counts what it accepts and refuses.

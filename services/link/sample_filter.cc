@@ -93,6 +93,15 @@ std::optional<SessionId> KeyReader::Session() const {
 bool SampleFilter::Passes(const rtps::CacheChange_t& change, const FilterOfTopic& topic,
                           SteadyTime now) {
   const std::scoped_lock lock(mutex_);
+  const bool passes = Allows(change, topic, now);
+  if (arrivals_ != nullptr && change.kind == rtps::ALIVE) {
+    arrivals_->Note(Identity(change.writerGUID), change.sequenceNumber.to64long(), passes);
+  }
+  return passes;
+}
+
+bool SampleFilter::Allows(const rtps::CacheChange_t& change, const FilterOfTopic& topic,
+                          SteadyTime now) {
   const KeyReader key(change, topic);
   const char* const wrong_key = key.WhyNot();
   const char* const why = wrong_key != nullptr ? wrong_key : WhyNot(change.writerGUID, key, now);

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "services/link/fastdds/fastdds_version.h"
+#include "services/link/inbox/arrival_log.h"
 #include "services/link/link_clock.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/refusal.h"
@@ -76,6 +77,9 @@ class SampleFilter {
   // On the library's threads. `now` is of the clock that worlds are watched by.
   bool Passes(const rtps::CacheChange_t& change, const FilterOfTopic& topic, SteadyTime now);
 
+  // From now on what arrives is noted there. It outlives this. Before the first sample.
+  void LogArrivals(ArrivalLog* arrivals) { arrivals_ = arrivals; }
+
   std::uint32_t Refused() const { return refused_.load(std::memory_order_relaxed); }
   // The first few since the last call.
   void TakeRefusals(std::vector<Refusal>* refusals);
@@ -86,8 +90,11 @@ class SampleFilter {
   std::mutex& Mutex() { return mutex_; }  // held during WhyNot
 
  private:
+  bool Allows(const rtps::CacheChange_t& change, const FilterOfTopic& topic, SteadyTime now);
+
   const char* const sample_;
   const bool by_vehicle_;
+  ArrivalLog* arrivals_ = nullptr;
   std::mutex mutex_;
   std::vector<Refusal> kept_;  // guarded by mutex_
   std::atomic<std::uint32_t> refused_{0};

@@ -9,6 +9,7 @@
 #include "services/link/fastdds/reader_events.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/impairment/impairer.h"
+#include "services/link/inbox/arrival_log.h"
 #include "services/link/inbox/beacon_inbox.h"
 #include "services/link/inbox/peer_events.h"
 #include "services/link/inbox/roster_inbox.h"
@@ -89,7 +90,9 @@ struct FittedSensors {
 // gone.
 struct Filters {
   explicit Filters(const WorldBinding& world)
-      : scans("scan", world.Participant()), signals("signal", world.Participant()) {}
+      : scans("scan", world.Participant()), signals("signal", world.Participant()) {
+    beacons.LogArrivals(&beacon_arrivals);
+  }
 
   void TakeRefusals(std::vector<Refusal>* refusals) {
     for (SampleFilter* filter : All()) filter->TakeRefusals(refusals);
@@ -101,6 +104,7 @@ struct Filters {
   }
   std::array<SampleFilter*, 5> All() { return {&roster, &beacons, &scans, &signals, &orders}; }
 
+  ArrivalLog beacon_arrivals;
   SessionFilter roster{"roster entry"};
   KeyQuota beacons{"beacon", KeyQuota::Key::kVehicle, KeyQuota::Of::kWriter, kMostIdsOfWriter};
   WorldFilter scans;
@@ -120,7 +124,7 @@ struct OwnEndpoints {
                                                            ReaderEvents::Mask(), &filters.beacons)),
         command_writer(participant.MakeWriter<wire::MotorCommand>(VehiclePartition(id))),
         status_writer(participant.MakeWriter<wire::Status>(VehiclePartition(id))),
-        beacons(beacon_reader, names, participant.Prefix()),
+        beacons(beacon_reader, names, participant.Prefix(), &filters.beacon_arrivals),
         ranges(participant.MakeReader<wire::RangeScan>(VehiclePartition(id), &filters.scans), id,
                binding, "scan", service.tick_period),
         sensors(id, profile, participant, {binding, service.tick_period}, &filters.scans),
@@ -348,11 +352,13 @@ Taken VehicleLink::Take(SteadyTime now) {
   const std::uint32_t skipped = own.ranges.Counters().skipped;
   const SteadyTime real_now = LinkNow();  // worlds are watched by it, whatever `now` is
   if (const RangeScan* scan = own.ranges.Take(link.names, real_now)) taken.inputs.scan = *scan;
+  if (taken.inputs.scan) taken.scan_latency = own.ranges.Latency();
   taken.scans_skipped = own.ranges.Counters().skipped - skipped;
   own.sensors.Take(link.names, real_now, taken.inputs);
   if (link.signals) taken.inputs.signals = link.signals->Take(real_now);
   taken.inputs.roster = link.NewestEntry(link.told_to_step);
   own.beacons.Drain(now, link.taken_beacons, &link.qos_events);
+  taken.beacon_latency = own.beacons.LongestLatency();
   for (const ReceivedBeacon& received : link.taken_beacons) {
     if (received.crc_valid && received.name_valid) link.peers.Heard(received.beacon.vehicle, now);
   }
@@ -364,6 +370,7 @@ Taken VehicleLink::Take(SteadyTime now) {
   link.roster.TakeRefusals(&link.refusals);
   link.filters.TakeRefusals(&link.refusals);
   taken.refusals = link.refusals;
+  taken.left = link.names.LeftNow();
   return taken;
 }
 

@@ -11,6 +11,7 @@
 #include "services/link/fastdds/reader_events.h"
 #include "services/link/fastdds/writer_names.h"
 #include "services/link/inbox/join_inbox.h"
+#include "services/link/inbox/latency.h"
 #include "services/link/inbox/participant_of.h"
 #include "services/link/inbox/peer_events.h"
 #include "services/link/inbox/sample_check.h"
@@ -20,6 +21,7 @@
 #include "services/link/roster_outbox.h"
 #include "services/link/vehicle_writers.h"
 #include "services/types/check.h"
+#include "services/types/figures/measured_figure.h"
 
 namespace giveway::link {
 namespace {
@@ -90,6 +92,8 @@ struct WorldLink::Impl {
   PeerEvents vehicles;  // by their command writers
   DataWait command_wait;
   std::vector<MotorCommand> commands;
+  std::chrono::system_clock::time_point taken_at;
+  MeasuredFigure command_latency_us;
   std::vector<QosEvent> discarded;
   std::vector<Refusal> refusals;
   WorldLinkCounters counters;
@@ -129,6 +133,8 @@ void WorldLink::Impl::Receive(const wire::MotorCommand& sample, const dds::Sampl
                  .why = Describe(fault)});
   } else {
     commands.push_back(command);
+    if (const auto latency = LatencyUntil(taken_at, info))
+      command_latency_us.Add(Milliseconds(*latency) * 1e3);
     joins.Owners().Heard(command.vehicle, LinkNow());
   }
 }
@@ -202,6 +208,7 @@ std::span<const MotorCommand> WorldLink::TakeCommands() {
   impl_->FollowDiscovery();
   impl_->ForgetDeparted();
   impl_->commands.clear();
+  impl_->taken_at = std::chrono::system_clock::now();
   impl_->command_reader.TakeEach(
       [&](const wire::MotorCommand& sample, const dds::SampleInfo& info) {
         impl_->Receive(sample, info);
@@ -291,6 +298,7 @@ WorldLinkCounters WorldLink::Counters() const {
   counters.joins_refused = impl_->joins.Refused() + impl_->join_quota.Refused();
   counters.commands_strangers = impl_->command_owners.Refused() + impl_->strangers;
   counters.orders_refused = impl_->order_ids.Refused();
+  counters.command_latency = impl_->command_latency_us.Summary();
   return counters;
 }
 

@@ -10,6 +10,7 @@
 #include "services/link/admin_link.h"
 #include "services/link/fastdds/link_options.h"
 #include "services/link/service_options.h"
+#include "services/types/figures/drive_figures.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
@@ -29,6 +30,9 @@ struct WorldLinkCounters {
   std::uint32_t joins_refused = 0;        // without a session, of another's, or too many
   std::uint32_t orders_refused = 0;       // of a writer that names too many vehicles
   std::uint32_t write_failures = 0;
+  // From publishing to being taken, us, by the wall clocks of both hosts: outside of lockstep the
+  // tick that applies a command starts with taking it. Of each command that was not refused.
+  FigureSummary command_latency;
 };
 
 class WorldLink final : public AdminLink {

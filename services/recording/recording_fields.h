@@ -106,7 +106,8 @@ void Visit(auto& fields, Is<Beacon> auto& beacon) {
 }
 
 void Visit(auto& fields, Is<ReceivedBeacon> auto& received) {
-  auto& [beacon, at, crc_valid, name_valid, writer, in_range] = received;  // who replays, looks
+  // Who replays looks at the ranges; no brain looks at the arrival.
+  auto& [beacon, at, crc_valid, name_valid, writer, in_range, arrival] = received;
   fields(beacon, at, crc_valid, name_valid, writer);
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace giveway {
 namespace {
@@ -30,14 +29,13 @@ void DriveTiming::Reseat(const VehicleOptions& options) {
 }
 
 void DriveTiming::Add(DriveFigure figure, double value) {
-  constexpr double kMost = std::numeric_limits<std::uint32_t>::max();
-  const auto whole = static_cast<std::uint32_t>(std::clamp(std::round(value), 0.0, kMost));
-  Kept& kept = kept_[static_cast<std::size_t>(figure)];
-  FigureSummary& summary = kept.summary;
-  kept.histogram.Add(std::int64_t{whole});
-  summary.newest[summary.count++ % FigureSummary::kNewest] = whole;
-  summary.sum += whole;
-  summary.max = std::max(summary.max, whole);
+  figures_[static_cast<std::size_t>(figure)].Add(value);
+}
+
+void DriveTiming::AddLatency(DriveFigure figure, std::optional<Nanoseconds> latency) {
+  if (!latency) return;
+  if (*latency < Nanoseconds{0}) ++received_before_sent_;
+  Add(figure, Microseconds(std::max(*latency, Nanoseconds{0})));
 }
 
 // Another world counts ticks and wheels again.
@@ -119,9 +117,11 @@ std::optional<ReactionMargin> DriveTiming::Note(const TurnSeen& turn) {
     if (turn.scan->run_state != RunState::kRunning) return std::nullopt;
     NoteScan(*turn.scan, turn.woke);
     Add(DriveFigure::kTurn, Microseconds(turn.sent - turn.woke));
+    AddLatency(DriveFigure::kScanLatency, turn.scan_latency);
     spent = SeekEnd();
   }
   if (epoch_ == kNoEpoch) return spent;
+  AddLatency(DriveFigure::kBeaconLatency, turn.beacon_latency);
   if (turn.evidence.oldest_beacon) {
     // By the brain's count the tick that every decision is behind is no age.
     const Nanoseconds age = *turn.evidence.oldest_beacon + options_.tick_period;
@@ -134,12 +134,11 @@ std::optional<ReactionMargin> DriveTiming::Note(const TurnSeen& turn) {
 DriveFigures DriveTiming::Figures() const {
   DriveFigures figures;
   for (std::size_t i = 0; i < kDriveFigures; ++i) {
-    figures.figures[i] = kept_[i].summary;
-    figures.figures[i].p50 = static_cast<std::uint32_t>(kept_[i].histogram.Quantile(0.5));
-    figures.figures[i].p99 = static_cast<std::uint32_t>(kept_[i].histogram.Quantile(0.99));
+    figures.figures[i] = figures_[i].Summary();
   }
   figures.narrowest = narrowest_;
   figures.budget_spent = budget_spent_;
+  figures.received_before_sent = received_before_sent_;
   return figures;
 }
 

@@ -2,7 +2,8 @@
 // old that was, how evenly its ticks came, and how far it drove between a cause and the first scan
 // that shows its wheels obeying. All from what travels anyhow: scans and beacons carry ticks, and a
 // decision names the tick that first showed its cause. Times are those at which this vehicle took
-// its scans, so no other clock is believed. Reads no clock, decides nothing. Pure.
+// its scans, so no other clock is believed, but for the latency of samples: that is the
+// difference of two wall clocks. Reads no clock, decides nothing. Pure.
 //
 //   scan of the cause's tick -> ... -> decided -> command sent -> scan with obeying wheels
 //   |<---------------------- reaction, in us and in um ----------------------->|
@@ -17,7 +18,7 @@
 
 #include "services/types/decision_evidence.h"
 #include "services/types/figures/drive_figures.h"
-#include "services/types/figures/histogram.h"
+#include "services/types/figures/measured_figure.h"
 #include "services/types/motor_command.h"
 #include "services/types/range_scan.h"
 #include "services/types/time.h"
@@ -30,6 +31,10 @@ struct TurnSeen {
   SteadyTime woke{0};               // the arrival of the scan, where one came
   SteadyTime sent{0};               // the command is out
   const RangeScan* scan = nullptr;  // null: none came
+  // From publishing to reception, by wall clocks: of the newest scan, and the longest of the
+  // beacons.
+  std::optional<Nanoseconds> scan_latency;
+  std::optional<Nanoseconds> beacon_latency;
   MotorCommand command;
   DecisionEvidence evidence;
 };
@@ -66,19 +71,15 @@ class DriveTiming {
   };
 
   void Add(DriveFigure figure, double value);
+  void AddLatency(DriveFigure figure, std::optional<Nanoseconds> latency);
   void NoteScan(const RangeScan& scan, SteadyTime woke);
   std::optional<ReactionMargin> SeekEnd();
   void SeekBegin(const TurnSeen& turn);
   Moment MomentOf(Tick tick) const;
   bool Obeys(const Reaction& reaction) const;
 
-  struct Kept {
-    Histogram histogram;
-    FigureSummary summary;  // without quantiles
-  };
-
   VehicleOptions options_;
-  std::array<Kept, kDriveFigures> kept_;
+  std::array<MeasuredFigure, kDriveFigures> figures_;
   std::array<Moment, kRememberedTicks> moments_{};  // [tick % kRememberedTicks]
   WorldEpoch epoch_ = kNoEpoch;
   Moment last_;           // the newest scan
@@ -86,6 +87,7 @@ class DriveTiming {
   std::optional<Reaction> reaction_;
   std::optional<ReactionMargin> narrowest_;
   std::uint32_t budget_spent_ = 0;
+  std::uint32_t received_before_sent_ = 0;
 };
 
 }  // namespace giveway

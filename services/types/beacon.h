@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "services/types/decision.h"
+#include "services/types/figures/beacon_account.h"
 #include "services/types/ids.h"
 #include "services/types/math/pose.h"
 #include "services/types/time.h"
@@ -69,6 +70,7 @@ struct ReceivedBeacon {
   bool name_valid = false;   // the id is the one of the writer's partition
   std::uint64_t writer = 0;  // identity of the writing endpoint, for duplicate ids; never 0
   bool in_range = false;     // somebody found all its numbers to be so; else each brain looks
+  BeaconArrival arrival;     // for accounting; no brain reads it
 };
 
 }  // namespace giveway

@@ -9,6 +9,7 @@
 
 #include "services/types/counters.h"
 #include "services/types/decision.h"
+#include "services/types/figures/beacon_account.h"
 #include "services/types/figures/drive_figures.h"
 #include "services/types/figures/packet_counters.h"
 #include "services/types/ids.h"
@@ -143,6 +144,8 @@ struct VehicleStatus {
   DriveFigures timing;  // of this process, in the run
   PacketCounters packets;
   RefusedSamples refused;
+  AccountSums departed;       // all writers that have left
+  ReportedAccounts accounts;  // of the writers that are there
 };
 
 }  // namespace giveway

@@ -147,9 +147,15 @@ void Vehicle::TakePeers(const Inputs& inputs) {
                   state.motion.odometry.WorldFromBody().position_world};
   state.heard.peers.Advance(inputs.now, state.world.tick);
   refused_count_ = 0;
+  fates_.clear();
   for (std::uint32_t i = 0; i < inputs.beacons.size(); ++i) {
-    const BeaconRefusal why = state.heard.peers.Take(
-        inputs.beacons[i], self, options_, &state.counters.beacons, &state.counters.trust);
+    BeaconCounters& counted = state.counters.beacons;
+    const std::uint32_t accepted = counted.accepted;
+    const BeaconRefusal why = state.heard.peers.Take(inputs.beacons[i], self, options_, &counted,
+                                                     &state.counters.trust);
+    fates_.push_back(why != BeaconRefusal::kNone    ? BeaconFate::kRefused
+                     : counted.accepted != accepted ? BeaconFate::kAccepted
+                                                    : BeaconFate::kNotHeard);
     if (why == BeaconRefusal::kNone || refused_count_ == refused_.size()) continue;
     refused_[refused_count_++] = {i, why};
   }

@@ -9,8 +9,10 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "services/types/decision_evidence.h"
+#include "services/types/figures/beacon_account.h"
 #include "services/types/handover.h"
 #include "services/types/vehicle_io.h"
 #include "services/types/vehicle_options.h"
@@ -54,6 +56,8 @@ class Vehicle {
   const DecisionEvidence& Evidence() const { return evidence_; }
   // Peers with a fresh beacon in the last step.
   std::uint32_t PeersHeard() const { return peers_heard_; }
+  // What became of each of the last step's beacons, in their order.
+  std::span<const BeaconFate> Fates() const { return fates_; }
   // The first few of the last step, for the log; the counters have all.
   std::span<const RefusedBeacon> Refused() const { return {refused_.data(), refused_count_}; }
 
@@ -89,6 +93,7 @@ class Vehicle {
   DecisionEvidence evidence_;
   std::array<RefusedBeacon, 8> refused_;
   std::uint32_t refused_count_ = 0;
+  std::vector<BeaconFate> fates_;  // grows to the most beacons of a step
 };
 
 }  // namespace giveway

@@ -112,10 +112,11 @@ void VehicleLoop::Turn(bool leaving) {
   const std::span<const QosEvent> events = inputs.events;
   log_.TellOfLink(taken.refusals, link_.TakeUnfit(woke), woke);
   log_.TellOfPackets(link::PacketsOfProcess(), woke);
+  report_.NoteLeft(taken.left);
   if (lockstep_ && !leaving && !world_time_.Keep(&inputs, options_.tick_period)) {
     return TellOfEvents(events);
   }
-  const bool decision_changed = Step(&inputs, woke, by_scan);
+  const bool decision_changed = Step(&taken, woke, by_scan);
   TellOfEvents(events);
   log_.TellOfRefusals(inputs.beacons, vehicle_, woke);
   if (!leaving && !restarts_ && serve_orders_()) restarts_ = true;
@@ -157,7 +158,8 @@ void VehicleLoop::Follow(const RosterEntry& entry) {
 }
 
 // True if the decision is another one.
-bool VehicleLoop::Step(Inputs* inputs, SteadyTime woke, bool by_scan) {
+bool VehicleLoop::Step(link::Taken* taken, SteadyTime woke, bool by_scan) {
+  Inputs* const inputs = &taken->inputs;
   inputs->roster = std::exchange(news_, std::nullopt);
   const SteadyTime before = clock_.Now();
   Outputs outputs = vehicle_.Step(*inputs);
@@ -171,8 +173,11 @@ bool VehicleLoop::Step(Inputs* inputs, SteadyTime woke, bool by_scan) {
   const auto spent = report_.NoteTurn({.woke = woke,
                                        .sent = sent,
                                        .scan = inputs->scan ? &*inputs->scan : nullptr,
+                                       .scan_latency = taken->scan_latency,
+                                       .beacon_latency = taken->beacon_latency,
                                        .command = outputs.command,
                                        .evidence = vehicle_.Evidence()});
+  report_.NoteBeacons(inputs->beacons, vehicle_.Fates());
   if (spent) LogWarning("budget_spent: " + Describe(*spent));
   if (recorder_ != nullptr) {
     recorder_->Step(*inputs, outputs, vehicle_.Hash());

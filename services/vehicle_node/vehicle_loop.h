@@ -65,7 +65,7 @@ class VehicleLoop {
   void Turn(bool leaving);
   void KeepPlace(const link::Taken& taken, SteadyTime woke);
   void Follow(const RosterEntry& entry);
-  bool Step(Inputs* inputs, SteadyTime woke, bool by_scan);
+  bool Step(link::Taken* taken, SteadyTime woke, bool by_scan);
   void TellOfEvents(std::span<const QosEvent> events);
 
   link::DriveLink& link_;

@@ -135,6 +135,8 @@ VehicleStatus VehicleReport::Gather(const Vehicle& vehicle, const link::DriveLin
   status.timing = timing_.Figures();
   status.packets = link::PacketsOfProcess();
   status.refused = counters.refused;
+  status.departed = ledger_.Departed();
+  status.accounts = ledger_.NextRows();
   return status;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "services/accounting/beacon_ledger.h"
 #include "services/link/drive_link.h"
 #include "services/timing/drive_timing.h"
 #include "services/types/impairment.h"
@@ -36,6 +37,11 @@ class VehicleReport {
   void NoteStep(Nanoseconds step, Nanoseconds turn);
   // A reaction that spent its budget, if one ended with this turn.
   std::optional<ReactionMargin> NoteTurn(const TurnSeen& turn) { return timing_.Note(turn); }
+  // What became of the beacons of a step: fates[i] of beacons[i].
+  void NoteBeacons(std::span<const ReceivedBeacon> beacons, std::span<const BeaconFate> fates) {
+    ledger_.Note(beacons, fates);
+  }
+  void NoteLeft(std::span<const std::uint64_t> writers) { ledger_.NoteLeft(writers); }
   // It drives by other options from now on.
   void Reseat(const VehicleOptions& options) { timing_.Reseat(options); }
   void NoteEvents(std::span<const QosEvent> events);
@@ -48,6 +54,7 @@ class VehicleReport {
   double StepP99Us();
 
   DriveTiming timing_;
+  BeaconLedger ledger_;
   std::vector<double> steps_us_;  // the last kKeptSteps, in a ring
   std::vector<double> sorted_;
   std::size_t next_ = 0;

@@ -371,6 +371,7 @@ void WorldLoop::TellHealth(HealthStage stage) {
   now.joins_refused = link.joins_refused;
   now.orders_refused = link.orders_refused;
   now.write_failures = link.write_failures;
+  now.command_latency = link.command_latency;
   now.packets = link::PacketsOfProcess();
   health_.Tell();
 }

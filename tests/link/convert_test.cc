@@ -271,6 +271,7 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
   }
   sent.timing.narrowest = ReactionMargin{Tick{120}, 0.25, 0.5};
   sent.timing.budget_spent = 121;
+  sent.timing.received_before_sent = 122;
   sent.impaired = {.packets = 41,
                    .passed = 42,
                    .dropped_blackout = 43,
@@ -284,9 +285,15 @@ TEST(Convert, StatusComesBackWithEveryCounter) {
                    .metered = 51};
   for (std::size_t i = 0; i < kPacketDrops; ++i) sent.packets.packets[i] = 130 + i;
   sent.refused = {150, 151, 152, 153, 154, 155};
+  sent.departed = {160, 161, 162, 163, 164, 165, 166};
+  for (std::uint32_t i = 0; i < ReportedAccounts::kMost; ++i) {
+    sent.accounts.Add({VehicleId{170 + i}, 171 + i, 172, 173, 174, 175, 176, 177, 178 + i});
+  }
   const VehicleStatus back = RoundTrip(sent);
   EXPECT_EQ(back.packets, sent.packets);
   EXPECT_EQ(back.refused, sent.refused);
+  EXPECT_EQ(back.departed, sent.departed);
+  EXPECT_EQ(back.accounts, sent.accounts);
   EXPECT_EQ(back.vehicle, sent.vehicle);
   EXPECT_EQ(back.epoch, sent.epoch);
   EXPECT_EQ(back.tick, sent.tick);
@@ -339,6 +346,8 @@ class StatusOfBefore : public ::testing::Test {
     status.timing.budget_spent = 121;
     status.packets.packets.fill(~std::uint64_t{0});
     status.refused = {1, 2, 3, 4, 5, 6};
+    status.timing.figures[static_cast<std::size_t>(DriveFigure::kScanLatency)].count = 8;
+    status.accounts = {BeaconAccount{}, BeaconAccount{}};
     return status;
   }
   static constexpr std::size_t kBytes = kBytesBefore<wire::StatusPubSubType>;
@@ -351,6 +360,8 @@ TEST_F(StatusOfBefore, IsReadWithCountsOfZero) {
   EXPECT_EQ(read->timing.budget_spent, 121U);
   EXPECT_EQ(read->packets, PacketCounters{});
   EXPECT_EQ(read->refused, RefusedSamples{});
+  EXPECT_EQ(read->timing.Of(DriveFigure::kScanLatency), FigureSummary{});
+  EXPECT_TRUE(read->accounts.Rows().empty());
 }
 
 // So that its reader, which takes no notice of what follows, reads what is meant.
@@ -358,6 +369,7 @@ TEST_F(StatusOfBefore, IsTheStartOfOneOfToday) {
   VehicleStatus plain = Counted();
   plain.packets = {};
   plain.refused = {};
+  plain.accounts = {};
   EXPECT_EQ(Bytes(Counted()).substr(0, kBytes), Bytes(plain).substr(0, kBytes));
   plain.timing.budget_spent = 122;  // the last member of before ends there
   EXPECT_NE(Bytes(Counted()).substr(kBytes - 4, 4), Bytes(plain).substr(kBytes - 4, 4));
@@ -369,6 +381,15 @@ TEST_F(StatusOfBefore, HasOneLengthAndNoOther) {
     EXPECT_EQ(Read(std::string_view(bytes).substr(0, length)).has_value(), length == kBytes)
         << length;
   }
+}
+
+TEST(Convert, RefusesMoreAccountsThanFit) {
+  wire::Status status = ToWire(VehicleStatus{});
+  VehicleStatus back;
+  status.accounts().resize(ReportedAccounts::kMost);
+  EXPECT_TRUE(FromWire(status, back));
+  status.accounts().resize(ReportedAccounts::kMost + 1);
+  EXPECT_FALSE(FromWire(status, back));
 }
 
 TEST(Convert, CutsTextToItsBoundBetweenCharacters) {

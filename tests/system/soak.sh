@@ -2,8 +2,8 @@
 # A soak of real processes: everything that can go wrong here passes, the report says so and is whole;
 # wrong input is refused before anything starts; Ctrl-C ends it with a report; a supervisor that is
 # killed leaves nobody behind, and its soak continues; a broken promise makes everyone keep its ring,
-# which replays; and in virtual time the same list gives the same report twice. Each in a domain of
-# its own, side by side, in under two minutes.
+# which replays; every beacon of a lossy network is accounted for; and in virtual time the same list
+# gives the same report twice. Each in a domain of its own, side by side, in about two minutes.
 # shellcheck disable=SC2317,SC2030,SC2031 # what runs beside is called by name
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
@@ -76,6 +76,23 @@ interrupted() {
   [[ $(jq -r .verdict "$SCRATCH/early.json") == interrupted ]] ||
     fail "the verdict of an interrupted soak is $(jq -r .verdict "$SCRATCH/early.json")"
   [[ -s $SCRATCH/early/report.html ]] || fail "an interrupted soak has no report"
+}
+
+# A third of the packets lost, a third doubled, some corrupted: every beacon of every pair is accounted
+# for, and the latency of samples is measured.
+accounted() {
+  local code=0 report=$SCRATCH/accounted
+  "$FLEETCTL" soak patrol --vehicles 3 --faults "$SCRATCH/lossy.textproto" --duration 50 --report "$report" \
+    --json >"$SCRATCH/accounted.json" 2>"$SCRATCH/accounted.log" || code=$?
+  [[ $code -eq 0 ]] ||
+    fail "a lossy soak ended with $code: $(jq -c '[.verdict, .reasons, [.violations[]? | .words]]' "$SCRATCH/accounted.json")"
+  jq -e '(.accounting | length) == 6 and ([.accounting[] | select(.difference != 0)] == []) and
+    ([.accounting[] | select(.sent > 400 and .accepted > 50 and .lost > 20)] | length) == 6 and
+    ([.accounting[] | .refused] | add) > 0' "$report/report.json" >/dev/null ||
+    fail "beacons are not accounted for: $(jq -c .accounting "$report/report.json")"
+  grep -q 'Accounting of samples' "$report/report.html" || fail "the page does not show the accounting"
+  jq -e '[.histograms[] | select((.name == "beacon_latency" or .name == "scan_latency") and .values > 400)] | length == 2' \
+    "$report/report.json" >/dev/null || fail "the latency of samples is not measured"
 }
 
 # The soak whose supervisor was killed continues with the rest of its list, and says so.
@@ -162,6 +179,8 @@ whole() {
   fi
   jq -e '(.faults | length) > 5 and ([.faults[] | select(.observed | not)] | length) == 0' \
     "$report/report.json" >/dev/null || fail "a fault of the whole soak was not observed"
+  jq -e '(.accounting | length) > 40 and ([.accounting[] | .lost] | add) > 0' "$report/report.json" >/dev/null ||
+    fail "the whole soak has not accounted for its beacons: $(jq -c '[.accounting[:3]]' "$report/report.json")"
   jq -e '[.histograms[].name] as $all | ["beacon_age", "tick_jitter", "turn"] - $all == []' \
     "$report/report.json" >/dev/null || fail "the whole soak has not measured its vehicles"
   grep -q '</html>' "$report/report.html" || fail "the page is not whole"
@@ -213,6 +232,14 @@ echo 'at { name: "stop" time_s: 14 kind: "pause" vehicle: 1 for_s: 10 }' >"$SCRA
 # The pause is over when the vehicles are ordered to keep their rings.
 echo 'at { name: "stop" time_s: 11 kind: "pause" vehicle: 1 for_s: 1 }' >"$SCRATCH/short.textproto"
 echo 'at { name: "rest" time_s: 30 kind: "pause" vehicle: 1 for_s: 2 }' >"$SCRATCH/rest.textproto"
+cat >"$SCRATCH/lossy.textproto" <<'FAULTS'
+at { name: "lost" time_s: 12 kind: "loss" target: "all" for_s: 12 probability: 0.3 }
+at { name: "doubled" time_s: 13 kind: "duplicate" target: "all" for_s: 12 probability: 0.3 }
+at { name: "overtaken" time_s: 14 kind: "reorder" target: "all" for_s: 8 probability: 0.2 }
+at { name: "broken" time_s: 15 kind: "corrupt" target: "all" for_s: 8 probability: 0.1 }
+at { name: "stop" time_s: 18 kind: "pause" vehicle: 1 for_s: 1 }
+at { name: "again" time_s: 25 kind: "restart" vehicle: 2 for_s: 1 }
+FAULTS
 cat >"$SCRATCH/host.textproto" <<'FAULTS'
 at { name: "forth" time_s: 16 kind: "clock_step" vehicle: 1 for_s: 4 offset_s: 3600 }
 at { name: "back" time_s: 17 kind: "clock_step" target: "world" for_s: 4 offset_s: -3600 }
@@ -225,5 +252,6 @@ beside kept_and_host
 refusals
 interrupted
 virtually
+accounted
 for run in "${runs[@]}"; do wait "$run" || failures=$((failures + 1)); done
 exit $((failures > 0))

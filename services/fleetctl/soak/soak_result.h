@@ -125,17 +125,17 @@ struct ResourceSlope {
       curve;  // of private bytes: at most 60 points to draw; time of soak
 };
 
-// One writer as one reader accounts for it.
+// One writer as one reader accounts for it, all their lives added up.
 struct AccountingRow {
   std::string writer;  // "vehicle 2"
   std::string reader;
   std::string topic;       // "fleet/beacon"
-  std::uint64_t sent = 0;  // while the reader was matched
+  std::uint64_t sent = 0;  // by the writer's own numbers, from the first heard to the last counted
   std::uint64_t accepted = 0;
-  std::uint64_t not_heard = 0;   // dropped by an impairment
-  std::uint64_t refused = 0;     // heard, and refused by a check
-  std::uint64_t superseded = 0;  // a newer one came before it was taken
-  std::uint64_t lost = 0;        // as the library counts
+  std::uint64_t not_heard = 0;   // stated from beyond the emission radius
+  std::uint64_t refused = 0;     // arrived, and refused by a check
+  std::uint64_t superseded = 0;  // arrived, and overwritten in the reader before it was taken
+  std::uint64_t lost = 0;        // never arrived
 
   std::int64_t Difference() const {
     return static_cast<std::int64_t>(sent) -

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/accounting/fleet_accounting.h"
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/fleet_commands.h"
 #include "services/fleetctl/soak/fleet_timing.h"
@@ -63,6 +64,7 @@ struct SoakSeen {
   std::vector<ResourceSlope> slopes;
   std::uint64_t lives_too_short = 0;
   FleetTiming timing{Nanoseconds{0}};
+  FleetAccounting accounting;
   std::vector<KeptRings> kept_rings;
   MachinePauses pauses;
   std::map<VehicleId, double> step_p99_us;  // the highest that each said of itself

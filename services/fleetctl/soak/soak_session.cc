@@ -139,6 +139,7 @@ void SoakSession::Gather(SoakSeen* seen) const {
   seen->near_misses = near_.Narrowest();
   seen->near_misses_counted = near_.Count();
   seen->timing = timing_;
+  seen->accounting = accounting_;
   if (rings_) seen->kept_rings = rings_->Kept();
   for (std::size_t i = 0; black_box_ && i < seen->kept_rings.size(); ++i) {
     seen->kept_rings[i].page = black_box_->Written(i);
@@ -209,6 +210,7 @@ void SoakSession::Drain() {
   if (black_box_) black_box_->Fold(observed, SteadyNow());
   for (const VehicleStatus& status : observed.statuses) {
     timing_.Fold(status, watch_.TimeSeconds(SteadyNow()));
+    accounting_.Fold(status);
   }
   if (!observed.truths.empty()) any_truth_ = observed.truths.back();
   if (watch_.HasStarted() && seen_.started_at == SteadyTime{0}) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "services/accounting/fleet_accounting.h"
 #include "services/faults/fault.h"
 #include "services/fleetctl/process/fleet_processes.h"
 #include "services/fleetctl/run/black_box.h"
@@ -78,6 +79,7 @@ class SoakSession {
   StallMonitor stalls_{std::chrono::milliseconds(5)};  // limits of detection are 100 ms and more
   NearMisses near_;
   FleetTiming timing_;
+  FleetAccounting accounting_;
   std::optional<RingKeeper> rings_;
   std::optional<BlackBox> black_box_;  // as rings_: nothing without them
   std::uint64_t broken_before_ = 0;    // when rings were kept last

@@ -71,6 +71,7 @@ class Judging {
     TellSlopes();
     TellSlowLoops();
     TellTiming();
+    TellAccounting();
     result_.near_misses = from_.seen.near_misses;
     result_.near_misses_counted = from_.seen.near_misses_counted;
     result_.modes = from_.seen.modes;
@@ -265,6 +266,35 @@ class Judging {
            fmt::format("{} of its decisions used beacons older than they may be, the oldest of "
                        "{:.0f} ms",
                        stale.count, Milliseconds(stale.oldest)));
+    }
+  }
+
+  // A row holds only what is settled: nothing needs to be excused.
+  void TellAccounting() {
+    for (const PairAccount& pair : from_.seen.accounting.Pairs()) {
+      result_.accounting.push_back({.writer = fmt::format("vehicle {}", Number(pair.writer)),
+                                    .reader = fmt::format("vehicle {}", Number(pair.reader)),
+                                    .topic = "fleet/beacon",
+                                    .sent = pair.sums.sent,
+                                    .accepted = pair.sums.accepted,
+                                    .not_heard = pair.sums.not_heard,
+                                    .refused = pair.sums.refused,
+                                    .superseded = pair.sums.superseded,
+                                    .lost = pair.sums.lost});
+      if (pair.differing == 0) continue;
+      Tell(from_.seen.lasted_s, pair.reader, "accounting",
+           fmt::format("{} beacons of vehicle {} are not accounted for at vehicle {}",
+                       pair.differing, Number(pair.writer), Number(pair.reader)),
+           pair.writer);
+    }
+    for (const VehicleId reader : from_.seen.accounting.WithoutAccount()) {
+      Tell(from_.seen.lasted_s, reader, "accounting",
+           "it reports no account of the beacons it accepted");
+    }
+    for (const auto& [reader, beacons] : from_.seen.accounting.DepartedDiffering()) {
+      Tell(from_.seen.lasted_s, reader, "accounting",
+           fmt::format("{} beacons of those that left are not accounted for at vehicle {}", beacons,
+                       Number(reader)));
     }
   }
 

@@ -199,10 +199,17 @@ RefusedSamples FromWirePart(const wire::RefusedCounts& sent) {
 }
 
 // Numbers that no distance has are refused.
-bool TakeTiming(const wire::TimingReport& sent, DriveFigures& timing) {
-  timing.figures = {FromWirePart(sent.beacon_age_us()),   FromWirePart(sent.tick_jitter_us()),
-                    FromWirePart(sent.turn_us()),         FromWirePart(sent.reaction_us()),
-                    FromWirePart(sent.reaction_way_um()), FromWirePart(sent.reaction_share_ppm())};
+bool TakeTiming(const wire::Status& sample, DriveFigures& timing) {
+  const wire::TimingReport& sent = sample.timing();
+  timing.figures = {FromWirePart(sent.beacon_age_us()),
+                    FromWirePart(sent.tick_jitter_us()),
+                    FromWirePart(sent.turn_us()),
+                    FromWirePart(sent.reaction_us()),
+                    FromWirePart(sent.reaction_way_um()),
+                    FromWirePart(sent.reaction_share_ppm()),
+                    FromWirePart(sample.beacon_latency_us()),
+                    FromWirePart(sample.scan_latency_us())};
+  timing.received_before_sent = sample.received_before_sent();
   timing.narrowest.reset();
   timing.budget_spent = sent.budget_spent();
   if (!sent.margin_known()) return true;
@@ -212,6 +219,63 @@ bool TakeTiming(const wire::TimingReport& sent, DriveFigures& timing) {
     return false;
   }
   timing.narrowest = margin;
+  return true;
+}
+
+wire::BeaconAccount ToWirePart(const BeaconAccount& account) {
+  wire::BeaconAccount sent;
+  sent.writer(Number(account.writer));
+  sent.boot_epoch(account.boot_epoch);
+  sent.first(account.first);
+  sent.last(account.last);
+  sent.accepted(account.accepted);
+  sent.not_heard(account.not_heard);
+  sent.refused(account.refused);
+  sent.superseded(account.superseded);
+  sent.lost(account.lost);
+  return sent;
+}
+
+BeaconAccount FromWirePart(const wire::BeaconAccount& sent) {
+  return {.writer = VehicleId{sent.writer()},
+          .boot_epoch = sent.boot_epoch(),
+          .first = sent.first(),
+          .last = sent.last(),
+          .accepted = sent.accepted(),
+          .not_heard = sent.not_heard(),
+          .refused = sent.refused(),
+          .superseded = sent.superseded(),
+          .lost = sent.lost()};
+}
+
+wire::DepartedAccounts ToWirePart(const AccountSums& departed) {
+  wire::DepartedAccounts sent;
+  sent.writers(departed.writers);
+  sent.sent(departed.sent);
+  sent.accepted(departed.accepted);
+  sent.not_heard(departed.not_heard);
+  sent.refused(departed.refused);
+  sent.superseded(departed.superseded);
+  sent.lost(departed.lost);
+  return sent;
+}
+
+AccountSums FromWirePart(const wire::DepartedAccounts& sent) {
+  return {.writers = sent.writers(),
+          .sent = sent.sent(),
+          .accepted = sent.accepted(),
+          .not_heard = sent.not_heard(),
+          .refused = sent.refused(),
+          .superseded = sent.superseded(),
+          .lost = sent.lost()};
+}
+
+bool TakeAccounts(const wire::Status& sample, VehicleStatus& status) {
+  status.departed = FromWirePart(sample.departed());
+  status.accounts = {};
+  for (const wire::BeaconAccount& sent : sample.accounts()) {
+    if (!status.accounts.Add(FromWirePart(sent))) return false;
+  }
   return true;
 }
 
@@ -255,6 +319,13 @@ wire::Status ToWire(const VehicleStatus& status) {
   sent.packets(ToWirePart(status.packets));
   sent.refused(ToWirePart(status.refused));
   sent.impaired_metered(status.impaired.metered);
+  sent.beacon_latency_us(ToWirePart(status.timing.Of(DriveFigure::kBeaconLatency)));
+  sent.scan_latency_us(ToWirePart(status.timing.Of(DriveFigure::kScanLatency)));
+  sent.received_before_sent(status.timing.received_before_sent);
+  sent.departed(ToWirePart(status.departed));
+  for (const BeaconAccount& account : status.accounts.Rows()) {
+    sent.accounts().push_back(ToWirePart(account));
+  }
   return sent;
 }
 
@@ -283,7 +354,7 @@ bool FromWire(const wire::Status& sample, VehicleStatus& status) {
   status.packets = FromWirePart(sample.packets());
   status.refused = FromWirePart(sample.refused());
   status.impaired.metered = sample.impaired_metered();
-  return TakeTiming(sample.timing(), status.timing) &&
+  return TakeTiming(sample, status.timing) && TakeAccounts(sample, status) &&
          TakeLastEvent(sample.last_qos_event(), status) &&
          FromWirePart(sample.decision(), status.decision);
 }

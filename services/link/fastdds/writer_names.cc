@@ -71,6 +71,7 @@ const rtps::GUID_t& WriterNames::FoundByThisThread() { return found_by_this_thre
 void WriterNames::Update() {
   ++updates_;
   batch_.clear();
+  left_now_.clear();
   {
     const std::scoped_lock lock(mutex_);
     batch_.swap(queue_);
@@ -82,6 +83,7 @@ void WriterNames::Update() {
     entry.gone = queued.change == Change::kGone;
     if (entry.gone) {
       gone_.push_back({queued.identity, updates_});
+      left_now_.push_back(queued.identity);
     } else {
       entry.vehicle = queued.vehicle;
       entry.area = queued.area;

@@ -34,6 +34,8 @@ struct WriterEntry {
   std::string area;             // of a writer of beacons, else empty
   std::uint64_t identity = 0;
   std::uint64_t last_sequence = 0;  // of the last sample taken from it; 0 before the first
+  std::uint32_t taken = 0;          // samples; wraps
+  std::uint32_t unreadable = 0;     // of those; wraps
   bool gone = false;                // left; may be found again
   std::uint64_t found = 0;          // 1, 2, 3 ... in the order of first discovery
 };
@@ -54,6 +56,8 @@ class WriterNames final : public DiscoveryListener {
   WriterEntry* Find(const rtps::GUID_t& writer);
   const WriterEntry* Find(const rtps::GUID_t& writer) const;
   const WriterEntry* Find(std::uint64_t identity) const;
+  // Identities of those that the last Update learnt to have left.
+  const std::vector<std::uint64_t>& LeftNow() const { return left_now_; }
   // Calls visit(entry) of every writer that is there, in no order.
   template <typename Visit>
   void ForEach(Visit&& visit) const {
@@ -78,6 +82,7 @@ class WriterNames final : public DiscoveryListener {
   std::mutex mutex_;
   std::vector<Queued> queue_;  // guarded by mutex_
   std::vector<Queued> batch_;
+  std::vector<std::uint64_t> left_now_;
   std::unordered_map<std::uint64_t, WriterEntry> writers_;  // by identity
   std::uint64_t found_ = 0;                                 // writers ever discovered
   std::uint64_t updates_ = 0;

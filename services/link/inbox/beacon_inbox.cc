@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "services/link/inbox/latency.h"
+
 namespace giveway::link {
 namespace {
 
@@ -11,12 +13,13 @@ constexpr std::size_t kMostRefusedBeacons = 8;  // a drain; the counters have al
 }  // namespace
 
 BeaconInbox::BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names,
-                         const rtps::GuidPrefix_t& own)
-    : reader_(reader), names_(names), own_(own) {}
+                         const rtps::GuidPrefix_t& own, ArrivalLog* arrivals)
+    : reader_(reader), names_(names), own_(own), arrivals_(arrivals) {}
 
 void BeaconInbox::Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons,
                         std::vector<QosEvent>* lost) {
   refused_.clear();
+  longest_latency_.reset();
   reader_.TakeEach([&](const wire::Beacon& sample, const dds::SampleInfo& info) {
     Receive(sample, info, now, beacons, lost);
   });
@@ -37,6 +40,8 @@ void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& inf
     if (lost != nullptr) lost->push_back({QosEventKind::kSampleLost, entry->vehicle, now});
   }
   entry->last_sequence = sequence;
+  ++entry->taken;
+  longest_latency_ = std::max(longest_latency_, LatencyOf(info));  // none is less than any
 
   ReceivedBeacon& received = beacons.emplace_back();
   const Arrival arrival = FromWire(sample, received.beacon);
@@ -44,14 +49,24 @@ void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& inf
   received.crc_valid = arrival.crc_valid;
   received.name_valid = entry->vehicle != kNobody && entry->vehicle == received.beacon.vehicle;
   received.writer = entry->identity;
+  received.arrival = ArrivalOf(*entry, sequence);
   const bool sound = arrival.crc_valid && arrival.readable && received.name_valid;
   if (!sound) NoteRefusal(sample, *entry, received, arrival);
   // A broken beacon is told as broken whatever it says; a sound one that says what this build does
   // not know cannot be told at all.
   if (arrival.crc_valid && !arrival.readable) {
     ++unreadable_;
+    ++entry->unreadable;
     beacons.pop_back();
   }
+}
+
+BeaconArrival BeaconInbox::ArrivalOf(const WriterEntry& entry, std::uint64_t sequence) {
+  BeaconArrival arrival;
+  if (arrivals_ != nullptr) arrival = arrivals_->At(entry.identity, sequence).value_or(arrival);
+  arrival.taken = entry.taken;
+  arrival.unreadable = entry.unreadable;
+  return arrival;
 }
 
 void BeaconInbox::NoteRefusal(const wire::Beacon& sample, const WriterEntry& entry,

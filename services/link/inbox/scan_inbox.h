@@ -10,6 +10,7 @@
 #include "services/link/convert/convert.h"
 #include "services/link/fastdds/endpoint.h"
 #include "services/link/fastdds/writer_names.h"
+#include "services/link/inbox/latency.h"
 #include "services/link/inbox/participant_of.h"
 #include "services/link/inbox/sample_check.h"
 #include "services/link/inbox/tick_gate.h"
@@ -45,6 +46,7 @@ class ScanInbox {
       const rtps::GUID_t& writer = info.sample_identity.writer_guid();
       if (!Receive(names.Find(writer), ParticipantOf(writer), sample, now)) return;
       counters_.skipped += came ? 1 : 0;
+      latency_ = LatencyOf(info);
       came = true;
     });
     if (came) world_.Heard(now);
@@ -56,6 +58,8 @@ class ScanInbox {
     for (Refusal& refusal : refusals_) refusals->push_back(std::move(refusal));
     refusals_.clear();
   }
+  // Of the newest scan.
+  std::optional<Nanoseconds> Latency() const { return latency_; }
   const ScanCounters& Counters() const { return counters_; }
   dds::DataReader& Entity() const { return reader_.Entity(); }
 
@@ -122,6 +126,7 @@ class ScanInbox {
   TickGate gate_;
   std::vector<Refusal> refusals_;
   Ours newest_;
+  std::optional<Nanoseconds> latency_;
   ScanCounters counters_;
   bool missing_ = false;
 };

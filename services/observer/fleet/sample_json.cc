@@ -125,6 +125,32 @@ JsonObject RefusedCountsOf(const RefusedSamples& refused) {
   return object;
 }
 
+std::string AccountOf(const BeaconAccount& account) {
+  JsonObject object;
+  object.Add("writer", Number(account.writer));
+  object.Add("boot_epoch", account.boot_epoch);
+  object.Add("first", account.first);
+  object.Add("last", account.last);
+  object.Add("accepted", account.accepted);
+  object.Add("not_heard", account.not_heard);
+  object.Add("refused", account.refused);
+  object.Add("superseded", account.superseded);
+  object.Add("lost", account.lost);
+  return object.Text();
+}
+
+JsonObject DepartedOf(const AccountSums& departed) {
+  JsonObject object;
+  object.Add("writers", departed.writers);
+  object.Add("sent", departed.sent);
+  object.Add("accepted", departed.accepted);
+  object.Add("not_heard", departed.not_heard);
+  object.Add("refused", departed.refused);
+  object.Add("superseded", departed.superseded);
+  object.Add("lost", departed.lost);
+  return object;
+}
+
 // The newest values are for who gathers them.
 JsonObject FigureOf(const FigureSummary& figure) {
   JsonObject object;
@@ -143,6 +169,9 @@ JsonObject TimingOf(const DriveFigures& timing) {
   object.Add("reaction_us", FigureOf(timing.Of(DriveFigure::kReaction)));
   object.Add("reaction_way_um", FigureOf(timing.Of(DriveFigure::kReactionWay)));
   object.Add("reaction_share_ppm", FigureOf(timing.Of(DriveFigure::kReactionShare)));
+  object.Add("beacon_latency_us", FigureOf(timing.Of(DriveFigure::kBeaconLatency)));
+  object.Add("scan_latency_us", FigureOf(timing.Of(DriveFigure::kScanLatency)));
+  object.Add("received_before_sent", timing.received_before_sent);
   if (timing.narrowest) object.Add("narrowest_share_left", timing.narrowest->ShareLeft());
   object.Add("budget_spent", timing.budget_spent);
   return object;
@@ -217,6 +246,8 @@ void AddFields(const VehicleStatus& status, JsonObject* object) {
   object->Add("timing", TimingOf(status.timing));
   object->Add("packets", PacketCountsOf(status.packets));
   object->Add("refused", RefusedCountsOf(status.refused));
+  object->Add("departed", DepartedOf(status.departed));
+  object->AddRaw("accounts", JsonArray(status.accounts.Rows(), AccountOf));
 }
 
 void AddFields(const Truth& truth, JsonObject* object) {

@@ -20,12 +20,15 @@ enum class DriveFigure : std::uint8_t {
   kReaction,       // us: from the scan of the tick that shows a cause to one of obeying wheels
   kReactionWay,    // um: driven meanwhile
   kReactionShare,  // millionths of the distance that was free as the cause was shown
+  kBeaconLatency,  // us: from publishing to reception, the longest of the beacons of a turn
+  kScanLatency,    // us: from publishing to reception of a scan
 };
-inline constexpr std::size_t kDriveFigures = 6;
+inline constexpr std::size_t kDriveFigures = 8;
 
 constexpr std::string_view Name(DriveFigure figure) {
   constexpr std::array<std::string_view, kDriveFigures> kNames{
-      "beacon_age", "tick_jitter", "turn", "reaction", "reaction_way", "reaction_share"};
+      "beacon_age",   "tick_jitter",    "turn",           "reaction",
+      "reaction_way", "reaction_share", "beacon_latency", "scan_latency"};
   return kNames[static_cast<std::size_t>(figure)];
 }
 
@@ -61,6 +64,8 @@ struct DriveFigures {
   std::array<FigureSummary, kDriveFigures> figures{};
   std::optional<ReactionMargin> narrowest;  // the reaction that left the least share
   std::uint32_t budget_spent = 0;           // reactions that left less than kLeastShareLeft
+  // Samples that by the two clocks were received before they were published: counted as 0.
+  std::uint32_t received_before_sent = 0;
 
   const FigureSummary& Of(DriveFigure figure) const {
     return figures[static_cast<std::size_t>(figure)];

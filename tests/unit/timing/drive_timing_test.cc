@@ -162,6 +162,24 @@ TEST_F(DriveTimingTest, TellsAgesAndTurnsOfARunThatIsUnderWay) {
   EXPECT_EQ(Of(DriveFigure::kBeaconAge).count, 1U);
 }
 
+TEST_F(DriveTimingTest, ALatencyOfClocksThatDisagreeCountsAsNoneAndIsTold) {
+  Turn();
+  TurnSeen turn{.scan = &scan_};
+  turn.scan_latency = microseconds(250);
+  turn.beacon_latency = microseconds(-40);
+  timing_.Note(turn);
+  turn.scan = nullptr;  // blind, it still hears its peers
+  turn.scan_latency.reset();
+  turn.beacon_latency = microseconds(90);
+  timing_.Note(turn);
+  EXPECT_EQ(Of(DriveFigure::kScanLatency).count, 1U);
+  EXPECT_EQ(Of(DriveFigure::kScanLatency).max, 250U);
+  EXPECT_EQ(Of(DriveFigure::kBeaconLatency).count, 2U);
+  EXPECT_EQ(Of(DriveFigure::kBeaconLatency).newest[0], 0U);
+  EXPECT_EQ(Of(DriveFigure::kBeaconLatency).newest[1], 90U);
+  EXPECT_EQ(timing_.Figures().received_before_sent, 1U);
+}
+
 TEST_F(DriveTimingTest, BeginsAnewInAnotherWorldAndKeepsItsFigures) {
   for (int i = 0; i < 5; ++i) Turn();
   scan_.epoch = WorldEpoch{8};

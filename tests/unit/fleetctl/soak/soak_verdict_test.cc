@@ -106,6 +106,32 @@ TEST_F(SoakVerdictTest, TellsTheNarrowestMarginAndFiguresOfTheFleet) {
   EXPECT_EQ(result.histograms.back().name, "reaction_way");
 }
 
+TEST_F(SoakVerdictTest, FailsWhereABeaconIsNotAccountedFor) {
+  VehicleStatus status;
+  status.vehicle = kTwo;
+  BeaconAccount account{.writer = kOne, .first = 1, .last = 5, .accepted = 4, .lost = 1};
+  status.accounts = {account};
+  seen_.accounting.Fold(status);
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
+  EXPECT_THAT(Judged().accounting, SizeIs(1));
+  status.vehicle = kOne;
+  status.accounts = {};
+  status.beacons.accepted = 1;
+  seen_.accounting.Fold(status);
+  EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("no account"));
+  status.vehicle = kTwo;
+  account.last = 7;
+  status.accounts = {account};
+  seen_.accounting.Fold(status);
+  const SoakResult result = Judged();
+  EXPECT_EQ(result.verdict, SoakVerdict::kFailed);
+  ASSERT_THAT(result.violations, SizeIs(2));
+  EXPECT_EQ(result.violations[0].invariant, "accounting");
+  EXPECT_EQ(result.violations[0].vehicle, kTwo);
+  EXPECT_EQ(result.violations[0].other, kOne);
+  EXPECT_EQ(result.accounting[0].Difference(), 2);
+}
+
 TEST_F(SoakVerdictTest, DoesNotJudgeAFaultThatNeverBegan) {
   seen_.courses[0] = {};
   EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed);
