@@ -40,8 +40,8 @@ class Attackers {
   // Often. Complains on stderr of one that ended before its fault did.
   void Turn();
 
-  // Of a fault that lasts, and that no counter of a vehicle shows: how many packets the program says it
-  // sent. Empty: none, or it shows elsewhere.
+  // Of a fault that lasts, and that no counter of a vehicle shows: how many packets the program
+  // says it sent. Empty: none, or it shows elsewhere.
   std::string EffectOf(const faults::Fault& fault) const;
 
  private:
