@@ -56,9 +56,10 @@ bool Silences(Kind kind) {
          kind == Kind::kQosMismatch;
 }
 
-// An intruder goes by what its target says.
+// An intruder goes by what its target says. Of all it hears enough while one is silent; and what
+// silences all does so for a moment.
 bool Deafens(const Fault& a, const Fault& b) {
-  return Silences(a.kind) && ActorOf(b.kind) == Actor::kAttacker;
+  return Silences(a.kind) && ActorOf(b.kind) == Actor::kAttacker && a.target == b.target;
 }
 
 bool KindsExclude(const Fault& a, const Fault& b) {

@@ -48,7 +48,9 @@ TEST(Exclusion, EarsAndTheWorldDoSeveralThingsAtOnceUnlessOneHidesTheOther) {
 TEST(Exclusion, AnIntruderGoesByWhatItsTargetSays) {
   for (const Kind silence : {Kind::kRestart, Kind::kPause, Kind::kHang, Kind::kQosMismatch}) {
     EXPECT_FALSE(AtOnce(Kind::kSpoofed, Vehicle(1), silence, Vehicle(1))) << ToString(silence);
-    EXPECT_FALSE(AtOnce(Kind::kFlooded, kAllTarget, silence, Vehicle(1))) << ToString(silence);
+    EXPECT_FALSE(AtOnce(Kind::kFlooded, kAllTarget, silence, kAllTarget)) << ToString(silence);
+    EXPECT_TRUE(AtOnce(Kind::kFlooded, kAllTarget, silence, Vehicle(1))) << ToString(silence);
+    EXPECT_TRUE(AtOnce(Kind::kReplayed, Vehicle(1), silence, kAllTarget)) << ToString(silence);
     EXPECT_TRUE(AtOnce(Kind::kReplayed, Vehicle(2), silence, Vehicle(1))) << ToString(silence);
   }
   EXPECT_TRUE(AtOnce(Kind::kSpoofed, Vehicle(1), Kind::kSlow, Vehicle(1)));
