@@ -50,9 +50,22 @@ bool OnOneTarget(const Fault& a, const Fault& b) {
          b.target.what == Target::What::kAll;
 }
 
+// Nothing is said by the target meanwhile.
+bool Silences(Kind kind) {
+  return kind == Kind::kRestart || kind == Kind::kPause || kind == Kind::kHang ||
+         kind == Kind::kQosMismatch;
+}
+
+// An intruder goes by what its target says. Of all it hears enough while one is silent; and what
+// silences all does so for a moment.
+bool Deafens(const Fault& a, const Fault& b) {
+  return Silences(a.kind) && ActorOf(b.kind) == Actor::kAttacker && a.target == b.target;
+}
+
 bool KindsExclude(const Fault& a, const Fault& b) {
   if (a.kind == b.kind) return true;
   if (a.kind == Kind::kKill || b.kind == Kind::kKill) return true;
+  if (Deafens(a, b) || Deafens(b, a)) return true;
   const Group group = GroupOf(a.kind);
   return group != Group::kAlone && group == GroupOf(b.kind);
 }

@@ -151,8 +151,8 @@ void Vehicle::TakePeers(const Inputs& inputs) {
   for (std::uint32_t i = 0; i < inputs.beacons.size(); ++i) {
     BeaconCounters& counted = state.counters.beacons;
     const std::uint32_t accepted = counted.accepted;
-    const BeaconRefusal why = state.heard.peers.Take(inputs.beacons[i], self, options_, &counted,
-                                                     &state.counters.trust);
+    const BeaconRefusal why =
+        state.heard.peers.Take(inputs.beacons[i], self, options_, &counted, &state.counters.trust);
     fates_.push_back(why != BeaconRefusal::kNone    ? BeaconFate::kRefused
                      : counted.accepted != accepted ? BeaconFate::kAccepted
                                                     : BeaconFate::kNotHeard);

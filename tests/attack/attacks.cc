@@ -1,12 +1,12 @@
 #include "tests/attack/attacks.h"
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <random>
 #include <utility>
 
+#include "tests/attack/heard.h"
 #include "tests/support/rtps_packet.h"
 
 namespace giveway::attack {
@@ -18,7 +18,6 @@ using test::RtpsPacket;
 
 constexpr std::int64_t kFar = 4'000'000'000;
 constexpr std::uint32_t kParticipants = 12;  // tried, of a domain
-constexpr std::size_t kHeader = 20;
 
 in_addr Group() { return AddressOf("239.255.0.1"); }
 
@@ -33,41 +32,6 @@ void SendToAll(const PacketBytes& packet, const Target& target, UdpSender* sende
     for (const bool user : {false, true}) {
       sender->Send(packet, target.address, UnicastPort(target.domain, i, user));
     }
-  }
-}
-
-// A submessage of a captured packet that names a writer.
-struct Heard {
-  const Packet* packet = nullptr;
-  std::size_t at = 0;  // of its header
-  std::uint8_t kind = 0;
-  PrefixBytes prefix{};
-  std::uint32_t writer = 0;
-  std::uint32_t reader = 0;
-};
-
-std::uint32_t EntityAt(const PacketBytes& bytes, std::size_t at) {
-  return std::uint32_t{bytes[at]} << 24U | std::uint32_t{bytes[at + 1]} << 16U |
-         std::uint32_t{bytes[at + 2]} << 8U | bytes[at + 3];
-}
-
-// The DATA and HEARTBEAT of a packet; Fast DDS writes them little-endian here.
-void FindHeard(const Packet& packet, std::vector<Heard>* found) {
-  const PacketBytes& bytes = packet.bytes;
-  for (std::size_t at = kHeader; at + 4 <= bytes.size();) {
-    const bool little = (bytes[at + 1] & 1U) != 0;
-    const std::size_t length =
-        little ? bytes[at + 2] + 256U * bytes[at + 3] : bytes[at + 3] + 256U * bytes[at + 2];
-    if (at + 4 + length > bytes.size()) return;
-    const std::uint8_t kind = bytes[at];
-    const std::size_t reader_at = at + 4 + (kind == 0x15 ? 4 : 0);
-    if (little && (kind == 0x15 || kind == 0x07) && length >= 20) {
-      Heard heard{
-          &packet, at, kind, {}, EntityAt(bytes, reader_at + 4), EntityAt(bytes, reader_at)};
-      std::copy_n(bytes.begin() + 8, heard.prefix.size(), heard.prefix.begin());
-      found->push_back(heard);
-    }
-    at += 4 + length;
   }
 }
 
@@ -177,22 +141,88 @@ void Steps(const Target& target, UdpSender* sender) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     for (const Heard& heard : often) {
       PacketBytes copy = heard.packet->bytes;
-      const std::size_t number_at = heard.at + 4 + 16;  // its low half
-      std::uint32_t number;
-      std::memcpy(&number, &copy[number_at], sizeof number);
-      number += static_cast<std::uint32_t>(kRate_hz * since_s) +
-                (turn % 2 == 0 ? turn % kAround : turn * kStep);
-      std::memcpy(&copy[number_at], &number, sizeof number);
+      const std::uint32_t ahead = static_cast<std::uint32_t>(kRate_hz * since_s) +
+                                  (turn % 2 == 0 ? turn % kAround : turn * kStep);
+      SetNumber(heard, NumberOf(heard) + ahead, &copy);
       sender->Send(copy, heard.packet->to, heard.packet->port);
     }
   }
 }
 
-// What was said before, again.
+// What was said before, again: of one vehicle its beacons.
 void Replay(const Target& target, UdpSender* sender) {
   const auto begun = std::chrono::steady_clock::now();
-  while (!target.captured.empty() && !IsOver(begun, target)) {
-    for (const Packet& packet : target.captured) sender->Send(packet.bytes, packet.to, packet.port);
+  std::vector<const Packet*> said;
+  for (const Heard& beacon : BeaconsOf(target.vehicle, target.captured)) {
+    said.push_back(beacon.packet);
+  }
+  for (const Packet& packet : target.captured) {
+    if (target.vehicle == 0) said.push_back(&packet);
+  }
+  for (std::size_t turn = 0; !said.empty() && !IsOver(begun, target); ++turn) {
+    const Packet& packet = *said[turn % said.size()];
+    sender->Send(packet.bytes, packet.to, packet.port);
+  }
+}
+
+// The beacons of another as the vehicle's: by its writer, under the number that comes next. To each
+// who hears it in turn.
+class Impostor {
+ public:
+  Impostor(std::uint32_t vehicle, const std::vector<Packet>& captured)
+      : vehicle_(vehicle), beacons_(BeaconsOf(vehicle, captured)) {
+    for (const Heard& beacon : beacons_) number_ = std::max(number_, NumberOf(beacon));
+    for (const Packet& packet : captured) NoteOther(packet);
+  }
+  bool KnowsEnough() const { return !beacons_.empty() && !other_.empty(); }
+  // Whatever anybody said meanwhile.
+  void Follow(const Packet& packet) {
+    std::vector<Heard> found;
+    FindHeard(packet, &found);
+    for (const Heard& heard : found) {
+      const bool own = BeaconOf(heard) == vehicle_ && heard.prefix == beacons_.front().prefix;
+      if (own) number_ = std::max(number_, NumberOf(heard));
+    }
+    NoteOther(packet);
+  }
+  void Send(std::size_t turn, UdpSender* sender) const {
+    const Heard& model = beacons_[turn % beacons_.size()];
+    PacketBytes copy = model.packet->bytes;
+    SetNumber(model, number_ + 1, &copy);
+    std::ranges::copy(other_, copy.begin() + static_cast<std::ptrdiff_t>(BeaconAt(model)));
+    sender->Send(copy, model.packet->to, model.packet->port);
+  }
+
+ private:
+  void NoteOther(const Packet& packet) {
+    std::vector<Heard> found;
+    FindHeard(packet, &found);
+    for (const Heard& heard : found) {
+      const auto by = BeaconOf(heard);
+      if (!by || *by == vehicle_ || *by != other_vehicle_.value_or(*by)) continue;
+      other_vehicle_ = by;
+      const auto begin = packet.bytes.begin() + static_cast<std::ptrdiff_t>(BeaconAt(heard));
+      other_.assign(begin, begin + static_cast<std::ptrdiff_t>(kBeaconBytes));
+    }
+  }
+
+  std::uint32_t vehicle_;
+  std::vector<Heard> beacons_;
+  std::int64_t number_ = 0;  // the highest that the vehicle said
+  // One other, for readers refuse a writer that speaks of many; and its newest sample.
+  std::optional<std::uint32_t> other_vehicle_;
+  PacketBytes other_;
+};
+
+void Spoof(const Target& target, UdpSender* sender) {
+  Impostor impostor(target.vehicle, target.captured);
+  if (!impostor.KnowsEnough() || target.listener == nullptr) return;
+  const auto begun = std::chrono::steady_clock::now();
+  for (std::size_t turn = 0; !IsOver(begun, target); ++turn) {
+    while (const auto packet = target.listener->Take(std::chrono::milliseconds(0))) {
+      if (packet->from_port != sender->Port()) impostor.Follow(*packet);
+    }
+    impostor.Send(turn, sender);
   }
 }
 
@@ -276,26 +306,26 @@ PacketBytes Spoilt(PacketBytes packet, const Target& target, std::mt19937_64* ra
     return from + (*random)() % std::max<std::size_t>(packet.size() - from, 1);
   };
   const int changes = 1 + static_cast<int>((*random)() % 4);
-  for (int i = 0; i < changes && packet.size() > kHeader; ++i) {
+  for (int i = 0; i < changes && packet.size() > kRtpsHeader; ++i) {
     switch ((*random)() % 6) {
       case 0:
         packet[place(0)] ^= static_cast<std::uint8_t>(1U << ((*random)() % 8));
         break;
       case 1:
-        packet[place(kHeader)] = static_cast<std::uint8_t>((*random)());
+        packet[place(kRtpsHeader)] = static_cast<std::uint8_t>((*random)());
         break;
       case 2:
-        SpoilNumber(&packet, place(kHeader), random);
+        SpoilNumber(&packet, place(kRtpsHeader), random);
         break;
       case 3:
-        packet.resize(place(kHeader));
+        packet.resize(place(kRtpsHeader));
         break;
       case 4:
-        packet[kHeader] = static_cast<std::uint8_t>((*random)() % 0x38);
+        packet[kRtpsHeader] = static_cast<std::uint8_t>((*random)() % 0x38);
         break;
       default: {  // the rest of another one behind it
         const PacketBytes& other = target.captured[(*random)() % target.captured.size()].bytes;
-        packet.insert(packet.end(), other.begin() + kHeader, other.end());
+        packet.insert(packet.end(), other.begin() + kRtpsHeader, other.end());
       }
     }
   }
@@ -311,14 +341,66 @@ void Fuzz(const Target& target, UdpSender* sender) {
   }
 }
 
-// Bytes of no meaning to every port.
+// What the target listens at: a vehicle's own ports, or all that anything went to.
+std::vector<Place> PlacesOf(const Target& target) {
+  if (target.vehicle != 0) return PlacesOf(target.vehicle, target.captured);
+  return PlacesOfAll(target.captured);
+}
+
+// What no library sends: what is heard with a few places changed, a statistics submessage that is
+// not the last one, a packet that ends too early, the number 0, a GAP over all that may come.
+PacketBytes Malformed(const Packet& model, std::uint32_t turn, const Target& target,
+                      std::mt19937_64* random) {
+  PrefixBytes prefix;
+  std::copy_n(model.bytes.begin() + 8, prefix.size(), prefix.begin());
+  PacketBytes packet = RtpsPacket(prefix).Statistics().Bytes();
+  switch (turn % 5) {
+    case 0:
+      return Spoilt(model.bytes, target, random);
+    case 1:
+      packet.resize(packet.size() + 4);
+      return packet;
+    case 2:
+      return RtpsPacket(prefix).Add(0x15, 0x04, PacketBytes(24), 400).Bytes();
+    case 3:
+      return RtpsPacket(prefix).Data(test::kUserWriter, 0, PacketBytes(24)).Bytes();
+    default:
+      return RtpsPacket(prefix).Gap(test::kUserWriter, 1, kFar).Bytes();
+  }
+}
+
+void Malform(const Target& target, UdpSender* sender) {
+  const auto begun = std::chrono::steady_clock::now();
+  const std::vector<Place> places = PlacesOf(target);
+  std::vector<const Packet*> models;
+  for (const Packet& packet : target.captured) {
+    if (std::ranges::find(places, Place{packet.to, packet.port}) != places.end()) {
+      models.push_back(&packet);
+    }
+  }
+  std::mt19937_64 random(target.seed);
+  for (std::uint32_t turn = 0; !models.empty() && !IsOver(begun, target); ++turn) {
+    const Packet& model = *models[random() % models.size()];
+    sender->Send(Malformed(model, turn, target, &random), model.to, model.port);
+  }
+}
+
+// Bytes of no meaning: to a vehicle's ports, to all that were heard of, or to all that may be.
 void Flood(const Target& target, UdpSender* sender) {
   const auto begun = std::chrono::steady_clock::now();
+  const std::vector<Place> places = PlacesOf(target);
   std::mt19937_64 random(target.seed);
   PacketBytes noise(200);
-  while (!IsOver(begun, target)) {
+  for (std::size_t turn = 0; !IsOver(begun, target); ++turn) {
     for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(random());
-    SendToAll(noise, target, sender);
+    if (!places.empty()) {
+      const Place& place = places[turn % places.size()];
+      sender->Send(noise, place.address, place.port);
+    } else if (target.vehicle == 0) {
+      SendToAll(noise, target, sender);
+    } else {
+      return;
+    }
   }
 }
 
@@ -332,12 +414,27 @@ std::uint16_t UnicastPort(std::uint32_t domain, std::uint32_t participant, bool 
   return static_cast<std::uint16_t>(7410 + 250 * domain + 2 * participant + (user ? 1 : 0));
 }
 
+bool KnowsEnough(const std::string& attack, const Target& target) {
+  if (target.vehicle == 0) return true;
+  if (attack == "spoof") return Impostor(target.vehicle, target.captured).KnowsEnough();
+  const bool by_beacons = attack == "replay";
+  return by_beacons ? !BeaconsOf(target.vehicle, target.captured).empty()
+                    : !PlacesOf(target).empty();
+}
+
+bool TakesVehicle(const std::string& attack) {
+  return attack == "flood" || attack == "malformed" || attack == "replay" || attack == "spoof";
+}
+
 const std::map<std::string, Attack>& Attacks() {
   static const std::map<std::string, Attack> kAttacks{
-      {"flood", Flood},         {"fragments", Fragments},   {"fuzz", Fuzz},
-      {"gaps", Gaps},           {"heartbeats", Heartbeats}, {"jumps", Jumps},
-      {"replay", Replay},       {"statistics", Statistics}, {"steps", Steps},
-      {"strangers", Strangers}, {"tokens", Tokens}};
+      {"flood", Flood},       {"fragments", Fragments},
+      {"fuzz", Fuzz},         {"gaps", Gaps},
+      {"jumps", Jumps},       {"heartbeats", Heartbeats},
+      {"malformed", Malform}, {"replay", Replay},
+      {"spoof", Spoof},       {"statistics", Statistics},
+      {"steps", Steps},       {"strangers", Strangers},
+      {"tokens", Tokens}};
   return kAttacks;
 }
 

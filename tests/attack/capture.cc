@@ -8,11 +8,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 namespace giveway::attack {
 namespace {
@@ -20,36 +21,6 @@ namespace {
 [[noreturn]] void ThrowErrno(const char* what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
-
-class PacketSocket {
- public:
-  explicit PacketSocket(const std::string& interface)
-      : socket_(socket(AF_PACKET, SOCK_DGRAM, htons(ETH_P_IP))) {
-    if (socket_ < 0) ThrowErrno("packet socket");
-    sockaddr_ll at{};
-    at.sll_family = AF_PACKET;
-    at.sll_protocol = htons(ETH_P_IP);
-    at.sll_ifindex = static_cast<int>(if_nametoindex(interface.c_str()));
-    if (bind(socket_, reinterpret_cast<sockaddr*>(&at), sizeof at) != 0) ThrowErrno("bind");
-  }
-  ~PacketSocket() { close(socket_); }
-  PacketSocket(const PacketSocket&) = delete;
-  PacketSocket& operator=(const PacketSocket&) = delete;
-
-  // The next IP packet; nothing if none comes in time.
-  std::optional<std::vector<std::uint8_t>> Take(std::chrono::milliseconds time) const {
-    pollfd one{.fd = socket_, .events = POLLIN, .revents = 0};
-    if (poll(&one, 1, static_cast<int>(time.count())) <= 0) return std::nullopt;
-    std::vector<std::uint8_t> bytes(65536);
-    const ssize_t got = recv(socket_, bytes.data(), bytes.size(), 0);
-    if (got <= 0) return std::nullopt;
-    bytes.resize(static_cast<std::size_t>(got));
-    return bytes;
-  }
-
- private:
-  int socket_;
-};
 
 std::uint16_t Word(const std::vector<std::uint8_t>& bytes, std::size_t at) {
   return static_cast<std::uint16_t>(bytes[at] << 8U | bytes[at + 1]);
@@ -64,6 +35,7 @@ std::optional<Packet> ParseUdp(const std::vector<std::uint8_t>& bytes) {
   if (bytes.size() < header + kUdpHeader || (Word(bytes, 6) & kPieces) != 0) return std::nullopt;
   Packet packet;
   std::memcpy(&packet.to, bytes.data() + 16, sizeof packet.to);
+  packet.from_port = Word(bytes, header);
   packet.port = Word(bytes, header + 2);
   packet.bytes.assign(bytes.begin() + static_cast<std::ptrdiff_t>(header + kUdpHeader),
                       bytes.end());
@@ -76,18 +48,47 @@ bool IsRtps(const std::vector<std::uint8_t>& bytes) {
 
 }  // namespace
 
-std::vector<Packet> Capture(const std::string& interface, std::uint16_t first_port,
-                            std::uint16_t last_port, std::size_t most,
-                            std::chrono::milliseconds time) {
-  const PacketSocket socket(interface);
+Listener::Listener(const std::string& interface, std::uint16_t first_port, std::uint16_t last_port)
+    : socket_(socket(AF_PACKET, SOCK_DGRAM, htons(ETH_P_IP))),
+      first_port_(first_port),
+      last_port_(last_port) {
+  if (socket_ < 0) ThrowErrno("packet socket");
+  sockaddr_ll at{};
+  at.sll_family = AF_PACKET;
+  at.sll_protocol = htons(ETH_P_IP);
+  at.sll_ifindex = static_cast<int>(if_nametoindex(interface.c_str()));
+  if (bind(socket_, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0) return;
+  close(socket_);
+  ThrowErrno("bind");
+}
+
+Listener::~Listener() { close(socket_); }
+
+std::optional<Packet> Listener::Take(std::chrono::milliseconds time) const {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + time;
+  std::vector<std::uint8_t> bytes(65536);
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    pollfd one{.fd = socket_, .events = POLLIN, .revents = 0};
+    if (poll(&one, 1, std::max(static_cast<int>(left.count()), 0)) <= 0) return std::nullopt;
+    bytes.resize(65536);
+    const ssize_t got = recv(socket_, bytes.data(), bytes.size(), 0);
+    if (got <= 0) return std::nullopt;
+    bytes.resize(static_cast<std::size_t>(got));
+    const auto packet = ParseUdp(bytes);
+    if (!packet || packet->port < first_port_ || packet->port > last_port_) continue;
+    if (IsRtps(packet->bytes)) return packet;
+  }
+}
+
+std::vector<Packet> Listener::Capture(std::size_t most, std::chrono::milliseconds time) const {
+  using Clock = std::chrono::steady_clock;
   std::vector<Packet> captured;
-  const auto end = std::chrono::steady_clock::now() + time;
-  while (captured.size() < most && std::chrono::steady_clock::now() < end) {
-    const auto bytes = socket.Take(std::chrono::milliseconds(50));
-    if (!bytes) continue;
-    const auto packet = ParseUdp(*bytes);
-    if (!packet || packet->port < first_port || packet->port > last_port) continue;
-    if (IsRtps(packet->bytes)) captured.push_back(*packet);
+  const auto end = Clock::now() + time;
+  while (captured.size() < most && Clock::now() < end) {
+    auto packet = Take(std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()));
+    if (packet) captured.push_back(std::move(*packet));
   }
   return captured;
 }

@@ -4,29 +4,47 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
 
 namespace giveway::attack {
+namespace {
+
+constexpr std::chrono::milliseconds kCatchUp(100);
+
+}  // namespace
 
 UdpSender::UdpSender(const std::string& source, double packets_a_second)
     : socket_(socket(AF_INET, SOCK_DGRAM, 0)),
-      apart_(1 / packets_a_second),
-      begun_(std::chrono::steady_clock::now()) {
+      apart_(static_cast<std::int64_t>(1e9 / packets_a_second)),
+      due_(std::chrono::steady_clock::now()) {
   const in_addr interface = AddressOf(source);
   if (setsockopt(socket_, IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface) != 0) {
     throw std::system_error(errno, std::generic_category(), "IP_MULTICAST_IF " + source);
   }
+  const sockaddr_in any{.sin_family = AF_INET, .sin_port = 0, .sin_addr = {}, .sin_zero = {}};
+  if (bind(socket_, reinterpret_cast<const sockaddr*>(&any), sizeof any) != 0) {
+    throw std::system_error(errno, std::generic_category(), "bind");
+  }
+}
+
+std::uint16_t UdpSender::Port() const {
+  sockaddr_in own{};
+  socklen_t size = sizeof own;
+  getsockname(socket_, reinterpret_cast<sockaddr*>(&own), &size);
+  return ntohs(own.sin_port);
 }
 
 UdpSender::~UdpSender() { close(socket_); }
 
 void UdpSender::Send(std::span<const std::uint8_t> bytes, in_addr to, std::uint16_t port) {
-  const auto due = begun_ + std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                apart_ * static_cast<double>(sent_));
-  std::this_thread::sleep_until(due);
+  // Who was kept from sending catches up with a little of it alone.
+  due_ = std::max(due_, std::chrono::steady_clock::now() - kCatchUp);
+  std::this_thread::sleep_until(due_);
+  due_ += apart_;
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr = to;

@@ -3,6 +3,7 @@
 
 #include <netinet/in.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <span>
@@ -20,13 +21,16 @@ class UdpSender {
 
   // Waits for its turn. What the system does not take is lost, as on any network.
   void Send(std::span<const std::uint8_t> bytes, in_addr to, std::uint16_t port);
+  // From any thread.
   std::uint64_t Sent() const { return sent_; }
+  // The one it sends from.
+  std::uint16_t Port() const;
 
  private:
   int socket_;
-  std::chrono::duration<double> apart_;
-  std::chrono::steady_clock::time_point begun_;
-  std::uint64_t sent_ = 0;
+  std::chrono::nanoseconds apart_;
+  std::chrono::steady_clock::time_point due_;  // of the next one
+  std::atomic<std::uint64_t> sent_ = 0;
 };
 
 // Throws std::invalid_argument.

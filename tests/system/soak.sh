@@ -25,6 +25,8 @@ refusals() {
   refused 'pause' patrol --faults "$SCRATCH/kind.textproto" --duration 60
   refused '77' patrol --faults "$SCRATCH/absent.textproto" --duration 60
   refused 'skip-unsupported' patrol --faults "$SCRATCH/spoofed.textproto" --duration 60
+  refused 'attacker PROGRAM' patrol --faults "$SCRATCH/spoofed.textproto" --duration 60
+  refused 'No such file' patrol --faults "$SCRATCH/spoofed.textproto" --duration 60 --attacker "$SCRATCH/none"
   refused 'b' patrol --faults "$SCRATCH/twice.textproto" --duration 60
   refused 'no_such' patrol --faults no_such --duration 60
   refused '30 s' patrol --faults calm --duration 5
@@ -211,10 +213,30 @@ host() {
   ((SECONDS - before < 300)) || fail "the clock of this script jumped"
 }
 
+# An intruder on loopback: each of its faults is seen by what its target or the peers count, no process
+# ends, and all drive on.
+intruded() {
+  local code=0 attacker=${FLEETCTL%/*}/attacker
+  [[ $(id -u) -eq 0 && -x $attacker ]] || return 0 # its packet socket needs root
+  "$FLEETCTL" soak patrol --vehicles 4 --faults "$SCRATCH/intruder.textproto" --duration 42 --attacker "$attacker" \
+    --report "$SCRATCH/intruded" --json >"$SCRATCH/intruded.json" 2>"$SCRATCH/intruded.log" || code=$?
+  [[ $code -eq 0 ]] || {
+    fail "a soak with an intruder ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/intruded.json")"
+    tail -n 20 "$SCRATCH/intruded.log"
+  }
+  jq -e '[.faults[] | select(.observed) | .kind] | sort == ["flooded", "malformed", "replayed", "spoofed"]' \
+    "$SCRATCH/intruded.json" >/dev/null ||
+    fail "not every fault of an intruder was seen: $(jq -c '[.faults[] | {kind, observed_how}]' "$SCRATCH/intruded.json")"
+}
+
 # One after the other: more fleets at once would make a small machine too busy for all of them.
 kept_and_host() {
   kept
   host
+}
+killed_and_intruded() {
+  killed
+  intruded
 }
 
 # beside FUNCTION: it runs from now on; its failures count.
@@ -246,8 +268,14 @@ at { name: "back" time_s: 17 kind: "clock_step" target: "world" for_s: 4 offset_
 at { name: "littered" time_s: 18 kind: "shared_memory_left_over" target: "all" for_s: 3 count: 50 }
 at { name: "full" time_s: 23 kind: "shared_memory_small" target: "all" for_s: 3 }
 FAULTS
+cat >"$SCRATCH/intruder.textproto" <<'FAULTS'
+at { name: "posing" time_s: 13 kind: "spoofed" vehicle: 1 for_s: 4 rate_hz: 40 }
+at { name: "again" time_s: 14 kind: "replayed" vehicle: 2 for_s: 4 }
+at { name: "noise" time_s: 16 kind: "flooded" target: "all" for_s: 5 }
+at { name: "broken" time_s: 17 kind: "malformed" vehicle: 3 for_s: 4 }
+FAULTS
 beside whole
-beside killed
+beside killed_and_intruded
 beside kept_and_host
 refusals
 interrupted

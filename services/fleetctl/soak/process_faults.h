@@ -30,6 +30,7 @@ struct FaultTools {
   std::string admin_key;  // the file of the key that the fleet's orders are sealed with
   // Of every member, where the list steps clocks: each was started with its own.
   std::map<MemberId, SteppableClock> clocks;
+  std::string attacker;       // the program that is the intruder; empty: no fault is of one
   PrivateShm* shm = nullptr;  // null: no fault is of shared memory. Outlives the faults
   // What a vehicle that is started so many seconds after the start signal is given with --impair:
   // its clock of the rules starts when it joins. Empty: nothing is impaired any more.

@@ -89,6 +89,7 @@ SoakSession::SoakSession(const FleetSpec& spec, const Scenario& scenario,
       invariants_(scenario),
       observer_(ObserverOf(spec, scenario), RangesFor(spec)),
       processes_(tools.commands),
+      attackers_({tools.attacker, tools.domain, tools.interface}),
       faults_(std::move(tools), &processes_),
       clock_(schedule),
       resources_(phases.faults_from_s),
@@ -189,6 +190,7 @@ void SoakSession::Turn() {
   Drain();
   processes_.Poll();
   faults_.Turn(now, watch_.TimeSeconds(now));
+  attackers_.Turn();
   for (const VehicleId vehicle : fleet_) {
     watch_.SetAway(vehicle, faults_.IsAway(MemberOf(vehicle)));
   }
@@ -240,8 +242,13 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
     if (edge.begins) {
       watch_.NoteBegin(edge.fault, SteadyNow());
       faults_.Begin(fault);
+      attackers_.Begin(fault);
     } else {
       faults_.End(fault);
+      if (const std::string sent = attackers_.EffectOf(fault); !sent.empty()) {
+        watch_.NoteEffect(edge.fault, sent);
+      }
+      attackers_.End(fault);
       watch_.NoteEnd(edge.fault, SteadyNow());
     }
   }

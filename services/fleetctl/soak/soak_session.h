@@ -17,6 +17,7 @@
 #include "services/fleetctl/soak/fault_clock.h"
 #include "services/fleetctl/soak/fleet_course.h"
 #include "services/fleetctl/soak/fleet_timing.h"
+#include "services/fleetctl/soak/host_faults/attackers.h"
 #include "services/fleetctl/soak/near_misses.h"
 #include "services/fleetctl/soak/pause_meter.h"
 #include "services/fleetctl/soak/process_faults.h"
@@ -71,6 +72,7 @@ class SoakSession {
   InvariantWatch invariants_;
   link::ObserverLink observer_;
   FleetProcesses processes_;
+  Attackers attackers_;
   ProcessFaults faults_;
   FaultClock clock_;
   ResourceSeries resources_;

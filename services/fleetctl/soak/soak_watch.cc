@@ -18,8 +18,15 @@ constexpr Nanoseconds kGivenUp = seconds(120);
 // A status says what was counted until it was made; it may come a little after the fault's end.
 constexpr Nanoseconds kStatusUnderway = seconds(2);
 
-// What each kind of a hearer's fault is counted as by who hears; and a set that does not match by
-// those who refuse it.
+// Packets that no library sends. Those without an RTPS header are a flood's, and numbers jump for
+// other reasons too.
+std::uint64_t MalformedOf(const PacketCounters& packets) {
+  return packets.Dropped() - packets.Of(PacketDrop::kForeignSource) -
+         packets.Of(PacketDrop::kNotRtps) - packets.Of(PacketDrop::kSequenceJump);
+}
+
+// What each kind of a hearer's fault is counted as by who hears; a set that does not match by those
+// who refuse it; and an intruder's packets by who is sent them.
 std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
   switch (kind) {
     case Kind::kLoss:
@@ -38,13 +45,44 @@ std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
       return status.impaired.metered;
     case Kind::kQosMismatch:
       return status.qos.incompatible_qos;
+    case Kind::kSpoofed:  // the beacon names another vehicle, which may be the one that counts
+      return std::uint64_t{status.beacons.rejected_wrong_name} + status.beacons.rejected_own;
+    case Kind::kFlooded:
+      return status.packets.Of(PacketDrop::kNotRtps);
+    case Kind::kMalformed:
+      return MalformedOf(status.packets);
     default:
       return status.impaired.Dropped();
   }
 }
 
+// Whether a counter of some vehicle rises by it.
+bool ShowsInCounters(Kind kind) {
+  switch (faults::ActorOf(kind)) {
+    case faults::Actor::kHearer:
+      return true;
+    case faults::Actor::kAttacker:
+      return kind != Kind::kReplayed;  // the library drops what has come before, and does not count
+    case faults::Actor::kSupervisor:
+      return kind == Kind::kQosMismatch;
+    case faults::Actor::kWorld:
+      break;
+  }
+  return false;
+}
+
 std::string_view CounterOf(Kind kind) {
-  return kind == Kind::kQosMismatch ? "endpoints of incompatible QoS" : "packets";
+  switch (kind) {
+    case Kind::kQosMismatch:
+      return "endpoints of incompatible QoS";
+    case Kind::kSpoofed:
+      return "beacons refused for their name";
+    case Kind::kFlooded:
+    case Kind::kMalformed:
+      return "packets dropped by its filter";
+    default:
+      return "packets";
+  }
 }
 
 }  // namespace
@@ -112,7 +150,9 @@ void SoakWatch::FoldEvent(const WorldEvent& event) {
 }
 
 // A partition is seen from both of its sides: of the target alone, or of the peers that lost it.
+// What is said in the target's name, its peers hear.
 bool SoakWatch::Concerns(const faults::Fault& fault, VehicleId vehicle) const {
+  if (fault.kind == Kind::kSpoofed) return fault.target.vehicle != vehicle;
   return fault.target.what != Target::What::kVehicle || fault.target.vehicle == vehicle ||
          fault.kind == Kind::kPartition || fault.kind == Kind::kFlapping ||
          fault.kind == Kind::kQosMismatch;
@@ -120,9 +160,7 @@ bool SoakWatch::Concerns(const faults::Fault& fault, VehicleId vehicle) const {
 
 void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
   const faults::Fault& fault = schedule_[i];
-  const bool seen_by_counters =
-      faults::ActorOf(fault.kind) == faults::Actor::kHearer || fault.kind == Kind::kQosMismatch;
-  if (!seen_by_counters || !Concerns(fault, status.vehicle)) return;
+  if (!ShowsInCounters(fault.kind) || !Concerns(fault, status.vehicle)) return;
   const auto before = before_[i].find(status.vehicle);
   if (before == before_[i].end()) {
     before_[i][status.vehicle] = status;

@@ -45,6 +45,18 @@ TEST(Exclusion, EarsAndTheWorldDoSeveralThingsAtOnceUnlessOneHidesTheOther) {
   EXPECT_FALSE(AtOnce(Kind::kMotorWeak, Vehicle(1), Kind::kMotorStuck, Vehicle(1)));
 }
 
+TEST(Exclusion, AnIntruderGoesByWhatItsTargetSays) {
+  for (const Kind silence : {Kind::kRestart, Kind::kPause, Kind::kHang, Kind::kQosMismatch}) {
+    EXPECT_FALSE(AtOnce(Kind::kSpoofed, Vehicle(1), silence, Vehicle(1))) << ToString(silence);
+    EXPECT_FALSE(AtOnce(Kind::kFlooded, kAllTarget, silence, kAllTarget)) << ToString(silence);
+    EXPECT_TRUE(AtOnce(Kind::kFlooded, kAllTarget, silence, Vehicle(1))) << ToString(silence);
+    EXPECT_TRUE(AtOnce(Kind::kReplayed, Vehicle(1), silence, kAllTarget)) << ToString(silence);
+    EXPECT_TRUE(AtOnce(Kind::kReplayed, Vehicle(2), silence, Vehicle(1))) << ToString(silence);
+  }
+  EXPECT_TRUE(AtOnce(Kind::kSpoofed, Vehicle(1), Kind::kSlow, Vehicle(1)));
+  EXPECT_TRUE(AtOnce(Kind::kMalformed, Vehicle(1), Kind::kFlooded, Vehicle(1)));
+}
+
 TEST(Exclusion, AKilledVehicleGetsNothingMoreAndEveryOtherDoes) {
   const Fault kill = Of(Kind::kKill, Vehicle(1), 10, 0);
   for (std::size_t i = 0; i < kKinds; ++i) {

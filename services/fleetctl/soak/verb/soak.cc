@@ -29,6 +29,7 @@
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
+#include "services/fleetctl/soak/host_faults/attackers.h"
 #include "services/fleetctl/soak/host_faults/private_shm.h"
 #include "services/fleetctl/soak/soak_draw.h"
 #include "services/fleetctl/soak/soak_json.h"
@@ -60,19 +61,13 @@ struct Prepared {
   std::uint32_t newcomers = 0;
 };
 
-// The world's faults need a world that takes them, the hearers' an impairment: always. An attacker
-// is a program of the tests.
-const char* WhyNot(const faults::Fault& fault) {
-  switch (faults::ActorOf(fault.kind)) {
-    case faults::Actor::kSupervisor:
-      return ProcessFaults::WhyNot(fault);
-    case faults::Actor::kAttacker:
-      return "attackers are started by the tests alone";
-    case faults::Actor::kHearer:
-    case faults::Actor::kWorld:
-      break;
-  }
-  return nullptr;
+// The world's faults need a world that takes them, the hearers' an impairment: always.
+std::string WhyNot(const faults::Fault& fault, const std::string& why_no_attacker) {
+  const auto actor = faults::ActorOf(fault.kind);
+  if (actor == faults::Actor::kAttacker) return why_no_attacker;
+  const char* const why =
+      actor == faults::Actor::kSupervisor ? ProcessFaults::WhyNot(fault) : nullptr;
+  return why == nullptr ? "" : why;
 }
 
 bool Records(const SoakOptions& options) { return options.record || options.ring_s > 0; }
@@ -88,19 +83,19 @@ std::string WhyNotOf(const faults::Incapable& incapable, const faults::Fault& fa
 }
 
 std::string WhyNot(const SoakOptions& options, const Scenario& scenario,
-                   const faults::Fault& fault) {
+                   const std::string& why_no_attacker, const faults::Fault& fault) {
   const std::string sensors = WhyNotOf(faults::IncapableWithSensorsOf(scenario), fault);
   if (!sensors.empty()) return sensors;
-  if (options.in_virtual_time) return WhyNotOf(faults::IncapableInVirtualTime(), fault);
-  const char* const why = WhyNot(fault);
-  return why == nullptr ? "" : why;
+  return options.in_virtual_time ? WhyNotOf(faults::IncapableInVirtualTime(), fault)
+                                 : WhyNot(fault, why_no_attacker);
 }
 
 // Refuses what cannot be carried out here, all at once; or leaves it out and says so.
 void Sift(const SoakOptions& options, const Scenario& scenario, Prepared* prepared) {
   std::vector<Problem> problems;
+  const std::string why_no_attacker = WhyNoAttacker(options.attacker, MayOpenPacketSocket());
   std::erase_if(prepared->schedule, [&](const faults::Fault& fault) {
-    const std::string why = WhyNot(options, scenario, fault);
+    const std::string why = WhyNot(options, scenario, why_no_attacker, fault);
     if (why.empty()) return false;
     if (options.skip_unsupported) {
       prepared->skipped.push_back(InWords(fault) + ": " + why);
@@ -204,6 +199,7 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
   tools.domain = spec.domain;
   tools.interface = spec.options.interface;
   tools.admin_key = spec.options.admin_key;
+  tools.attacker = options.attacker;
   const fs::path folder = fs::path(options.report_folder) / "impair";
   tools.impairment_since = [&prepared, folder](VehicleId vehicle, double since_s) {
     const auto impaired = faults::ImpairmentOf(prepared.schedule, prepared.fleet, since_s);
@@ -230,6 +226,7 @@ std::string CommandLine(const SoakOptions& options) {
       options.faults, options.duration_s, options.seed, options.report_folder);
   if (options.vehicles) line += fmt::format(" --vehicles {}", *options.vehicles);
   if (!options.qos_file.empty()) line += " --qos " + options.qos_file;
+  if (!options.attacker.empty()) line += " --attacker " + options.attacker;
   if (options.skip_unsupported) line += " --skip-unsupported";
   if (options.record) line += " --record";
   if (options.in_virtual_time) line += " --virtual";
@@ -364,6 +361,7 @@ int Resume(const SoakOptions& asked) {
   const faults::Schedule whole =
       LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
   prepared.schedule = RestOf(whole, so_far.ran_s, prepared.phases.faults_from_s, &prepared.skipped);
+  Sift(options, &prepared);
   prepared.faults_file =
       (folder / fmt::format("faults.rest-{}.textproto", so_far.resumed_at_s.size() + 1)).string();
   WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));

@@ -18,6 +18,7 @@ struct SoakOptions {
   std::string qos_file;                   // empty: the shipped one
   std::string interface = "127.0.0.1";
   std::string admin_key;          // a file; empty: one is made for the soak
+  std::string attacker;           // the program that is an intruder; empty: there is none
   bool skip_unsupported = false;  // leave out what this host cannot do, and say so in the report
   bool record = false;            // every vehicle records into the report folder
   std::uint32_t ring_s = 0;       // each keeps so much of it; 0: all of it, where `record` says so

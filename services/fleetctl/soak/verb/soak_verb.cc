@@ -32,6 +32,10 @@ judges it alike, without detection, resources and pauses. What was seen is saved
 every ten seconds: --resume FOLDER continues after a crash of the machine, with a
 new fleet and the rest of the list, and the verdict says so.
 
+Faults of an intruder (spoofed, replayed, flooded, malformed) are carried out by
+the program that is built with the tests: --attacker build/release/bin/attacker.
+It needs root.
+
 A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
 shipped sets: calm, radio_storm, flaky_hardware, everything; `fleetctl faults
 expand` prints what comes of one.
@@ -70,6 +74,10 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
       ->check(CLI::Range(kFirstDomain, kLastDomain));
   AddInterfaceFlag(verb, &options->interface);
   AddAdminKeyFlag(verb, &options->admin_key);
+  verb->add_option("--attacker", options->attacker,
+                   "The intruder of spoofed, replayed, flooded and malformed; needs root")
+      ->check(CheckNotEmpty)
+      ->envname("GIVEWAY_ATTACKER");
   verb->add_flag("--record", options->record, "Every vehicle records into the report folder");
   verb->add_option("--record-ring", options->ring_s,
                    "Every vehicle keeps its last seconds recorded: 60")

@@ -147,6 +147,71 @@ TEST_F(SoakWatchTest, ALimitedRateIsSeenWhereOtherFaultsLeaveLessThanItPasses) {
   EXPECT_THAT(watch.Courses()[0].effect, HasSubstr("counted 40 packets"));
 }
 
+// What a vehicle's status says of an intruder's packets.
+VehicleStatus Attacked(VehicleId vehicle, PacketDrop drop, std::uint64_t packets) {
+  VehicleStatus status = Driving(vehicle);
+  status.packets.packets[static_cast<std::size_t>(drop)] = packets;
+  return status;
+}
+
+// The effect of a fault of that kind on the second vehicle, by two statuses, one before it.
+std::string EffectOf(faults::Kind kind, const VehicleStatus& before, const VehicleStatus& now) {
+  const faults::Schedule schedule{On(kTwo, kind, 2)};
+  SoakWatch watch({kOne, kTwo}, schedule);
+  link::Observed observed;
+  observed.statuses = {before};
+  watch.Fold(observed, seconds(9));
+  watch.NoteBegin(0, seconds(10));
+  observed.statuses = {now};
+  watch.Fold(observed, seconds(11));
+  return watch.Courses()[0].effect;
+}
+
+TEST(SoakWatch, AFloodIsSeenByPacketsThatTheTargetsFilterDropsAsNoneOfRtps) {
+  const auto none = Attacked(kTwo, PacketDrop::kNotRtps, 5);
+  const auto some = Attacked(kTwo, PacketDrop::kNotRtps, 25);
+  const auto other = Attacked(kTwo, PacketDrop::kMalformed, 25);
+  EXPECT_THAT(EffectOf(faults::Kind::kFlooded, none, some), HasSubstr("counted 20 packets"));
+  EXPECT_EQ(EffectOf(faults::Kind::kFlooded, none, none), "");
+  EXPECT_EQ(EffectOf(faults::Kind::kFlooded, Driving(kTwo), other), "");
+  EXPECT_EQ(
+      EffectOf(faults::Kind::kFlooded, Driving(kOne), Attacked(kOne, PacketDrop::kNotRtps, 9)), "")
+      << "of whom it is not";
+}
+
+TEST(SoakWatch, MalformedPacketsAreSeenByWhateverTheFilterDropsThemFor) {
+  for (const PacketDrop drop :
+       {PacketDrop::kMalformed, PacketDrop::kListTooLong, PacketDrop::kStatistics}) {
+    EXPECT_THAT(EffectOf(faults::Kind::kMalformed, Driving(kTwo), Attacked(kTwo, drop, 3)),
+                HasSubstr("counted 3 packets"))
+        << Name(drop);
+  }
+  for (const PacketDrop drop :
+       {PacketDrop::kNone, PacketDrop::kNotRtps, PacketDrop::kSequenceJump}) {
+    EXPECT_EQ(EffectOf(faults::Kind::kMalformed, Driving(kTwo), Attacked(kTwo, drop, 3)), "")
+        << Name(drop);
+  }
+}
+
+TEST(SoakWatch, ASpoofedVehicleIsSeenByWhatItsPeersRefuse) {
+  const auto refused_by = [](VehicleId vehicle) {
+    VehicleStatus status = Driving(vehicle);
+    status.beacons.rejected_wrong_name = 4;
+    status.beacons.rejected_own = 3;
+    return status;
+  };
+  EXPECT_THAT(EffectOf(faults::Kind::kSpoofed, Driving(kOne), refused_by(kOne)),
+              HasSubstr("vehicle 1 counted 7 beacons"));
+  EXPECT_EQ(EffectOf(faults::Kind::kSpoofed, Driving(kTwo), refused_by(kTwo)), "");
+}
+
+TEST(SoakWatch, NoCounterShowsAReplay) {
+  VehicleStatus status = Attacked(kTwo, PacketDrop::kNone, 900);
+  status.beacons.rejected_replayed = 3;
+  status.impaired.dropped_loss = 3;
+  EXPECT_EQ(EffectOf(faults::Kind::kReplayed, Driving(kTwo), status), "");
+}
+
 TEST_F(SoakWatchTest, AFaultOfTheWorldIsSeenWhenTheWorldSaysSo) {
   const faults::Schedule schedule{On(kOne, faults::Kind::kSonarStuck, 2)};
   SoakWatch watch({kOne}, schedule);
