@@ -361,7 +361,7 @@ int Resume(const SoakOptions& asked) {
   const faults::Schedule whole =
       LoadAndExpandFaults(options.faults, course, prepared.fleet).schedule;
   prepared.schedule = RestOf(whole, so_far.ran_s, prepared.phases.faults_from_s, &prepared.skipped);
-  Sift(options, &prepared);
+  Sift(options, prepared.scenario, &prepared);
   prepared.faults_file =
       (folder / fmt::format("faults.rest-{}.textproto", so_far.resumed_at_s.size() + 1)).string();
   WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));

@@ -129,7 +129,7 @@ TEST_F(ReplayTest, WhoWatchesSeesEveryStep) {
   Replay(&stream, [&](const RecordedStep& step, const Vehicle& brain, const Outputs& said) {
     ++seen;
     EXPECT_EQ(step.hash, brain.Hash());
-    AppendLine({.tick = brain.State().tick, .vehicle = said.command.vehicle}, said, &trace);
+    AppendLine({.tick = brain.State().world.tick, .vehicle = said.command.vehicle}, said, &trace);
   });
   EXPECT_EQ(seen, kSteps);
   EXPECT_THAT(trace, HasSubstr("\n60\t0.00\t1\t"));
