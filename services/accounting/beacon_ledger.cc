@@ -40,7 +40,7 @@ void BeaconLedger::Begin(const ReceivedBeacon& received, BeaconFate fate, Row* r
   --row->base.taken;
   row->sequence = received.arrival.sequence;
   row->apart = Apart(received);
-  row->odd_apart.reset();
+  row->odd_beacons = 0;
   row->judged = {};
   Add(fate, &row->judged);
   row->taken = 1;
@@ -104,15 +104,15 @@ void BeaconLedger::Settle(Row* row) {
     return Begin(newest, row->fate, row);  // nobody knows which of the two numbers was broken
   }
   if (Apart(newest) != row->apart) {
-    // Once, the library's number was broken in its packet. Twice the same, it stays so: that the
-    // writer has given out a number more, or less, is a difference from now on.
-    if (row->odd_apart != Apart(newest)) {
-      row->odd_apart = Apart(newest);
-      return;
-    }
+    // The library's number was broken in its packet; or it stays so: that the writer has given out
+    // a number more, or less, is a difference from now on. A reader takes none below a broken
+    // number, so packets broken in the same bit may come one after the other.
+    if (row->odd_apart != Apart(newest)) row->odd_beacons = 0;
+    row->odd_apart = Apart(newest);
+    if (++row->odd_beacons < kNewCount) return;
     row->apart = Apart(newest);
   }
-  row->odd_apart.reset();
+  row->odd_beacons = 0;
   BeaconAccount& settled = row->settled;
   const std::uint32_t filtered = now.filtered - row->base.filtered;
   settled.last = newest.beacon.seq;

@@ -20,6 +20,9 @@ class BeaconLedger {
   static constexpr std::size_t kMostWriters = 1024;
   // The last beacons of a writer may be taken so many steps after the news that it left.
   static constexpr std::uint64_t kStepsToLeave = 3;
+  // So many beacons one after the other whose two numbers are otherwise apart than before, all
+  // equally, are a new count; fewer may be broken in the same bit.
+  static constexpr std::uint32_t kNewCount = 10;
 
   // What became of the beacons of one step: fates[i] of beacons[i].
   void Note(std::span<const ReceivedBeacon> beacons, std::span<const BeaconFate> fates);
@@ -33,13 +36,14 @@ class BeaconLedger {
 
  private:
   struct Row {
-    BeaconAccount settled;                   // `last` is 0 until it is settled for the first time
-    BeaconArrival base;                      // all counts before the first beacon of the account
-    std::uint64_t sequence = 0;              // the library's number of that one
-    std::uint64_t apart = 0;                 // the library's number less the writer's, modulo 2^64
-    std::optional<std::uint64_t> odd_apart;  // of the newest beacon, where it differs
-    BeaconAccount judged;                    // since the base; by the brain alone
-    std::uint32_t taken = 0;                 // since the base
+    BeaconAccount settled;          // `last` is 0 until it is settled for the first time
+    BeaconArrival base;             // all counts before the first beacon of the account
+    std::uint64_t sequence = 0;     // the library's number of that one
+    std::uint64_t apart = 0;        // the library's number less the writer's, modulo 2^64
+    std::uint64_t odd_apart = 0;    // of the newest beacon, where it differs
+    std::uint32_t odd_beacons = 0;  // one after the other that were as far apart
+    BeaconAccount judged;           // since the base; by the brain alone
+    std::uint32_t taken = 0;        // since the base
     std::uint32_t unreadable = 0;
     std::uint64_t counted_at = 0;  // the last step with a beacon of it
     std::optional<std::uint64_t> leaves_at;
