@@ -40,6 +40,7 @@ in_container() {
   docker run --rm "${place[@]}" --network none --shm-size 1g --cap-add SYS_PTRACE --cap-add NET_ADMIN \
     --cap-add SYS_ADMIN --security-opt seccomp=unconfined --security-opt apparmor=unconfined \
     -e CI="${CI:-}" -e GIVEWAY_FUZZ_SECONDS -e GIVEWAY_REPEATS -e GIVEWAY_KILLS \
+    -e GIVEWAY_ATTACK_SECONDS -e GIVEWAY_ATTACK_FUZZ_SECONDS \
     -v "$GIVEWAY_ROOT:/src:ro" -v "$BUILT" -v giveway-ccache13:/ccache -e CCACHE_DIR=/ccache \
     giveway-check bash -c 'ip link set lo up; exec "$@"' bash "$@"
 }
