@@ -8,8 +8,9 @@
 #   killed    the same, ended by kill -9 at the begin and at half of that time, and started again at once
 #   unread    giveway-observer, and 16 clients that never read
 #   full      fleetctl record onto a full disk, again and again; needs root
+#   alone     as client, of one fleet with none beside it: what the observer of many vehicles takes
 #
-# Usage: observer_cost.sh [--seconds S] [--pairs N] [--vehicles N] [WATCHED ...]   (20, 10, 8, all)
+# Usage: observer_cost.sh [--seconds S] [--pairs N] [--vehicles N] [WATCHED ...]   (20, 10, 8, the first five)
 set -euo pipefail
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 programs=${GIVEWAY_BIN_DIR:-$project/build/release/bin}
@@ -19,7 +20,7 @@ while [[ $# -gt 0 ]]; do
     --seconds) seconds=$2 && shift ;;
     --pairs) pairs=$2 && shift ;;
     --vehicles) vehicles=$2 && shift ;;
-    client | paused | killed | unread | full) conditions+=("$1") ;;
+    client | paused | killed | unread | full | alone) conditions+=("$1") ;;
     *)
       echo "unknown argument $1" >&2
       exit 2
@@ -136,6 +137,16 @@ while_watched() {
 (IFS=$'\t' && echo "watched	${FIGURES[*]}")
 for condition in "${conditions[@]}"; do
   for ((pair = 1; pair <= pairs; ++pair)); do
+    if [[ $condition == alone ]]; then
+      start_fleet with "$pair" "$work/fleet.textproto"
+      sleep 6
+      start_watching alone
+      sleep 4
+      while_watched
+      end_watching
+      end_fleets
+      continue
+    fi
     order=(with without)
     ((pair % 2)) || order=(without with)
     for name in "${order[@]}"; do start_fleet "$name" "$pair" "$work/fleet.textproto"; done
@@ -150,6 +161,6 @@ for condition in "${conditions[@]}"; do
     done
   done
   echo "== $condition"
-  ratios "$work/lines.$condition"
+  [[ $condition == alone ]] || ratios "$work/lines.$condition"
   cat "$work/observer.$condition" 2>/dev/null || true
 done
