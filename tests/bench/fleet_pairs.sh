@@ -34,6 +34,7 @@ on_cpu() {
 start_fleet() {
   local name=$1 seed=$2 scenario=$3
   shift 3
+  rm -f "$work/$name.err" # of the pair before: its domain is not this one's
   "${folder[$name]}/fleetctl" run "$scenario" --duration 600 --seed "$seed" --json "$@" \
     >"$work/$name.json" 2>"$work/$name.err" &
   pid[$name]=$!
