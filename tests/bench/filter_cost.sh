@@ -42,7 +42,8 @@ for ((pair = 1; pair <= pairs; ++pair)); do
   watch "${order[@]}"
   end_fleets
   for name in with without; do
-    printf '%s\t%s\n' "$name" "$(TRUE_OF_IT=${filters[$name]} figures "$name")" | tee -a "$work/lines"
+    line=$(TRUE_OF_IT=${filters[$name]} figures "$name") # stops here where it is not true
+    printf '%s\t%s\n' "$name" "$line" | tee -a "$work/lines"
   done
 done
 ratios "$work/lines"

@@ -157,7 +157,8 @@ for condition in "${conditions[@]}"; do
     end_watching
     end_fleets
     for name in with without; do
-      printf '%s\t%s\n' "$name" "$(figures "$name")" | tee -a "$work/lines.$condition" | sed "s/^with\t/$condition\t/; s/^without/-/"
+      line=$(figures "$name") # stops here where they do not hold
+      printf '%s\t%s\n' "$name" "$line" | tee -a "$work/lines.$condition" | sed "s/^with\t/$condition\t/; s/^without/-/"
     done
   done
   echo "== $condition"
