@@ -173,7 +173,7 @@ void AddDriving(const VehicleHealth& vehicle, SteadyTime now, Metrics* metrics) 
   }
   metrics->Counter("late_scans", "Ranges overwritten by newer ones before the loop came.",
                    vehicle.late_scans);
-  metrics->Gauge("step_p99_seconds", "The 99th percentile of the last 1000 decisions.",
+  metrics->Gauge("step_p99_seconds", "Processor time of the last 1000 decisions, 99th percentile.",
                  status.step_p99_us * kSecondsPerUs);
   metrics->Gauge("loop_max_seconds", "The longest time from ranges to command.",
                  status.loop_max_ms * kSecondsPerMs);

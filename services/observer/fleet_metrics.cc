@@ -135,7 +135,7 @@ void AddDriving(Families* to) {
       to->Add({Families::Vehicle(id)}, *heard.status->nearest_echo_m);
     }
   }
-  to->OfStatus("step_p99_seconds", "The 99th percentile of the last 1000 decisions.",
+  to->OfStatus("step_p99_seconds", "Processor time of the last 1000 decisions, 99th percentile.",
                MetricType::Gauge,
                [](const VehicleStatus& status) { return status.step_p99_us * kSecondsPerUs; });
   to->OfStatus("loop_max_seconds", "The longest time from ranges to command.", MetricType::Gauge,

@@ -8,11 +8,19 @@
 
 namespace giveway {
 
-SteadyTime SteadyNow() {
+namespace {
+
+Nanoseconds Read(clockid_t clock) {
   timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
+  clock_gettime(clock, &now);
   return std::chrono::seconds{now.tv_sec} + std::chrono::nanoseconds{now.tv_nsec};
 }
+
+}  // namespace
+
+SteadyTime SteadyNow() { return Read(CLOCK_MONOTONIC); }
+
+Nanoseconds ThreadTimeNow() { return Read(CLOCK_THREAD_CPUTIME_ID); }
 
 void SleepUntil(SteadyTime when) {
   const auto seconds = std::chrono::floor<std::chrono::seconds>(when);

@@ -30,6 +30,8 @@ class StopSignal {
 // The steady clock, the only place it is read.
 SteadyTime SteadyNow();
 void SleepUntil(SteadyTime when);
+// Processor time that the calling thread has used.
+Nanoseconds ThreadTimeNow();
 // A random 32-bit number that is never 0, from the operating system.
 std::uint32_t RandomNonZero();
 

@@ -131,7 +131,7 @@ struct VehicleStatus {
   std::optional<QosEventKind> last_event;
   VehicleId last_event_about = kNobody;
   std::uint32_t last_rejected_id = 0;  // id claimed by the last refused beacon
-  double step_p99_us = 0;              // of Vehicle::Step, over the last 1000 steps
+  double step_p99_us = 0;              // processor time of Vehicle::Step, of the last 1000
   double loop_max_ms = 0;              // longest time from scan to command so far
   // QoS of the beacon endpoints as the library resolved it, milliseconds.
   double beacon_deadline_offered_ms = 0;

@@ -161,14 +161,14 @@ void VehicleLoop::Follow(const RosterEntry& entry) {
 bool VehicleLoop::Step(link::Taken* taken, SteadyTime woke, bool by_scan) {
   Inputs* const inputs = &taken->inputs;
   inputs->roster = std::exchange(news_, std::nullopt);
-  const SteadyTime before = clock_.Now();
+  const Nanoseconds before = clock_.ThreadTime();
   Outputs outputs = vehicle_.Step(*inputs);
-  const SteadyTime after = clock_.Now();
+  const Nanoseconds decided = clock_.ThreadTime() - before;
   outputs.command.matched_peers = link_.Counters().matched_peers;
   link_.Send(outputs);
   last_beacon_ = woke;
   const SteadyTime sent = clock_.Now();
-  report_.NoteStep(after - before, by_scan ? sent - woke : Nanoseconds{0});
+  report_.NoteStep(decided, by_scan ? sent - woke : Nanoseconds{0});
   // After the wheels have their command: nobody waits for what follows.
   const auto spent = report_.NoteTurn({.woke = woke,
                                        .sent = sent,

@@ -33,7 +33,8 @@ class VehicleReport {
  public:
   explicit VehicleReport(const VehicleOptions& options) : timing_(options) {}
 
-  // `step` is what Vehicle::Step took, `turn` the time from waking on a scan to the command sent.
+  // `step` is the processor time of Vehicle::Step, `turn` the time from waking on a scan to the
+  // command sent.
   void NoteStep(Nanoseconds step, Nanoseconds turn);
   // A reaction that spent its budget, if one ended with this turn.
   std::optional<ReactionMargin> NoteTurn(const TurnSeen& turn) { return timing_.Note(turn); }

@@ -248,7 +248,8 @@ class Judging {
     for (const auto& [vehicle, step_us] : from_.seen.step_p99_us) {
       if (step_us <= kMostStep_us) continue;
       Tell(from_.seen.lasted_s, vehicle, "slow_loop",
-           fmt::format("a hundredth of its steps took {:.1f} ms and more, of a tick at most {:.0f}",
+           fmt::format("a hundredth of its steps took {:.1f} ms of processor time and more, of a "
+                       "tick at most {:.0f}",
                        step_us / 1000, kMostStep_us / 1000));
     }
   }

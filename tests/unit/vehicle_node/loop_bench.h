@@ -22,6 +22,7 @@ class HandClock final : public Clock {
  public:
   SteadyTime Now() const override { return now_; }
   void SleepUntil(SteadyTime when) override { now_ = std::max(now_, when); }
+  Nanoseconds ThreadTime() const override { return Nanoseconds{0}; }
 
  private:
   SteadyTime now_ = std::chrono::seconds(100);
