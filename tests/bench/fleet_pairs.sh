@@ -38,7 +38,7 @@ start_fleet() {
   "${folder[$name]}/fleetctl" run "$scenario" --duration 600 --seed "$seed" --json "$@" \
     >"$work/$name.json" 2>"$work/$name.err" &
   pid[$name]=$!
-  until domain[$name]=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' "$work/$name.err") && [[ -n ${domain[$name]} ]]; do
+  until domain[$name]=$(sed -n 's/.* on domain \([0-9]*\)$/\1/p' "$work/$name.err" 2>/dev/null) && [[ -n ${domain[$name]} ]]; do
     kill -0 "${pid[$name]}" || return
     sleep 0.1
   done
