@@ -21,7 +21,7 @@ class BeaconLedger {
   // The last beacons of a writer may be taken so many steps after the news that it left.
   static constexpr std::uint64_t kStepsToLeave = 3;
   // So many beacons one after the other whose two numbers are otherwise apart than before, all
-  // equally, are a new count; fewer may be broken in the same bit.
+  // equally, are a new count; fewer may be corrupted in the same bit.
   static constexpr std::uint32_t kNewCount = 10;
 
   // What became of the beacons of one step: fates[i] of beacons[i].

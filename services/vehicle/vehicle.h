@@ -1,5 +1,6 @@
 // The brain: one pure step from what a vehicle heard and sensed to what it does and says. No
-// clock, no thread, no allocation, no exception; the same inputs give the same bits anywhere.
+// clock, no thread, no exception, no allocation after warm-up; the same inputs give the same bits
+// anywhere.
 //
 //   scan, beacons, events -> dead reckoning -> PeerTable, RangeView -> Situation -> Decide -> out
 #pragma once

@@ -274,7 +274,6 @@ RelatedPeers LookAt(PeerViews<CarriedPeer> carried, const OwnView& s) {
   RelatedPeers related{.views = PeerViews<RelatedPeer>(views)};
   for (PeerView& view : views) {
     Relate(&view, s);
-    view.box_begin_m = 0;  // FindBoxes need not fetch those without a crossing again
     related.someone_doubted = related.someone_doubted || (view.fresh && !view.believed);
     // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
     // lecture's behaviours a known body is kept from no less than an unknown one.

@@ -65,13 +65,13 @@ struct RelatedPeer : CarriedPeer {
   double free_m;
   std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
   std::optional<Conflict> conflict;  // as `crossing`, where it is a matter of right of way
-  std::optional<Conflict> crossing;  // of both ways, whoever has the right of way
+  std::optional<Conflict> crossing;  // of both paths, independent of the right of way
 };
 
 // What this vehicle knows of one peer, all of it: with what follows from all peers together, by
 // FindBoxes.
 struct PeerView : RelatedPeer {
-  double box_begin_m;  // of `crossing`: how far to drive without standing in anyone's way
+  double box_begin_m;  // of `crossing`: how far to drive without blocking any
 };
 static_assert(sizeof(PeerView) <= 336);  // a step makes up to a thousand: they must not grow
 
@@ -207,7 +207,7 @@ struct Escape {
   bool very_aimless = false;         // for so long that it does not stay in line any more
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
   // World frame: taken of late, past echoes or out of where it is caught. Echoes turn with the
-  // vehicle: choosing anew with every tick it would turn to and fro for ever.
+  // vehicle: a new choice in every tick would oscillate.
   std::optional<double> away_rad;
   int tries = -1;  // headings tried since it is caught where it is; negative if it is not
 };
