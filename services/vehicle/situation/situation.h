@@ -87,17 +87,11 @@ class PeerViews {
   std::span<PeerView> views_;
 };
 
-// The echoes that the sensors hold, entry by entry `count` of them. What comes after them, up to
-// the next multiple of four, is of no sensor.
+// The echoes that the sensors hold, `count` of them.
 struct HeardEchoes {
   std::size_t count = 0;
-  bool any_old;  // has an age
   std::array<double, kSensorCount> age_s;
   std::array<std::size_t, kSensorCount> sensor;
-  // The sensor's place and the range once more, for a rough look at four at a time.
-  alignas(16) std::array<float, kSensorCount> rough_x_body;
-  alignas(16) std::array<float, kSensorCount> rough_y_body;
-  alignas(16) std::array<float, kSensorCount> rough_range_m;
 };
 
 // The middles of cells of the obstacle grid that count, in the body frame: see heard_places.h.
