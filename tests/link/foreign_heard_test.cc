@@ -78,9 +78,9 @@ class ForeignWriter : public ::testing::Test {
     dds_get_offered_incompatible_qos_status(writer, &status);
     EXPECT_GT(status.total_count, 0U);
     EXPECT_EQ(status.last_policy_id, static_cast<std::uint32_t>(policy));
-    const auto told = ears_.Told(QosEventKind::kIncompatibleQos);
-    EXPECT_THAT(told, Not(IsEmpty()));
-    EXPECT_THAT(told, Each(kFive));  // never the valid one next to it
+    const auto reported = ears_.Told(QosEventKind::kIncompatibleQos);
+    EXPECT_THAT(reported, Not(IsEmpty()));
+    EXPECT_THAT(reported, Each(kFive));  // never the valid one next to it
   }
 
   DomainLock domain_;

@@ -199,6 +199,7 @@ void SoakSession::Turn() {
   NoteProcessEffects();
   HearLines();
   NoteEnds();
+  RestartThoseThatEnded(SteadyNow());
   Sample(now);
   FollowCourse(now);
   ShowProgress(now);
@@ -301,8 +302,18 @@ void SoakSession::NoteEnds() {
                             {said.begin(), said.end()}});
     }
     ++seen_.restarts;
-    processes_.Restart(faults_.CommandNow(end.member));
+    restart_at_[end.member] = backoff_.StartOf(end.member, SteadyNow());
   }
+}
+
+void SoakSession::RestartThoseThatEnded(SteadyTime now) {
+  if (stopping_) return;
+  std::erase_if(restart_at_, [&](const auto& restart) {
+    const auto& [member, at] = restart;
+    if (now < at) return false;
+    if (!processes_.IsRunning(member)) processes_.Restart(faults_.CommandNow(member));
+    return true;
+  });
 }
 
 void SoakSession::Sample(SteadyTime now) {

@@ -23,6 +23,7 @@
 #include "services/fleetctl/soak/pause_meter.h"
 #include "services/fleetctl/soak/process_faults.h"
 #include "services/fleetctl/soak/resource_series.h"
+#include "services/fleetctl/soak/restart_backoff.h"
 #include "services/fleetctl/soak/ring_keeper.h"
 #include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/soak_seen.h"
@@ -61,6 +62,7 @@ class SoakSession {
   void NoteProcessEffects();
   void HearLines();
   void NoteEnds();
+  void RestartThoseThatEnded(SteadyTime now);
   void Sample(SteadyTime now);
   void FollowCourse(SteadyTime now);
   void ShowProgress(SteadyTime now);
@@ -75,6 +77,8 @@ class SoakSession {
   FleetProcesses processes_;
   Attackers attackers_;
   ProcessFaults faults_;
+  RestartBackoff backoff_;
+  std::map<MemberId, SteadyTime> restart_at_;  // of those that ended by themselves
   FaultClock clock_;
   ResourceSeries resources_;
   FleetCourse course_;

@@ -64,6 +64,7 @@ constexpr Beacon kMost = {
 constexpr std::size_t kNumbers = 19;
 using Numbers = std::array<double, kNumbers>;
 
+// In the order of kNames.
 constexpr Numbers NumbersOf(const Beacon& b) {
   const PoseCovariance& c = b.covariance;
   const Pose& pose = b.world_from_body;
@@ -91,13 +92,6 @@ constexpr Numbers NumbersOf(const Beacon& b) {
 constexpr Numbers kLowest = NumbersOf(kLeast);
 constexpr Numbers kHighest = NumbersOf(kMost);
 
-bool AreWithin(const Numbers& numbers) {
-  for (std::size_t i = 0; i < kNumbers; ++i) {
-    if (!(numbers[i] >= kLowest[i] && numbers[i] <= kHighest[i])) return false;
-  }
-  return true;
-}
-
 constexpr std::array<const char*, kNumbers> kNames = {
     "left_rad_s",          "right_rad_s",         "cruise_m_s",
     "world_from_body.x_m", "world_from_body.y_m", "world_from_body.heading_rad",
@@ -108,12 +102,6 @@ constexpr std::array<const char*, kNumbers> kNames = {
     "toward_y_m"};
 
 double MostCovariance(const PoseCovariance& c) { return (c.xx_m2 + c.yy_m2) / 2 + kRounding_m2; }
-
-bool AreNumbersInRange(const Beacon& b) {
-  if (!AreWithin(NumbersOf(b))) return false;
-  const PoseCovariance& c = b.covariance;
-  return Magnitude(c.xy_m2) <= MostCovariance(c);
-}
 
 std::optional<FieldFault> NumberFault(const Beacon& b) {
   const Numbers numbers = NumbersOf(b);
@@ -130,14 +118,6 @@ std::optional<FieldFault> NumberFault(const Beacon& b) {
 
 bool IsFinite(const Beacon& b) {
   return std::ranges::all_of(NumbersOf(b), [](double x) { return std::isfinite(x); });
-}
-
-bool IsInRange(const Beacon& b) {
-  return AreNumbersInRange(b) && b.vehicle != kNobody && b.boot_epoch != 0 && b.seq != 0 &&
-         b.mode <= Mode::kLeaving && b.rule <= kLastRule && b.order.vehicle != kNobody &&
-         b.order.waited_ticks <= Number(b.tick) &&
-         b.order.speed_bucket <= SpeedBucket(kMaxSpeed_m_s) &&
-         (b.order.vehicle != b.vehicle || b.order.speed_bucket == SpeedBucket(b.cruise_m_s));
 }
 
 std::optional<FieldFault> FaultOf(const Beacon& b) {
@@ -167,5 +147,7 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   if (order.vehicle == kNobody) return fault("order_vehicle", 0, 1, kMostWhole);
   return std::nullopt;
 }
+
+bool IsInRange(const Beacon& b) { return !FaultOf(b); }
 
 }  // namespace giveway

@@ -11,13 +11,12 @@ namespace giveway {
 // True if every floating-point field is a finite number.
 bool IsFinite(const Beacon& beacon);
 
-// True if every field lies where a vehicle of this fleet can be: see the limits in the .cc. What is
-// in range is finite too.
-bool IsInRange(const Beacon& beacon);
-
-// The first field, in the order of fleet.idl, that is not finite or not in range, and what it may
-// be; nothing if and only if the beacon is in range. For the log: it takes its time.
+// The first field, in the order of fleet.idl, that is not finite or that no vehicle of this fleet
+// can have, and its range: see the limits in the .cc.
 std::optional<FieldFault> FaultOf(const Beacon& beacon);
+
+// True if there is none; then every field is finite too.
+bool IsInRange(const Beacon& beacon);
 
 // The speed bucket of the order: round(cruise / 0.05 m/s).
 constexpr std::uint32_t SpeedBucket(double cruise_m_s) {

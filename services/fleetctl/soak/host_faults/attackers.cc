@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "services/fleetctl/process/file_descriptor.h"
+#include "services/fleetctl/soak/ipv4_address.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -36,11 +37,6 @@ const char* AttackOf(Kind kind) {
     default:
       return "";
   }
-}
-
-bool IsAddress(const std::string& interface) {
-  in_addr address{};
-  return ::inet_pton(AF_INET, interface.c_str(), &address) == 1;
 }
 
 // The program's own count, from a line of its progress.
@@ -79,7 +75,7 @@ std::vector<std::string> AttackWords(const AttackerTools& tools, const faults::F
       "--rate",      fmt::format("{}", fault.parameters.rate_hz.value_or(1)),
       "--seconds",   fmt::format("{}", fault.for_s + kLonger_s),
       "--progress"};
-  if (IsAddress(tools.interface)) words.insert(words.end(), {"--source", tools.interface});
+  if (Ipv4AddressOf(tools.interface)) words.insert(words.end(), {"--source", tools.interface});
   if (fault.target.what == faults::Target::What::kVehicle) {
     words.insert(words.end(), {"--vehicle", std::to_string(Number(fault.target.vehicle))});
   }

@@ -1,6 +1,5 @@
-#include "services/fleetctl/soak/host_faults/discovery_servers.h"
+#include "services/fleetctl/soak/discovery_servers.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -14,6 +13,7 @@
 
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/file_descriptor.h"
+#include "services/fleetctl/soak/ipv4_address.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -44,8 +44,7 @@ bool Bind(int socket, in_addr address, sockaddr_in* bound) {
 }  // namespace
 
 std::string WhyNoDiscoveryServers(const std::string& interface) {
-  in_addr address{};
-  if (::inet_pton(AF_INET, interface.c_str(), &address) != 1) {
+  if (!Ipv4AddressOf(interface)) {
     return fmt::format(
         "discovery servers listen on an IPv4 address, and '{}' is none: give --interface one",
         interface);
@@ -58,8 +57,7 @@ std::string WhyNoDiscoveryServers(const std::string& interface) {
 
 std::vector<DiscoveryServer> FreeServerAddresses(std::uint32_t count,
                                                  const std::string& interface) {
-  in_addr address{};
-  ::inet_pton(AF_INET, interface.c_str(), &address);
+  const in_addr address = Ipv4AddressOf(interface).value_or(in_addr{});
   std::vector<FileDescriptor> sockets;  // all open until the last has its port: no port twice
   std::vector<DiscoveryServer> servers;
   for (std::uint32_t i = 0; i < count; ++i) {

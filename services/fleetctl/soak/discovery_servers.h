@@ -1,7 +1,6 @@
 // The discovery servers that a soak starts for its fleet: Fast DDS's own program, each on a UDP
 // port of this host that was free. Starts nothing itself: the commands are the fleet's, see
-// process/fleet_processes.h. What is wrong with a server is the library's, so its memory and
-// descriptors are not judged.
+// process/fleet_processes.h. Memory and descriptors of a server are the library's, and not judged.
 #pragma once
 
 #include <cstdint>
