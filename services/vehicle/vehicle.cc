@@ -256,10 +256,9 @@ PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) 
     heard += fresh ? 1 : 0;
     someone_lost = someone_lost || IsLost(peer, fresh);
     if (!CanMatter(peer, fresh, s)) continue;
-    PeerView view{};
+    PeerView& view = views_.emplace_back();
     view.peer = &peer;
     view.fresh = fresh;
-    views_.push_back(view);
   }
   peers_heard_ = heard;
   *any_lost = someone_lost;

@@ -63,9 +63,9 @@ counter() {
 
 # Vehicle::Step with everyone heard again every tick, microseconds.
 if wanted step; then
-  figure step_10_peers_us "$(microbench VehicleStep/10 real_time)" 0.5
-  figure step_100_peers_us "$(microbench VehicleStep/100 real_time)" 5
-  figure step_1000_peers_us "$(microbench VehicleStep/1000 real_time)" 50
+  figure step_10_peers_us "$(microbench VehicleStep/10 real_time)" 1
+  figure step_100_peers_us "$(microbench VehicleStep/100 real_time)" 10
+  figure step_1000_peers_us "$(microbench VehicleStep/1000 real_time)" 150
 fi
 
 # Vehicle-hours a minute in virtual time on two cores, 50 vehicles a run with 10 or all 49 in reach;

@@ -13,7 +13,7 @@
 #include <string_view>
 
 #include "services/fleetctl/process/file_descriptor.h"
-#include "services/fleetctl/soak/ipv4_address.h"
+#include "services/fleetctl/soak/host_faults/ipv4_address.h"
 
 namespace giveway::fleetctl {
 namespace {

@@ -7,7 +7,7 @@
 #include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
-#include "services/fleetctl/soak/discovery_servers.h"
+#include "services/fleetctl/soak/host_faults/discovery_servers.h"
 #include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/verb/soak.h"
 #include "services/fleetctl/soak/verb/soak_around.h"

@@ -1,4 +1,4 @@
-#include "services/fleetctl/soak/discovery_servers.h"
+#include "services/fleetctl/soak/host_faults/discovery_servers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "services/fleetctl/soak/restart_backoff.h"
+#include "services/fleetctl/process/restart_backoff.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "services/fleetctl/soak/discovery_servers.h"
+#include "services/fleetctl/soak/host_faults/discovery_servers.h"
 
 #include <fmt/format.h>
 #include <netinet/in.h>
@@ -13,7 +13,7 @@
 
 #include "services/fleetctl/process/child_process.h"
 #include "services/fleetctl/process/file_descriptor.h"
-#include "services/fleetctl/soak/ipv4_address.h"
+#include "services/fleetctl/soak/host_faults/ipv4_address.h"
 
 namespace giveway::fleetctl {
 namespace {
