@@ -73,7 +73,7 @@ fi
 if wanted virtual; then
   fleet=VirtualFleetAdvance
   figure_at_least virtual_hours_per_min \
-    "$(microbench $fleet/5/real_time/threads:2 vehicle_hours_per_minute)" 1000
+    "$(microbench $fleet/5/real_time/threads:2 vehicle_hours_per_minute)" 500
   figure_alone virtual_hours_per_min_49 \
     "$(microbench $fleet/100/real_time/threads:2 vehicle_hours_per_minute)"
   for part in all=$fleet/5/real_time/threads:1 world=VirtualWorld radio=VirtualRadio/5 \

@@ -195,21 +195,21 @@ whole() {
     fail "a recording of the soak does not replay"
 }
 
-# Shared memory that is littered and full, and a system clock that jumps: each is seen to happen,
-# and the machine's own /dev/shm and clock are left alone.
+# Shared memory that is littered and full, a system clock that jumps, and discovery servers that are
+# killed and return: each is seen to happen, and the machine's own /dev/shm and clock are left alone.
 host() {
   local code=0 shm before
   [[ $(id -u) -eq 0 ]] || return 0 # a /dev/shm apart needs root
   shm=/dev/shm/giveway-soak-test-$$
   echo kept >"$shm"
   before=$SECONDS
-  "$FLEETCTL" soak patrol --vehicles 4 --qos same_host --faults "$SCRATCH/host.textproto" --duration 45 \
+  "$FLEETCTL" soak patrol --vehicles 4 --qos same_host --discovery-servers 2 --duration 45 --faults "$SCRATCH/host.textproto" \
     --report "$SCRATCH/host" --json >"$SCRATCH/host.json" 2>"$SCRATCH/host.log" || code=$?
   [[ $code -eq 0 ]] || {
     fail "a soak of the host's faults ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/host.json")"
     tail -n 20 "$SCRATCH/host.log"
   }
-  jq -e '[.faults[] | select(.observed)] | length == 4' "$SCRATCH/host.json" >/dev/null ||
+  jq -e '[.faults[] | select(.observed)] | length == 5' "$SCRATCH/host.json" >/dev/null ||
     fail "not every fault of the host was seen: $(jq -c '[.faults[] | {name, effect}]' "$SCRATCH/host.json")"
   [[ $(cat "$shm") == kept ]] || fail "the machine's own /dev/shm was touched"
   rm -f "$shm"
@@ -269,6 +269,7 @@ cat >"$SCRATCH/host.textproto" <<'FAULTS'
 at { name: "forth" time_s: 16 kind: "clock_step" vehicle: 1 for_s: 4 offset_s: 3600 }
 at { name: "back" time_s: 17 kind: "clock_step" target: "world" for_s: 4 offset_s: -3600 }
 at { name: "littered" time_s: 18 kind: "shared_memory_left_over" target: "all" for_s: 3 count: 50 }
+at { name: "served" time_s: 19 kind: "restart" target: "discovery_server" for_s: 2 }
 at { name: "full" time_s: 23 kind: "shared_memory_small" target: "all" for_s: 3 }
 FAULTS
 cat >"$SCRATCH/intruder.textproto" <<'FAULTS'
