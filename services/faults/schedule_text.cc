@@ -70,6 +70,7 @@ std::string Line(const Fault& fault) {
 }
 
 std::string AsTextproto(const Schedule& schedule) {
+  if (schedule.empty()) return "description: \"No fault.\"\n";
   std::string text;
   for (const Fault& fault : schedule) {
     text += "at { name: " + Quoted(fault.rule);

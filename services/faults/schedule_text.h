@@ -18,7 +18,8 @@ std::string ParametersText(const Parameters& parameters);
 // "12.5 s for 2 s: vehicle 3: loss probability=0.2".
 std::string Line(const Fault& fault);
 
-// Of a fault file with `at` rules only, see idl/faults.proto.
+// Of a fault file with `at` rules only, see idl/faults.proto. Not empty without faults: an empty
+// file is refused.
 std::string AsTextproto(const Schedule& schedule);
 
 }  // namespace giveway::faults

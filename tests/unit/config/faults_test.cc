@@ -198,6 +198,11 @@ TEST(FaultsFile, AShippedOneIsFoundByItsName) {
   }
 }
 
+// A soak whose draw had no fault wrote an empty file, which its world refused.
+TEST(FaultsFile, AListWithoutFaultsReadsBack) {
+  EXPECT_TRUE(Expand(LoadText(faults::AsTextproto({})), kHalfHour, FleetOf(2)).schedule.empty());
+}
+
 class ShippedFaults : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedFaults, DescribeThemselvesAndMakeAListThatReadsBack) {
