@@ -5,7 +5,7 @@
 namespace giveway {
 namespace {
 
-// Turning faster than this, and for so many ticks after it, echoes say nothing about who moves.
+// Turning faster than this, and for so many ticks after it, echoes do not show which of both moves.
 constexpr double kSharpTurn_rad_s = 0.25;
 constexpr std::uint32_t kTurnEchoTicks = 6;
 // How long after the last unexplained motion a deaf vehicle stands; by id, so that two of them do

@@ -1,4 +1,4 @@
-// What moves by itself near the vehicle, though no fresh beacon says who it is: critical but deaf.
+// Unidentified motion: something moves by itself near the vehicle, and no fresh beacon explains it.
 #pragma once
 
 #include "services/types/counters.h"

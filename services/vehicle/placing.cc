@@ -43,7 +43,8 @@ void EnterWorld(WorldEpoch epoch, const Pose& world_from_body, const VehicleOpti
 
 namespace {
 
-// With the task that was begun. What it waited it waited here. The order by it is its own again.
+// Resumes the interrupted task. The waiting time counts for this place, and the key is its own
+// again.
 void GoOn(TaskProgress task, const VehicleOptions& options, VehicleState* going_on) {
   VehicleState& state = *going_on;
   state.route.waypoint = OnRoute(options.route, task).waypoint;

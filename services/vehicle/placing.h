@@ -1,5 +1,5 @@
-// Where a brain takes itself to be as it begins, in a world or in the next one: as the world says,
-// or as the process before it knew.
+// The pose a brain starts from, in its first world or in the next: as the world assigns it, or as
+// handed over by the process before.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,8 @@ namespace giveway {
 void EnterWorld(WorldEpoch epoch, const Pose& world_from_body, const VehicleOptions& options,
                 VehicleState* state);
 
-// Only the first entry of an epoch says something new: later ones are repeated, or tell of the run.
+// Only the first entry of an epoch says something new: later ones repeat it, or report the run
+// state.
 void TakeRoster(const RosterEntry& entry, const VehicleOptions& options, VehicleState* state);
 
 // What the next process of this vehicle continues from; nothing before it was placed.

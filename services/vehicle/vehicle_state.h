@@ -74,20 +74,20 @@ struct RouteProgress {
 struct GoalProgress {
   double nearest_m = 1e9;           // the least distance to the goal so far
   std::uint32_t aimless_ticks = 0;  // driven since without coming nearer
-  Vec2 detour_world;                // where the way round leads first, if detour_tick is set
+  Vec2 detour_world;                // where the detour leads first, if detour_tick is set
   Tick detour_tick = kNoTick;       // when it was looked for
   double away_rad = 0;              // the heading taken from what stopped it, if away_tick is set
   Tick away_tick = kNoTick;         // when it was taken
-  Vec2 caught_world;                // from where it gets no farther
+  Vec2 caught_world;                // where it has been stuck since
   std::uint32_t caught_ticks = 0;   // for how long, not counting where it waits or queues
 };
 
 // Its place in the order, and the waiting that moves it up.
 struct Waiting {
   OrderKey order;
-  std::uint32_t waited_ticks = 0;  // halted to give way, on the way to where it is through
+  std::uint32_t waited_ticks = 0;  // halted to give way, before the conflict it is not through yet
   Vec2 waited_world;               // where it halted last
-  bool let_pass = false;           // somebody that comes first has passed since it waits
+  bool let_pass = false;           // a peer with priority has passed since it waits
 };
 
 // Whether something near moves that no fresh beacon explains.
@@ -104,7 +104,7 @@ struct LastStep {
   Decision decision;
   int steer_side = 0;              // 1 left, -1 right, 0 straight on
   VehicleId blocked_by = kNobody;  // as last published
-  Tick blocked_tick = kNoTick;     // when it was last seen in the way
+  Tick blocked_tick = kNoTick;     // when that was last seen blocking
 };
 
 // Since the process started; a new world does not reset them.
@@ -132,8 +132,8 @@ struct VehicleState {
   BrainCounters counters;
 };
 
-// What a brain knows of its world and its peers, as one number. What it remembers beside that, such
-// as detours or where it waited, shows here as soon as it drives by it.
+// What a brain knows of its world and its peers, as one number. Its other memory, such as detours
+// or where it waited, shows here as soon as it drives by it.
 std::uint64_t HashOf(const VehicleState& state, const VehicleProfile& profile);
 
 }  // namespace giveway

@@ -9,9 +9,9 @@ std::uint32_t AgedTicks(const Waiting& state, const VehicleOptions& options) {
   return limit == 0 ? state.waited_ticks : state.waited_ticks / limit * limit;
 }
 
-// Its place in the order stands while encounters are under way. But once it has let somebody pass
-// it rises all the same while it waits: in a stream of vehicles that come first they always are.
-// What it waited is forgotten when it is through: away from where it stood, and meeting nobody.
+// Its key is frozen while encounters are active. But once it has let a peer pass, the key still
+// rises while it waits: in a stream of vehicles with priority an encounter is always active. The
+// waiting time is reset when it is through: away from where it stood, and without an encounter.
 void KeepOrder(const OwnView& own, const Encounters& s, bool waits, Waiting* waiting) {
   constexpr double kThrough_m = 2.5;
   Waiting& state = *waiting;

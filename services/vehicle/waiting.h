@@ -7,8 +7,8 @@
 
 namespace giveway {
 
-// How long it has waited, by which it comes first: whole ageing limits only, so that this seldom
-// changes, and two that wait for each other need not hear of every tick.
+// The waiting time that gives it priority: whole ageing limits only, so that this rarely changes,
+// and two that wait for each other need not receive every tick.
 std::uint32_t AgedTicks(const Waiting& state, const VehicleOptions& options);
 
 // Moves its place in the order on by one step; `waits`: it stands to give way.

@@ -11,22 +11,23 @@
 namespace giveway {
 namespace {
 
-// Driving about for so long without coming nearer, a vehicle looks for a way round.
+// After driving for so long without progress, a vehicle plans a detour.
 constexpr double kPassedAtDistance_m = 1.2;
 constexpr double kNoProgress_s = 6;
 constexpr double kNoPatience_s = 15;
 constexpr double kProgress_m = 0.1;
-// In a queue, behind one that comes no further either, patience lasts so many times as long.
+// In a queue, behind a vehicle that makes no progress either, patience lasts this many times
+// longer.
 constexpr double kQueued_m = 1;
 constexpr std::uint32_t kQueuePatience = 8;
-constexpr std::uint32_t kDetourTicks = 10;  // a detour is looked for anew after so many
+constexpr std::uint32_t kDetourTicks = 10;  // a detour is planned again after so many
 constexpr std::uint32_t kAwayTicks = 60;    // it drives away from what stopped it for so many
 constexpr std::uint32_t kStuckTicks = 200;  // and may be stopped again, along a wall, for so many
-// No farther than this from where it was, for so many ticks, it is caught.
+// Moved no further than this, for so many ticks, it is stuck.
 constexpr double kCaughtWithin_m = 0.1;
 constexpr std::uint32_t kCaughtTicks = 200;
 
-// A waypoint that somebody stands on is passed at a distance, once it cannot be reached.
+// A waypoint that is occupied is passed at a distance, once it cannot be reached.
 bool PassesWaypoint(std::uint32_t waypoint, const Route& route, bool detours, Vec2 position_world) {
   if (waypoint >= route.count) return false;
   const double away_m = Norm(route.waypoints_world[waypoint] - position_world);
@@ -89,9 +90,9 @@ OwnCourse LookAhead(const OwnPose& pose, const VehicleOptions& options, RoutePro
 
 namespace {
 
-// Neither waiting for anybody nor in a queue, it gets no farther: caught between a few that stand
-// in each other's way, or before something that it hears and cannot place. A queue that closes to a
-// circle is none. Returns `tries` of Escape.
+// Neither waiting for a peer nor in a queue, it makes no progress: stuck between a few that block
+// each other, or in front of something that it hears and cannot locate. A queue that closes to a
+// ring does not count as one. Returns `tries` of Escape.
 int NoteCaught(const OwnView& s, bool no_progress, bool queues, bool in_ring,
                GoalProgress* progress) {
   const Vec2 moved = s.world_from_body.position_world - progress->caught_world;
@@ -106,7 +107,7 @@ int NoteCaught(const OwnView& s, bool no_progress, bool queues, bool in_ring,
   return static_cast<int>((progress->caught_ticks - kCaughtTicks) / kAwayTicks);
 }
 
-// Where the path past all that stand leads first.
+// Where the path past all standing bodies leads first.
 std::optional<Vec2> WayRound(const OwnView& s, std::span<const PeerView> peers) {
   std::array<KeepOut, 64> discs;
   std::size_t count = 0;
@@ -130,8 +131,8 @@ Escape Detour(const OwnView& s, const PeersNow& near, const LastStep& last, Goal
   }
   const Rule rule = last.decision.rule;
   if (IsGiveWay(rule) || rule == Rule::kSignal || s.lost) return escape;
-  // Nor does it look for a way while it hears nothing. Where ultrasonics are exact this counts on:
-  // what was recorded of them replays bit for bit.
+  // No detours either while it receives no ranges. Not changed for exact ultrasonics: their
+  // recordings must replay bit for bit.
   if (rule == Rule::kRangesStale && Remembers(s.options)) return escape;
   const bool queues = progress.caught_ticks < kCaughtTicks &&
                       std::ranges::any_of(near.peers, [](const PeerView& view) {

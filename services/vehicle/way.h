@@ -1,4 +1,4 @@
-// Which way a vehicle is on: along its route, to its goal, or round a crowd.
+// The path a vehicle is on: along its route, to its goal, or round a crowd.
 #pragma once
 
 #include "services/types/vehicle_options.h"
@@ -7,12 +7,12 @@
 
 namespace giveway {
 
-// The straight way to the next waypoint or the goal; straight on without either.
+// The straight path to the next waypoint or the goal; straight on without either.
 OwnCourse LookAhead(const OwnPose& pose, const VehicleOptions& options, RouteProgress* route,
                     GoalProgress* progress);
 
-// Where steering round what stands leads nowhere, the way is looked up on a map of it. `last`: what
-// the step before decided.
+// Where steering round obstacles makes no progress, the path is planned on a map of them. `last`:
+// what the step before decided.
 Escape Detour(const OwnView& s, const PeersNow& near, const LastStep& last, GoalProgress* progress);
 
 }  // namespace giveway

@@ -13,7 +13,7 @@ struct Action {
   Decision decision;
   WheelSpeeds target;
   VehicleId blocked_by = kNobody;  // see Steering
-  int steer_side = 0;              // which way it turns past something: 1 left, -1 right
+  int steer_side = 0;  // the side it turns to when passing an obstacle: 1 left, -1 right
   std::optional<double> away_rad;  // see Steering
 };
 

@@ -83,8 +83,8 @@ Action DrivingAction(const Situation& s, const std::optional<Proposal>& limit) {
   return action;
 }
 
-// A light ahead that says stop is told to the others whatever else slows the vehicle down just now:
-// they count on it that it will not come on. Only what makes it stand anyhow stays named.
+// A red light ahead is published even if another rule limits the speed now: peers rely on this
+// vehicle staying behind its line. Only rules that stop the vehicle anyway keep their name.
 bool IsToldBeforeLight(Rule rule) {
   switch (rule) {
     case Rule::kCruise:
@@ -100,7 +100,7 @@ bool IsToldBeforeLight(Rule rule) {
   }
 }
 
-// True if the line is near enough to tell, and no conflict with anybody known lies before it.
+// True if the line is near enough to publish, and no conflict with a known peer lies before it.
 bool StandsAtLine(const StopLine& line, const Situation& s) {
   constexpr double kTellWithin_m = 2.5;
   return line.free_m < kTellWithin_m &&

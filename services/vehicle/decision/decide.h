@@ -8,7 +8,7 @@ namespace giveway {
 
 Action Decide(const Situation& s);
 
-// Whom this vehicle says it gives way to: the nearest peer it waits for, or will, and can.
+// The peer this vehicle publishes as `gives_way_to`: the nearest it waits for, or will, and can.
 VehicleId GivesWayTo(const Situation& s);
 
 }  // namespace giveway

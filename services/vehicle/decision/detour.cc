@@ -14,7 +14,7 @@ constexpr int kSide = 2 * kHalf + 1;
 constexpr int kCells = kSide * kSide;
 constexpr double kCell_m = 0.25;
 constexpr double kNever = 1e9;
-// Inside a keep-out, but not so far that bodies would touch: dear, for getting out of it only.
+// Inside a keep-out, but without contact of the bodies: expensive, only for leaving it.
 constexpr double kScrape = 0.9;
 constexpr double kScrapeCost = 8;
 
@@ -84,7 +84,7 @@ struct Open {
   int cell;
 };
 
-// A* from the middle of the map; parents of the cells on the way, -1 where unreached.
+// A* from the middle of the map; parents of the cells on the path, -1 where unreached.
 class Search {
  public:
   Search(const Cost& cost, int goal) : cost_(cost), goal_(goal) {
@@ -100,7 +100,7 @@ class Search {
       if (Left(next.cell) < Left(nearest_)) nearest_ = next.cell;
       if (next.cell == goal_) return;
       const double reached = reached_[static_cast<std::size_t>(next.cell)];
-      if (next.total > reached + Left(next.cell) + 1e-9) continue;  // an older, longer way
+      if (next.total > reached + Left(next.cell) + 1e-9) continue;  // an older, longer path
       for (const Step& step : kSteps) Try(next.cell, step, reached);
     }
   }

@@ -1,5 +1,5 @@
-// The way round a crowd: a shortest path on a small map of what stands, for a vehicle that steering
-// alone has left going to and fro in front of it. Pure; its memory is on the stack.
+// The detour round a crowd: a shortest path on a small map of standing bodies, for a vehicle that
+// steering alone left moving to and fro in front of it. Pure; its memory is on the stack.
 #pragma once
 
 #include <optional>
@@ -15,10 +15,10 @@ struct KeepOut {
   double radius_m = 0;
 };
 
-// The farthest point in sight, along a shortest way from `from_world` towards `to_world` past all
-// of `discs`, or as near to it as one gets; empty if that is where the vehicle is. Looks 5 m in
-// every direction, in steps of 0.25 m; a way may scrape through the edge of a disc that the vehicle
-// already stands in.
+// The furthest visible point of a shortest path from `from_world` to `to_world` that avoids all of
+// `discs`, or gets as near to it as possible; empty if that is where the vehicle is. Searches 5 m
+// in each direction, in steps of 0.25 m; a path may cross the edge of a disc that the vehicle is
+// already inside.
 std::optional<Vec2> FirstTurn(Vec2 from_world, Vec2 to_world, std::span<const KeepOut> discs);
 
 }  // namespace giveway

@@ -1,6 +1,6 @@
-// The lecture's yielding scripts as printed, flaws included: one variable for whoever spoke last,
-// any echo taken for that peer, the speeds of this moment compared, and in the branch that should
-// halt the peer's speed copied. It collides; it is there to show what the other behaviours settle
+// The lecture's yielding scripts as printed, flaws included: one variable for the last sender, any
+// echo taken for that peer, momentary speeds compared, and the peer's speed copied in the branch
+// that should halt. It collides; it is there to show what the other behaviours settle
 // (tests/golden/lecture_printed_test.cc). Never a default.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace giveway {
 
-// `wanted` as long as nothing echoes within the gate, or this vehicle is the faster one; else the
-// speeds of whoever was heard last.
+// `wanted` while nothing echoes within the gate, or this vehicle is the faster one; otherwise the
+// wheel speeds of the peer heard last.
 Action AsPrinted(const Situation& s, const Action& wanted);
 
 }  // namespace giveway

@@ -166,7 +166,7 @@ std::optional<Proposal> KeepBoxClear(const Situation& s) {
                   .cause_tick = s.near.blocked_box->told};
 }
 
-// The more telling reason comes first in each list.
+// The more informative reason comes first in each list.
 std::optional<Proposal> MostRestrictive(const Situation& s) {
   switch (s.own.options.behaviour) {
     case Behaviour::kLectureAvoid:

@@ -35,12 +35,12 @@ std::optional<Proposal> PeerLost(const Situation& s);
 // Passive safety: stop before where a peer may be until it stands.
 std::optional<Proposal> KeepClear(const Situation& s);
 
-// Stop before a crossing that somebody stands behind, or will, so that this vehicle would stand in
-// it (box.h). It is named as kKeepClear: what keeps it is where a peer may be.
+// Stop before a crossing if a vehicle stands behind it, or will, so that this vehicle would have to
+// stop inside (box.h). Named kKeepClear: the cause is where a peer may be.
 std::optional<Proposal> KeepBoxClear(const Situation& s);
 
-// A light ahead says stop: from far on, so that everybody knows, and with the speed to stop before
-// its line.
+// A red light ahead: published from a distance, so that peers know, and limits the speed so that
+// the vehicle stops before its line.
 std::optional<Proposal> Signal(const Situation& s);
 
 // What radar and lidar ask for (objects.h).
@@ -50,8 +50,8 @@ std::optional<Proposal> Object(const Situation& s);
 std::optional<Proposal> Deaf(const Situation& s);
 std::optional<Proposal> Obstacle(const Situation& s);
 
-// The lowest limit that a rule of the vehicle's behaviour proposes; of equal limits the more
-// telling reason names the decision. Empty if none has anything to say.
+// The lowest limit proposed by the rules of the vehicle's behaviour; of equal limits the more
+// informative reason names the decision. Empty if no rule proposes one.
 std::optional<Proposal> MostRestrictive(const Situation& s);
 
 }  // namespace giveway

@@ -13,24 +13,24 @@
 namespace giveway {
 namespace {
 
-// Nearer to a body than one passes it, every way that does not lead nearer still is free: between
-// two bodies there would be none otherwise.
+// Closer to a body than the passing distance, every heading that does not lead closer is free:
+// between two bodies no heading would be free otherwise.
 constexpr double kBesideIt_rad = kPi / 2 - 0.03;
-// How far ahead what stands in the way is steered round.
+// Obstacles up to this far ahead are steered round.
 constexpr double kLookAhead_m = 3;
 // A heading on the side of the last turn is kept although another is this much nearer.
 constexpr double kKeepSide_rad = 0.6;
-// Past something, but not back: whoever turns round in a lane meets those that follow.
+// Past an obstacle, but not back: a vehicle that turns round in a lane meets its followers head-on.
 constexpr double kNoWayBack_rad = 1.8;
-// Farther off the heading than this it turns before it drives.
+// With a larger heading error than this it turns on the spot before it drives.
 constexpr double kTurnOnTheSpot_rad = 0.3;
 // A turn by less than this is none.
 constexpr double kSmallTurn_rad = 0.02;
 // A gap no wider than this is none.
 constexpr double kNarrow_rad = 0.02;
 
-// What stands in the way, as seen from the axle centre: no heading between `middle` - `half` and
-// `middle` + `half` gets past it.
+// An obstacle as seen from the axle centre: no heading between `middle` - `half` and `middle` +
+// `half` gets past it.
 struct Blocked {
   double middle_rad;
   double half_rad;
@@ -49,8 +49,8 @@ bool IsBlockedBy(const Blocked& blocked, double heading_rad) {
   return Magnitude(WrapAngle(heading_rad - blocked.middle_rad)) < blocked.half_rad - 1e-6;
 }
 
-// Stands ahead on the same way and means to go on: one lines up behind it. Overtaking a queue ends
-// in front of whatever comes the other way.
+// Stands ahead on the same path and will resume: this vehicle queues behind it. Overtaking a queue
+// ends in front of oncoming traffic.
 bool Queues(const PeerView& view, const Situation& s) {
   if (Has(Defect::kQueueOvertaken)) return false;
   if (StaysPut(view.peer->beacon.rule)) return false;
@@ -60,13 +60,13 @@ bool Queues(const PeerView& view, const Situation& s) {
          Dot(view.way_world, s.own.path.direction_world) > kSameWay * way_m;
 }
 
-// Stands only because another one does, and goes on with it.
+// Stands only because of a third vehicle, and resumes with it.
 bool IsHeldUp(const PeerView& view) {
   return view.fresh && view.peer->beacon.rule == Rule::kKeepClear;
 }
 
-// Whom to steer round: whoever stands. One that comes first and could start at any time is left to
-// the right of way while it says that it will.
+// True for a peer to steer round: one that stands. A peer that has priority and could start at any
+// time is handled by right of way as long as its beacon says that it will resume.
 bool StandsInTheWay(const PeerView& view, const Situation& s) {
   if (s.own.options.behaviour != Behaviour::kCooperative) {
     return view.fresh && view.standing && view.grants && !view.goes_first;
@@ -79,8 +79,8 @@ bool StandsInTheWay(const PeerView& view, const Situation& s) {
 // Headings past which nothing gets within `way_m`.
 BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   BlockedHeadings headings;
-  // Whoever stands on the very goal is waited for: there is no way round to where it stands. But
-  // not by one that stands on the other's, nor for ever: three can stand so in a ring.
+  // A peer standing on the goal itself is waited for: no path round it reaches the goal. Unless
+  // this vehicle stands on the peer's goal, and not for ever: three can block each other in a ring.
   const Vec2 target =
       s.own.world_from_body.position_world + s.own.distance_to_goal_m * s.own.path.direction_world;
   for (const PeerView& view : s.near.peers) {
@@ -101,8 +101,8 @@ BlockedHeadings WhatBlocks(const Situation& s, double way_m) {
   return headings;
 }
 
-// What nobody has said is there, but echoes near. Only for a vehicle that comes no further: where
-// in its cone the echo lies is not known, and all of it is more than is in the way.
+// Echoes near that no beacon explains. Only for a vehicle that makes no progress: the bearing of an
+// echo within its cone is unknown, and blocking the whole cone takes more than the obstacle does.
 void AddEchoes(const Situation& s, BlockedHeadings* headings) {
   constexpr double kNear_m = 0.6;
   constexpr double kHalf_rad = 0.6;
@@ -167,7 +167,7 @@ const Blocked* BlockedAt(const BlockedHeadings& headings, double heading_rad,
   return nearest;
 }
 
-// The nearest vehicle on the straight way to the goal.
+// The nearest vehicle on the straight path to the goal.
 VehicleId OnStraightWay(const BlockedHeadings& headings, const Situation& s) {
   const Blocked* vehicle = BlockedAt(headings, s.own.path_rad, true);
   return vehicle == nullptr ? kNobody : vehicle->peer;
@@ -200,9 +200,9 @@ std::optional<double> FreeHeading(const BlockedHeadings& headings, double wanted
   return best;
 }
 
-// For one that is caught: a heading along which no claim is near; empty if there is none among
-// those looked at. Each is turned by the golden angle from the one before, so that a few tries look
-// all round, however narrow the way out is, and none is tried twice.
+// For a stuck vehicle: a heading along which no claim is near; empty if none of those tried is.
+// Each is turned by the golden angle from the one before, so that a few attempts cover the full
+// circle, however narrow the exit, and none is tried twice.
 std::optional<double> WayOut(double wanted_rad, const Situation& s) {
   constexpr double kGoldenAngle_rad = 2.399963229728653;
   constexpr int kHeadings = 24;
@@ -236,8 +236,8 @@ Turn TurnPast(const BlockedHeadings& headings, double wanted_rad, int side) {
   return {past_vehicles.value_or(wanted_rad), false};
 }
 
-// Among others it leaves to them to make room: turning away in front of them it would only be in
-// the way of more.
+// With others near and ahead it lets them clear the space: turning away in front of them would
+// block more of them.
 bool HasCompany(const Situation& s) {
   constexpr double kNear_m = 1;
   return std::ranges::any_of(s.near.peers, [&s](const PeerView& view) {
@@ -246,8 +246,8 @@ bool HasCompany(const Situation& s) {
   });
 }
 
-// The heading it took of late and keeps to. Once it has turned there, and something stops it there
-// too, it looks for another.
+// The heading it chose recently and keeps to. Once it has turned there and is stopped again, it
+// looks for another.
 std::optional<double> KeptHeading(const BlockedHeadings& headings, const Situation& s) {
   constexpr double kTurned_rad = 0.1;
   if (!s.escape.away_rad) return std::nullopt;
@@ -335,8 +335,9 @@ double SpeedBesideTurn(const VehicleProfile& profile, const Twist& now, double t
   return std::min(speed_m_s, std::max(0.0, now.forward_m_s) + more_m_s);
 }
 
-// Driving off while it turns on the spot, the rim that rolls back has to brake first, which may
-// take long, and the other would outrun it: the vehicle would turn faster than anybody counts on.
+// When a vehicle drives off while it turns on the spot, the rim that rolls back has to brake first,
+// which may take long. The other rim would outrun it, and the vehicle would turn faster than peers
+// assume.
 double SpeedWithinTurn(const VehicleProfile& profile, const Twist& now, double turn_rad_s,
                        double most_rad_s) {
   const double axle_m = profile.drive.axle_m;
@@ -352,7 +353,7 @@ double MostTurnOf(const VehicleProfile& profile) {
 }
 
 // The highest speed at which the vehicle stops before a heard place that the turn leads to, by its
-// end or halfway; empty where the way straight on is no longer.
+// end or halfway; empty where the path straight on is no longer.
 std::optional<double> PlaceLimitOfTurn(double turned_rad, const Situation& s) {
   if (s.places.empty()) return std::nullopt;
   const double straight_m = FreeOfPlaces({1, 0}, s).value_or(s.own.slows_m);
@@ -421,8 +422,8 @@ double RimAfterTick(const VehicleProfile& profile, double now_m_s, double target
 
 // A rim that speeds up faster than the other brakes carries the centre along: a turn must not make
 // the vehicle faster than `limit_m_s`, nor keep it from braking to that as fast as it can. To come
-// out of a turn the slower rim may keep its speed until the other is no faster. Who brakes at least
-// as hard as it speeds up slows down in any turn.
+// out of a turn the slower rim may keep its speed until the other is no faster. A vehicle that
+// brakes at least as hard as it speeds up slows down in any turn.
 Rims WithinLimit(const VehicleProfile& profile, const Rims& now, Rims target, double limit_m_s,
                  double tick_s) {
   constexpr double kRounding_m_s = 1e-9;

@@ -1,5 +1,5 @@
-// Which way to turn: towards the goal, or past a body that stands in the way and has said that it
-// stays. Also the avoiding behaviours' wheel speeds. Pure.
+// Which heading to take: towards the goal, or past a body that blocks the path and has published
+// that it stays. Also the avoiding behaviours' wheel speeds. Pure.
 #pragma once
 
 #include "services/vehicle/situation/situation.h"
@@ -9,7 +9,7 @@ namespace giveway {
 struct Steering {
   double heading_error_rad = 0;    // wanted minus present heading, in (-pi, pi]
   VehicleId round = kNobody;       // the halted peer that is being passed
-  VehicleId blocked_by = kNobody;  // of an aimless one: the nearest on the straight way
+  VehicleId blocked_by = kNobody;  // without progress: the nearest on the straight path
   int side = 0;                    // turned away from the wanted heading: 1 left, -1 right
   std::optional<double> away_rad;  // the heading it keeps to from now on, if chosen just now
 };
@@ -18,12 +18,12 @@ struct Steering {
 // tangent past it on the side nearer to the goal, its left when both are alike.
 Steering SteerToGoal(const Situation& s);
 
-// The highest speed at which the stopping way stays clear of everyone's claim if the vehicle turns
-// as `steering` says; empty where the turn costs nothing of the way straight on. A turn is a choice
-// like a speed, and is held against the claims before it is made.
+// The highest speed at which the stopping path stays clear of every peer's claim if the vehicle
+// turns as `steering` says; empty where the turn does not shorten the free path straight on. A turn
+// is checked against the claims before it is made, as a speed is.
 struct TurnLimit {
   double max_speed_m_s = 0;
-  VehicleId peer = kNobody;  // whose claim the turn leads to; nobody: to a place heard
+  VehicleId peer = kNobody;  // whose claim the turn leads to; kNobody: to a heard place
   Tick cause_tick = kNoTick;
 };
 std::optional<TurnLimit> LimitOfTurn(const Steering& steering, const Situation& s);

@@ -112,9 +112,9 @@ constexpr std::array<const char*, kNumbers> kNames = {
     "acceleration_m_s2",   "deceleration_m_s2",   "toward_x_m",
     "toward_y_m"};
 
-// Nearly all numbers are well within, and that the upper half of each tells: it holds the sign, the
-// exponent and the first digits, and as a whole number it grows with the number it is of. Four of
-// them are looked at as one: of all that a step does with a far peer's beacon this is the most.
+// Fast path: for positive doubles the upper 32 bits (sign, exponent, leading digits) order like the
+// value, so four range checks fit one SIMD compare; only values near a bound take the exact path.
+// These checks are most of the cost of a far peer's beacon.
 static_assert(std::endian::native == std::endian::little);
 using Halves = std::uint32_t __attribute__((vector_size(4 * sizeof(std::uint32_t))));
 using SignedHalves = std::int32_t __attribute__((vector_size(sizeof(Halves))));
@@ -213,7 +213,7 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   if (order.waited_ticks > Number(b.tick)) {
     return fault("order_waited_ticks", order.waited_ticks, 0, Number(b.tick));
   }
-  // Its own key says its own cruise speed, rounded; a key it was lent, that of another.
+  // Its own key carries its own cruise speed, rounded; an inherited key that of another vehicle.
   const bool own = order.vehicle == b.vehicle;
   const double least = own ? SpeedBucket(b.cruise_m_s) : 0;
   const double most = SpeedBucket(own ? b.cruise_m_s : kMaxSpeed_m_s);

@@ -67,7 +67,7 @@ Stretch StretchNearPoint(Vec2 point, double reach_m) {
 // The stretch of the first line near the half-line of the second. Inline: as a call of its own it
 // takes a twentieth of a step with a hundred peers.
 inline Stretch StretchNear(const PairOfLines& pair, double reach_m) {
-  // Beside the half-line: within reach across it and not before its start.
+  // Lateral to the half-line: within reach across it and not before its start.
   const Stretch across = WhereBetween(pair.first_by_second.y, pair.sine, -reach_m, reach_m);
   const Stretch ahead = WhereBetween(pair.first_by_second.x, pair.cosine, 0, 2 * kFar_m);
   // Round its start.

@@ -1,5 +1,5 @@
-// Where two paths get in each other's way. Pure geometry in the world frame: every body is a disc,
-// every path the half-line it would sweep by going straight on.
+// Where two paths conflict. Pure geometry in the world frame: every body is a disc, every path the
+// half-line it would sweep by going straight on.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 namespace giveway {
 
 // A stretch of a path, metres from its start. Negative lies behind the start. An empty one ends
-// before it begins.
+// before it starts.
 struct Stretch {
   double begin_m = 0;
   double end_m = 0;

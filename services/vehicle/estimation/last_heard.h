@@ -12,14 +12,15 @@ namespace giveway {
 
 // The script's one variable for "the near robot".
 struct LastHeard {
-  VehicleId vehicle = kNobody;  // kNobody until anybody was heard
-  WheelSpeeds wheels;           // believed for ever; 0 until anybody was heard
+  VehicleId vehicle = kNobody;  // kNobody until a beacon was received
+  WheelSpeeds wheels;           // never expires; 0 until a beacon was received
   SteadyTime received{0};
 };
 
 // Overwrites `last` with whatever came in last of all peers within the emission radius.
 void HearTheLast(std::span<const Peer> peers, LastHeard* last);
-// Nothing where nobody was heard: the other behaviours hash as if there were no such variable.
+// Adds nothing if no beacon was received: the other behaviours hash as if the variable did not
+// exist.
 void AddTo(const LastHeard& last, StateHash* hash);
 
 }  // namespace giveway

@@ -6,7 +6,7 @@
 namespace giveway {
 namespace {
 
-// Of the way: turns to and fro that leave no trace in what was counted.
+// As a share of the displacement: turns to and fro that cancel out in the encoder counts.
 constexpr double kUnseenTurns = 0.02;
 
 }  // namespace
@@ -20,7 +20,7 @@ WayGone WayOfLostTicks(const WheelAngles& before, const RangeScan& scan,
   if (!CanBeDriven(twist, profile)) {
     return {scan.wheels, profile.acceleration_m_s2 * dt_s * dt_s};
   }
-  // Whether it turned first or last moves the end across the way by up to half of the angle's arc.
+  // The order of turning and driving moves the end sideways by up to half of the angle's arc.
   const double way_m = Magnitude(twist.forward_m_s) * dt_s;
   return {mean, way_m * (Magnitude(twist.turn_rad_s) * dt_s / 2 + kUnseenTurns)};
 }

@@ -16,7 +16,7 @@ template <typename Scan>
 struct HeldScan {
   Scan scan;  // tick kNoTick: none yet
   SteadyTime taken{0};
-  Pose world_from_body;  // dead-reckoned, as the scan came
+  Pose world_from_body;  // by dead reckoning, when the scan was received
   double speed_m_s = 0;  // forward, likewise
 };
 

@@ -15,10 +15,10 @@ constexpr std::uint8_t kLoss = 3;
 constexpr std::uint8_t kFirm = 7;
 static_assert(kGain < kFirm && 2 * kGain >= kFirm);
 constexpr double kFadesEvery_s = 1;
-// Once the way since adds a standard deviation of half a cell, all are less sure.
+// Once the displacement since adds a standard deviation of half a cell, all cells are less sure.
 constexpr double kUnsure_m2 = 0.25 * ObstacleGrid::kCell_m * ObstacleGrid::kCell_m;
 
-// Farther away an arc is wider than the vehicle: nothing is entered.
+// Further away an arc is wider than the vehicle: nothing is entered.
 constexpr double kEnters_m = 1.4;
 // Between the cells' middles and what is in them lie up to half a diagonal.
 constexpr double kHalfCell_m = 0.07;

@@ -1,9 +1,9 @@
 // Memory of obstacles: where ultrasonics have heard something, kept until it is heard clear from
 // there, leaves the grid, or is too unsure. A square of cells about the vehicle, which scrolls with
-// it in steps of a cell; its axes are those of the place where it began, and it rolls on by the
-// wheels alone, so that a pose fix moves nothing in it. Fixed size, no clock. Knows no peers: who
-// fills it leaves out what is known to be one. Decides nothing. README.md beside it explains the
-// numbers.
+// it in steps of a cell; its axes are those of the start pose, and it moves by wheel odometry
+// alone, so that a pose fix moves nothing in it. Fixed size, no clock. Knows no peers: the caller
+// leaves out echoes that a known peer explains. Decides nothing. README.md in this folder explains
+// the numbers.
 #pragma once
 
 #include <array>
@@ -81,7 +81,7 @@ class ObstacleGrid {
  private:
   friend struct StateFields;  // services/snapshot
 
-  // From a point of the grid to the middle of a cell, the short way round.
+  // From a point of the grid to the middle of a cell, the shorter distance round the torus.
   static Vec2 OffsetOf(std::uint32_t column, std::uint32_t row, Vec2 from_grid);
   Vec2 Turned(Vec2 body) const {
     return body.x * heading_.forward_world + body.y * Left(heading_.forward_world);

@@ -27,13 +27,13 @@ PoseCovariance Odometry::Roll(const DriveGeometry& drive, WheelSpeeds wheels, do
   heading_.Follow(pose_);
   const Vec2 way = pose_.position_world - before;
 
-  // How the end of the way depends on its start: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
+  // How the end pose depends on the start pose: F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
   MapOf3 covariance(covariance_.data());
   covariance.row(0) += -way.y * covariance.row(2);
   covariance.row(1) += way.x * covariance.row(2);
   covariance.col(0) += -way.y * covariance.col(2);
   covariance.col(1) += way.x * covariance.col(2);
-  // And on the way of each wheel.
+  // And on the displacement of each wheel.
   const double left = wheel_error * wheels.left_rad_s * drive.wheel_radius_m * dt_s;
   const double right = wheel_error * wheels.right_rad_s * drive.wheel_radius_m * dt_s;
   const Vector3 of_left = left * Vector3(forward.x / 2, forward.y / 2, -1 / drive.axle_m);

@@ -164,7 +164,7 @@ void PeerTable::Note(const QosEvent& event, QosCounters* counters) {
   Peer* peer = Find(event.vehicle);
   switch (event.kind) {
     case QosEventKind::kDeadlineMissed:
-      // A good-bye is no miss, and a miss is an edge: one until the next accepted beacon.
+      // A leave notice is no miss, and a miss is an edge: one until the next accepted beacon.
       if (peer == nullptr || peer->left || peer->deadline_missed) return;
       ++counters->deadline_missed;
       last_deadline_missed_ = event.vehicle;
@@ -235,7 +235,7 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
   if (Has(Defect::kStaleBeaconTrusted)) return peer.known && !peer.left;
-  // Asked of every peer in every step: one branch for all that is seldom so.
+  // Checked for every peer in every step: one branch for all the rare cases.
   const bool doubtful =
       peer.left | peer.rivalled | peer.deadline_missed | peer.liveliness_lost | peer.out_of_reach;
   return peer.known && !doubtful &&

@@ -1,6 +1,6 @@
-// Defects of the rules that tests plant to see that each is caught (tests/virtual/defects.sh). A
-// vehicle is compiled without them: nothing is planted there, the compiler knows it, and leaves no
-// instruction of any.
+// Defects of the rules that tests inject to check that each is detected (tests/virtual/defects.sh).
+// A vehicle is compiled without them: there Has() is constantly false, and the compiler removes
+// every check.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ enum class Defect : std::uint8_t {
   kMeasuredSpeedInOrder,
   kLendingDropped,
   kWaitingNeverCounts,
-  // Whom to believe, and for how long.
+  // Which data to trust, and for how long.
   kOwnBeaconHeard,
   kStaleBeaconTrusted,
   kLostPeerForgotten,
@@ -35,11 +35,11 @@ enum class Defect : std::uint8_t {
   kObstacleIgnored,
   kMoverIgnored,
   kSignalIgnored,
-  // Ways.
+  // Paths.
   kSteersRoundNobody,
   kQueueOvertaken,
   kPatienceDropped,
-  // A new process of a vehicle that is under way.
+  // A restarted process of a vehicle that is driving.
   kPlaceForgotten,
   kRouteForgotten,
 };

@@ -53,14 +53,14 @@ void PoseFilter::Doubt(Vec2 off_world, double heading_rad) {
   At(2, 2) += heading_rad * heading_rad;
 }
 
-// F C F' of the pose alone is done. Beside it, with G the derivative of the step by the errors:
+// F C F' of the pose alone is done. In addition, with G the derivative of the step by the errors:
 // F C_pk becomes F C_pk + G C_kk, and C_pp gains F C_pk G' + G C_kp F' + G C_kk G'.
 void PoseFilter::Carry(Vec2 way_world, Vec2 forward_world, double left_m, double right_m,
                        double axle_m) {
   const double turned_rad = (right_m - left_m) / axle_m;
   const double ahead_m = (right_m - left_m) / 4;  // by an error of the diameter
   const std::array<double, 2> turns = {(right_m + left_m) / (2 * axle_m), -turned_rad};
-  // Half of the turn lies before the way, as it were.
+  // Half of the turn is applied before the displacement.
   const double g[kPose][2] = {
       {ahead_m * forward_world.x - way_world.y * turns[0] / 2, -way_world.y * turns[1] / 2},
       {ahead_m * forward_world.y + way_world.x * turns[0] / 2, way_world.x * turns[1] / 2},

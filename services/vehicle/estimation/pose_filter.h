@@ -1,6 +1,6 @@
 // The arithmetic of pose_keeping.h: a Kalman filter over five numbers, of which one is measured at
 // a time (Thrun, Burgard, Fox, Probabilistic Robotics, ch. 3; sequential updates as in Simon,
-// Optimal State Estimation, ch. 6.1). No judgement: whoever calls has decided to believe. Pure.
+// Optimal State Estimation, ch. 6.1). No gating: the caller has accepted the measurement. Pure.
 #pragma once
 
 #include <array>
@@ -33,9 +33,9 @@ class PoseFilter {
   void Measure(PoseNumber number, double off, double variance);
   // The position may be off by that, too; and the heading by so much.
   void Doubt(Vec2 off_world, double heading_rad);
-  // The wheels moved the pose along way_world, whose heading was forward_world, by these ways of
-  // the rims in m, after the odometry did: what is not known of their errors is not known of the
-  // way.
+  // Odometry has moved the pose by way_world, along heading forward_world; the rims rolled left_m
+  // and right_m. Adds the uncertainty that the wheels' systematic errors bring to that
+  // displacement.
   void Carry(Vec2 way_world, Vec2 forward_world, double left_m, double right_m, double axle_m);
 
   Vec2 Moved() const { return {moved_[0], moved_[1]}; }

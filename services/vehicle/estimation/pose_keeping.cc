@@ -13,8 +13,8 @@ namespace {
 // says: their errors would never be noticed. Share of a wheel's speed, each tick by itself; over a
 // second at 0.4 m/s 9 mm and 2 degrees.
 constexpr double kLeastWheelError = 0.1;
-// Of a thousand true fixes one is farther off, by both its own deviation and the pose's: chi-square
-// of two numbers, and of one.
+// One in a thousand true fixes is further off, by its own deviation and the pose's: chi-square of
+// two numbers, and of one.
 constexpr double kGate = 13.8;
 constexpr double kHeadingGate = 10.8;
 // So many that do not fit must agree, one after the other, before they are believed against the
@@ -24,7 +24,7 @@ constexpr double kHeadingGate = 10.8;
 constexpr std::uint32_t kAgreeing = 8;
 // How much of what fixes say may have come by turning wrongly.
 constexpr double kDoubtedHeading_rad = 0.3;
-// It slows down from this share of its limit on, and having been lost goes on from this one.
+// It slows down from this share of its limit on; after having been lost it resumes below this one.
 constexpr double kUnsureFrom = 0.6;
 constexpr double kFoundFrom = 0.75;
 // It drives no slower than this share of its cruise speed up to the limit, so that it gets there.
@@ -164,7 +164,7 @@ bool KeepsPose(const VehicleProfile& profile) {
   return profile.pose_fix.Fitted() || profile.wheel_error.Any() || profile.pose_limit_m > 0;
 }
 
-// How wrong the wheels may be is known, not which way: the squares alone are looked at.
+// The magnitude of the wheel errors is known, not their sign: only the squares are used.
 void Begin(const VehicleProfile& profile, PoseKeeping* keeping) {
   *keeping = {.fixes_used = keeping->fixes_used, .fixes_refused = keeping->fixes_refused};
   const WheelErrors& may_be = profile.wheel_error;

@@ -37,7 +37,7 @@ struct PoseKeeping {
   PoseFix waiting;                          // of this tick or a later one; no tick: none
   Tick agreed = kNoTick;                    // of the last fix that was believed, or the first tick
   Disagreement disagreement;
-  std::uint32_t fixes_used = 0;     // since the process began
+  std::uint32_t fixes_used = 0;     // since the process started
   std::uint32_t fixes_refused = 0;  // out of date, or not believed
   bool lost = false;
 };
@@ -45,14 +45,14 @@ struct PoseKeeping {
 // True of a vehicle for which all this is done.
 bool KeepsPose(const VehicleProfile& profile);
 
-// As a vehicle begins in a world, where it is told its place; counts go on.
+// On entering a world, where it is given its start pose; counts continue.
 void Begin(const VehicleProfile& profile, PoseKeeping* keeping);
 
 // What the wheels did from the last tick to `tick`, dt_s later.
 struct Rolling {
   WheelSpeeds wheels;  // as measured
   double dt_s = 0;
-  double wheel_error = 0;  // drawn anew each tick, as a share of a wheel's speed
+  double wheel_error = 0;  // drawn again each tick, as a share of a wheel's speed
   double guessed_m = 0;    // see Odometry::Roll
   Tick tick = kNoTick;
 };
@@ -62,7 +62,7 @@ struct Rolling {
 PoseCovariance Roll(const VehicleProfile& profile, const Rolling& rolling, Odometry* odometry,
                     PoseKeeping* keeping);
 
-// Who takes a fix in.
+// The vehicle that takes a fix.
 struct FixTaker {
   VehicleId vehicle = kNobody;
   WorldEpoch epoch = kNoEpoch;

@@ -49,8 +49,8 @@ class RangeView {
   // Exact ultrasonics: every reading is what is there now.
   void Take(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period);
   // Ultrasonics that jitter, drop out or fire in turn: an echo is forgotten only after two firings
-  // in a row heard nothing, and a closing speed is smoothed over kClosingTime_s. `moved` is the
-  // own way since the scan before.
+  // in a row heard nothing, and a closing speed is smoothed over kClosingTime_s. `moved` is the own
+  // displacement since the scan before.
   void TakeImperfect(const RangeScan& scan, SteadyTime now, Nanoseconds tick_period, OwnWay moved);
 
   const SensorView& operator[](std::size_t sensor) const { return sensors_[sensor]; }

@@ -14,7 +14,7 @@ constexpr double kCosSameWay = 0.7071067811865476;  // 45 degrees
 bool IsFresh(SteadyTime heard, SteadyTime now) { return now - heard <= kSignalAgeLimit; }
 
 // Metres along the path until the shell is over the stop line; empty if the path does not cross it,
-// crosses it the wrong way, or the shell is over it already.
+// crosses it in the opposite direction, or the shell is over it already.
 std::optional<double> DistanceToLine(const SignalState& state, const Approach& approach) {
   const Vec2 along = approach.path.direction_world;
   const Vec2 travel = {Cos(state.travel_rad), Sin(state.travel_rad)};
@@ -53,7 +53,7 @@ bool SignalTable::Take(const SignalState& state, WorldEpoch epoch, SteadyTime no
   Head* head = Find(state.id, now);
   if (head == nullptr) return false;
   const bool known = head->state.id == state.id;
-  // A state far older than the last is of a head that counts anew, not a late one.
+  // A state far older than the last is of a head that restarted its count, not a late one.
   if (known && state.tick <= head->state.tick && IsFresh(head->heard, now)) return false;
   if (state.phase != SignalPhase::kYellow) head->weighed = head->clears = false;
   head->state = state;

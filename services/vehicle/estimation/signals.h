@@ -37,8 +37,8 @@ struct StopLine {
 
 class SignalTable {
  public:
-  // Keeps what the head says if it is of this world, believable and newer. When the table is full a
-  // head that has fallen silent makes room; false if none has, or the state is refused.
+  // Keeps what the head publishes if it is of this world, plausible and newer. When the table is
+  // full a silent head is evicted; false if none is silent, or the state is refused.
   bool Take(const SignalState& state, WorldEpoch epoch, SteadyTime now);
   void LeaveWorld() { count_ = 0; }
 

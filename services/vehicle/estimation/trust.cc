@@ -16,7 +16,7 @@ double Pace(const Beacon& beacon) {
   return Magnitude(TwistFromWheels(beacon.drive, beacon.wheels).forward_m_s);
 }
 
-// Farther than it could have come.
+// Further than it could have driven.
 bool Jumps(const Beacon& before, const Beacon& now, double dt_s) {
   const double fastest = kSpeedSlack * std::max({Pace(before), Pace(now), now.cruise_m_s});
   const double sure_m = fastest * dt_s + kPoseSlack_m;
@@ -27,7 +27,7 @@ bool Jumps(const Beacon& before, const Beacon& now, double dt_s) {
   return SquaredNorm(way) > most_m * most_m;
 }
 
-// Faster than anybody of this fleet, or sped up faster than it says it can.
+// Faster than any vehicle of this fleet, or accelerated more than it says it can.
 bool IsTooFast(const Beacon& before, const Beacon& now, double dt_s) {
   const double pace = Pace(now);
   if (pace > kMaxSpeed_m_s) return true;
@@ -41,7 +41,7 @@ bool IsTooFast(const Beacon& before, const Beacon& now, double dt_s) {
 void JudgeBeacon(const Beacon& before, const ReceivedBeacon& received,
                  const VehicleOptions& options, PeerTrust* trust, TrustCounters* counters) {
   const Beacon& now = received.beacon;
-  // After a silence, or the tick it counts begun anew: there is nothing to compare with.
+  // After a silence, or after its tick count restarted: there is nothing to compare with.
   if (before.tick == kNoTick || now.tick < before.tick) return;
   const Nanoseconds between = TicksBetween(before.tick, now.tick) * options.tick_period;
   if (between > options.beacon_age_limit) return;

@@ -2,10 +2,10 @@
 // ultrasonics (situation/echo_trust.h).
 // What does not fit is counted by kind (TrustCounters), and the peer is doubted for a while.
 //
-// Doubt only takes away. Of a doubted peer nobody believes that it gives way, that a light stops
-// it, that it stands, or that an echo is its body; and while one is near the vehicle goes by its
-// own ranges (sensor_only). Where it says it is, it may be: its claim is kept clear of as ever.
-// Nothing here makes a vehicle less careful, so whoever forges a doubt can only slow others down.
+// Doubt only removes privileges. While a peer is doubted, its grants, its red light, its standing
+// and its explanation of an echo do not count; and while one is near, the vehicle goes by its own
+// ranges (sensor_only). Its claim is still kept clear of: it may be where it says it is. Doubt
+// never makes a vehicle less careful, so a forged doubt can only slow others down.
 #pragma once
 
 #include <cstdint>
@@ -44,7 +44,7 @@ inline constexpr double kErrorSigmas = 3;
 inline constexpr double kPoseSlack_m = 0.1;
 
 // A beacon against the one accepted before it, both of one life: did it jump, or drive faster than
-// it or anybody can?
+// it, or any vehicle, can?
 void JudgeBeacon(const Beacon& before, const ReceivedBeacon& received,
                  const VehicleOptions& options, PeerTrust* trust, TrustCounters* counters);
 

@@ -27,7 +27,8 @@ VehicleId NearestThatWaits(const Situation& s) {
   return nearest == nullptr ? kNobody : nearest->peer->id;
 }
 
-// Whom that vehicle says is in its way; nobody if it is not among those that matter.
+// The vehicle that `vehicle` reports as blocking it; kNobody if that is not among the relevant
+// peers.
 VehicleId WhoBlocks(VehicleId vehicle, std::span<const PeerView> views) {
   for (const PeerView& view : views) {
     if (view.peer->id == vehicle) return view.fresh ? view.peer->beacon.blocked_by : kNobody;
@@ -59,7 +60,7 @@ VehicleId BlockedBy(const Situation& s, const Decision& decision, VehicleId not_
   const bool stands = s.own.speed_m_s < kStandingSpeed_m_s;
   if (decision.rule == Rule::kKeepClear && stands) return decision.peer;
   if (!s.escape.aimless) return kNobody;
-  // Whoever finds no way through those that wait for it lets one of them go.
+  // A vehicle that finds no path through those waiting for it lets one of them go.
   const VehicleId waiting = s.escape.very_aimless ? NearestThatWaits(s) : kNobody;
   return waiting != kNobody ? waiting : not_passed;
 }
@@ -71,7 +72,7 @@ bool IsStillNear(VehicleId peer, const Situation& s) {
 }
 
 bool IsBehind(VehicleId blocker, VehicleId vehicle, std::span<const PeerView> views) {
-  constexpr int kLongestQueue = 8;  // followed no farther: it may close to a ring
+  constexpr int kLongestQueue = 8;  // followed no further: it may close to a ring
   for (int i = 0; i < kLongestQueue && blocker != kNobody; ++i) {
     if (blocker == vehicle) return true;
     blocker = WhoBlocks(blocker, views);

@@ -1,8 +1,7 @@
-// Keeps crossings clear: conflicts that follow each other without room to stand between them are
-// one box. A vehicle that must hold for a peer in it holds before the whole of it, and it does not
-// drive into one that it cannot leave, because somebody stands, or will stand, where it would come
-// out. Whoever stopped inside would be in somebody else's way, and a few of those make a ring that
-// nobody leaves.
+// Keeps crossings clear: conflicts that follow each other without enough space to stand between
+// them are one box. A vehicle that must hold for a peer in a box holds before all of it, and it
+// does not enter a box that it cannot leave because a vehicle stands, or will stand, at the exit. A
+// vehicle stopped inside would block another, and a few of those make a ring: a deadlock.
 #pragma once
 
 #include <optional>
@@ -17,8 +16,8 @@ struct Boxes {
   std::optional<BlockedBox> blocked;  // the nearest ahead that the vehicle would come to stand in
 };
 
-// Makes the views whole: where the box begins, of each that crosses the own way. Blocked is a box
-// as things are now.
+// Completes the views: where the box starts, for each peer that crosses the own path. `blocked` is
+// the box that cannot be left as things are now.
 Boxes FindBoxes(PeerViews<RelatedPeer> views, const OwnView& s);
 
 }  // namespace giveway

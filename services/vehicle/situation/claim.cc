@@ -9,14 +9,14 @@ namespace giveway {
 namespace {
 
 constexpr double kFar_m = 1e6;
-// From inside a claim: how much the way out may lead inwards at first. It comes nearer by no more
-// than a thousandth of the distance, and a way square to it is not lost to rounding.
+// From inside a claim: how far the exit path may lead inwards at first. It comes nearer by no more
+// than a thousandth of the distance, and a path square to it is not lost to rounding.
 constexpr double kAlong = 0.045;
-// The same of the body itself, past which a way out may lead: it comes nearer by a thirtieth.
+// The same for the body itself, past which an exit path may lead: it comes nearer by a thirtieth.
 constexpr double kToBody = 0.25;
 // Slower than this it counts as one that may set off anywhere.
 constexpr double kStands_m_s = 0.02;
-// Faster than it says it cruises nobody goes but by slip and rounding.
+// A vehicle exceeds its published cruise speed only by slip and rounding.
 constexpr double kSpeedSlack = 1.1;
 
 Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
@@ -25,8 +25,8 @@ Vec2 NearestOnAxis(const Claim& claim, Vec2 point) {
          std::clamp(along, 0.0, claim.length_m) * claim.axis.direction_world;
 }
 
-// True if the path, begun at `offset` from something, leads no nearer to it, or hardly: the cosine
-// of the angle to it is below `inwards`.
+// True if the path, starting at `offset` from something, leads no nearer to it, or hardly: the
+// cosine of the angle to it is below `inwards`.
 bool LeadsAway(Vec2 offset, const Path& path, double inwards) {
   return Dot(offset, path.direction_world) > -inwards * Norm(offset);
 }

@@ -1,11 +1,12 @@
-// Passive safety: where a peer can be until it stands, whatever it has decided since it was last
-// heard, and how far the own vehicle may go without reaching into that. If everyone keeps out of
-// everyone's claim, nobody touches, whoever is right, late or deaf. Pure geometry and kinematics.
+// Passive safety: where a peer can be until it stands, whatever it has decided since its last
+// beacon, and how far this vehicle may drive without reaching into that. If every vehicle stays out
+// of every other's claim, none touch, whichever has priority, is late or hears nothing. Pure
+// geometry and kinematics.
 //
-// By induction: each vehicle drives on only where its own stopping way is clear of the claims of
-// all others, grown for what is not yet known of them; otherwise it brakes, and a braking vehicle
-// stays inside what it claimed before. Both rims brake alike, so that it keeps turning as it did
-// until it stands: its stopping way is an arc, and the longer it takes to brake the more of one.
+// By induction: each vehicle drives on only where its own stopping path is clear of the claims of
+// all others, grown by what is not yet known of them; otherwise it brakes, and a braking vehicle
+// stays inside what it claimed before. Both rims brake alike, so that it keeps turning at the same
+// rate until it stands: its stopping path is an arc, and the longer it brakes the more of one.
 #pragma once
 
 #include "services/types/beacon.h"
@@ -24,22 +25,22 @@ struct Claim {
 // every claim stands on, as steering.cc keeps it.
 inline constexpr double kTurnWhileDriving_rad_s = 0.87;
 
-// Which way the sender of a beacon is turned, a unit vector, and how fast it says it drives
-// forward and turns: what follows from its heading and its wheels.
+// The heading of a beacon's sender, a unit vector, and how fast it says it drives forward and
+// turns: what follows from its heading and its wheels.
 struct Course {
   Vec2 forward_world;
   double speed_m_s = 0;
   double turn_rad_s = 0;
 };
 
-// How far off its straight stopping way, at most and as a share of that way's length, a vehicle
-// ends that turns at turn_rad_s for steady_s and until it stands, braking from speed_m_s. The
-// lateral way of an arc: the integral of v(t) * turn * t, with v falling evenly a third of its
-// length times the angle. Never above 1, for no arc leads farther than its length.
+// Lateral deviation from the straight stopping path, at most and as a share of that path's length,
+// of a vehicle that turns at turn_rad_s for steady_s and until it stands, braking from speed_m_s.
+// The lateral displacement of an arc: the integral of v(t) * turn * t, with v falling evenly a
+// third of its length times the angle. Never above 1, for no arc leads further than its length.
 double SwingOf(double turn_rad_s, double steady_s, double speed_m_s, double deceleration_m_s2);
 
-// How much longer the stopping way is of one that turns: when the inner rim stands the outer one
-// still rolls, and the centre slows down half as fast. (turn * axle / 2)^2 / (2 * deceleration).
+// By how much turning lengthens the stopping path: when the inner rim stands the outer one still
+// rolls, and the centre slows down half as fast. (turn * axle / 2)^2 / (2 * deceleration).
 double TurnRollsOn(double turn_rad_s, double axle_m, double deceleration_m_s2);
 
 // How far the sender of `beacon`, driving straight on at speed_m_s, may come before it stands.

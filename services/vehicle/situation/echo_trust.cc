@@ -83,7 +83,7 @@ bool TellsMotion(std::size_t sensor, const OwnView& s) {
   return s.speed_m_s > 0 && s.cones.of[sensor].nearest_cosine >= 1;
 }
 
-// True if whoever made the echo is surely in reach of the radio: its centre lies behind its shell.
+// True if the source of the echo is surely within radio range: its centre lies behind its shell.
 bool IsInReach(std::size_t sensor, const OwnView& s) {
   constexpr double kDeepest_m = 1;
   return s.ranges[sensor].range_m + kDeepest_m < s.options.emission_radius_m;
@@ -113,8 +113,8 @@ void JudgeEchoes(std::span<const PeerView> views, bool someone_lost, const OwnVi
   if (s.run_state != RunState::kRunning || !s.new_tick) return;
   const std::uint32_t stands = TicksOf(kStands_s, s.options);
   const std::uint32_t closes = TicksOf(kCloses_s + 2 * Seconds(s.options.sonar_refresh), s.options);
-  // Ultrasonics that miss what is there, by its slant or by chance, or take a neighbour's ping for
-  // an echo accuse nobody.
+  // Ultrasonics that miss obstacles, by their slant or by chance, or take a neighbour's ping for an
+  // echo, are no evidence against a peer.
   const bool believes_ears = !HasImperfectSonar(s.options);
   const std::uint32_t listening = s.cones.enabled & s.ranges.SpokeAt(s.tick);
   for (const PeerView& view : views) {

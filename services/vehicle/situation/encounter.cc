@@ -49,8 +49,8 @@ bool IsOver(const PeerView& view, const OwnView& s) {
   return view.gate_gap_m >= s.options.gate_exit_m || ClosingSpeed(view, s) <= 0;
 }
 
-// A silent peer holds nobody any longer once it had the time to pass and nothing near is heard; or
-// when the table forgets it.
+// A lost peer no longer holds any vehicle once it had the time to pass and nothing near is heard,
+// or once the table has dropped it.
 void UpdateLost(const PeerView& view, const OwnView& s) {
   Encounter& encounter = view.peer->encounter;
   if (!encounter.lost) {
@@ -73,21 +73,21 @@ double HoldsBefore(const PeerView& view) {
   return view.box_begin_m > 0 ? view.box_begin_m : view.conflict->own.begin_m;
 }
 
-// True where only braking now still ends before the conflict. Inside it, standing still helps
-// nobody: the vehicle drives out.
+// True where only braking now still ends before the conflict. Inside it, standing still helps no
+// vehicle: this one drives out.
 bool MustBrakeNow(const PeerView& view, const OwnView& s) {
   return view.conflict && view.conflict->own.begin_m > 0 &&
          HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 
-// Of two in the conflict both: this one is ahead on the way of both.
+// Both are in the conflict, and this vehicle is ahead along the paths of both.
 bool IsAhead(const PeerView& view, const OwnView& s) {
   return Dot(view.offset_world, s.path.direction_world) < 0 &&
          Dot(view.offset_world, view.way_world) < 0;
 }
 
-// Whoever is in the middle of the conflict clears it instead of standing in the way: if the other
-// is not in it yet, or behind, or it can be out before the other comes.
+// A vehicle in the middle of the conflict clears it instead of blocking it: if the other is not in
+// it yet, or behind, or if it can be out before the other arrives.
 bool MustClear(const PeerView& view, const OwnView& s) {
   if (!view.conflict || view.conflict->own.begin_m > 0 || IsBeingPassed(view, s)) return false;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
@@ -95,13 +95,13 @@ bool MustClear(const PeerView& view, const OwnView& s) {
   return IsThroughFirst(view, s);
 }
 
-// Whoever stands where one that comes first wants to be, or bodily in its way, gives way by going:
-// also at the far end of a queue of those that are in each other's way.
+// A vehicle that blocks one with priority, by its body or by standing on its goal, gives way by
+// driving on: also at the far end of a queue in which each blocks the next.
 bool IsInTheWay(const PeerView& view, std::span<const PeerView> views, const OwnView& s) {
   return IsBehind(view.peer->beacon.blocked_by, s.options.id, views) || IsOnGoalOf(view, s);
 }
 
-// Whom the order puts second stops at the gate, or where only braking now is early enough.
+// The vehicle without priority stops at the gate, or where only braking now is early enough.
 bool SecondMustStop(const PeerView& view, const OwnView& s) {
   if (Has(Defect::kSecondDrivesOn)) return false;
   if (s.options.behaviour == Behaviour::kLectureYield) return true;
@@ -111,7 +111,7 @@ bool SecondMustStop(const PeerView& view, const OwnView& s) {
          HoldsBefore(view) <= OwnStoppingDistance(s);
 }
 
-// Whom the order puts first needs the other's word, or to be through before it; the lecture's
+// The vehicle with priority needs the other's grant, or to be through before it; the lecture's
 // behaviour trusts the order alone.
 bool FirstMayGo(const PeerView& view, const OwnView& s) {
   if (Has(Defect::kGrantNotNeeded)) return true;
@@ -138,11 +138,11 @@ bool HasLeftBox(const PeerView& view, const OwnView& s) {
   return s.speed_m_s < kStandingSpeed_m_s && view.box_begin_m > 0;
 }
 
-// It comes first, but stands before where the ways cross for another one's sake: until that one is
-// gone the crossing is free. This vehicle stops again if the peer sets off; once it cannot any more
-// it drives through (EntersBox) and no longer says that it gives way, and without that word the
-// peer does not drive in. A peer that was sent off by an older word is still rolling up then: from
-// standstill to where it cannot stop takes longer than a beacon may be old.
+// The peer has priority, but stands before the crossing because of a third vehicle: until that one
+// is gone the crossing is free. This vehicle stops again if the peer starts; once it cannot stop
+// any more it drives through (EntersBox) and no longer says that it gives way, and without that
+// grant the peer does not enter. A peer that started on an older grant is still accelerating then:
+// from standstill to where it cannot stop takes longer than a beacon may be old.
 bool MayCrossBefore(const PeerView& view, const OwnView& s) {
   if (s.options.behaviour != Behaviour::kCooperative) return false;
   if (!view.believed || !view.standing || !view.conflict || !view.conflict->across) return false;
@@ -154,8 +154,9 @@ bool MayCrossBefore(const PeerView& view, const OwnView& s) {
   return waits_for != kNobody && waits_for != s.options.id;
 }
 
-// Whether this vehicle holds for the peer. Holding, once begun, lasts: braking shortens the
-// stopping distance, and a stop that ends whenever it is short enough would never be one.
+// Whether this vehicle holds for the peer. A hold lasts once it has started: braking shortens the
+// stopping distance, and a hold that ended whenever that is short enough would never stop the
+// vehicle.
 bool Holds(const PeerView& view, const OwnView& s) {
   const bool held = view.peer->encounter.holds;
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;

@@ -1,5 +1,5 @@
-// Begins, holds and ends encounters: the memory that keeps right of way from flickering. An
-// encounter begins when two paths conflict, and ends when they no longer do and the gap has opened.
+// Starts, holds and ends encounters: the memory that keeps right of way from flickering. An
+// encounter starts when two paths conflict, and ends when they no longer do and the gap has opened.
 #pragma once
 
 #include "services/vehicle/situation/situation.h"

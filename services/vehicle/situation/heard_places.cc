@@ -12,9 +12,9 @@ namespace {
 constexpr double kRangeSigmas = 2;
 // What is heard this near to a peer's shell is the peer.
 constexpr double kRoundPeer_m = 0.15;
-// Peers farther away are in nobody's arc.
+// No cone's arc reaches a peer further away than this.
 constexpr double kNearPeer_m = 3;
-// A place is wider than what was heard there, on both sides of it: less margin does beside it.
+// A place is wider than its echo, on both sides of it: a smaller lateral margin is enough.
 constexpr double kNarrower_m = 0.03;
 // The middle of the body itself is surely not the place of anything else.
 constexpr double kShare = 0.8;

@@ -1,19 +1,19 @@
-// How each peer stands to this vehicle: where it is by now, where its way crosses the own one, how
-// far its claim leaves the own way free, who comes first, whether it lets this vehicle go. Every
-// view stands on its beacon and the own state alone; what follows from all of them together is
-// found in box.h and encounter.h.
+// Relates each peer to this vehicle: where it is by now, where its path crosses the own one, how
+// far its claim leaves the own path free, which has priority, whether it grants this vehicle
+// passage. Every view stands on its beacon and the own state alone; what follows from all of them
+// together is found in box.h and encounter.h.
 #pragma once
 
 #include "services/vehicle/situation/situation.h"
 
 namespace giveway {
 
-// How far from its centre a vehicle of that profile looks for anything but claims and ways, up to
-// another one's shell.
+// The radius, from the centre of a vehicle of that profile to another one's shell, within which it
+// computes more of a peer than its claim.
 double LooksAround(const VehicleProfile& profile);
 
-// False if the peer is so far away, and so is all of its way, that no rule has anything to say of
-// it. It costs a fraction of LookAt, and most of a large fleet is far away.
+// False if the peer and all of its path are so far away that no rule can depend on it. It costs a
+// fraction of LookAt, and most of a large fleet is far away.
 bool CanMatter(const Peer& peer, bool fresh, const OwnView& s);
 
 // Carries the peers of all views forward to now and measures how they lie to the own vehicle. For

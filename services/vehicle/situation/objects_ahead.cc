@@ -29,7 +29,7 @@ Vec2 At(double range_m, double bearing_rad) {
   return range_m * Vec2{Cos(bearing_rad), Sin(bearing_rad)};
 }
 
-// Until the vehicle would stand, if it began to see and brake now.
+// The time until the vehicle would stand, if it saw the obstacle and braked now.
 double SecondsToStand(const OwnView& s) {
   return s.reaction_s + std::max(0.0, s.speed_m_s) / s.options.profile.deceleration_m_s2;
 }
@@ -62,8 +62,8 @@ void Keep(double free_m, Tick tick, std::optional<ObjectAhead>* nearest) {
   if (!*nearest || free_m < (*nearest)->free_m) *nearest = ObjectAhead{free_m, tick};
 }
 
-// How far straight on until the own shell touches the point; empty if it passes. What is within
-// the margin already is judged without one: along a wall the vehicle may go on.
+// How far straight on until the own shell touches the point; empty if it passes. A point already
+// within the margin is judged without one: along a wall the vehicle may continue.
 std::optional<double> FreeBefore(Vec2 point_body, double body_radius_m) {
   const auto free_m = FreeBeforeDisc(point_body, body_radius_m);
   const bool beside = point_body.y >= body_radius_m || point_body.y <= -body_radius_m;

@@ -8,15 +8,15 @@
 //    at that rate along the line of sight it is in that corridor before the vehicle, at what it
 //    drives now, could stand: reaction time and braking.
 // Everything else stays an object. What lies in the corridor by either test limits the speed to one
-// from which the vehicle stops before it. The lidar has no range rate: what it shows is judged by
-// its place, anew with every scan.
+// from which the vehicle stops before it. The lidar has no range rate: its objects are judged by
+// their place alone, again with every scan.
 //
 // The camera makes no obstacles and knows no distance; it names the class of what is at a bearing.
 // One exception hangs on it: where it sees a vehicle and a fresh beacon says that a vehicle stands
 // just there, the object is that peer, and left to right of way and the ultrasonics.
 //
-// Sensors that are off, silent or older than the ranges may be show nothing and stop nobody: the
-// ultrasonics remain what no motion is without.
+// Sensors that are off, silent or older than the ranges may be show nothing and stop no vehicle:
+// the ultrasonics remain the one sensor without which there is no motion.
 #pragma once
 
 #include <optional>

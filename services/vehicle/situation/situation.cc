@@ -47,10 +47,10 @@ double CriticalDistance(const OwnView& s, const CarriedPeer& view) {
 }
 
 double RoomBeside(const CarriedPeer& view, const OwnView& s) {
-  // Between the two shells; less than a vehicle keeps that halts before the own way, so that one
-  // drives past it and not round it.
+  // Between the two shells; less than the distance at which a vehicle halts before the own path, so
+  // that this one drives past it and not round it.
   constexpr double kRoundMargin_m = 0.12;
-  // A lost one may stand beside where it says that it does.
+  // A lost vehicle may stand away from where it says that it does.
   const double unsure_m = view.peer->beacon.rule == Rule::kLost ? kSigmas * view.sigma_m : 0;
   return s.options.profile.body_radius_m + view.peer->beacon.body_radius_m + kRoundMargin_m +
          unsure_m;

@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kPeerSpeedSlack = 1.1;    // a peer's seed, slip and rounding
 constexpr double kThroughMargin_s = 0.05;  // between leaving the conflict and its coming
-constexpr double kGoneMargin_s = 0.3;      // it has left, and a beacon has told so
+constexpr double kGoneMargin_s = 0.3;      // it has left, and a beacon has reported so
 
-// Between two that are in a conflict one after the other lies less than between two that stop
-// wherever they like: one is past where the ways cross by as much as the other is before it. With
-// the angle a between the ways both may be nearer to it by sin(a / 2).
+// Two vehicles that pass a conflict one after the other need less distance than two that stop
+// wherever they like: one is past the crossing by as much as the other is before it. With the angle
+// a between the paths both may be nearer to it by sin(a / 2).
 Conflict Shrunk(const Conflict& conflict, Vec2 own_way, Vec2 peer_way) {
   const double share = Sqrt(std::clamp((1 - Dot(own_way, peer_way)) / 2, 0.25, 1.0));
   const auto shrunk = [share](const Stretch& stretch) {

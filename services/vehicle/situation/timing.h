@@ -1,4 +1,4 @@
-// Who is through a conflict before whom, as far as speeds and accelerations tell. Estimates for the
+// Which vehicle clears a conflict first, as far as speeds and accelerations say. Estimates for the
 // right of way alone: where they are wrong, the claims (claim.h) still keep the bodies apart.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace giveway {
 
-// True if every way of the peer at up to a tenth above its cruise speed leaves this vehicle out of
+// True if, by every path of the peer at up to a tenth above its cruise speed, this vehicle leaves
 // the conflict before the peer can reach it.
 bool IsThroughFirst(const RelatedPeer& view, const OwnView& s);
 
