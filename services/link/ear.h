@@ -1,5 +1,6 @@
-// An ear in another's place: reads chosen topics in chosen partitions and tells, process by
-// process, what was discovered, what matched and what came. Writes nothing, understands no sample.
+// A discovery probe: reads chosen topics in chosen partitions in place of another process and
+// reports, process by process, what was discovered, matched and received. Writes nothing, decodes
+// no sample.
 #pragma once
 
 #include <array>
@@ -31,16 +32,16 @@ struct EarProcess {
   std::array<std::uint8_t, 16> guid{};  // the first twelve bytes of all that it owns
   std::uint16_t host_id = 0;            // as Fast DDS made it from the machine's addresses
   std::uint16_t process = 0;    // the low half of its process id, in its own namespace of ids
-  VehicleId vehicle = kNobody;  // whom a partition of its writers names
+  VehicleId vehicle = kNobody;  // named by a partition of its writers
   std::vector<std::string> partitions;     // of its writers; "" is the default one
   std::map<std::string, EarCount> topics;  // by name
-  std::vector<FoundEndpoint> endpoints;    // as discovery tells them
+  std::vector<FoundEndpoint> endpoints;    // as discovery announces them
 };
 
 class Ear {
  public:
-  // `hearer` is whose impairment is asked for, if one is. Throws LinkError, also where a topic is
-  // unknown.
+  // `hearer` is the vehicle whose impairment rules apply, if there are any. Throws LinkError, also
+  // where a topic is unknown.
   Ear(const LinkOptions& options, const std::vector<EarTopic>& topics, VehicleId hearer);
   ~Ear();
   Ear(const Ear&) = delete;
@@ -51,7 +52,7 @@ class Ear {
   // Of endpoints found about a second ago, those that match none of the readers here, though their
   // topic is the same, and why: a line each.
   std::vector<std::string> TakeUnfit(SteadyTime now);
-  // Everyone found so far, and all that came of them.
+  // All processes found so far, and what was received from them.
   std::vector<EarProcess> Listen();
 
  private:

@@ -1,4 +1,4 @@
-// The clock by which the links watch whoever they hear: this machine's steady one.
+// The clock by which the links watch the participants they receive: this machine's steady one.
 #pragma once
 
 #include <chrono>

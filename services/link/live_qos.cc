@@ -10,7 +10,7 @@ void Append(const std::string& profile, const std::vector<ResolvedValue>& values
   for (const ResolvedValue& value : values) live.push_back({profile, value.policy, value.number});
 }
 
-// Deadlines may change while an endpoint runs; its peers are told by discovery.
+// Deadlines may change while an endpoint runs; discovery announces the change to its peers.
 template <typename Entity, typename Qos>
 bool Set(Entity& entity, Qos qos, const Duration& deadline) {
   qos.deadline().period = deadline;

@@ -20,7 +20,7 @@ struct Observed {
   std::vector<Truth> truths;
   std::vector<WorldEvent> events;
   std::vector<VehicleStatus> statuses;
-  std::vector<ReceivedBeacon> beacons;  // the time of their arrival is not told
+  std::vector<ReceivedBeacon> beacons;  // without the time of their arrival
   std::vector<RosterEntry> roster;
   std::vector<SignalState> signals;
   std::optional<RunFigures> figures;

@@ -44,8 +44,8 @@ struct OperatorLink::Impl {
                         .field = field,
                         .why = why});
   }
-  // As with a status: who speaks for another vehicle than its partition's, or than it drives as, is
-  // not believed.
+  // As with a status: an answer in the name of another vehicle than its partition's, or than the
+  // participant drives as, is refused.
   bool MaySpeak(const AdminAnswer& answer, const rtps::GUID_t& writer) {
     const WriterEntry* const entry = names.Writers().Find(writer);
     return entry != nullptr && entry->vehicle == answer.vehicle &&

@@ -26,7 +26,7 @@ class OperatorLink {
 
   // The vehicles whose beacons are announced in the domain now, in order. Some may take no orders.
   std::vector<VehicleId> Announced();
-  // Begins to look for the vehicle; kNobody is the world. Once each. Throws LinkError.
+  // Starts to look for the vehicle; kNobody is the world. Once each. Throws LinkError.
   void Seek(VehicleId vehicle);
   // Whether it would get an order now. It was sought.
   bool Reaches(VehicleId vehicle) const;

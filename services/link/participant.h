@@ -99,7 +99,7 @@ class Participant {
   FilterFactory filters_;  // the library asks it until the participant is gone
   std::shared_ptr<Impairer> impairer_;
   std::unique_ptr<DiscoveryListener> naming_;  // of the impairer; before the participant it serves
-  DiscoveryListener* listener_ = nullptr;      // the one that the library tells
+  DiscoveryListener* listener_ = nullptr;      // the one that the library calls
   std::string topic_prefix_;
   std::string servers_;  // of a client, as they were named; else empty
   bool secured_ = false;

@@ -1,5 +1,5 @@
-// The QoS of every endpoint of the fleet as the library makes it of the loaded profiles, and as
-// code changes it afterwards; plain numbers, for whoever shows or compares them. Needs no network.
+// The QoS of every endpoint of the fleet as the library resolves it from the loaded profiles, and
+// as code changes it afterwards; plain numbers, to be printed or compared. Needs no network.
 #pragma once
 
 #include <string>

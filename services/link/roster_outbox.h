@@ -1,5 +1,5 @@
-// What the world said to each session, kept for whoever comes late; and taken back when the session
-// is over, so that a run in which thousands come and go does not tell each newcomer about all.
+// What the world said to each session, kept for latecomers; and disposed when the session is over,
+// so that a run in which thousands come and go does not send all of them to each newcomer.
 #pragma once
 
 #include <deque>
@@ -29,7 +29,7 @@ class RosterOutbox {
 
   Writer<wire::Roster> writer_;
   std::unordered_map<VehicleId, SessionId> accepted_;
-  std::deque<SessionId> refused_;  // still told, oldest first
+  std::deque<SessionId> refused_;  // still published, oldest first
 };
 
 }  // namespace giveway::link

@@ -231,7 +231,7 @@ void SessionFilter::Follow(const SessionId& session) {
   session_ = session;
 }
 
-// Entries of other sessions are no fault of anybody: they are not counted.
+// Entries of other sessions are no fault: they are not counted.
 const char* SessionFilter::WhyNot(const rtps::GUID_t&, const KeyReader& key, SteadyTime) {
   const auto session = key.Session();
   return !session || *session == session_ ? nullptr : "";

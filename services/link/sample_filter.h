@@ -140,7 +140,7 @@ class OwnerFilter final : public SampleFilter {
  public:
   explicit OwnerFilter(const char* sample) : SampleFilter(sample) {}
 
-  // From now on `participant` speaks for the vehicle; 0: nobody in particular.
+  // From now on `participant` speaks for the vehicle; 0: no participant in particular.
   void SetOwner(VehicleId vehicle, std::uint64_t participant);
   std::uint64_t OwnerOf(VehicleId vehicle);
 
@@ -151,9 +151,9 @@ class OwnerFilter final : public SampleFilter {
   KeysBySource unowned_{kMostIdsOfWriter};
 };
 
-// Who speaks for something: the first, until it has been silent. A packet may pretend that its
-// writer has asked the filter already; the library then does not ask it. So what is read from a
-// reader must be of one that Spoke.
+// The participant that speaks for something: the first, until it has been silent. A packet may
+// pretend that its writer has asked the filter already; the library then does not ask it. So what
+// is read from a reader must be of one that Spoke.
 struct Speaker {
   std::uint64_t participant = 0;
   std::uint64_t before = 0;  // whose place it took: what that one said may not have been read yet
@@ -162,8 +162,8 @@ struct Speaker {
   bool Spoke(std::uint64_t one) const { return one != 0 && (one == participant || one == before); }
 };
 
-// Of those who speak for a vehicle the first, until it has been silent for a second, or for a few
-// ticks where they are slow.
+// Of the participants that speak for a vehicle the first, until it has been silent for a second, or
+// for a few ticks where they are slow.
 class FirstComerFilter final : public SampleFilter {
  public:
   explicit FirstComerFilter(const char* sample) : SampleFilter(sample) {}
@@ -186,7 +186,7 @@ class FirstComerFilter final : public SampleFilter {
 };
 
 // Of participants that speak as the world the first, until it has left or is silent: for observers,
-// whom a world tells each tick where everybody is. For all readers of what a world says.
+// which receive every body's pose from a world each tick. For all readers of the world's topics.
 class FirstWorldFilter final : public SampleFilter {
  public:
   using IsThere = std::function<bool(std::uint64_t participant)>;

@@ -1,4 +1,4 @@
-// What a service's link has beside LinkOptions.
+// What a service's link needs in addition to LinkOptions.
 #pragma once
 
 #include <chrono>

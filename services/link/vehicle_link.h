@@ -39,7 +39,7 @@ class VehicleLink final : public AdminLink, public DriveLink {
 
   // Makes every other endpoint, named after `id`: readers for the sensors the profile is fitted
   // with, and for signals if there are any. Once. Throws LinkError. From now on the join request
-  // kept for later worlds asks for `id`, and Take tells what the world says about the session.
+  // kept for later worlds asks for `id`, and Take delivers the roster entries of the session.
   void Open(VehicleId id, const VehicleProfile& profile, bool signals);
   void Open(VehicleId id) { Open(id, VehicleProfile{}, false); }
 

@@ -64,7 +64,7 @@ struct WorldLink::Impl {
   }
   void Receive(const wire::MotorCommand& sample, const dds::SampleInfo& info);
   void ForgetDeparted();
-  // Whose commands count for the vehicle from now on.
+  // Sets the participant whose commands count for the vehicle from now on.
   void FollowOwner(VehicleId vehicle);
   template <typename Scan>
   void Send(const Scan& scan);
@@ -285,8 +285,8 @@ bool WorldLink::SetDeadline(const std::string& profile, std::int64_t deadline) {
 }
 
 void WorldLink::Flush(Nanoseconds timeout) {
-  // Where a reader has died without a word every one of them waits in vain, and all the while the
-  // others are heard: so the time is one for all.
+  // If a reader has died silently each of them waits until the timeout, in which the others are
+  // heard as well: so one timeout serves all.
   const auto until = std::chrono::steady_clock::now() + timeout;
   impl_->roster.WaitUntilHeard(until);
   impl_->event_writer.WaitUntilHeard(until);

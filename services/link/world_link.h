@@ -55,13 +55,13 @@ class WorldLink final : public AdminLink {
   // The vehicle left: ends its writers and takes its roster entry back. It may come again, and may
   // not be sent scans until then. Nothing if it is not open.
   void CloseVehicle(VehicleId vehicle);
-  // Nothing more is told of the vehicle, unless it comes again.
+  // Nothing more is published about the vehicle, unless it comes again.
   void ForgetVehicle(VehicleId vehicle);
   // True once each of the vehicle's writers has a reader and its command writer is matched.
   bool IsMatched(VehicleId vehicle) const;
 
-  // The newest request of each session, those that leave first: whoever comes may want their ids.
-  // Of a session only the participant that has it is heard, see session_owners.h.
+  // The newest request of each session, those that leave first: newcomers may want their ids. Of a
+  // session only requests of the participant that owns it count, see session_owners.h.
   std::vector<JoinRequest> TakeJoins();
   // Everything that came since the last call, each vehicle's in order of arrival; the span holds
   // until the next call. For a vehicle that was accepted only its owner commands.

@@ -1,7 +1,7 @@
 // Our values to wire types and back, field by field. Text longer than its bound is cut. FromWire is
 // false if the sample has an enumerator this build does not know, more elements than its bound, or
 // NaN or infinity where the IDL says "finite". Nothing else is judged: NaN goes through as NaN.
-// Of a sample refused, the fields that could not be told keep their value.
+// Of a refused sample, fields that could not be converted keep their value.
 #pragma once
 
 #include "services/link/fastdds/fastdds_version.h"

@@ -1,5 +1,5 @@
 // Orders and their answers. The live values travel as text: there are some two hundred of them,
-// their names change with the profiles, and nobody reads them twenty times a second.
+// their names change with the profiles, and the topic is not on a hot path.
 #include <charconv>
 
 #include "services/link/convert/convert.h"

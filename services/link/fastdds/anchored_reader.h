@@ -1,7 +1,7 @@
 // Drains a reader of many instances so that departed ones can be removed when it is safe. Two
 // faults of Fast DDS, in 2.9.1 and 3.1.2, make that necessary where a reader has a deadline:
-// - It goes on watching the deadline of an instance that is gone, for ever. It removes an instance
-//   only in a take that finds it not alive, and one that was drained before it died is never found.
+// - It keeps watching the deadline of a departed instance for ever. It removes an instance only in
+//   a take that finds it not alive, and one that was drained before it died is never found.
 // - If it removes the very instance its timer is set for, it stops watching every deadline of the
 //   reader ("Could not set next deadline in the history").
 // So what is read stays in the reader until there is more of it: each instance keeps a sample from
@@ -40,7 +40,7 @@ class AnchoredReader {
   dds::DataReader& Entity() const { return reader_; }
 
  private:
-  // A history of one sample has no room for another beside the anchor.
+  // A history of one sample cannot hold another next to the anchor.
   static constexpr std::int32_t kLeastDepth = 2;
 
   Loan<Wire> OfInstance(const dds::InstanceHandle_t& instance, dds::SampleStateMask state,

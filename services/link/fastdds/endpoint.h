@@ -28,7 +28,7 @@ class Writer {
 
   // False if the library refused the sample. It takes a pointer to non-const and never writes.
   bool Write(const Wire& sample) { return Ok(writer_->write(const_cast<Wire*>(&sample))); }
-  // Takes back what was written of the sample's instance: readers that come later are not told.
+  // Removes what was written of the sample's instance: readers that join later do not receive it.
   bool Retire(const Wire& sample) {
     return Ok(writer_->unregister_instance(const_cast<Wire*>(&sample), dds::HANDLE_NIL));
   }

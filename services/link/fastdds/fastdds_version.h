@@ -257,8 +257,8 @@ inline FoundEndpoint Described(const dds::DataReader& reader) {
                       qos.durability(), qos.deadline(), qos.liveliness());
 }
 
-// Tells of every writer in the domain that this participant discovers, its own included, and
-// whether it has found any other participant yet.
+// Reports every writer in the domain that this participant discovers, its own included, and whether
+// it has discovered any other participant yet.
 class DiscoveryListener : public dds::DomainParticipantListener {
  public:
   enum class Change : std::uint8_t { kFound, kGone };
@@ -345,16 +345,16 @@ class ForwardingTransport : public transport::ChainingTransport {
   }
 };
 
-// A sample of this many bytes, encapsulation header included, is one of a writer of before: the
-// type has members at its end that it had not then. 0: it has none.
+// A sample of this many bytes, encapsulation header included, is one of an older writer: the
+// type has gained members at its end since. 0: it has not.
 template <typename Generated>
 inline constexpr std::uint32_t kBytesBefore = 0;
 template <>
 inline constexpr std::uint32_t kBytesBefore<wire::StatusPubSubType> = 888;
 
-// A generated type that is always deserialized. Left to itself the library lends its network buffer
-// for types without strings: unchecked in length and byte order, and misaligned for doubles. The
-// generated code lets most exceptions of spoilt bytes through; here they are no sample.
+// A generated type that is always deserialized. By default the library loans its network buffer for
+// types without strings: unchecked in length and byte order, and misaligned for doubles. The
+// generated code lets most exceptions of corrupted bytes through; here they are no sample.
 template <typename Generated>
 class CheckedType final : public Generated {
  public:

@@ -1,10 +1,10 @@
 // The profile set's UDP transport with the packet filter between it and the library: a Fast DDS
 // chaining transport that drops what no sound sender sends, and sockets that hear the groups they
-// joined on the interfaces they joined them on, and no others. In the name of a participant that
-// died it says farewell: lease_watch.h.
+// joined on the interfaces they joined them on, and no others. In the name of a dead participant it
+// sends a farewell: lease_watch.h.
 //
-// Shared memory, where a profile names it, is not filtered: who can write into it runs on this
-// machine as this user.
+// Shared memory, where a profile names it, is not filtered: only processes of this user on this
+// machine can write into it.
 #pragma once
 
 #include <cstdint>

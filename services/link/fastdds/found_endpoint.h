@@ -1,5 +1,5 @@
 // What discovery says of a writer or reader, of any vendor, and whether two of them match. Knows
-// no DDS: what the library tells is copied here (fastdds_version.h).
+// no DDS: the discovery data is copied here (fastdds_version.h).
 #pragma once
 
 #include <array>

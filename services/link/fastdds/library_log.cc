@@ -47,7 +47,7 @@ LibraryLog& TheLog() {
   return log;
 }
 
-// The line with what is known of it beside; empty if it has been passed on a moment ago.
+// The line with what is known about it appended; empty if the same was passed on a moment ago.
 std::string ToPass(LibraryLog& log, const std::string& text, steady_clock::time_point now) {
   auto passed = std::ranges::find(log.passed, text, &Passed::text);
   if (passed != log.passed.end() && now - passed->at < kRepeatAfter) {

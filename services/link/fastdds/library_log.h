@@ -21,8 +21,8 @@ void SetLibraryLog(std::function<void(const std::string& line)> take);
 // sent on already.
 std::string LibraryComplaints();
 
-// How often the library said that it stops watching the deadlines of a reader. Who listens to a
-// vehicle's beacons goes on by its own clock.
+// How often the library said that it stops watching the deadlines of a reader. A reader of beacons
+// continues by this vehicle's own clock.
 std::uint32_t DeadlineWatchesLost();
 
 }  // namespace giveway::link

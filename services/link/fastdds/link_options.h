@@ -20,7 +20,7 @@ struct LinkOptions {
   std::uint32_t fleet_size = 2;         // sets history depths and announcement periods
   bool partition_free = false;          // vehicle: a second beacon, for readers without a partition
   Impairment impairment = {};           // of what this process hears; its seed is set
-  // Instead of the profile set's way of discovery; none: as the set says.
+  // Overrides the profile set's discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers = {};
   bool hears_all_bodies = false;  // observers: truth of the whole fleet
 };

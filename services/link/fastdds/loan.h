@@ -1,4 +1,4 @@
-// A batch of samples lent by a reader, given back when it goes out of scope.
+// A batch of samples on loan from a reader, returned when it goes out of scope.
 #pragma once
 
 #include "services/link/fastdds/fastdds_version.h"

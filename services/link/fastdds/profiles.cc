@@ -14,7 +14,7 @@ namespace {
 std::mutex loading;
 std::string loaded;  // the name of the set; guarded by `loading`
 
-// QoS has two ways in, the file and our flags. These would be a third, silently.
+// QoS has two sources, the file and our flags. These would silently be a third.
 void ShutOtherWaysIn() {
   for (const char* name : {"FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE",
                            "ROS_DISCOVERY_SERVER", "FASTDDS_ENVIRONMENT_FILE",

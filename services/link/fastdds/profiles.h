@@ -8,9 +8,9 @@
 
 namespace giveway::link {
 
-// Loads a complete profile set. Called before the library is touched in any other way, because its
-// first use reads environment variables and a file in the current folder. A process has one set:
-// one of the same name is taken for it, and nothing is done. Throws LinkError.
+// Loads a complete profile set. Called before any other use of the library, because its first use
+// reads environment variables and a file in the current folder. A process has one set: one of the
+// same name is taken for it, and nothing is done. Throws LinkError.
 void LoadProfiles(const QosProfiles& profiles);
 
 // The error for a profile the loaded set lacks.

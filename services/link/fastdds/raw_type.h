@@ -1,4 +1,4 @@
-// A type whose samples are the bytes that came, not decoded: for who keeps them as they are. Of two
+// A type whose samples are the bytes that came, not decoded: for recording them unchanged. For two
 // releases of Fast DDS, as fastdds_version.h.
 #pragma once
 

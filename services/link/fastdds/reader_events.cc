@@ -72,7 +72,7 @@ void ReaderEvents::on_requested_deadline_missed(dds::DataReader* reader,
 
 void ReaderEvents::on_liveliness_changed(dds::DataReader*,
                                          const dds::LivelinessChangedStatus& status) {
-  // A writer that leaves lowers a count; that is told by kUnmatched.
+  // A writer that leaves lowers a count; kUnmatched reports that.
   const bool lost = status.not_alive_count_change > 0;
   if (!lost && status.alive_count_change <= 0) return;
   const std::scoped_lock lock(mutex_);

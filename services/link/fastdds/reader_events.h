@@ -1,7 +1,7 @@
 // The listener of a reader with many writers. Its callbacks run on the library's threads, some with
-// the reader's lock held, so they only copy the status and whom it is about into a bounded queue,
-// and remove departed instances while the library waits. Polling the statuses instead would lose
-// who it was when several vehicles change at once.
+// the reader's lock held, so they only copy the status and its handle into a bounded queue, and
+// remove departed instances while the library waits. Polling the statuses instead would lose which
+// vehicle it was when several change at once.
 #pragma once
 
 #include <array>
@@ -24,9 +24,9 @@ struct ReaderEvent {
     kNotAlive,
     kMatched,
     kUnmatched,
-    // handle: the writer that this thread of the library discovered last. The library says that one
-    // does not fit and not which; it looks at one the moment after it told of its discovery, on the
-    // same thread, except where a reader is made or changed: then it is any other.
+    // handle: the writer that this thread of the library discovered last. The library says that a
+    // writer does not fit and not which; it checks one right after reporting its discovery, on the
+    // same thread, except when a reader is created or changed: then it is any other.
     kIncompatibleQos,
   };
   Kind kind = Kind::kMatched;
@@ -62,7 +62,7 @@ class ReaderEvents final : public dds::DataReaderListener {
   static dds::StatusMask Mask();
 
   // Holds until the next call. The library repeats the miss of an instance every period for as long
-  // as it has it: between two calls it is told once.
+  // as it has it: between two calls it is reported once.
   ReaderNews Take();
   // Events that found the queue full, so far.
   std::uint32_t Dropped() const;

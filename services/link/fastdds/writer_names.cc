@@ -8,7 +8,7 @@ namespace {
 
 // Writers that left stay known, because their last samples and the event that they left are drained
 // after the news of it: for two updates, however many leave at once, and the last few until others
-// follow, so that one that is found again goes on counting where it was. Some 110 bytes each.
+// follow, so that one that is found again continues its count. Some 110 bytes each.
 constexpr std::uint64_t kGoneUpdates = 2;
 constexpr std::size_t kGoneKept = 256;
 

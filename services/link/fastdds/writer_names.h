@@ -30,7 +30,7 @@ rtps::GUID_t GuidOf(const dds::InstanceHandle_t& handle);
 
 // What the link knows of one writer.
 struct WriterEntry {
-  VehicleId vehicle = kNobody;  // whom its partition names
+  VehicleId vehicle = kNobody;  // named by its partition
   std::string area;             // of a writer of beacons, else empty
   std::uint64_t identity = 0;
   std::uint64_t last_sequence = 0;  // of the last sample taken from it; 0 before the first
@@ -46,7 +46,7 @@ class WriterNames final : public DiscoveryListener {
   void OnWriter(Change change, const rtps::GUID_t& writer,
                 const std::vector<std::string>& partitions) override;
 
-  // The writer that the calling thread told any WriterNames of last; unknown if it never did.
+  // The writer last reported to any WriterNames on the calling thread; unknown if there was none.
   static const rtps::GUID_t& FoundByThisThread();
 
   // The loop's side: applies what was queued. Discovery of a writer is queued before any sample or

@@ -28,15 +28,15 @@ class DelayLine {
   using Time = std::chrono::steady_clock::time_point;
 
   DelayLine();
-  ~DelayLine();  // what is still under way is lost
+  ~DelayLine();  // packets in flight are lost
   DelayLine(const DelayLine&) = delete;
   DelayLine& operator=(const DelayLine&) = delete;
 
-  // False if too many are under way; then the packet is lost. Of packets that are due at once the
-  // first pushed comes first.
+  // False if too many are in flight; then the packet is lost. Of packets due at once the first
+  // pushed is delivered first.
   bool Push(Time due, LatePacket packet);
-  // Loses what is under way to a local port; none is handed on there once this returns. Gives how
-  // many were lost.
+  // Loses the packets in flight to a local port; none is handed on there once this returns. Gives
+  // how many were lost.
   std::size_t Forget(std::uint32_t local_port);
 
  private:

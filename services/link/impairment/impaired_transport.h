@@ -1,9 +1,10 @@
 // The profile set's UDP transport with an impaired channel behind it: a Fast DDS chaining transport
-// that loses, delays, doubles and spoils what arrives. Made only where an impairment is asked for.
+// that loses, delays, doubles and corrupts what arrives. Made only where an impairment is asked
+// for.
 //
-// It acts on the receiving side. There each way from one process to another is impaired exactly
-// once; a packet sent once to many may be heard by some and not by others, as over radio; and the
-// packet names its sender, which a multicast's destination does not name.
+// It acts on the receiving side. There each direction between two processes is impaired exactly
+// once; a multicast packet may be received by some and not by others, as over radio; and the packet
+// names its sender, which a multicast's destination does not name.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ std::shared_ptr<transport::TransportDescriptorInterface> MakeImpairedTransport(
 
 PrefixBytes BytesOf(const rtps::GuidPrefix_t& prefix);
 
-// Tells the impairer of discovered writers, and everything to the listener behind it.
+// Reports discovered writers to the impairer, and everything to the listener behind it.
 class NamingListener final : public DiscoveryListener {
  public:
   NamingListener(std::shared_ptr<Impairer> impairer, DiscoveryListener& next)

@@ -10,10 +10,10 @@ namespace {
 // RTPS header: "RTPS", version (2), vendor (2), GUID prefix (12).
 constexpr std::size_t kPrefixAt = 8;
 constexpr std::array<std::uint8_t, 4> kMagic = {'R', 'T', 'P', 'S'};
-// Whoever comes later shares one channel: the numbers of a forged header must not fill the memory.
+// Later senders share one channel: the prefixes of forged headers must not fill the memory.
 constexpr std::size_t kMaxSenders = 4096;
 
-// All zero, which is nobody's, for what is no RTPS packet.
+// All zero, which no participant has, for what is no RTPS packet.
 PrefixBytes PrefixOf(std::span<const std::uint8_t> packet) {
   PrefixBytes prefix{};
   if (packet.size() < kPrefixAt + prefix.size()) return prefix;

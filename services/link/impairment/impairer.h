@@ -17,8 +17,8 @@
 
 namespace giveway::link {
 
-// The twelve bytes that begin the GUID of all that one participant owns, and stand in the header of
-// each packet it sends. Ports and addresses do not tell participants of one host apart.
+// The first twelve bytes of the GUID of every entity of a participant, which are in the header of
+// each packet it sends. Ports and addresses do not distinguish participants of one host.
 using PrefixBytes = std::array<std::uint8_t, 12>;
 
 class Impairer {
@@ -31,8 +31,8 @@ class Impairer {
   void NameHearer(VehicleId hearer);
   void Start(SteadyTime now);
   std::optional<SteadyTime> Started() const;
-  // Discovery of a writer tells whose process it is: a vehicle by its beacon writer in
-  // `<area>/v<id>`, the world by any in `world`. What is known once is known for good.
+  // A discovered writer identifies its process: a vehicle by its beacon writer in `<area>/v<id>`,
+  // the world by any in `world`. Once identified, it stays so permanently.
   void OnWriter(const PrefixBytes& process, const std::vector<std::string>& partitions);
 
   PacketFate Decide(std::span<const std::uint8_t> packet, SteadyTime now);
@@ -40,7 +40,7 @@ class Impairer {
 
   ImpairmentCounters Counters() const;
   ImpairmentCounters CountersOf(VehicleId sender) const;
-  std::size_t Senders() const;  // told apart so far
+  std::size_t Senders() const;  // distinguished so far
 
  private:
   const Sender& SenderOf(const PrefixBytes& process);

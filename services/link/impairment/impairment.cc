@@ -95,7 +95,7 @@ const ImpairmentRule* ChannelModel::RuleFor(const Sender& sender, SteadyTime now
   return last == rules.rend() ? nullptr : &*last;
 }
 
-// The first moment after `now` at which a rule begins or ends, as far as is known now.
+// The first moment after `now` at which a rule starts or ends, as far as is known now.
 SteadyTime ChannelModel::NextChange(SteadyTime now) const {
   SteadyTime next = SteadyTime::max();
   if (!started_) return next;
@@ -109,7 +109,8 @@ SteadyTime ChannelModel::NextChange(SteadyTime now) const {
   return next;
 }
 
-// Another rule has its turn: in a good time, and its bucket full. The dice go on.
+// Switches to another rule: its burst state starts good, its bucket full. The random stream
+// continues.
 void ChannelModel::Renew(const Sender& sender, SteadyTime now, Channel* channel) const {
   channel->rule_until = NextChange(now);
   const ImpairmentRule* rule = RuleFor(sender, now);
@@ -174,7 +175,8 @@ PacketFate ChannelModel::Decide(const Sender& sender, std::uint32_t bytes, Stead
   ++counters.packets;
   counters.bytes += bytes;
   PacketFate fate;
-  // Taken where no rule holds, too: when one begins must not move what befalls later packets.
+  // Drawn where no rule holds, too: the start of a rule must not change what happens to later
+  // packets.
   const Draws draws(channel.dice);
   if (channel.rule != nullptr) {
     const ImpairmentRule& rule = *channel.rule;

@@ -2,8 +2,8 @@
 // no Fast DDS; the transport asks it and obeys.
 //
 // Every sender has a stream of its own, made from the seed, the sender and the hearer, and every
-// packet takes the same numbers from it whatever is asked for. So the n-th packet from a vehicle
-// meets the same fate in every run, and asking for delay does not change who gets lost.
+// packet draws the same numbers from it whatever is asked for. So the n-th packet from a vehicle
+// meets the same fate in every run, and asking for delay does not change which packets are lost.
 #pragma once
 
 #include <compare>
@@ -17,7 +17,7 @@
 
 namespace giveway::link {
 
-// Who sent a packet, as far as discovery has told.
+// The sender of a packet, as far as discovery has identified it.
 struct Sender {
   enum class Kind : std::uint8_t { kUnknown, kVehicle, kWorld };
   Kind kind = Kind::kUnknown;
@@ -38,7 +38,7 @@ class ChannelModel {
   // The seed of `impairment` is set.
   explicit ChannelModel(Impairment impairment);
 
-  // Whose ears these are, once it is known: rules for one hearer apply from now on.
+  // The receiving vehicle, once it is known: rules for one receiver apply from now on.
   void NameHearer(VehicleId hearer);
   // The start signal was heard: blackouts and the times of rules are counted from `now`. Only the
   // first call counts.

@@ -1,6 +1,6 @@
-// Counts the samples of each writer as they arrive, before a history keeps or overwrites them: what
-// never arrived can then be told from what arrived and was overwritten. Written on the library's
-// threads, read by the loop. For best-effort readers, to whom what arrives late does not count.
+// Counts the samples of each writer as they arrive, before a history keeps or overwrites them: this
+// distinguishes what never arrived from what arrived and was overwritten. Written on the library's
+// threads, read by the loop. For best-effort readers, which ignore late samples.
 #pragma once
 
 #include <array>

@@ -52,8 +52,8 @@ void BeaconInbox::Receive(const wire::Beacon& sample, const dds::SampleInfo& inf
   received.arrival = ArrivalOf(*entry, sequence);
   const bool sound = arrival.crc_valid && arrival.readable && received.name_valid;
   if (!sound) NoteRefusal(sample, *entry, received, arrival);
-  // A broken beacon is told as broken whatever it says; a sound one that says what this build does
-  // not know cannot be told at all.
+  // A corrupted beacon counts as corrupted whatever it says; a sound one with values that this
+  // build does not know cannot be converted at all.
   if (arrival.crc_valid && !arrival.readable) {
     ++unreadable_;
     ++entry->unreadable;

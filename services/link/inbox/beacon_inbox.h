@@ -23,15 +23,15 @@ class BeaconInbox {
   BeaconInbox(Reader<wire::Beacon> reader, WriterNames& names, const rtps::GuidPrefix_t& own,
               ArrivalLog* arrivals = nullptr);
 
-  // Appends what came, `now` stamped on it, and to `lost`, if given, whose samples are missing:
-  // once for each gap. `names` must be updated first.
+  // Appends the new beacons, stamped with `now`, and to `lost`, if given, the vehicles whose
+  // samples are missing: once for each gap. `names` must be updated first.
   void Drain(SteadyTime now, std::vector<ReceivedBeacon>& beacons,
              std::vector<QosEvent>* lost = nullptr);
 
   // The longest latency of those that the last Drain took.
   std::optional<Nanoseconds> LongestLatency() const { return longest_latency_; }
   // Samples overwritten in the reader before they were drained: gaps in the writers' sequence
-  // numbers less those the library reports as lost on the way.
+  // numbers less those the library reports as lost in transit.
   std::uint32_t Superseded();
   std::uint32_t Unbound() const { return unbound_; }  // writer not known: dropped
   // The first few that the last Drain refused, or found broken or misnamed.

@@ -44,7 +44,7 @@ std::vector<JoinRequest> JoinInbox::Take(const WriterNames& names, SteadyTime no
       refusals.push_back(RefusalOf(request, Identity(writer), why));
     }
   });
-  // After the last words of those who have left were read.
+  // After the last requests of departed participants were read.
   if (++turns_ % kForgetEvery == 0) ForgetDeparted(names);
   std::stable_partition(joins.begin(), joins.end(),
                         [](const JoinRequest& request) { return request.leaving; });

@@ -89,7 +89,7 @@ void PeerEvents::NoteMatch(const ReaderEvent& event) {
 void PeerEvents::Translate(const ReaderNews& news, SteadyTime now, std::vector<QosEvent>& told) {
   now_ = now;
   told_ = &told;
-  // All matches first: who is matched a moment later is not the one that does not fit.
+  // All matches first: a writer that is matched a moment later is not the one that does not fit.
   for (const ReaderEvent& event : news.events) NoteMatch(event);
   for (const ReaderEvent& event : news.events) Follow(event);
   if (news.incomplete) Reconcile(news.matched);
@@ -121,7 +121,7 @@ void PeerEvents::Follow(const ReaderEvent& event) {
   }
 }
 
-// After events were dropped: what is matched now counts, and each difference is told.
+// After events were dropped: what is matched now counts, and each difference is reported.
 void PeerEvents::Reconcile(std::span<const MatchedWriter> matched) {
   matched_.clear();
   for (const MatchedWriter& writer : matched) matched_.insert(Identity(GuidOf(writer.handle)));

@@ -1,7 +1,8 @@
-// Turns what a reader's listener queued into QoS events that name a vehicle, and keeps who is
-// matched. A deadline miss becomes an edge: once a vehicle until it is heard again, and never for a
-// vehicle that has left, because the library repeats misses of departed instances for ever. This
-// side's own clock watches each peer's deadline beside the library, which may stop watching.
+// Turns what a reader's listener queued into QoS events that name a vehicle, and keeps which
+// vehicles are matched. A deadline miss becomes an edge: once a vehicle until its next sample, and
+// never for a vehicle that has left, because the library repeats misses of departed instances for
+// ever. This side's own clock watches each peer's deadline in addition to the library, which may
+// stop watching.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +22,16 @@ namespace giveway::link {
 
 class PeerEvents {
  public:
-  // Of a reader of the beacons of `area`, or of another topic where it is empty. Nothing is told of
-  // writers with the prefix `own`: a reader matches its own participant's.
+  // Of a reader of the beacons of `area`, or of another topic where it is empty. Writers with the
+  // prefix `own` are not reported: a reader matches its own participant's.
   PeerEvents(const WriterNames& names, const rtps::GuidPrefix_t& own, std::string area);
 
   // Appends to `told`. `names` must be updated after `news` was taken.
   void Translate(const ReaderNews& news, SteadyTime now, std::vector<QosEvent>& told);
   // A sample of the vehicle was accepted: its next deadline miss is news again.
   void Heard(VehicleId vehicle, SteadyTime now);
-  // Tells of the peers of whom no sample was accepted for longer than `deadline`, unless the
-  // library did. Like the library's, the watch begins with the first sample. After a drain.
+  // Reports peers without an accepted sample for longer than `deadline`, unless the library did.
+  // Like the library's, the watch starts with the first sample. After a drain.
   void Watch(SteadyTime now, Nanoseconds deadline, std::vector<QosEvent>& told);
 
   // Writers matched now, own excluded.
@@ -51,14 +52,14 @@ class PeerEvents {
   void NoteMatch(const ReaderEvent& event);
   void Follow(const ReaderEvent& event);
   void Reconcile(std::span<const MatchedWriter> matched);
-  // Each does and tells nothing where it is known already.
+  // Each has no effect where it is known already.
   void Match(const rtps::GUID_t& writer);
   void Unmatch(std::uint64_t writer);
   void SetSilent(std::uint64_t writer, bool silent);
   void Miss(VehicleId vehicle, Peer* peer);
   void Tell(QosEventKind kind, VehicleId vehicle) { told_->push_back({kind, vehicle, now_}); }
-  // Whom the writer that an event of incompatible QoS is about belongs to: the one it names. If
-  // that one cannot be meant, the newest that can and was not told of before; else kNobody.
+  // The vehicle that an event of incompatible QoS is about: that of the writer it names. If that
+  // one is not possible, the newest that is and was not reported before; else kNobody.
   VehicleId Unfit(const ReaderEvent& event);
   // Whether it speaks in the area and is not matched.
   bool MayBeUnfit(const WriterEntry& writer) const;
@@ -70,8 +71,8 @@ class PeerEvents {
   std::unordered_map<std::uint64_t, Writer> writers_;  // matched, own excluded, by identity
   std::unordered_map<VehicleId, Peer> peers_;          // with at least one matched writer
   std::unordered_set<std::uint64_t> matched_;          // own included
-  std::unordered_set<std::uint64_t> unfit_;            // told to be incompatible
-  SteadyTime now_{0};                                  // of the call under way, as the next
+  std::unordered_set<std::uint64_t> unfit_;            // reported as incompatible
+  SteadyTime now_{0};                                  // of the current call, as the next
   std::vector<QosEvent>* told_ = nullptr;
 };
 

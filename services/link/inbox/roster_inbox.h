@@ -18,7 +18,7 @@ namespace giveway::link {
 
 class RosterInbox {
  public:
-  // Counts the entries of the session; a place to go on from.
+  // Counts the entries of the session; a position to continue from.
   using Mark = std::uint64_t;
 
   // `world` outlives this.

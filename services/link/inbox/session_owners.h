@@ -1,8 +1,8 @@
 // Which participant each session is of, and each vehicle's id with it: the one that asked first.
-// The session goes to another only when its own has left or has been silent: it was restarted. Who
-// knows the secret that a session is made of may end it from anywhere. Bounded: the oldest sessions
-// that have no place go first. Each call takes logarithmic time but Forget, which looks at every
-// session without a place. Knows no DDS, has no clock.
+// The session goes to another only when its own has left or has been silent: it was restarted. A
+// participant that knows the secret a session is made of may end it from anywhere. Bounded: the
+// oldest sessions that have no place go first. Each call takes logarithmic time but Forget, which
+// looks at every session without a place. Knows no DDS, has no clock.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ class SessionOwners {
  public:
   static constexpr std::size_t kMostSessions = 4096;
   static constexpr std::size_t kMostOfOne = 8;  // a process has one, or a test a few
-  // A vehicle in the world sends a command a tick, once it has begun; one that waits for a place,
+  // A vehicle in the world sends a command a tick, once it has started; one that waits for a place,
   // or has just got one, asks again every second. The first is never less than a few ticks.
   static constexpr Nanoseconds kSilence = std::chrono::milliseconds(750);
   static constexpr Nanoseconds kSilenceBeforeCommands = std::chrono::seconds(3);

@@ -13,7 +13,7 @@ SignalInbox::SignalInbox(Reader<wire::SignalState> reader, ReaderEvents& events,
     : reader_(reader), events_(events), world_(world), gate_(least_period) {}
 
 std::span<const SignalState> SignalInbox::Take(SteadyTime now) {
-  CountMisses();  // before the samples: a miss is told before the sample that ends it
+  CountMisses();  // before the samples: a miss is reported before the sample that ends it
   taken_.clear();
   reader_.TakeEach([&](const wire::SignalState& sample, const dds::SampleInfo& info) {
     Receive(sample, info.sample_identity.writer_guid(), now);

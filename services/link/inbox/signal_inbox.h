@@ -17,10 +17,10 @@ namespace giveway::link {
 
 class SignalInbox {
  public:
-  static constexpr std::size_t kMaxHeads = 1024;  // of a scenario; more are nobody's
+  static constexpr std::size_t kMaxHeads = 1024;  // of a scenario; further ones are ignored
 
-  // The deadline misses of `reader` are told to `events`; `world` outlives this. `least_period`:
-  // from one tick of a world to the next.
+  // The deadline misses of `reader` go to `events`; `world` outlives this. `least_period`: from one
+  // tick of a world to the next.
   SignalInbox(Reader<wire::SignalState> reader, ReaderEvents& events, const WorldBinding& world,
               Nanoseconds least_period);
 

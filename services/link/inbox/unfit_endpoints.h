@@ -1,5 +1,5 @@
 // Endpoints of others that are on a topic of ours and will never match: their QoS does not fit, or
-// they have no partition, of which DDS tells nothing. Judged a second after they were found, when
+// they have no partition, which DDS reports nowhere. Checked a second after they were found, when
 // all of their participant's are known. Knows no DDS, has no clock.
 #pragma once
 
@@ -13,8 +13,8 @@
 namespace giveway::link {
 
 // Why `other` matches none of `own`; empty if it matches one, or if it is not meant to: a reader of
-// another vehicle's ranges, a fleet in another area. `known` are endpoints of others: who speaks
-// without a partition beside what it says in one is heard by us in that one.
+// another vehicle's ranges, a fleet in another area. `known` are endpoints of others: a participant
+// with writers both without a partition and in one is received in that one.
 std::string WhyUnfit(const FoundEndpoint& other, const std::vector<FoundEndpoint>& own,
                      const std::deque<FoundEndpoint>& known);
 

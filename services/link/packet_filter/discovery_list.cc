@@ -108,7 +108,7 @@ PacketDrop CheckParameter(std::uint16_t id, const Submessage& value, bool secure
   return fits ? PacketDrop::kNone : PacketDrop::kListTooLong;
 }
 
-// In the byte order of `list`, which begins with the first parameter.
+// In the byte order of `list`, which starts with the first parameter.
 PacketDrop CheckList(const Submessage& list, bool secured) {
   Submessage value;
   value.flags = list.flags;

@@ -1,11 +1,11 @@
 // Which participants have been silent for nearly the lease that they announced, and the farewell
-// that such a one did not send. The library keeps a record of every writer whose participant it
-// drops for its lease, some 370 bytes a process that was killed, and never lets go of it; of a
-// participant that says farewell it keeps nothing. So the dead are taken leave of, in their name,
-// just before their lease ends. Pure: no sockets, no clock, no lock.
+// that they did not send. The library keeps a record of every writer whose participant it drops for
+// its lease, some 370 bytes a killed process, and never frees it; of a participant that sends a
+// farewell it keeps nothing. So a farewell is sent in the name of a dead participant, just before
+// its lease ends. Pure: no sockets, no clock, no lock.
 //
-// For participants found by their own announcements. A discovery server ends the leases of those
-// it speaks for itself, and tells its clients.
+// For participants found by their own announcements. A discovery server ends the leases of its own
+// clients, and reports that to the others.
 #pragma once
 
 #include <cstdint>

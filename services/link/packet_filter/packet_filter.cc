@@ -21,8 +21,8 @@ constexpr std::array<std::uint8_t, 2> kEProsima = {0x01, 0x0f};
 constexpr std::uint8_t kStatisticsKind = 0x80;
 constexpr std::uint16_t kStatisticsBytes = 56;
 
-// Of whole fleets that start, and of each vehicle some twenty writers beside its announcements, and
-// as many readers and writers that count what they send.
+// For whole fleets that start, with some twenty writers of each vehicle besides its announcements,
+// and as many readers and writers that count what they send.
 constexpr std::size_t kWritersAVehicle = 48;
 constexpr std::size_t kWritersAtLeast = 4096;
 constexpr std::size_t kWritersAtMost = 131072;
@@ -71,7 +71,8 @@ std::size_t CountAt(const Submessage& submessage) {
   }
 }
 
-// Who counts: a writer, or a reader towards one writer. By kind, since each has a count of its own.
+// The counting endpoint: a writer, or a reader towards one writer. By kind, since each has a count
+// of its own.
 WriterGuid CounterGuid(const Submessage& submessage, const std::uint8_t* prefix) {
   WriterGuid guid = GuidOf(prefix, submessage.body.data() + kWriterAt);
   guid[0] ^= static_cast<std::uint8_t>(submessage.kind);
@@ -172,7 +173,7 @@ bool PacketFilter::IsNextCount(const Submessage& submessage, const std::uint8_t*
   return writers_.IsPlausible(CounterGuid(submessage, prefix), count, Statement::kCount, now);
 }
 
-// An announcement of a participant that is known, or of a new one while there is room. A discovery
+// An announcement of a participant that is known, or of a new one while there is space. A discovery
 // server sends those of others: it is the payload that names the participant.
 bool PacketFilter::IsWelcome(const Submessage& announcement, SteadyTime now) {
   const std::optional<PrefixBytes> prefix = AnnouncedParticipant(announcement);

@@ -3,8 +3,8 @@
 // never sends is dropped here, counted by reason, before the library reads it. Pure: no sockets, no
 // clock, no lock.
 //
-// It takes no part in trust: who may speak, and what a sample says, is judged where samples are
-// taken. A packet that is sound, of a plausible sequence number and a forged GUID passes.
+// It takes no part in trust: identity and contents of a sample are judged where samples are taken.
+// A packet that is sound, of a plausible sequence number and a forged GUID passes.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,8 @@ struct PacketVerdict {
 
 class PacketFilter {
  public:
-  // New participants: so many at once, beside two a vehicle, and so many a second from then on.
+  // New participants: so many at once, in addition to two a vehicle, and so many a second after
+  // that.
   static constexpr std::uint32_t kStrangersAtOnce = 256;
   static constexpr std::int64_t kStrangersPerSecond = 16;
 

@@ -24,7 +24,7 @@ inline constexpr std::uint8_t kInlineQos = 0x02;
 inline constexpr std::uint8_t kWithData = 0x04;  // of DATA alone
 inline constexpr std::uint8_t kWithKey = 0x08;   // of DATA alone
 
-// A list of parameters: each has a header of id and length, and begins at a multiple of 4.
+// A list of parameters: each has a header of id and length, and starts at a multiple of 4.
 inline constexpr std::size_t kParameterHeader = 4;  // bytes
 inline constexpr std::uint16_t kSentinel = 0x0001;  // the id that ends it
 inline std::size_t Padded(std::size_t bytes) { return (bytes + 3) & ~std::size_t{3}; }
@@ -99,7 +99,7 @@ class SubmessageWalk {
     return true;
   }
   bool IsBroken() const { return broken_; }
-  // Where the submessage begins that Next took last.
+  // Where the submessage starts that Next took last.
   std::size_t Start() const { return start_; }
   // Whether it is the last one.
   bool IsAtEnd() const { return next_ >= packet_.size(); }

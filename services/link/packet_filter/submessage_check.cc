@@ -21,7 +21,7 @@ constexpr std::int64_t kHighestNumber = std::int64_t{1} << 62U;
 
 bool IsNumber(std::int64_t number) { return number > 0 && number <= kHighestNumber; }
 
-// Where the list ends that begins at `at`: behind its sentinel. Nothing if it does not end here.
+// Where the list ends that starts at `at`: behind its sentinel. Nothing if it does not end here.
 std::optional<std::size_t> EndOfParameters(const Submessage& of, std::size_t at) {
   while (at + kParameterHeader <= of.body.size()) {
     const std::uint16_t id = of.U16(at);
@@ -34,7 +34,7 @@ std::optional<std::size_t> EndOfParameters(const Submessage& of, std::size_t at)
   return std::nullopt;
 }
 
-// Where the payload of a DATA or DATA_FRAG begins, whose fields take `fields` octets.
+// Where the payload of a DATA or DATA_FRAG starts, whose fields take `fields` octets.
 std::optional<std::size_t> EndOfInlineQos(const Submessage& data, std::size_t fields) {
   const std::size_t qos = kBehindToQos + data.U16(kToQosAt);
   if (qos < fields || qos > data.body.size()) return std::nullopt;

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kLeastFragmented = 1024;  // bytes, encapsulation
 // kNone if it is sound. `largest_sample` in bytes, encapsulation included.
 PacketDrop CheckSubmessage(const Submessage& submessage, std::uint32_t largest_sample);
 
-// Where in a DATA, checked before, its payload begins: behind the inline QoS.
+// Where in a DATA, checked before, its payload starts: behind the inline QoS.
 std::size_t PayloadOfData(const Submessage& data);
 
 // The parameter list that a checked DATA has as its payload, in the byte order that the
@@ -29,7 +29,7 @@ std::size_t PayloadOfData(const Submessage& data);
 // list then.
 std::optional<Submessage> ParametersOf(const Submessage& data);
 
-// What a checked parameter list holds under an id; empty if it has none. `list` begins with the
+// What a checked parameter list holds under an id; empty if it has none. `list` starts with the
 // first parameter.
 Bytes FindParameter(const Submessage& submessage, std::size_t list, std::uint16_t id);
 

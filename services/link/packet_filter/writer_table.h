@@ -5,7 +5,7 @@
 //
 // Of a writer that is new any number up to kMostAtFirst is plausible: late joiners meet writers of
 // any age, and what such a writer keeps for them may lie far apart: of a roster the entries of
-// those who are still there, with GAPs between.
+// the vehicles that are still there, with GAPs between.
 //
 // A writer of which a HEARTBEAT or GAP came while it was new is a reliable one: what readers of it
 // lose is sent again, and it may write many samples at once. Of all others a sample may only be
@@ -52,10 +52,10 @@ class WriterTable {
   // A writer that was heard as often is no stranger.
   static constexpr std::uint32_t kKnown = 16;
 
-  // Room for at least as many writers. `seed` decides where a writer is kept: strangers must not
+  // Holds at least so many writers. `seed` decides where a writer is kept: strangers must not
   // know it. A process is sent HEARTBEATs between those that its writers send to others, so
-  // `fleet_size` decides how far their counts step. `of_all_bodies`: it hears samples of every body
-  // of the fleet from one writer, and of more with each that joins.
+  // `fleet_size` decides how far their counts step. `of_all_bodies`: it receives samples of every
+  // body of the fleet from one writer, and of more with each that joins.
   WriterTable(std::size_t writers, std::uint64_t seed, std::uint32_t fleet_size = 0,
               bool of_all_bodies = false);
 
