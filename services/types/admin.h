@@ -38,7 +38,7 @@ struct AdminOrder {
 };
 
 enum class AnswerState : std::uint8_t {
-  kInEffect,    // what the answer tells is what the vehicle runs with
+  kInEffect,    // the values in the answer are those the vehicle runs with
   kRestarting,  // it halts and comes back with the profiles; the answer to follow is kInEffect
   kRefused,     // nothing was changed; `reason` says why
 };
@@ -58,7 +58,7 @@ struct AdminAnswer {
   AnswerState state = AnswerState::kInEffect;
   std::string reason;
   std::uint32_t fleet_size = 0;  // some values follow from it
-  std::string interface;         // as the vehicle was told
+  std::string interface;         // as given by --interface
   QosProfiles profiles;          // what it runs with, or restarts with
   std::vector<LiveValue> live;   // of kInEffect
   Seal seal{};

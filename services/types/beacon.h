@@ -1,4 +1,4 @@
-// What a vehicle tells everyone, every tick, whether or not anyone is near.
+// What a vehicle publishes every tick, whether or not any peer is near.
 #pragma once
 
 #include <compare>
@@ -12,8 +12,9 @@
 
 namespace giveway {
 
-// Who may go first. Vehicles that waited beyond a limit come first, the longest wait first; then
-// the higher cruise-speed bucket; then the lower id. A strict total order over distinct ids.
+// Decides which vehicle has priority. Vehicles that waited beyond a limit come first, the longest
+// wait first; then the higher cruise-speed bucket; then the lower id. A strict total order over
+// distinct ids.
 struct OrderKey {
   std::uint32_t waited_ticks = 0;  // whole ageing limits; 0 below the first
   std::uint32_t speed_bucket = 0;  // round(cruise / 0.05 m/s)
@@ -29,8 +30,8 @@ constexpr bool GoesFirst(const OrderKey& a, const OrderKey& b) {
   return a.vehicle < b.vehicle;
 }
 
-// The same for keys that may be lent: of two vehicles that act by one key the one that lends it
-// goes last, for the other is in its way; of two that were lent it the lower id goes first.
+// The same for keys that may be inherited: of two vehicles that act by one key its owner goes last,
+// for the other blocks it; of two that inherited it the lower id goes first.
 constexpr bool ComesFirst(const OrderKey& a, VehicleId id_a, const OrderKey& b, VehicleId id_b) {
   if (a != b) return GoesFirst(a, b);
   if (a.vehicle == id_a) return false;
@@ -45,7 +46,7 @@ struct Beacon {
   Tick tick = kNoTick;             // the world tick this beacon answers
   WheelSpeeds wheels;              // measured
   double cruise_m_s = 0;           // the intent: does not drop because the vehicle gives way
-  Pose world_from_body;            // dead-reckoned estimate at `tick`
+  Pose world_from_body;            // estimate at `tick`
   PoseCovariance covariance;       // of world_from_body
   double body_radius_m = 0.25;     // disc round the axle centre
   DriveGeometry drive;             // what turns the wheel speeds into motion
@@ -57,8 +58,8 @@ struct Beacon {
   Mode mode = Mode::kHalt;
   Rule rule = Rule::kNotRunning;
   VehicleId gives_way_to = kNobody;
-  VehicleId blocked_by = kNobody;  // a vehicle whose body, standing or slower, is in its way
-  // As it acts: its own, or lent by the first in the order that is blocked by this vehicle.
+  VehicleId blocked_by = kNobody;  // a vehicle whose body, standing or slower, blocks it
+  // The key it acts by: its own, or inherited from the first in the order that it blocks.
   OrderKey order;
 };
 
@@ -69,7 +70,7 @@ struct ReceivedBeacon {
   bool crc_valid = false;
   bool name_valid = false;   // the id is the one of the writer's partition
   std::uint64_t writer = 0;  // identity of the writing endpoint, for duplicate ids; never 0
-  bool in_range = false;     // somebody found all its numbers to be so; else each brain looks
+  bool in_range = false;     // all its numbers are already checked; else each brain checks them
   BeaconArrival arrival;     // for accounting; no brain reads it
 };
 

@@ -35,10 +35,10 @@ struct BeaconCounters {
 // beginnings, whatever it lasts; the others each beacon. All wrap at 2^32, which takes years.
 struct TrustCounters {
   std::uint32_t beacon_without_echo = 0;  // a body was said to be where the ultrasonics hear none
-  std::uint32_t echo_without_beacon = 0;  // something near moved by itself, and nobody said so
+  std::uint32_t echo_without_beacon = 0;  // something near moved by itself, without a beacon
   std::uint32_t halted_but_closing = 0;   // said it stood, and its echo came nearer by itself
   std::uint32_t jumps = 0;                // further from the beacon before than it could have come
-  std::uint32_t impossible_speeds = 0;    // faster than anybody, or than it could have become
+  std::uint32_t impossible_speeds = 0;    // faster than any vehicle, or than it could have become
 
   constexpr TrustCounters& operator+=(const TrustCounters& more) {
     beacon_without_echo += more.beacon_without_echo;
@@ -57,7 +57,7 @@ struct TrustCounters {
 // Samples that arrived and were not used, apart from beacons that the brain rejected.
 struct RefusedSamples {
   std::uint32_t unbound_samples = 0;     // writer's partition not yet known
-  std::uint32_t unreadable_samples = 0;  // arrived, but say what cannot be told
+  std::uint32_t unreadable_samples = 0;  // arrived, but with values that cannot be converted
   std::uint32_t wrong_name_scans = 0;    // of a sensor, whose id is not this vehicle's
   std::uint32_t old_world_entries = 0;   // roster of a world while another one is believed
   std::uint32_t strangers = 0;           // of a participant that may not say that

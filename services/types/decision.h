@@ -42,7 +42,7 @@ enum class Rule : std::uint8_t {
   kAvoid,        // Braitenberg weights steer away
   kSignal,       // a fresh traffic light on the own path says stop
   kKeepClear,    // no further than where a peer cannot be, whatever it does
-  kMakeRoom,     // turning out of the way of one that comes first and cannot pass
+  kMakeRoom,     // turning aside for one that comes first and cannot pass
   kObject,       // radar or lidar: an object whose place and motion make it an obstacle
   kLeaving,      // stopping in good order
   kUnsure,       // slower: soon it will not know any more where it is
@@ -65,7 +65,7 @@ std::string_view Name(Behaviour behaviour);
 std::string_view Name(Mode mode);
 std::string_view Name(Rule rule);
 
-// What the brain decided, and on whose account.
+// What the brain decided, and because of which peer or sensor.
 struct Decision {
   Mode mode = Mode::kHalt;
   Rule rule = Rule::kNotRunning;

@@ -1,4 +1,4 @@
-// What a decision stood on, beside its reason: for figures of how late and how near, never for
+// What a decision was based on, besides its reason: for figures of how late and how near, never for
 // deciding.
 #pragma once
 

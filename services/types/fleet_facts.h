@@ -38,10 +38,10 @@ struct RosterEntry {
   bool waiting = false;  // not accepted yet, but may be later: the world keeps the request
   std::string reason;    // why not, or why the run ended; empty otherwise
   WorldEpoch epoch = kNoEpoch;
-  Pose start_world;  // where the body was at `tick`: start, spawn or checkpoint pose, or under way
-  Tick tick = kNoTick;      // the world's last one as the entry was made
-  WheelAngles counted;      // by the body's encoders at `tick`
-  TaskProgress task;        // as the vehicle said it last with a command; nothing for a new body
+  Pose start_world;     // where the body was at `tick`: start, spawn or checkpoint pose, or driving
+  Tick tick = kNoTick;  // the world's last one as the entry was made
+  WheelAngles counted;  // by the body's encoders at `tick`
+  TaskProgress task;    // as the vehicle said it last with a command; nothing for a new body
   std::uint32_t spawn = 0;  // the scenario's spawn place it drives by, counted from 1; 0: its own
   RunState run_state = RunState::kWaiting;
   std::uint32_t fleet_size = 0;  // vehicles the scenario waits for
@@ -70,7 +70,7 @@ enum class EventKind : std::uint8_t {
   kFaultDue,  // a planned fault is due now; text: "kill"
   kSilent,    // the world hears no command of vehicle any more
   kRemoved,   // the body of a silent vehicle was taken away
-  kJoined,    // vehicle was put on its start pose while the run was under way
+  kJoined,    // vehicle was put on its start pose while the run was in progress
   kLeft,      // vehicle sent a leave notice; its body was taken away
   kEnded,     // text: why; the verdict follows
   kVerdict,   // passed when value is 1; text: reason
@@ -127,7 +127,7 @@ struct VehicleStatus {
   QosCounters qos;
   VehicleId last_deadline_missed = kNobody;
   VehicleId last_liveliness_lost = kNobody;
-  // The last event of all kinds, and whom it was about; nothing before the first.
+  // The last event of all kinds, and the vehicle it was about; empty before the first.
   std::optional<QosEventKind> last_event;
   VehicleId last_event_about = kNobody;
   std::uint32_t last_rejected_id = 0;  // id claimed by the last refused beacon

@@ -5,7 +5,7 @@
 namespace giveway {
 
 // ARIA's absolute limit for the platform is 2.2 m/s, 22.6 rad/s at the wheel; beyond that with some
-// room nobody is a vehicle of this fleet.
+// margin a sender is no vehicle of this fleet.
 inline constexpr double kMaxWheel_rad_s = 30.0;
 inline constexpr double kMaxSpeed_m_s = 2.5;
 

@@ -13,7 +13,7 @@ struct Handover {
   WorldEpoch epoch = kNoEpoch;
   Tick tick = kNoTick;        // of the pose
   WheelAngles counted;        // by the encoders at that tick
-  Pose world_from_body;       // as dead-reckoned
+  Pose world_from_body;       // by dead reckoning
   PoseCovariance covariance;  // of world_from_body
   TaskProgress task;
 
@@ -23,8 +23,8 @@ struct Handover {
 // True if a brain could have been there: finite numbers, a tick of a world, and a covariance.
 bool IsSound(const Handover& handover);
 
-// True if it is of the body that the world's answer is about. Else the world was restarted since,
-// or the body was taken away and another one put on its place: then the answer says where it is.
+// True if it is of the body that the world's answer is about. Otherwise the world was restarted
+// since, or the body was replaced by another one: then the answer says where it is.
 bool IsOfTheSameBody(const Handover& handover, const RosterEntry& entry);
 
 }  // namespace giveway

@@ -5,7 +5,7 @@
 
 namespace giveway {
 
-// Names one vehicle. 0 is nobody; the world never assigns it.
+// Names one vehicle. 0 is none; the world never assigns it.
 enum class VehicleId : std::uint32_t {};
 inline constexpr VehicleId kNobody{0};
 

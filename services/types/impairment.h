@@ -22,15 +22,15 @@ struct Blackout {
   friend constexpr bool operator==(const Blackout&, const Blackout&) = default;
 };
 
-// Whose packets a rule is about. A process is known as a vehicle or as the world once discovery has
-// shown what it writes; what it sent until then only rules for anyone meet.
+// The senders that a rule applies to. A process is known as a vehicle or as the world once
+// discovery has shown what it writes; only rules for any sender apply to what it sent until then.
 enum class ImpairedSender : std::uint8_t { kAnyone, kVehicles, kWorld, kOneVehicle };
 
 // Probabilities are per packet, in [0, 1], and independent of each other.
 struct ImpairmentRule {
   ImpairedSender from = ImpairedSender::kAnyone;
   VehicleId from_vehicle = kNobody;  // of kOneVehicle
-  VehicleId to_vehicle = kNobody;    // who hears it; kNobody: everyone
+  VehicleId to_vehicle = kNobody;    // the receiver; kNobody: every vehicle
   double loss = 0;
   // Gilbert-Elliott: a share of the time is bad and loses packets with probability burst_loss. A
   // bad time lasts burst_length packets on average.
@@ -81,7 +81,7 @@ struct ImpairmentCounters {
   std::uint64_t duplicated = 0;
   std::uint64_t corrupted = 0;
   std::uint64_t metered = 0;  // held against a limited rate, passed by it or dropped
-  // Passed, but never handed on: too many were under way, or the process ended first.
+  // Passed, but never handed on: too many were in flight, or the process ended first.
   std::uint64_t abandoned = 0;
 
   constexpr std::uint64_t Dropped() const {

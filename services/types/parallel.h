@@ -1,4 +1,4 @@
-// How a pure module is lent threads: as a function that runs a body over [0, count) in any order
+// How a pure module is given threads: as a function that runs a body over [0, count) in any order
 // and in any number of pieces. The result must not depend on how it was cut.
 #pragma once
 

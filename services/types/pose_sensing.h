@@ -1,7 +1,7 @@
-// What a vehicle's own idea of where it is rests on beside its encoders: a sensor that says where
-// it is, as landmarks or ultra-wideband radio do, and by how much its wheels are not what its drive
-// says. Plain values; who makes fixes is sim_world/sensors/pose_fix.h, who uses them
-// vehicle/estimation/pose_keeping.h.
+// What a vehicle's pose estimate rests on besides its encoders: a sensor that says where it is, as
+// landmarks or ultra-wideband radio do, and by how much its wheels differ from what its drive says.
+// Plain values; sim_world/sensors/pose_fix.h makes fixes, vehicle/estimation/pose_keeping.h uses
+// them.
 #pragma once
 
 #include "services/types/ids.h"
@@ -53,8 +53,8 @@ inline constexpr double kMostFixSigma_m = 1000;
 // The same of its heading, where it has one.
 inline constexpr double kLeastFixSigma_rad = 1e-6;
 
-// Where somebody else says this vehicle was at `tick`: a landmark passed, a camera on the ceiling.
-// Deviations are standard deviations; the position's is along any axis.
+// An external measurement of this vehicle's pose at `tick`: a landmark passed, a camera on the
+// ceiling. Deviations are standard deviations; the position's is along any axis.
 struct PoseFix {
   Pose world_from_body;  // the heading means nothing where it has no deviation
   double sigma_position_m = 0;

@@ -49,7 +49,7 @@ struct VehicleProfile {
   bool lidar = false;
   bool camera = false;
   PoseFixModel pose_fix;
-  // The brain takes no more of it than how wrong the wheels may be, never which way.
+  // The brain uses only the magnitude of these errors, never their sign.
   WheelErrors wheel_error;
   // The standard deviation of its position beyond which it halts and says that it is lost; 0:
   // never.

@@ -30,8 +30,8 @@ struct RangeScan {
   RunState run_state = RunState::kWaiting;
   // Encoder rates: the constant wheel speeds that moved the body from the last tick to this one.
   WheelSpeeds wheels;
-  // What the encoders have counted since the vehicle was put into the world: whoever missed scans
-  // knows by it how far it came meanwhile.
+  // What the encoders have counted since the vehicle was put into the world: after missed scans it
+  // says how far the vehicle came meanwhile.
   WheelAngles counted;
   std::array<RangeReading, kSensorCount> readings{};
 };

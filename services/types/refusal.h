@@ -21,7 +21,7 @@ std::string Describe(const FieldFault& fault);
 
 struct Refusal {
   const char* sample = "";      // "beacon", "motor command", "join"
-  VehicleId vehicle = kNobody;  // whom the writer's partition names, or the sample claims
+  VehicleId vehicle = kNobody;  // named by the writer's partition, or claimed by the sample
   std::uint64_t writer = 0;     // identity of the writing endpoint
   const char* counter = "";     // what counts it: "rejected_crc"
   const char* field = "";       // as fleet.idl calls it

@@ -1,5 +1,5 @@
 // A scenario: the place, the vehicles in it, what is planned to go wrong and what is expected.
-// A value; config loads and checks it, everyone else reads it.
+// A value; config loads and checks it, all other modules read it.
 #pragma once
 
 #include <cstdint>
@@ -39,14 +39,14 @@ struct SonarModel {
 };
 
 // A body that is not a vehicle: stands, or follows its waypoints at constant speed for ever and
-// gives way to nobody. It stops where it would touch, and continues when it can.
+// gives way to no vehicle. It stops where it would touch, and continues when it can.
 struct Obstacle {
   BodyShape shape = BodyShape::kDisc;
   double radius_m = 0.25;             // of a disc; half diagonal of a box
   Vec2 box_half_m;                    // half length (along x at heading 0) and half width
   Pose start_world;                   // a box keeps this heading wherever it goes
   std::vector<Vec2> waypoints_world;  // visited in turn, starting from start_world; empty: stands
-  bool loop = false;                  // after the last: true on to the start, false back the way
+  bool loop = false;                  // after the last: true on to the start, false back along them
   double speed_m_s = 0;
 };
 
@@ -95,8 +95,8 @@ struct Expectation {
   std::vector<VehicleId> halted;
   std::vector<VehicleId> arrived;
   std::optional<Rule> halted_for;  // this rule started at least one halt
-  bool any_halted = false;         // who halts is not judged
-  bool any_arrived = false;        // who arrives is not judged
+  bool any_halted = false;         // which halt is not judged
+  bool any_arrived = false;        // which arrive is not judged
   bool parted = false;             // at the end every pair is further apart than at its closest
   std::optional<double> min_separation_m;  // at least this, shell to shell
   std::optional<double> time_to_clear_s;   // at most this
@@ -129,7 +129,7 @@ struct Scenario {
   Expectation expect;
 };
 
-// Its run lasts until somebody stops it.
+// Its run lasts until it is stopped.
 inline bool IsEndless(const Scenario& scenario) { return scenario.duration_s == 0; }
 
 }  // namespace giveway

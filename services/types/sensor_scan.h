@@ -1,5 +1,5 @@
-// What the sensors beside the ultrasonics deliver: radar, single-line lidar, camera. All sit at the
-// axle centre and look forward; bearings are counter-clockwise from the body's x axis, in (-pi,
+// What the sensors besides the ultrasonics deliver: radar, single-line lidar, camera. All sit at
+// the axle centre and look forward; bearings are counter-clockwise from the body's x axis, in (-pi,
 // pi]. Each has its own topic. None knows what it sees to be an obstacle: that is the brain's to
 // decide.
 #pragma once

@@ -1,4 +1,4 @@
-// Time as a value. No clock is read in this module: whoever owns a clock passes the time in.
+// Time as a value. No clock is read in this module: the owner of a clock passes the time in.
 #pragma once
 
 #include <chrono>

@@ -23,8 +23,8 @@ struct Goal {
 
 inline constexpr std::size_t kMaxWaypoints = 16;
 
-// Points passed in turn on the way to the goal, each within radius_m; a loop starts again after the
-// last and never comes to the goal.
+// Points passed in turn before the goal, each within radius_m; a loop starts again after the last
+// and never comes to the goal.
 struct Route {
   std::array<Vec2, kMaxWaypoints> waypoints_world{};
   std::uint32_t count = 0;

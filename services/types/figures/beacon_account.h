@@ -85,7 +85,7 @@ class ReportedAccounts {
   ReportedAccounts(std::initializer_list<BeaconAccount> rows) {
     for (const BeaconAccount& row : rows) Add(row);
   }
-  // False where there is no room.
+  // False where the table is full.
   bool Add(const BeaconAccount& row) {
     if (count_ == kMost) return false;
     rows_[count_++] = row;

@@ -32,7 +32,7 @@ constexpr std::string_view Name(DriveFigure figure) {
   return kNames[static_cast<std::size_t>(figure)];
 }
 
-// One figure over a life. Whoever hears one report in kNewest values has met every value.
+// One figure over a life. A reader that gets one report in kNewest values has met every value.
 struct FigureSummary {
   static constexpr std::size_t kNewest = 16;
 

@@ -1,8 +1,8 @@
 // A histogram with three significant digits over nine decades, after the idea of Gil Tene's
 // HdrHistogram (hdrhistogram.org): within each power of two 1024 buckets of equal width, so that a
 // value is known to 1/2048 of itself however large it is. Counts alone are kept, so that two merge
-// without loss, over processes and over machines. Pure: from which time on a duration counts
-// is the caller's: the intended one, not the one at which somebody found time to measure.
+// without loss, over processes and over machines. Pure: the caller decides from which time on a
+// duration counts: the intended start, not the one at which it was actually measured.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // What the packet filter of a process made of the packets that reached its sockets: how many it
-// handed on to the library, and how many it dropped, by reason. Values only; who counts is
-// services/link.
+// handed on to the library, and how many it dropped, by reason. Values only, counted
+// by services/link.
 #pragma once
 
 #include <array>

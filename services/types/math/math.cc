@@ -19,7 +19,7 @@ constexpr double kLn2High = 6.93147180369123816490e-01;
 constexpr double kLn2Low = 1.90821492927058770002e-10;
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-// Beyond it a double does not tell one turn from the next well enough.
+// Beyond it a double does not resolve a turn well enough.
 constexpr double kMostTurns = 0x1p30;
 
 // No number for |x| beyond kMostTurns, and for what is none.
@@ -88,7 +88,7 @@ struct Quadrant {
   double rest;         // x minus that many quarter turns, in [-pi/4, pi/4]
 };
 
-// Inline: it is half of a sine's way, and too long for the compiler to think so.
+// Inline: it is half the cost of a sine, and too long for the compiler to inline by itself.
 [[gnu::always_inline]] inline Quadrant Reduce(double x) {
   const double n = Nearest(x * (2 / kPi));
   const double rest = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3;
@@ -118,7 +118,7 @@ double Cos(double x_rad) {
 
 SineCosine SinCos(double x_rad) {
   const auto [index, rest] = Reduce(x_rad);
-  // Looked up, not branched for: which quadrant a heading lies in is anybody's guess.
+  // A lookup instead of a branch: the quadrant of a heading is unpredictable.
   static constexpr double kSigns[] = {1, -1};
   const auto [sine, cosine] = SinCosNearZero(rest);
   const double magnitudes[] = {sine, cosine};

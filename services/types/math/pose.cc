@@ -55,7 +55,7 @@ Facing AdvanceFacing(const Facing& from, Twist twist, double dt_s) {
 }
 
 double SigmaPosition(const PoseCovariance& c) {
-  if (c.xx_m2 + c.yy_m2 <= 0) return 0;  // whoever is sure of its place is spared two roots
+  if (c.xx_m2 + c.yy_m2 <= 0) return 0;  // an exact pose: saves two square roots
   const double mean = (c.xx_m2 + c.yy_m2) / 2;
   const double half = (c.xx_m2 - c.yy_m2) / 2;
   const double spread = Sqrt(half * half + c.xy_m2 * c.xy_m2);

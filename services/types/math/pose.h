@@ -79,8 +79,8 @@ constexpr PoseCovariance operator+(const PoseCovariance& a, const PoseCovariance
           a.xh_m_rad + b.xh_m_rad, a.yh_m_rad + b.yh_m_rad, a.hh_rad2 + b.hh_rad2};
 }
 
-// Of a pose that has since been carried on by way_world, along a heading as unsure as it says.
-// F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
+// Of a pose that has since been carried on by a displacement, along a heading as uncertain as it
+// says. F C F' with F = [1 0 -way.y; 0 1 way.x; 0 0 1].
 constexpr PoseCovariance Carried(const PoseCovariance& c, Vec2 way) {
   const double xh = c.xh_m_rad - way.y * c.hh_rad2;
   const double yh = c.yh_m_rad + way.x * c.hh_rad2;
@@ -104,8 +104,8 @@ inline Vec2 Forward(const Pose& world_from_body) {
   return {heading.cosine, heading.sine};
 }
 
-// A heading and its unit vector, kept because a sine is expensive and most headings are what they
-// were: of who stands, or drives straight on.
+// A heading and its unit vector. Cached: sin and cos are expensive, and the heading is unchanged
+// while the vehicle is stationary or drives straight.
 struct KnownHeading {
   double heading_rad = 0;
   Vec2 forward_world{1, 0};
@@ -119,8 +119,8 @@ struct KnownHeading {
   }
 };
 
-// The heading along a direction, kept because an arctangent is more expensive still and the way of
-// who stands leads where it led.
+// The heading along a direction. Cached: an arctangent is even more expensive, and the direction is
+// unchanged while the vehicle is stationary.
 struct KnownBearing {
   Vec2 direction_world{1, 0};
   double heading_rad = 0;
@@ -141,7 +141,7 @@ Pose AdvanceArc(const Pose& world_from_body, Twist twist, double dt_s);
 // The same bits, straight on without a sine: forward_world is the unit vector of the heading.
 Pose AdvanceArc(const Pose& world_from_body, Vec2 forward_world, Twist twist, double dt_s);
 
-// A pose by the unit vector of its heading: nobody asks a peer for the angle itself.
+// A pose by the unit vector of its heading: the angle of a peer itself is never needed.
 struct Facing {
   Vec2 position_world;
   Vec2 forward_world;
