@@ -101,7 +101,7 @@ void BeaconLedger::Settle(Row* row) {
   const bool is_first = row->settled.last == 0;
   const bool log_began_anew = now.arrived < row->base.arrived;
   if ((is_first && Apart(newest) != row->apart) || log_began_anew) {
-    return Begin(newest, row->fate, row);  // nobody knows which of the two numbers was broken
+    return Begin(newest, row->fate, row);  // either of the two numbers may be the corrupted one
   }
   if (Apart(newest) != row->apart) {
     // The library's number was broken in its packet; or it stays so: that the writer has given out

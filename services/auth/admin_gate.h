@@ -1,6 +1,6 @@
-// Which orders a service carries out: none, where it was not told to take any; any, where it was
-// told to take them without a key; else those with the seal of the operators' key and a number that
-// was not used before. Pure but for the digest: what time it is, is the caller's.
+// Which orders a service carries out: none by default; any, if it was started to take orders
+// without a key; otherwise those with the seal of the operators' key and a number that was not used
+// before. Pure but for the digest: the caller passes the time.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ class AdminGate {
   // Takes no order, or with `open` any.
   explicit AdminGate(bool open = false) : open_(open) {}
   // Takes sealed ones whose number is above `floor`: an operator numbers its orders by the time in
-  // nanoseconds since 1970, so the time at which this process began leaves out all that were given
-  // to the processes before it.
+  // nanoseconds since 1970, so the start time of this process excludes all orders given to the
+  // processes before it.
   AdminGate(std::string key, std::uint64_t floor) : key_(std::move(key)), floor_(floor) {}
 
   bool IsShut() const { return !open_ && !key_; }

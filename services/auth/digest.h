@@ -19,7 +19,7 @@ Digest HmacSha256(std::string_view key, std::string_view bytes);
 bool AreEqual(const Digest& a, const Digest& b);
 
 // The session that goes with a secret: the first 128 bits of the SHA-256 of its four numbers,
-// each little-endian. The session is public; who shows the secret is who made it.
+// each little-endian. The session is public; a participant that shows the secret made it.
 SessionId SessionOf(const SessionId& secret);
 
 }  // namespace giveway::auth

@@ -22,8 +22,8 @@ double BrakingDistance(const VehicleOptions& vehicle) {
   return Fastest(vehicle) * Fastest(vehicle) / (2 * vehicle.profile.deceleration_m_s2);
 }
 
-// From what a scan or a beacon shows until the brakes act, without the beacon's way: the decision
-// of one tick acts in the next, on readings that may be older by the ultrasonics' refresh.
+// From what a scan or a beacon shows until the brakes act, without the beacon's transit: the
+// decision of one tick acts in the next, on readings that may be older by the ultrasonics' refresh.
 double ReactionSeconds(const VehicleOptions& vehicle) {
   return 2 * Seconds(vehicle.tick_period) + Seconds(vehicle.sonar_refresh);
 }

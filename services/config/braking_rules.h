@@ -1,6 +1,6 @@
-// Can two vehicles of a scenario stop before they touch, whatever way they meet? The sum of what
-// both drive until they stand, against the distance at which they learn of each other. Physics
-// alone: where the sum does not come out, no rule of right of way helps.
+// Can two vehicles of a scenario stop before they touch, from whatever directions they meet? The
+// sum of what both drive until they stand, against the distance at which they learn of each other.
+// Physics alone: if the sum is too long, no rule of right of way helps.
 #pragma once
 
 #include "services/config/scenario_read.h"
@@ -12,8 +12,8 @@ namespace giveway {
 struct BrakingSum {
   double own_m = 0;       // braking from cruise speed, and the 2 % that a seed may add
   double peer_m = 0;      // the same of the peer
-  double reaction_s = 0;  // until both brake: two ticks, a third for the beacon's way, the radio's
-                          // delay, the ultrasonics' refresh
+  double reaction_s = 0;  // until both brake: two ticks, a third for the beacon's transit, the
+                          // radio's delay, the ultrasonics' refresh
   double reaction_m = 0;  // driven by both in that time
   double bodies_m = 0;    // both radii: beacons give centres, ultrasonics shells
   double radio_m = 0;     // the emission radius that both hear within

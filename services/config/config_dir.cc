@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kEnding = ".textproto";
 
-// Both are beside the running binary, so that a moved tree or an installed one still works.
+// Both are relative to the running binary, so that a moved tree or an installed one still works.
 std::vector<fs::path> Candidates() {
   std::error_code error;
   const fs::path bin = fs::read_symlink("/proc/self/exe", error).parent_path();

@@ -16,7 +16,7 @@ std::string ResolveFaults(const std::string& argument);
 // As ResolveScenario, of a campaign.
 std::string ResolveCampaign(const std::string& argument);
 
-// The folder holding qos/ and scenarios/: $GIVEWAY_CONFIG_DIR, else beside the installed binary
+// The folder holding qos/ and scenarios/: $GIVEWAY_CONFIG_DIR, else next to the installed binary
 // (../share/giveway), else the source tree the binary was built in. Throws InputError.
 std::string ConfigDir();
 

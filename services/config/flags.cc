@@ -29,7 +29,7 @@ void AddFlags(Service service, CommandLine* line) {
   line->Add("--domain", "1..99", "DDS domain (required)");
   line->Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
   line->Add("--discovery-server", "HOST[:PORT],...",
-            "find everyone through these servers, and not by what --qos says; "
+            "find all participants through these servers, and not by what --qos says; "
             "the first has the id 0, the next 1 (port 11811)");
   line->Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
   if (service == Service::kVehicle) {
@@ -46,11 +46,11 @@ void AddFlags(Service service, CommandLine* line) {
     line->AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
     line->AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
     line->AddSwitch("--hang-on-signal",
-                    "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
+                    "a drill: SIGUSR2 makes the control loop hang, and the next one resume");
     line->AddSwitch("--no-watchdog", "a drill: a control loop that hangs does not end the process");
   } else {
     line->Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
-    line->Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
+    line->Add("--checkpoint", "FILE", "resume from there after a crash, and keep it up to date");
     line->Add("--faults", "FILE",
               "carries out the world's faults of this list: ultrasonics, motors and "
               "encoders; fleetctl faults expand writes one");
@@ -71,7 +71,7 @@ void AddFlags(Service service, CommandLine* line) {
   line->Add("--admin-key", "FILE",
             "takes orders (fleetctl qos apply) sealed with the key in this file:\n"
             "openssl rand -hex 32 > FILE makes one. Without it no order is taken");
-  line->AddSwitch("--admin", "takes orders without a key, of anybody who reaches it");
+  line->AddSwitch("--admin", "takes orders without a key, from any participant that reaches it");
   line->AddSwitch("--lockstep", "the world waits for every command of a tick");
   line->Add("--health-port", "0..65535",
             "serves /livez, /readyz, /metrics; 0, the default: nowhere");

@@ -1,5 +1,5 @@
 // The command line of the two services. Every flag has an environment twin: --log-level is
-// GIVEWAY_LOG_LEVEL. The flag wins; an empty variable counts as unset. There is no third way.
+// GIVEWAY_LOG_LEVEL. The flag wins; an empty variable counts as unset. There is no third source.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace giveway {
 struct ServiceFlags {
   std::uint32_t domain = 0;             // 1..99
   std::string interface = "127.0.0.1";  // an address, an interface's name, or "any"
-  // Instead of the profile set's way of discovery; none: as the set says.
+  // Overrides the profile set's discovery; none: as the set says.
   std::vector<DiscoveryServer> discovery_servers;
   std::string qos;                 // a file; ConfigDir()/qos/default.xml if not given
   std::string scenario;            // a file or a shipped scenario's name
@@ -59,7 +59,7 @@ struct ServiceFlags {
 
 // The flags, or the exit code to end with at once: 0 after --help or --version, 2 after writing to
 // stderr every wrong flag with its value, the allowed range and the remedy. `library` is what
-// --version names beside the service: "Fast DDS 2.9.1".
+// --version names besides the service: "Fast DDS 2.9.1".
 using ParsedFlags = std::variant<ServiceFlags, int>;
 ParsedFlags ParseVehicleFlags(int argc, const char* const* argv, std::string_view library);
 ParsedFlags ParseWorldFlags(int argc, const char* const* argv, std::string_view library);

@@ -8,7 +8,7 @@
 namespace giveway {
 
 // Of a profile section. What it does not write stays as it was, but for the limit: a section that
-// writes a sensor or wheel errors brings the usual one, unless somebody wrote another.
+// writes a sensor or wheel errors brings the usual one, unless the file sets another.
 void ReadPoseKeeping(const Section& section, VehicleProfile* profile);
 
 }  // namespace giveway

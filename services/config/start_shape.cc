@@ -40,7 +40,7 @@ bool BoxHoldsDisc(const StartShape& box, const StartShape& disc) {
   return Norm(centre_box - nearest) <= disc.radius_m;
 }
 
-// As for two rectangles: the sides of the box, and the way across the line.
+// As for two rectangles: the sides of the box, and the normal of the line.
 bool BoxMeetsLine(const StartShape& box, const StartLine& line) {
   const Vec2 from = ToBody(box.world_from_body, line.from_world);
   const Vec2 to = ToBody(box.world_from_body, line.to_world);

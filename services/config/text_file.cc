@@ -81,7 +81,7 @@ std::string ReadBytes(const std::string& path) {
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) Refuse(path, std::strerror(errno), "check its permissions");
-  // By parts: room for the largest file there may be would stay with the text for its life.
+  // In parts: a buffer for the largest allowed file would stay allocated with the text.
   std::string text;
   std::array<char, 16384> part;
   while (text.size() < kMaxFileBytes) {

@@ -8,8 +8,8 @@
 
 namespace giveway {
 
-// Turns one message of the parser into a Problem. `unknown_field` tells a tolerated unknown field
-// from an error that stopped the parser. Lines and columns as the parser counts, from 0.
+// Turns one message of the parser into a Problem. `unknown_field` distinguishes a tolerated unknown
+// field from an error that stopped the parser. Lines and columns as the parser counts, from 0.
 Problem ParserProblem(const std::string& file, const std::string& text, int line, int column,
                       const std::string& message, bool unknown_field);
 

@@ -3,9 +3,9 @@
 // file, seed, duration and vehicles give the same list bit for bit on every machine.
 //
 // Each draw is a hash of seed, name of the rule and count, so taking one rule out moves no other's
-// faults. Of two that exclude each other the later one makes way, and that of a random rule to that
-// of an `at` rule; it makes way even to one that itself makes way, so that taking a rule out never
-// takes a fault out of another either.
+// faults. Of two that exclude each other the later one is dropped, and that of a random rule for
+// that of an `at` rule; it is dropped even for one that is dropped itself, so that taking a rule
+// out never takes a fault out of another either.
 #pragma once
 
 #include <cstddef>

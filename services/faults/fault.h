@@ -1,5 +1,5 @@
 // What goes wrong in a run, when, to which target and for how long: faults as values, and the table
-// of all kinds. Who makes them happen is said by the table; nothing here does. Pure.
+// of all kinds. The table names the actor that carries each out; nothing here does. Pure.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ enum class Kind : std::uint8_t {
   kSharedMemoryGone,      // what is in /dev/shm is deleted while it is used
   kSharedMemoryLeftOver,  // segments of dead processes lie there
   kSharedMemorySmall,     // /dev/shm is full
-  // Those who hear: rules of services/types/impairment.h.
+  // At the receiver: rules of services/types/impairment.h.
   kLoss,
   kBurst,
   kDelay,
@@ -59,13 +59,13 @@ enum class Kind : std::uint8_t {
   kPoseFixWrong,       // each with `probability` off by `factor` of its standard deviations
   // A program of the tests.
   kSpoofed,    // beacons under the target's id
-  kReplayed,   // the target's beacons of before
+  kReplayed,   // the target's earlier beacons
   kFlooded,    // rate_hz packets a second
   kMalformed,  // packets no library would send
 };
 inline constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kMalformed) + 1;
 
-// Who makes a kind happen.
+// The actor that carries a kind out.
 enum class Actor : std::uint8_t { kSupervisor, kHearer, kWorld, kAttacker };
 
 // The target.
@@ -77,7 +77,7 @@ struct Target {
   friend constexpr bool operator==(const Target&, const Target&) = default;
 };
 
-// What a kind takes beside target and times. Absent: the kind's own default, which Expand fills in.
+// Parameters of a kind besides target and times. Absent: the kind's own default, set by Expand.
 struct Parameters {
   std::optional<double> probability;   // 0 to 1
   std::optional<double> share;         // of a processor, above 0, to 1

@@ -13,8 +13,8 @@ namespace giveway::faults {
 // A fault that flaps more often is refused: services/config/impair.h takes no more at once.
 inline constexpr double kMostFlaps = 1000;
 
-// Of each vehicle whose hearing the list ever impairs, among `vehicles`: what is asked of its ears.
-// Only other vehicles are heard badly: what a vehicle senses of the world comes by no radio.
+// For each of `vehicles` whose reception the list ever impairs: the rules of its impairment. Only
+// samples of other vehicles are impaired: what a vehicle senses of the world comes by no radio.
 // `since_s`: the moment, after the run's start signal, from which the vehicle counts, for one that
 // was started later; what is over by then is left out.
 std::map<VehicleId, Impairment> ImpairmentOf(const Schedule& schedule,

@@ -78,7 +78,7 @@ std::string_view ToString(Target::What what);
 std::string ToString(const Target& target);
 // "vehicle, world or all".
 std::string TargetsOf(const KindRow& row);
-// The word that is most like `word`, for who mistyped one.
+// The word most similar to a mistyped one.
 std::string_view NearestKind(std::string_view word);
 
 // What is absent filled in with the kind's usual values.

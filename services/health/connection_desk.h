@@ -30,8 +30,8 @@ inline constexpr std::size_t kPlacesAnAddress = 2;
 inline constexpr std::size_t kPlacesOfOthers = 14;  // of all other machines together
 
 // Which guest must go for a newcomer from that address: the one there longest, of the same address,
-// or of all other machines where their places are taken. Who asks as it comes is answered before.
-// Nothing: there is a place. Pure.
+// or of all other machines where their places are taken. A guest that sends its request at once is
+// answered before. Nothing: there is a place. Pure.
 std::optional<std::size_t> WhoGivesWay(std::span<const Guest> guests, std::string_view address);
 
 class ConnectionDesk {

@@ -17,8 +17,8 @@ std::string OldRanges(const VehicleHealth& vehicle, SteadyTime now) {
                      Seconds(age), Seconds(vehicle.ranges_age_limit));
 }
 
-// Before the run begins it waits for the whole fleet; later a peer that is gone is the fleet's
-// trouble, and nothing a restart of this vehicle could mend.
+// Before the run starts it waits for the whole fleet; later a missing peer is the fleet's problem,
+// which a restart of this vehicle could not solve.
 std::string TooFewPeers(const VehicleHealth& vehicle) {
   const std::uint32_t peers = std::max(vehicle.fleet_size, 1U) - 1;
   if (vehicle.run_state != RunState::kWaiting || vehicle.matched_peers >= peers) return {};
@@ -70,7 +70,7 @@ Reasons NotReady(const VehicleHealth& vehicle, SteadyTime now) {
   return reasons;
 }
 
-// A world that waits is ready: vehicles may come, and nobody is to wait for it any longer.
+// A world that waits is ready: vehicles may join, and nothing needs to wait for it any longer.
 Reasons NotReady(const WorldHealth& world, SteadyTime now) {
   Reasons reasons = NotLive(world.loop, now);
   if (!world.waits_for.View().empty()) {

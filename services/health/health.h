@@ -1,6 +1,6 @@
 // How a service is, as its loop last said it, and what follows: is it live, is it ready, and if
-// not, why. Pure: values in, sentences out. Who serves them is health_server.h, how they become
-// metrics health_metrics.h.
+// not, why. Pure: values in, sentences out. health_server.h serves them, health_metrics.h turns
+// them into metrics.
 #pragma once
 
 #include <array>
@@ -26,7 +26,7 @@ inline constexpr Nanoseconds kStartLimit{10'000'000'000};
 
 enum class HealthStage : std::uint8_t { kStarting, kJoining, kUnderWay, kLeaving };
 
-// A sentence of fixed room, so that what holds it is a plain value. What does not fit is cut off.
+// A sentence of fixed capacity, so that its holder is a plain value. What does not fit is cut off.
 class ShortText {
  public:
   ShortText() = default;
@@ -49,7 +49,7 @@ struct VehicleHealth {
   ShortText waits_for;   // while joining: what the world said last; empty: it said nothing
   VehicleStatus status;  // as last reported to the fleet
   RunState run_state = RunState::kWaiting;
-  std::uint32_t fleet_size = 0;  // vehicles the run waits for, before it begins
+  std::uint32_t fleet_size = 0;  // vehicles the run waits for, before it starts
   std::uint32_t matched_peers = 0;
   std::uint32_t placements = 0;  // places it was given in a world: the first, and after restarts
   std::uint32_t late_scans = 0;  // overwritten by a newer one before the loop came
@@ -84,7 +84,7 @@ struct WorldHealth {
   PacketCounters packets;         // of this process
 };
 
-// One sentence a reason; none: it is live, it is ready. Who is not live is not ready.
+// One sentence a reason; none: it is live, it is ready. A service that is not live is not ready.
 using Reasons = std::vector<std::string>;
 Reasons NotLive(const LoopHealth& loop, SteadyTime now);
 Reasons NotReady(const VehicleHealth& vehicle, SteadyTime now);

@@ -1,7 +1,7 @@
 // The newest value of one writer for any number of readers: a sequence lock. The writer never
-// waits, whatever the readers do; a reader that met a write reads again. The words are atomics, so
-// that a torn copy is thrown away and never a data race: whoever acquired one word of a write also
-// sees that the write had begun.
+// waits, whatever the readers do; a reader that overlapped a write reads again. The words are
+// atomics, so that a torn copy is thrown away and never a data race: a reader that acquired one
+// word of a write also sees that the write had started.
 #pragma once
 
 #include <array>

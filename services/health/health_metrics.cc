@@ -37,7 +37,7 @@ class Metrics {
     Begin(name, help, MetricType::Gauge);
     Add({}, value);
   }
-  // A family whose members have one label each: begun, then filled.
+  // A family whose members have one label each: first Begin, then Add for each.
   void Begin(const std::string& name, const std::string& help, MetricType type) {
     families_.push_back({.name = prefix_ + name, .help = help, .type = type, .metric = {}});
   }
@@ -49,8 +49,8 @@ class Metrics {
     const bool counts = families_.back().type == MetricType::Counter;
     (counts ? metric.counter.value : metric.gauge.value) = number;
   }
-  // What has been counted since the process began, with quantiles 0.5, 0.99 and 1: millionths
-  // of the unit in its name.
+  // Totals since the process started, with quantiles 0.5, 0.99 and 1: millionths of the unit in its
+  // name.
   void Summary(const std::string& name, const std::string& help, const FigureSummary& figure) {
     Begin(name, help, MetricType::Summary);
     ClientMetric::Summary& summary = families_.back().metric.emplace_back().summary;
@@ -224,7 +224,7 @@ void AddTiming(const DriveFigures& timing, Metrics* metrics) {
 // Under the names every exporter has for them.
 std::string Text(const ProcessFigures& process) {
   Metrics metrics("process_");
-  metrics.Gauge("start_time_seconds", "When the process began, since 1970.", process.started_s);
+  metrics.Gauge("start_time_seconds", "When the process started, since 1970.", process.started_s);
   metrics.Counter("cpu_seconds", "Processor time used.", process.cpu_s);
   metrics.Gauge("resident_memory_bytes", "Resident memory.", process.resident_bytes);
   return metrics.Text();
@@ -284,10 +284,10 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
     metrics.Add({{"state", name}}, world.run_state == state);
   }
   metrics.Gauge("run_seconds", "Time since the start signal.", world.time_s);
-  metrics.Counter("late_ticks", "Ticks of the run that began a whole period late.",
+  metrics.Counter("late_ticks", "Ticks of the run that started a whole period late.",
                   world.late_ticks);
   metrics.Gauge("vehicles_joined", "Vehicles with a place.", world.vehicles_joined);
-  metrics.Counter("contacts", "Pairs of bodies that began to touch.", world.contacts);
+  metrics.Counter("contacts", "Pairs of bodies that came into contact.", world.contacts);
   metrics.Counter("reactions", "Commands that answered a cause.", world.reactions);
   metrics.Counter("commands_received", "Motor commands taken.", world.commands_taken);
   metrics.Begin("commands_rejected_total", "Motor commands refused, by reason.",

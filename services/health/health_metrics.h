@@ -11,7 +11,7 @@ namespace giveway {
 
 // What the operating system says of this process, and its log. Seconds, bytes.
 struct ProcessFigures {
-  double started_s = 0;  // since 1970, when this program image began
+  double started_s = 0;  // since 1970, when this program image started
   double cpu_s = 0;
   double resident_bytes = 0;
   std::uint64_t log_lines_dropped = 0;  // because stderr was not read

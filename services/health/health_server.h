@@ -12,7 +12,7 @@
 
 namespace giveway {
 
-// What is told, made anew for each request, on a thread of the server.
+// The pages, made again for each request, on a thread of the server.
 struct HealthPages {
   std::function<Reasons()> not_live;
   std::function<Reasons()> not_ready;
@@ -23,7 +23,7 @@ class HealthServer {
  public:
   // Listens from here on. Throws InputError, with a remedy, where it cannot.
   HealthServer(const std::string& address, std::uint16_t port, HealthPages pages);
-  // Closes the port. Waits for clients a moment at most: who is slow is left behind.
+  // Closes the port. Waits for clients a moment at most: slow ones are dropped.
   ~HealthServer();
   HealthServer(const HealthServer&) = delete;
   HealthServer& operator=(const HealthServer&) = delete;
@@ -34,7 +34,7 @@ class HealthServer {
 };
 
 // For images without an HTTP client: asks the service that listens there for "live", "ready" or
-// "metrics", prints the answer. 0: yes, 1: no, 2: nobody answered, stderr says where.
+// "metrics", prints the answer. 0: yes, 1: no, 2: no answer, stderr says where.
 int AskHealth(const std::string& address, std::uint16_t port, const std::string& what);
 
 }  // namespace giveway

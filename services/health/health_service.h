@@ -1,6 +1,6 @@
-// The health of one service: its loop says how it is, the server's threads tell who asks. Between
-// the two is a board on which the loop never waits. A loop that has begun and says nothing for
-// kWatchdogLimit is ended with its process.
+// The health of one service: its loop reports its state, the server's threads answer requests.
+// Between the two is a board on which the loop never waits. If a loop that has started does not
+// report for kWatchdogLimit, its process is ended.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace giveway {
 template <typename Health>
 class HealthService {
  public:
-  // Serves nobody where the flags name no port. Throws InputError.
+  // Does not serve where the flags name no port. Throws InputError.
   explicit HealthService(const ServiceFlags& flags) {
     if (flags.watchdog) watchdog_.emplace();
     Tell();
@@ -29,7 +29,7 @@ class HealthService {
                                 .metrics = [this] { return Metrics(); }});
   }
 
-  // The loop's own; nobody sees it before Tell.
+  // The loop's own; not visible to others before Tell.
   Health& Now() { return now_; }
   // Puts it up, as of a loop that turns. Never waits.
   void Tell() {

@@ -1,4 +1,4 @@
-// LZ4 frames, the way MCAP compresses its chunks. Bytes in, bytes out.
+// LZ4 frames, as MCAP compresses its chunks. Bytes in, bytes out.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // Reads an MCAP file from its start to its end, or to where it was cut off: a recorder that was
-// killed leaves a file without its end. Anybody's bytes are read in bounded memory and refused in
-// words.
+// killed leaves a file without its end. Untrusted bytes are read in bounded memory and refused with
+// an explanation.
 #pragma once
 
 #include <cstdint>

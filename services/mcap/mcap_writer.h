@@ -16,7 +16,7 @@
 
 namespace giveway::mcap {
 
-// CRC-32 of zip, continued from that of the bytes before; 0 to begin with.
+// CRC-32 of zip, continued from that of the bytes before; 0 at the start.
 std::uint32_t Crc32(std::string_view bytes, std::uint32_t before = 0);
 
 class McapWriter {

@@ -1,4 +1,4 @@
-// Who may give orders to this service, by its flags.
+// Which operators may give orders to this service, by its flags.
 #pragma once
 
 #include "services/auth/admin_gate.h"

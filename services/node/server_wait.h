@@ -10,7 +10,7 @@
 
 namespace giveway {
 
-// Waits until every discovery server has an address. `tell` hears the reason again and again
+// Waits until every discovery server has an address, and passes the reason to `tell` repeatedly
 // meanwhile. False if asked to stop.
 bool AwaitServers(const link::LinkOptions& options, const StopSignal& stop,
                   const std::function<void(const std::string& why)>& tell);

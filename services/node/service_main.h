@@ -30,7 +30,7 @@ inline link::LinkOptions LinkOptionsOf(const ServiceFlags& flags, const Scenario
       .discovery_servers = flags.discovery_servers};
 }
 
-// Only vehicles hear through it: the world's ears are the wires to the wheels.
+// Only reception of vehicles is impaired: to the world it would be the wires to the wheels.
 inline Impairment ImpairmentOf(const ServiceFlags& flags, const Scenario& scenario) {
   Impairment impairment = flags.impair.value_or(scenario.impairment);
   if (!impairment.seed) impairment.seed = scenario.seed;

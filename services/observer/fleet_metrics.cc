@@ -30,7 +30,7 @@ ClientMetric MakeMetric(std::vector<Label> labels, double value, MetricType type
   return metric;
 }
 
-// The families of all vehicles: each is begun, then filled vehicle by vehicle.
+// The families of all vehicles: each is started, then filled vehicle by vehicle.
 class Families {
  public:
   Families(const FleetView& view, SteadyTime now) : view_(view), now_(now) {}
@@ -41,7 +41,7 @@ class Families {
   void Add(std::vector<Label> labels, double value) {
     families_.back().metric.push_back(MakeMetric(std::move(labels), value, families_.back().type));
   }
-  // One number a vehicle that has told its status.
+  // One number for each vehicle that has published its status.
   template <typename Of>
   void OfStatus(const std::string& name, const std::string& help, MetricType type, Of&& of) {
     Begin("giveway_vehicle_" + name, help, type);

@@ -44,7 +44,7 @@ constexpr FlagHelp kFlags[] = {
     {"--port", "1..65535", "port of the page (default 8080)"},
     {"--foxglove-port", "1..65535", "port of the Foxglove WebSocket, at --address (default: none)"},
     {"--host-name", "NAME,...",
-     "names by which a browser may ask for the page, beside localhost and addresses"},
+     "names by which a browser may ask for the page, besides localhost and addresses"},
     {"--ros2-rate", "0.1..100", "messages a second of each ROS 2 topic (default 10)"},
     {"--ros2-domain", "1..99", "domain of the ROS 2 topics (default: that of the fleet)"},
     {"--log-format", "text|json", "of the lines on stderr (default text)"},

@@ -39,7 +39,7 @@ const Topic* TopicOfProfile(std::string_view profile);
 inline constexpr std::int64_t kLargeFleet = 32;
 inline constexpr std::int64_t kLargeFleetAnnouncementNs = 5'000'000'000;
 
-// Participants beside the vehicles: the world and an observer.
+// Participants besides the vehicles: the world and an observer.
 inline constexpr std::int64_t kOtherParticipants = 2;
 
 struct Deployment {

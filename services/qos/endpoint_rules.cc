@@ -1,5 +1,5 @@
 // One writer or reader, whatever its topic: limits that contradict each other, and what Fast DDS
-// does with some values. One set serves the fleet, which may run 2.9 beside 3.1: a hazard of either
+// does with some values. One set serves the fleet, which may mix 2.9 and 3.1: a hazard of either
 // is a finding.
 #include "services/qos/rules.h"
 

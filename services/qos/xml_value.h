@@ -1,6 +1,6 @@
 // What the text of an element means to the library. Fast DDS 2.9 and 3.1 leave numbers and flags to
 // tinyxml2, and so does this: blanks and a sign before the digits, and 0x4, are read; what follows
-// the digits is dropped without a word.
+// the digits is dropped silently.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Frames in a stream of bytes: each says how long it is and proves that it is whole. Tells a stream
-// that was cut off, as by the death of its writer, from one that was damaged. Knows no contents.
+// Frames in a stream of bytes: each says how long it is and proves that it is whole. Distinguishes
+// a stream that was cut off, as by the death of its writer, from a damaged one. Knows no contents.
 //
 // A frame is the payload's length, the payload's CRC-32C, the CRC-32C of those eight bytes (each
 // four bytes, little-endian), and the payload. The head has a sum of its own because a wrong length

@@ -106,7 +106,7 @@ void Visit(auto& fields, Is<Beacon> auto& beacon) {
 }
 
 void Visit(auto& fields, Is<ReceivedBeacon> auto& received) {
-  // Who replays looks at the ranges; no brain looks at the arrival.
+  // A replay checks the ranges itself; no brain reads the arrival.
   auto& [beacon, at, crc_valid, name_valid, writer, in_range, arrival] = received;
   fields(beacon, at, crc_valid, name_valid, writer);
 }

@@ -22,8 +22,8 @@ class RecordingPart {
 
   // 0, or the errno. What is appended as a step may be given up for the end.
   int Append(std::string_view bytes, bool is_step);
-  // Ends the file behind what is whole. Where the disk has no room for that, the last steps make
-  // it: they are taken off, and added to `lost`. False if even that failed.
+  // Ends the file behind the last whole frame. If the disk has no space for that, the last steps
+  // are removed to make some, and added to `lost`. False if even that failed.
   bool PutEnd(RecordedEnd end);
 
   const std::string& Name() const { return name_; }

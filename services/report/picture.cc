@@ -83,7 +83,7 @@ struct Mark {
   std::function<void(Canvas* canvas, Pixel cell)> draw;
 };
 
-// One entry: a swatch at the left and the words beside it.
+// One entry: a swatch at the left and the words next to it.
 Pixel Cell(const Canvas& canvas, std::size_t index) {
   const double column = (canvas.BottomRight().x - canvas.TopLeft().x) / kColumns;
   return {canvas.TopLeft().x + column * static_cast<double>(index % kColumns),

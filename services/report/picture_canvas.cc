@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPlotWidth = 880;
 constexpr double kPlotHeight = 620;
-constexpr double kEdge = 44;        // room for the numbers beside the plot
+constexpr double kEdge = 44;        // space for the numbers next to the plot
 constexpr double kLabelHalf = 9;    // half the height of a label
 constexpr double kCharacter = 7.2;  // width of a character of a label
 

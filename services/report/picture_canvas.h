@@ -1,5 +1,5 @@
-// Where world metres become SVG pixels: elements, escaping and labels that keep out of each other's
-// way. Knows nothing of vehicles. An element with a number that is not finite is left out.
+// Where world metres become SVG pixels: elements, escaping, and labels that do not overlap. Knows
+// nothing of vehicles. An element with a number that is not finite is left out.
 #pragma once
 
 #include <cstddef>

@@ -139,7 +139,7 @@ void DrawTick(Canvas* canvas, Pixel before, Pixel at, const std::string& colour)
                fmt::format("stroke=\"{}\" stroke-width=\"2\"", colour));
 }
 
-// The number sits to the right of the way the vehicle drives.
+// The number is to the right of the driving direction.
 void DrawTickTime(Canvas* canvas, Pixel before, Pixel at, double time_s) {
   const double length = Distance(before, at);
   if (length < 1e-9) return;

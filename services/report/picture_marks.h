@@ -49,7 +49,7 @@ void DrawDoor(Canvas* canvas, Pixel from, Pixel to);
 // Start: the body, hollow, with its heading. Goal: its circle with a dot.
 void DrawStartsAndGoals(Canvas* canvas, const Scenario& scenario);
 void KeepLabelsOff(Canvas* canvas, const Track& track);
-// The path with a tick every 2 s and the seconds written beside some.
+// The path with a tick every 2 s and the seconds written next to some.
 void DrawTrack(Canvas* canvas, const Track& track, const std::string& colour);
 // Both bodies and the distance between them.
 void DrawClosest(Canvas* canvas, const Scenario& scenario, const std::vector<Track>& tracks,

@@ -1,6 +1,6 @@
-// A drill: SIGUSR2 says that the control loop is to hang, and the next one that it may go on. The
-// loop asks; the library's threads never know. Without this object SIGUSR2 ends the process, as
-// ever.
+// A drill: SIGUSR2 makes the control loop hang, and the next one makes it resume. The loop polls;
+// the library's threads are not affected. Without this object SIGUSR2 ends the process, as is its
+// default.
 #pragma once
 
 #include <csignal>

@@ -1,7 +1,8 @@
-// Who a service is, for tools that look at its process from outside: a small text in memory that
-// /proc/PID/fd shows under a name of its own. No flag tells the id that a world gave, and in
-// containers process ids are all the same; but a tool that may read a process's environment finds
-// this, in whatever namespaces it runs. It ends with the process, and no file stays behind.
+// The identity of a service, for tools that look at its process from outside: a small text in
+// memory that /proc/PID/fd shows under a name of its own. No flag holds the id that a world
+// assigned, and in containers process ids are all the same; but a tool that may read a process's
+// environment finds this, in whatever namespaces it runs. It ends with the process, and no file
+// stays behind.
 #pragma once
 
 #include <filesystem>

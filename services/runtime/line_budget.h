@@ -1,5 +1,5 @@
-// So many lines a second for one kind of news, however much there is of it: who asks a thousand
-// times does not bury the log. Pure.
+// So many lines a second for one kind of message, however many there are: a client that asks a
+// thousand times does not flood the log. Pure.
 #pragma once
 
 #include <cstdint>

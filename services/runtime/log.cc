@@ -54,7 +54,7 @@ class JsonFormatter : public spdlog::formatter {
 
 constexpr const char* kTextPattern = "%H:%M:%S.%e %-7l %n%*: %v";
 
-// "%*" of the pattern: " 3" after the name of a vehicle whose id no flag told.
+// "%*" of the pattern: " 3" after the name of a vehicle whose id came from the world, not a flag.
 class GivenId : public spdlog::custom_flag_formatter {
  public:
   void format(const spdlog::details::log_msg& message, const std::tm&,

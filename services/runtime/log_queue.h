@@ -1,5 +1,5 @@
-// Log lines on their way to a descriptor. Logging never waits for the reader of the log: a thread
-// of the queue's own writes, one line at a time. What a full queue cannot take, and what cannot be
+// Log lines queued for a descriptor. Logging never waits for the reader of the log: a thread of the
+// queue's own writes, one line at a time. What a full queue cannot take, and what cannot be
 // written, is dropped, counted, and reported in its place in the log as soon as the reader reads
 // again.
 #pragma once

@@ -9,7 +9,7 @@
 namespace giveway {
 namespace {
 
-// More pieces than threads: who is held up does fewer.
+// More pieces than threads: a delayed thread does fewer.
 constexpr std::size_t kPiecesEach = 4;
 // Some tens of microseconds: what waking a sleeper costs (30 us), and within a tick the next call
 // comes sooner.
@@ -61,7 +61,7 @@ class ParallelPool::Workers {
     count_ = count;
     pieces_ = pieces;
     unfinished_.store(static_cast<std::uint32_t>(pieces), std::memory_order_relaxed);
-    // Whoever takes a piece sees what was written above.
+    // A thread that takes a piece sees what was written above.
     unclaimed_.store(static_cast<std::uint32_t>(pieces), std::memory_order_release);
     Wake();
     RunPieces();
@@ -110,7 +110,7 @@ class ParallelPool::Workers {
     while (left > 0) left = AwaitChange(unfinished_, left);
   }
 
-  // Of the call under way.
+  // Of the current call.
   const ParallelBody* body_ = nullptr;
   std::size_t count_ = 0;
   std::size_t pieces_ = 0;

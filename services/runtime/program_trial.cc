@@ -28,7 +28,7 @@ std::string HowItEnded(int status) {
   return "it ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
 
-// What the process begins with: the text, a pipe for what it says, and nothing else of this one's.
+// What the process starts with: the text, a pipe for what it says, and nothing else of this one's.
 class Inheritance {
  public:
   Inheritance(int text, int output) {

@@ -1,4 +1,4 @@
-// A second process of this program that tries what may hang or end it, while the first goes on.
+// A second process of this program that tries what may hang or end it, while the first continues.
 #pragma once
 
 #include <sys/types.h>

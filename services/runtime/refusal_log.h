@@ -1,5 +1,5 @@
-// What of the refusals is logged: each writer's fault of a field once, and never so many lines that
-// a writer that sends nothing else could fill a disk. The counters go on counting.
+// Which refusals are logged: each writer's fault of a field once, and never so many lines that a
+// writer that sends nothing else could fill a disk. The counters keep counting.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// A process that goes on as itself with other flags: the same process id, pipes and parent, but a
+// A process that restarts in place with other flags: the same process id, pipes and parent, but a
 // new program image, because the library keeps the first profiles it loads until the process ends.
 #pragma once
 

@@ -7,7 +7,7 @@
 
 namespace giveway {
 
-// Bytes of the sequence that begins `text`, which is not empty; 0 if none does.
+// Bytes of the sequence at the start of `text`, which is not empty; 0 if there is none.
 std::size_t Utf8Length(std::string_view text);
 // True if `text` is well-formed and without NUL bytes.
 bool IsText(std::string_view text);

@@ -1,5 +1,5 @@
-// The way back of a process that tries something which may end it: where a signal such as SIGBUS or
-// SIGABRT would, it goes on as itself with the flags of before, as RestartWith does.
+// The fallback of a process that tries something which may end it: where a signal such as SIGBUS or
+// SIGABRT would, it restarts in place with its previous flags, as RestartWith does.
 #pragma once
 
 #include <string>

@@ -30,7 +30,7 @@ int WriteAll(int descriptor, std::string_view bytes) {
   return 0;
 }
 
-// A file beside the one it is to become; gone with this object unless it was put in its place.
+// A temporary file next to its target; gone with this object unless it was renamed to the target.
 class Beside {
  public:
   Beside(std::string name, int descriptor) : name_(std::move(name)), descriptor_(descriptor) {}
@@ -67,7 +67,7 @@ class Beside {
 };
 
 // One name for all writers of one state: what a killed one left is not left for ever. A link that
-// somebody put there is removed, not followed.
+// was put there is removed, not followed.
 Beside MakeForState(const std::string& path) {
   const std::string name = path + ".new";
   ::unlink(name.c_str());

@@ -1,5 +1,6 @@
-// Files that are written whole or not at all: beside their place first, then put there by a rename.
-// A reader finds what was there before or all of what is new, never a part, whatever fails.
+// Files that are written whole or not at all: first under a temporary name in the same folder, then
+// renamed. A reader finds what was there before or all of what is new, never a part, whatever
+// fails.
 #pragma once
 
 #include <string>
@@ -16,7 +17,7 @@ std::string WriteStateFile(const std::string& path, std::string_view bytes);
 // (/dev/stdout, a pipe) is written to as it is. Waits for the disk.
 std::string WriteOutputFile(const std::string& path, std::string_view bytes);
 
-// Empty if WriteOutputFile could begin now, else why not. Leaves no file behind.
+// Empty if WriteOutputFile could start now, else why not. Leaves no file behind.
 std::string WhyNotWritable(const std::string& path);
 
 // "path: cannot be read: No such file or directory", by errno.

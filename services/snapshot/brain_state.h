@@ -15,7 +15,7 @@ namespace giveway {
 // A kilobyte a peer, and five.
 std::string BytesOf(const VehicleState& state);
 
-// True if these are the state's bytes, in the layout of today or in the one of before that they are
+// True if these are the state's bytes, in the current layout or in the older one that they are
 // written in.
 bool AreBytesOf(std::string_view bytes, const VehicleState& state);
 

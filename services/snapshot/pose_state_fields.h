@@ -1,5 +1,5 @@
-// Which fields a brain remembers of its own pose beside its dead reckoning, for state_fields.h.
-// They stand at the end of the state: images of before have none of them.
+// Which fields a brain remembers of its own pose besides its dead reckoning, for state_fields.h.
+// They stand at the end of the state: older images have none of them.
 #pragma once
 
 #include "services/recording/recording_fields.h"

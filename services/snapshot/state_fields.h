@@ -131,7 +131,7 @@ struct StateFields {
       fields(state, heard, weighed, clears);
     }
   }
-  // Who was found last is only a guess, and left out.
+  // The peer found last is only a guess, and left out.
   static void Of(auto& fields, Is<PeerTable> auto& table) {
     fields(table.count_);
     for (std::uint32_t i = 0; i < table.count_ && i < kMaxPeers; ++i) fields(table.peers_[i]);
@@ -156,8 +156,8 @@ struct StateFields {
   }
 };
 
-// Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean. What a
-// layout has more than the one before stands at the end of the state.
+// Counts the layouts; in addition to VehicleState::kVersion, which counts what the fields mean.
+// What a layout has more than the one before stands at the end of the state.
 enum class StateFormat : std::uint32_t {
   kFirst = 1,
   kWithPose = 2,

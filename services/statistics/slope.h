@@ -56,8 +56,8 @@ inline constexpr std::size_t kGrowthRuns = 8;
 bool GrowsThroughout(std::span<const Sample> samples);
 
 // The interval lies wholly above zero, and the slope reaches `least_per_hour`. Of one series alone:
-// of forty that do not grow, one has such an interval. Who watches many takes their chances
-// together (HolmAdjusted).
+// of forty that do not grow, one has such an interval. For many series correct for multiple
+// comparisons (HolmAdjusted).
 bool IsLeak(const Slope& slope, double least_per_hour);
 
 }  // namespace giveway::statistics

@@ -11,7 +11,7 @@
 namespace giveway::statistics {
 namespace {
 
-// Up to here all ways to deal the values out are counted.
+// Up to so many values all assignments to the two samples are enumerated.
 constexpr std::size_t kMostExact = 40;
 constexpr double kTail = 0.99;
 

@@ -9,7 +9,7 @@ namespace giveway {
 namespace {
 
 constexpr Nanoseconds kAskAgain =
-    std::chrono::seconds(1);  // who waits and does not ask is forgotten
+    std::chrono::seconds(1);  // a world forgets a request that is not repeated
 
 }  // namespace
 

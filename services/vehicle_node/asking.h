@@ -9,7 +9,7 @@
 
 namespace giveway {
 
-// One request until it is answered for good. Talks over a link that outlives it.
+// One request until its final answer. Talks over a link that outlives it.
 class Asking {
  public:
   // With a session of its own, or the one that a restarted process had before.

@@ -1,6 +1,5 @@
-// Of whom a vehicle hears beacons young enough to decide by, and of whom no more: told once when it
-// changes, so that the log says when a peer became stale. Pure; watches the peer table, changes
-// nothing.
+// Whether each peer's beacons are fresh enough to decide by: reported once when it changes, so that
+// the log says when a peer became stale. Pure; watches the peer table, changes nothing.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace giveway {
 enum class BeaconNewsKind : std::uint8_t {
   kHeard,       // its newest beacon is within the age limit, as none was before
   kStale,       // its newest beacon is older than the age limit
-  kLeft,        // it said good-bye
+  kLeft,        // it sent a leave notice
   kOutOfReach,  // it speaks from beyond the emission radius
 };
 

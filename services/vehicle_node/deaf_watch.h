@@ -1,6 +1,6 @@
-// When a vehicle that its world speaks to, and that yet gets no scan, waits no longer: the library
-// ignores a writer for good after one sample with a sequence number far ahead, whoever sent it.
-// Only a new participant hears again. Pure.
+// When a vehicle that is matched with its world, and yet gets no scan, waits no longer: the library
+// permanently ignores a writer after one sample with a sequence number far ahead, from any sender.
+// Only a new participant receives again. Pure.
 #pragma once
 
 #include <chrono>

@@ -5,7 +5,7 @@
 namespace giveway {
 namespace {
 
-// Silence is no sign of a changed interface, but without it nobody need look.
+// Silence does not prove a changed interface, but without silence there is no need to check.
 constexpr Nanoseconds kSilence = std::chrono::seconds(2);
 constexpr Nanoseconds kLookEvery = std::chrono::seconds(1);
 

@@ -31,7 +31,7 @@ void VehicleLog::TellOfEvents(std::span<const QosEvent> events, const Vehicle& v
     switch (event.kind) {
       case QosEventKind::kDeadlineMissed:
       case QosEventKind::kLivelinessLost:
-        // Its writer is gone a moment after its good-bye.
+        // Its writer is gone a moment after its leave notice.
         if (HasLeft(event.vehicle, vehicle)) break;
         [[fallthrough]];
       case QosEventKind::kIncompatibleQos:

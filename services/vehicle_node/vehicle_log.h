@@ -1,5 +1,5 @@
-// What a vehicle's loop tells its log of the others: who comes and goes, what of theirs is refused,
-// and whose beacons can be decided by. Each once, when it changes.
+// What a vehicle's loop logs about its peers: which join and leave, what of theirs is refused, and
+// whose beacons are fresh enough to decide by. Each once, when it changes.
 #pragma once
 
 #include <optional>
@@ -24,14 +24,14 @@ class VehicleLog {
                   SteadyTime now);
   // What was dropped of the packets that reached this process.
   void TellOfPackets(const PacketCounters& packets, SteadyTime now);
-  // What the middleware says of the peers. Whoever comes or goes is news, the rest is trouble; that
-  // a beacon was lost is neither on a radio, and would be said many times a second.
+  // What the middleware says of the peers. Joining and leaving is info, the rest a warning; a lost
+  // beacon is neither on a radio, and would be logged many times a second.
   void TellOfEvents(std::span<const QosEvent> events, const Vehicle& vehicle);
   // What the brain refused of these. What is broken or misnamed the link has said, and knows more
   // of it.
   void TellOfRefusals(std::span<const ReceivedBeacon> beacons, const Vehicle& vehicle,
                       SteadyTime now);
-  // Whose beacons can be decided by, and whose no more. `now` is what the brain takes for the time.
+  // Which peers' beacons became fresh or stale. `now` is the brain's time.
   void TellOfBeacons(const Vehicle& vehicle, const VehicleOptions& options, SteadyTime now,
                      SteadyTime woke);
   // Once, when it is known.

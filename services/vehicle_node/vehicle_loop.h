@@ -50,8 +50,8 @@ class VehicleLoop {
               const VehicleLoopOptions& options);
 
   // Until the run has ended (unless it stays), `is_stopped`, the world refuses it, or an operator's
-  // order takes a restart. Halts and says good-bye if the run goes on without it; for good only in
-  // the second case, in the last it keeps its place.
+  // order takes a restart. Halts, and sends a leave notice if the run continues without it: finally
+  // in the second case, in the last it keeps its place.
   DriveEnd Drive(const std::function<bool()>& is_stopped);
   const SessionId& Session() const { return place_.Entry().session; }
   VehicleId Id() const { return options_.id; }

@@ -23,7 +23,7 @@ void LogRefusal(const RosterEntry& entry);
 
 class VehiclePlace {
  public:
-  // One that was given. Whoever `stays` outlives the world.
+  // A place that was assigned. One that `stays` outlives the world.
   VehiclePlace(link::DriveLink* link, const Clock* clock, const RosterEntry& entry, bool stays)
       : link_(*link), clock_(*clock), entry_(entry), stays_(stays) {}
 
@@ -37,8 +37,8 @@ class VehiclePlace {
 
   // The world's newest word.
   PlaceNews Follow(const RosterEntry& entry);
-  // Once a turn: who stays asks the next world when the run is over, and asks until it is heard. So
-  // does who has had no body for a while: `lacks_body`, see DriveLink.
+  // Once a turn: a vehicle that stays asks the next world when the run is over, until it is
+  // answered. So does one that has had no body for a while: `lacks_body`, see DriveLink.
   void KeepAsking(bool lacks_body);
 
  private:

@@ -26,7 +26,7 @@ std::string Describe(const ImpairmentCounters& counters);
 // "31 cm driven of 35 cm free before the wheels obeyed", for log lines.
 std::string Describe(const ReactionMargin& margin);
 
-// What the link counted and fleet/status has no room for, one line of name=number.
+// The link counters that fleet/status does not carry, one line of name=number.
 std::string Describe(const link::VehicleLinkCounters& counters);
 
 class VehicleReport {

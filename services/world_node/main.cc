@@ -2,9 +2,9 @@
 //
 //   WorldLink::TakeJoins, TakeCommands -> Admission, Run::Advance -> WorldLink::Send...
 //
-// Waits for the roster, runs the scenario on absolute deadlines, and tells everyone why it ended.
-// With a checkpoint file it goes on, after a crash, from where it was. This file only wires; the
-// loop is in world_loop.h.
+// Waits for the roster, runs the scenario on absolute deadlines, and reports why it ended. With a
+// checkpoint file it resumes, after a crash, from where it was. This file only wires; the loop is
+// in world_loop.h.
 #include <functional>
 #include <utility>
 

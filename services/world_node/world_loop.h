@@ -28,12 +28,12 @@ namespace giveway {
 struct WorldLoopOptions {
   bool lockstep = false;
   ParallelFor parallel = OnThisThread;
-  sim::FaultSchedule schedule;                     // beside the scenario's faults
+  sim::FaultSchedule schedule;                     // in addition to the scenario's faults
   std::string checkpoint_file;                     // empty: none is kept
   std::uint64_t scenario_mark = 0;                 // see sim::FleetCheckpoint
-  std::optional<sim::FleetCheckpoint> checkpoint;  // to go on from
+  std::optional<sim::FleetCheckpoint> checkpoint;  // to resume from
   bool same_epoch = false;        // it restarted itself, and nothing has moved since
-  std::function<void()> on_back;  // called once it goes on; may be empty
+  std::function<void()> on_back;  // called once it resumes; may be empty
 };
 
 enum class WorldEnd : std::uint8_t { kPassed, kFailed, kRestarts };
@@ -45,7 +45,7 @@ class WorldLoop {
 
   // Runs to the end, or until an operator's order takes a restart.
   WorldEnd Drive(const StopSignal& stop);
-  // All that another process needs to go on from here.
+  // All that another process needs to resume from here.
   std::string State() const;
 
  private:
@@ -99,12 +99,12 @@ class WorldLoop {
   WorldLoopOptions options_;
   WorldEpoch epoch_;
   std::unique_ptr<Fleet> fleet_;
-  std::optional<std::vector<VehicleId>> resumed_with_;  // who must be back before it goes on
+  std::optional<std::vector<VehicleId>> resumed_with_;  // must be back before it resumes
   sim::ReactionMeter reactions_;
   SteadyTime start_by_;
   SteadyTime say_alone_;  // when it is next said that no discovery server answers
   std::map<VehicleId, Hearing> heard_;
-  std::map<VehicleId, Newcomer> newcomers_;  // who joined under way
+  std::map<VehicleId, Newcomer> newcomers_;  // that joined during the run
   RefusalLog refusal_log_;
   PacketLog packet_log_;
   std::size_t speaking_ = 0;  // of those that are in

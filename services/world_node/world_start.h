@@ -11,8 +11,8 @@ namespace giveway {
 // The faults of the list that the flags name; none without one. Throws InputError.
 sim::FaultSchedule LoadSchedule(const ServiceFlags& flags, const Scenario& scenario);
 
-// Reads the checkpoint; the log says whether it goes on from it, and why not. What else the loop
-// works with is the caller's.
+// Reads the checkpoint; the log says whether it resumes from it, and why not. The caller fills in
+// the rest of the loop's options.
 WorldLoopOptions LoopOptionsOf(const ServiceFlags& flags, const Scenario& scenario);
 
 }  // namespace giveway

@@ -1,5 +1,5 @@
-// A scenario file with a few values of its own changed, as text: to run a fleet another
-// way than its file says and wants every process to read the same. What it is for is the caller's.
+// A scenario file with a few of its values changed, as text: for running a fleet differently from
+// its file, with every process reading the same. The caller decides what for.
 #pragma once
 
 #include <cstdint>

@@ -49,7 +49,7 @@ bool CaptureFiles::Append(std::string_view bytes) {
 bool CaptureFiles::Open(SteadyTime now) {
   ++part_;
   part_path_ = HasParts() || part_ > 1 ? PartPath(options_.path, part_) : options_.path;
-  // One that is there already is somebody's recording.
+  // An existing file is another recording.
   constexpr mode_t kMode = 0644;
   file_ = ::open(part_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
   if (file_ < 0) return Fail("cannot be made");

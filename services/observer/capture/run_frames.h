@@ -11,8 +11,8 @@
 
 namespace giveway {
 
-// Collects frames of a run that goes on, and its events. Bounded: of a run longer than that every
-// second frame goes; of more events the first stay. Or the last of a run without an end.
+// Collects frames and events of a run in progress. Bounded: in a longer run every second frame is
+// dropped; of more events the first stay. Or the last of a run without an end.
 class RunFrames {
  public:
   static constexpr std::size_t kMostFrames = 6000;  // ten minutes at ten a second

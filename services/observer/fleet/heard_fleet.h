@@ -1,6 +1,6 @@
 // What an observer without prior knowledge knows of a fleet: folds what the link brings into the
-// newest of each vehicle and of the world, and when each was last heard. Pure; whose time it is, is
-// an argument.
+// newest of each vehicle and of the world, and when each was last heard. Pure; the time is an
+// argument.
 #pragma once
 
 #include <cstdint>
@@ -58,8 +58,8 @@ class HeardFleet {
   const std::map<VehicleId, HeardVehicle>& Vehicles() const { return vehicles_; }
   const HeardWorld& World() const { return world_; }
   bool Anybody() const { return world_.heard_at.has_value() || !vehicles_.empty(); }
-  // True once everyone there is to hear has been heard: no new vehicle came for a while, every body
-  // in the world has spoken, and every vehicle published its status or had time to: a foreign one
+  // True once the whole fleet has been heard: no new vehicle came for a while, every body in the
+  // world has sent something, and every vehicle published its status or had time to: a foreign one
   // has none.
   bool IsSettled(SteadyTime now) const;
 

@@ -151,7 +151,7 @@ JsonObject DepartedOf(const AccountSums& departed) {
   return object;
 }
 
-// The newest values are for who gathers them.
+// Without the newest values, which are for collectors.
 JsonObject FigureOf(const FigureSummary& figure) {
   JsonObject object;
   object.Add("values", figure.count);

@@ -1,4 +1,4 @@
-// What the page must know beside the frames: the names behind numbers, the shape of bodies, and
+// What the page needs besides the frames: the names behind numbers, the shape of bodies, and
 // what stands in the world, which no topic carries: it comes from the scenario. Pure.
 #pragma once
 

@@ -57,7 +57,7 @@ class NewestSamples {
   void DropOldest(bool unkeyed);
 
   std::map<std::uint32_t, std::size_t> topics_;    // by subscription
-  std::map<std::size_t, std::uint32_t> by_topic_;  // subscriptions, the other way round
+  std::map<std::size_t, std::uint32_t> by_topic_;  // subscriptions, the inverse
   std::map<SampleKey, SharedSample> newest_;
   std::deque<SampleKey> order_;  // of newest_, by the time since when something of it waits
   std::size_t unkeyed_waiting_ = 0;

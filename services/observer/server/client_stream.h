@@ -1,6 +1,6 @@
-// One connection of the page server, bounded: the library reads a line as long as somebody sends
-// it, and waits for a client as long as that pleases. Here a request has so many bytes and so much
-// time, and a write that does not go on ends the connection.
+// One connection of the page server, bounded: the library reads a line for as long as a client
+// sends it, and waits for a slow client without limit. Here size and time of a request are limited,
+// and a write that makes no progress ends the connection.
 #pragma once
 
 #include <httplib.h>

@@ -1,5 +1,5 @@
-// The newest frame for any number of clients: one slot, never a queue. Who is slow skips frames,
-// and nobody waits for it.
+// The newest frame for any number of clients: one slot, never a queue. A slow client skips frames,
+// and nothing waits for it.
 #pragma once
 
 #include <condition_variable>
@@ -25,7 +25,7 @@ class FrameBoard {
     }
     changed_.notify_all();
   }
-  // No more frames come: all that wait go home.
+  // No more frames come: releases all waiting clients.
   void Close() {
     {
       const std::lock_guard lock(mutex_);

@@ -24,7 +24,7 @@ constexpr std::size_t kThreads = PageServer::kMostStreams + 4;
 constexpr int kMostWaiting = 16;  // connections; further ones are closed at once
 constexpr Nanoseconds kHeartbeat = std::chrono::seconds(1);  // of a stream without frames
 
-// True on the thread that accepts, while it hands over a connection nobody has time for.
+// True on the accepting thread while it hands over a connection that the pool has no capacity for.
 thread_local bool turns_away = false;
 
 class WaitingLine : public httplib::TaskQueue {

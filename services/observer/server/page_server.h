@@ -40,7 +40,7 @@ struct PageSources {
   std::string scene;  // first on every stream; without line feeds
   const FrameBoard* frames =
       nullptr;  // later ones go to streams, of /api/v1/stream; null: there is none
-  std::vector<std::string> host_names;  // beside localhost and addresses
+  std::vector<std::string> host_names;  // besides localhost and addresses
 };
 
 class PageServer {
