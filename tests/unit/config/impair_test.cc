@@ -225,7 +225,7 @@ TEST(ImpairmentInAFile, IsRefusedFieldByField) {
   refused("rate_bytes_s: -1", "rate_bytes_s", "bytes/s");
   refused("from_vehicle: 3", "from_vehicle", "no vehicle has this id");
   refused("to_vehicle: 0", "to_vehicle", "between 1");
-  refused("from: world from_vehicle: 1", "from", "beside from_vehicle");
+  refused("from: world from_vehicle: 1", "from", "together with from_vehicle");
   refused("blackout { from_s: 5 to_s: 5 }", "blackout[0].to_s", "ends before it starts");
   refused("blackout { from_s: 5 }", "blackout[0].to_s", "missing");
   refused("from_s: 5 to_s: 5", "to_s", "ends before it starts");
