@@ -82,7 +82,8 @@ TEST(PlaceRules, WhatMovesHasAWayAndASpeed) {
   const std::string disc = "obstacle { disc_radius_m: 0.1 start { x_m: 8 y_m: 0 } ";
   EXPECT_THAT(With(disc + "speed_m_s: 1 }"),
               ElementsAre(Is(17, "obstacle[0].speed_m_s", "there is no waypoint")));
-  EXPECT_THAT(With(disc + "loop: true }"), ElementsAre(Is(17, "obstacle[0].loop", "there is no waypoint")));
+  EXPECT_THAT(With(disc + "loop: true }"),
+              ElementsAre(Is(17, "obstacle[0].loop", "there is no waypoint")));
   EXPECT_THAT(With(disc + "waypoint { x_m: 9 y_m: 0 } }"),
               ElementsAre(Is(17, "obstacle[0].speed_m_s", "missing")));
   EXPECT_THAT(With(disc + "waypoint { x_m: 9 y_m: 0 } speed_m_s: 10.1 }"),
