@@ -1,7 +1,7 @@
 // The world: bodies that follow motor commands, walls, obstacles, doors, contacts and ultrasonics,
-// tick by tick. It knows no brain, no clock and no run: it moves while it is told to, and brakes
-// otherwise. The same commands in the same ticks give the same bits, whatever the order of joining
-// and however its work is cut.
+// tick by tick. It knows no brain, no clock and no run: it moves bodies while the caller lets it,
+// and brakes them otherwise. The same commands in the same ticks give the same bits, in any order
+// of joining and with any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -44,16 +44,16 @@ class World {
   void Join(VehicleId vehicle);
   // The same for any vehicle, by options of its own; also during a run.
   void Join(const VehicleOptions& options);
-  // Takes the body away: it is no obstacle any more.
+  // Removes the body: it is no longer an obstacle.
   void Remove(VehicleId vehicle);
-  // Nothing is known of the vehicle any more. It is not present.
+  // Forgets the vehicle, which is not present.
   void Forget(VehicleId vehicle);
   // Whether a vehicle could join by these options now: nothing else touches its start pose.
   bool IsFree(const VehicleOptions& options) const;
-  // Holds the command until a newer one comes. False: refused, and counted.
+  // Keeps the command until a newer one arrives. False: refused, and counted.
   bool Take(const MotorCommand& command);
 
-  // What is wrong with drives in the next tick, by vehicle; until this is called again.
+  // The drive faults of the next ticks, by vehicle, until this is called again.
   void SetDriveFaults(std::span<const DriveFault> faults) {
     drive_faults_.assign(faults.begin(), faults.end());
   }
@@ -63,8 +63,8 @@ class World {
   void Advance(bool driving);
 
   Checkpoint Save() const;
-  // Continues from there: whom it names is present, whom it does not is not. False, and nothing is
-  // done, where it names vehicles that are not known or is not of this scenario.
+  // Continues from there: vehicles in the checkpoint are present, others are not. Returns false,
+  // and changes nothing, if it has unknown vehicles or is of another scenario.
   bool Restore(const Checkpoint& checkpoint);
 
   Tick Now() const { return now_; }

@@ -104,9 +104,9 @@ void BeaconLedger::Settle(Row* row) {
     return Begin(newest, row->fate, row);  // either of the two numbers may be the corrupted one
   }
   if (Apart(newest) != row->apart) {
-    // The library's number was broken in its packet; or it stays so: that the writer has given out
-    // a number more, or less, is a difference from now on. A reader takes none below a broken
-    // number, so packets broken in the same bit may come one after the other.
+    // The library's number was corrupted in its packet, or the writer has skipped or reused a
+    // number, which is a difference from now on. A reader takes no number below a corrupted one, so
+    // packets corrupted in the same bit may come one after the other.
     if (row->odd_apart != Apart(newest)) row->odd_beacons = 0;
     row->odd_apart = Apart(newest);
     if (++row->odd_beacons < kNewCount) return;

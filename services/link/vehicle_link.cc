@@ -371,6 +371,7 @@ Taken VehicleLink::Take(SteadyTime now) {
   link.filters.TakeRefusals(&link.refusals);
   taken.refusals = link.refusals;
   taken.left = link.names.LeftNow();
+  link.filters.beacon_arrivals.NoteLeft(taken.left);
   return taken;
 }
 

@@ -133,7 +133,6 @@ class StateReader {
     if (!sound_) return;
     StateFields::MakePeers(table, static_cast<std::uint32_t>(count));
     Visit(*this, *table);
-    StateFields::FindAnew(table);
   }
   // 0 where nothing is left.
   std::uint64_t Number64(std::size_t count) {
@@ -264,7 +263,7 @@ std::unique_ptr<VehicleState> StateFrom(std::string_view bytes, const VehicleOpt
   reader(format, version);
   if (!IsKnown(format) || version != VehicleState::kVersion) return nullptr;
   reader.SetFormat(StateFormat{format});
-  auto state = std::make_unique_for_overwrite<VehicleState>();
+  auto state = std::make_unique<VehicleState>();
   Begin(options.profile, &state->motion.pose);  // an image without it
   reader(*state);
   if (reader.Has(StateFormat::kWithGrid)) reader(state->sensed.grid);

@@ -131,10 +131,11 @@ struct StateFields {
       fields(state, heard, weighed, clears);
     }
   }
-  // The peer found last is only a guess, and left out.
+  // Read into a table that has as many peers already: MakePeers.
   static void Of(auto& fields, Is<PeerTable> auto& table) {
-    fields(table.count_);
-    for (std::uint32_t i = 0; i < table.count_ && i < kMaxPeers; ++i) fields(table.peers_[i]);
+    auto count = static_cast<std::uint32_t>(table.peers_.size());
+    fields(count);
+    for (auto& peer : table.peers_) fields(peer);
     fields(table.last_deadline_missed_, table.last_liveliness_lost_, table.last_rejected_);
   }
   static std::uint32_t CountOf(const SignalTable& table) { return table.count_; }
@@ -144,15 +145,7 @@ struct StateFields {
   static std::uint32_t SensorBitsOf(const RangeView& view) { return view.echoes_ | view.spoke_; }
   // At most kMaxPeers.
   static void MakePeers(PeerTable* table, std::uint32_t count) {
-    table->count_ = count;
-    for (std::uint32_t i = 0; i < count; ++i) new (&table->peers_[i]) Peer;
-  }
-  static void FindAnew(PeerTable* table) {
-    table->found_ = 0;
-    for (std::uint32_t i = 0; i < table->count_; ++i) {
-      table->ids_[i] = table->peers_[i].id;
-      table->after_[i] = i;
-    }
+    table->peers_.assign(count, Peer{});
   }
 };
 

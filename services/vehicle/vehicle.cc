@@ -27,8 +27,6 @@
 namespace giveway {
 namespace {
 
-static_assert(std::is_trivially_copyable_v<VehicleState>);
-
 constexpr std::uint32_t kBlockedTicks = 20;  // how long a blocker counts after it was last seen
 // What the wheels do and what the encoders say of it are wrong independently of each other.
 double WheelError(const VehicleProfile& profile) {
@@ -48,8 +46,7 @@ double VarianceOfPlaces(const PoseCovariance& added) {
 Vehicle::Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch)
     : options_(options),
       cones_(ConesOf(options.profile)),
-      state_(std::make_unique_for_overwrite<VehicleState>()),
-      views_(std::make_unique_for_overwrite<std::array<PeerView, kMaxPeers>>()) {
+      state_(std::make_unique<VehicleState>()) {
   GIVEWAY_CHECK(options.id != kNobody);
   GIVEWAY_CHECK(boot_epoch != 0);
   state_->published.boot_epoch = boot_epoch;
@@ -250,7 +247,7 @@ OwnView Vehicle::LookAtSelf(const Inputs& inputs) {
 }
 
 PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) {
-  std::uint32_t count = 0;
+  views_.clear();
   std::uint32_t heard = 0;
   bool someone_lost = false;
   for (Peer& peer : state_->heard.peers.Peers()) {
@@ -259,13 +256,14 @@ PeerViews<HeardPeer> Vehicle::ThoseThatMatter(const OwnView& s, bool* any_lost) 
     heard += fresh ? 1 : 0;
     someone_lost = someone_lost || IsLost(peer, fresh);
     if (!CanMatter(peer, fresh, s)) continue;
-    HeardPeer* const view = new (&(*views_)[count++]) PeerView;
-    view->peer = &peer;
-    view->fresh = fresh;
+    PeerView view{};
+    view.peer = &peer;
+    view.fresh = fresh;
+    views_.push_back(view);
   }
   peers_heard_ = heard;
   *any_lost = someone_lost;
-  return PeerViews<HeardPeer>({views_->data(), count});
+  return PeerViews<HeardPeer>(views_);
 }
 
 PeersNow Vehicle::LookAtPeers(const OwnView& s) {

@@ -1,5 +1,6 @@
 // The brain: one pure step from what a vehicle heard and sensed to what it does and says. No
-// clock, no thread, no allocation, no exception; the same inputs give the same bits anywhere.
+// clock, no thread, no exception, no allocation after warm-up; the same inputs give the same bits
+// anywhere.
 //
 //   scan, beacons, events -> dead reckoning -> PeerTable, RangeView -> Situation -> Decide -> out
 #pragma once
@@ -88,7 +89,7 @@ class Vehicle {
   HeardEchoes echoes_;  // scratch of one step
   HeardPlaces places_;  // the same
   std::unique_ptr<VehicleState> state_;
-  std::unique_ptr<std::array<PeerView, kMaxPeers>> views_;  // scratch of one step
+  std::vector<PeerView> views_;  // of one step; its memory is kept
   std::uint32_t peers_heard_ = 0;
   DecisionEvidence evidence_;
   std::array<RefusedBeacon, 8> refused_;

@@ -1,15 +1,15 @@
 // One run of a scenario: the world, its faults and its judge, advanced tick by tick. Pure: the
-// caller brings commands and takes scans, truths and events away. world_main wires it to DDS, the
-// virtual fleet wires it to brains in memory.
+// caller passes commands in and takes scans, truths and events out. The world service connects it
+// to DDS, the virtual fleet connects it to brains in memory.
 //
 // A closed run knows every vehicle from the start and ends when its vehicles have arrived or one
-// dies. In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration.
-// Where that is without an end, until End is called.
+// dies. In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration, or
+// until End is called if that is unlimited.
 //
-// A schedule of faults beside the scenario: the world's own are carried out here, and each start
-// and end is an event. Of others' faults it only knows whose silence is meant to be. Where
-// processes are stopped or restarted by it, a closed run too continues without a vehicle that falls
-// silent, waits for it, and takes it back.
+// A fault schedule may be added to the scenario: the world's own faults are injected here, and each
+// start and end is an event. Of all others it only knows which vehicles are meant to be silent. If
+// the schedule stops or restarts processes, a closed run too continues without a silent vehicle,
+// waits for it, and takes it back.
 #pragma once
 
 #include <cstdint>
@@ -44,24 +44,24 @@ class Run {
 
   // Puts the body of one of the scenario's vehicles on its start pose.
   void Join(VehicleId vehicle);
-  // The same for any vehicle, also while the run is under way. A body that still stands, since the
-  // vehicle had fallen silent, stays where it is and is the vehicle's again.
+  // The same for any vehicle, also during the run. A body that still stands after its vehicle fell
+  // silent stays where it is and belongs to the vehicle again.
   void Join(const VehicleOptions& options);
-  // A vehicle that is in the run asks for its place with the same session: its process has
-  // restarted itself, and its new endpoints must be found before it is heard again.
+  // A vehicle in the run asks for its place with the same session: its process has restarted
+  // itself, and its new endpoints must be discovered before it is received again.
   void AsksAgain(VehicleId vehicle);
-  // The vehicle sent a leave notice: its body is taken away. Ends a closed run that is under way.
+  // The vehicle sent a leave notice: its body is removed. Ends a closed run in progress.
   void Leave(VehicleId vehicle);
   bool EveryoneJoined() const;
   // The start signal: from the next tick on bodies move and time counts.
   void Start();
-  // Ends the run before its time, with the next Advance: that one brings the closing events. A run
-  // ended so has not passed. Without effect once the run has ended.
+  // Ends the run early, with the next Advance, which brings the closing events. Such a run has not
+  // passed. No effect once the run has ended.
   void End(std::string reason);
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
-  // when the duration is over; a closed run also when every living vehicle has arrived, when a
-  // vehicle fell silent unplanned, and when none lives any more. After the end bodies brake, scans
+  // when the duration is over; a closed run also when every live vehicle has arrived, when a
+  // vehicle fell silent unplanned, and when no vehicle is live. After the end bodies brake, scans
   // continue, and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
@@ -78,10 +78,10 @@ class Run {
   std::span<const SignalState> Signals() const { return signals_.States(); }
   std::span<const Truth> Truths() const { return truths_; }
   std::span<const WorldEvent> Events() const { return log_.Events(); }
-  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or what End
-  // was given; empty while it runs.
+  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or the
+  // reason given to End; empty while it runs.
   const std::string& EndReason() const { return end_reason_; }
-  // Verdict and figures; complete once State() is kEnded. Reaction times are the caller's.
+  // Verdict and figures; complete once State() is kEnded. The caller adds reaction times.
   RunFigures Figures() const { return figures_; }
   std::uint32_t Contacts() const { return world_.Contacts(); }
   const CommandCounters& Commands() const { return world_.Commands(); }
@@ -89,27 +89,27 @@ class Run {
   // however long they waited.
   std::uint64_t Hash() const;
 
-  // Says in an answer to a vehicle where its body is now, and how far its task; nothing where it
+  // Adds to an answer to a vehicle where its body is and how far it is on its route; nothing if it
   // has no body.
   void Locate(const VehicleOptions& options, RosterEntry* entry) const;
-  // Whom the last Advance forgot, of which nothing more is reported: vehicles that are not the
-  // scenario's, a second after their bodies were taken away.
+  // The vehicles that the last Advance forgot, of which nothing more is reported: those that are
+  // not the scenario's, a second after their bodies were removed.
   std::span<const VehicleId> Forgotten() const { return forgotten_; }
 
   // Null if no body of the vehicle is in the world.
   const Body* BodyOf(VehicleId vehicle) const;
-  // What moves beside the bodies, in the scenario's order.
+  // In the scenario's order.
   std::span<const MovingObstacle> Obstacles() const { return world_.Obstacles(); }
   std::span<const SlidingDoor> Doors() const { return world_.Doors(); }
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
-  // True if no process speaks for the vehicle any more, or yet.
+  // True if no process runs the vehicle any more, or not yet.
   bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
 
-  // All that a run of the same scenario in a new epoch needs to continue from here.
+  // Everything that a run of the same scenario in a new epoch needs to continue from here.
   RunCheckpoint Save() const;
   // Continues from there, paused: bodies brake and time stands still until Start. `joined` are the
-  // vehicles the checkpoint names that are not the scenario's. False, and this run is of no use any
-  // more, if the checkpoint is not of this scenario.
+  // vehicles in the checkpoint that are not the scenario's. False if the checkpoint is not of this
+  // scenario; then this run cannot be used any more.
   bool Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined);
 
  private:

@@ -1,7 +1,7 @@
 // Everything a sensor can hear or see at one instant, as bare shapes: discs, boxes and segments in
-// the world frame, indexed so that what is near is found fast. Walls are given once; the rest is
-// put in anew each time. Knows no vehicles: a shape has an owner number, and a sensor skips its
-// own. Once indexed it only answers, and several threads may ask at once.
+// the world frame, indexed so that near ones are found fast. Walls are given once; the rest is
+// inserted again each time. Knows no vehicles: a shape has an owner number, and a sensor skips its
+// own. Once indexed it is read-only, and several threads may query it at once.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace giveway::sim {
 
-// Whose a shape is: the caller's numbering; walls are nobody's.
+// Identifies the owner of a shape, in the caller's numbering; walls have none.
 using Owner = std::uint32_t;
 inline constexpr Owner kNoOwner = 0xffffffff;
 
@@ -55,18 +55,18 @@ class Scene {
  public:
   explicit Scene(std::span<const Wall> walls);
 
-  // Forgets everything but the walls.
+  // Removes everything but the walls.
   void Clear();
   void AddDisc(Vec2 centre_world, double radius_m, Owner owner);
   // Four segments; a point inside is at distance 0 from the box.
   void AddBox(const Pose& world_from_box, Vec2 half_m, Owner owner);
   void AddSegment(Vec2 from_world, Vec2 to_world, Owner owner);
-  // To be called after the last Add and before the first question.
+  // Call after the last Add and before the first query.
   void Index();
 
   SceneDiscs Discs() const;
-  // Visits stretches [begin, end) of Discs() that hold every disc whose surface is within reach_m
-  // of `centre_world`, and some others.
+  // Visits half-open ranges of Discs() that contain every disc whose surface is within reach_m of
+  // `centre_world`, and some others.
   template <typename Visit>
   void DiscsNear(Vec2 centre_world, double reach_m, Visit&& visit) const {
     disc_grid_.Near(centre_world, reach_m + largest_radius_m_, visit);
@@ -81,8 +81,8 @@ class Scene {
   // Owner of the box other than `self` that holds the point; kNoOwner if none does.
   Owner BoxAround(Vec2 point_world, Owner self) const;
 
-  // SegmentsNear in its parts, for those who must not meet a wall twice: indices into Walls(), one
-  // perhaps more than once, and everything that is not a wall, each once.
+  // The parts of SegmentsNear, for callers that must not get a wall twice: indices into Walls(),
+  // one perhaps more than once, and everything that is not a wall, each once.
   template <typename Visit>
   void WallsNear(Vec2 centre_world, double reach_m, Visit&& visit) const {
     wall_grid_.Near(centre_world, reach_m, visit);
@@ -90,7 +90,7 @@ class Scene {
   std::span<const SceneSegment> Walls() const { return walls_; }
   // Of the walls alone.
   const SceneCorners& Corners() const { return corners_; }
-  // WallsNear for a reach of up to kListedReach_m, found at once, each wall once.
+  // WallsNear for a reach of up to kListedReach_m, looked up directly, each wall once.
   static constexpr double kListedReach_m = 5.5;  // the ultrasonics of a P3-DX and more
   std::span<const std::uint32_t> WallsListedAt(Vec2 centre_world) const {
     return listed_walls_.At(centre_world);

@@ -1,6 +1,6 @@
-// What every sensor beside the ultrasonics gets to see of the world, and all that it may use:
+// What every sensor other than the ultrasonics receives from the world, and all that it may use:
 // radar, lidar and camera are pure functions from a SensorView to their scan. All sit at the axle
-// centre, look forward and are exact; what stands nearer hides what is behind it.
+// centre, look forward and are exact; what is nearer hides what is behind it.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace giveway::sim {
 
-// What a sensor can learn of a shape's owner beside its outline. Owners are numbered as in
+// What a sensor can learn of a shape's owner besides its outline. Owners are numbered as in
 // things.h; walls have none.
 struct OwnerFacts {
   Vec2 velocity_world;    // m/s, of the middle of a disc or box, of the whole of a segment
@@ -22,8 +22,9 @@ struct OwnerFacts {
 
 struct SensorView {
   const Scene& scene;
-  std::span<const OwnerFacts> facts;  // by owner number; who is not in it stands, and is unknown
-  Owner self = kNoOwner;              // whose shapes the sensor does not see
+  std::span<const OwnerFacts>
+      facts;              // by owner number; an owner not in it stands still and is unknown
+  Owner self = kNoOwner;  // whose shapes the sensor does not see
   Pose world_from_body;
   Vec2 velocity_world;  // of the axle centre
   // What the scan is stamped with.
@@ -40,7 +41,7 @@ RadarScan SenseRadar(const SensorView& view);
 LidarScan SenseLidar(const SensorView& view);
 CameraScan SenseCamera(const SensorView& view);
 
-// Points of the world as the sensor has them: x forward, y left, itself at the origin.
+// Points of the world in the sensor's frame: x forward, y left, itself at the origin.
 class BodyFrame {
  public:
   explicit BodyFrame(const Pose& world_from_body)

@@ -1,6 +1,6 @@
-// Pulses that reach other vehicles directly. A transducer that listens takes another's pulse, fired
-// in the same slot, for its own echo: as it came the way once and not there and back, it reads half
-// the distance.
+// Pulses that reach other vehicles directly. A listening transducer takes another's pulse, fired in
+// the same slot, for its own echo: the pulse has travelled the distance once instead of out and
+// back, so the transducer reads half of it.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ Pulses PulsesOf(const SonarRing& ring, const Pose& world_from_body,
                 const std::array<std::size_t, kArrayCount>& transducers);
 
 // What `listener` reads of `talker`'s pulse: half the distance if each lies in the directions of
-// the other's cone and the reading in the listener's range; kSilence_m otherwise. What stands
-// between is not looked at.
+// the other's cone and the reading in the listener's range; kSilence_m otherwise. Occlusion is
+// ignored.
 double CrosstalkRange(const Pulse& listener, const Pulse& talker);
 
 // All pulses of one slot.
@@ -39,7 +39,7 @@ class Crosstalk {
  public:
   void Clear();
   void Add(Owner owner, Vec2 position_world, const Pulses& pulses);
-  // To be called after the last Add and before the first question.
+  // Call after the last Add and before the first query.
   void Index();
 
   // The nearest reading that comes from another vehicle's pulse; kSilence_m without one. `i` counts

@@ -1,14 +1,14 @@
 // The warehouse:
 //
-//   s s s G | | |  rack ..........  | | | G     s  those who will fetch something, waiting in rows
-//   . . . . | | |  o  o  o  o  <--  | | | G     G  goals of those who bring something out
-//   s s s s | | |             -->   | | | G     o  those who bring something out
-//         G | | |  g  g  g  g       | | | G     g  goals of those who fetch something
+//   s s s G | | |  rack ..........  | | | G     s  vehicles to fetch something, waiting in rows
+//   . . . . | | |  o  o  o  o  <--  | | | G     G  goals of vehicles that bring something out
+//   s s s s | | |             -->   | | | G     o  vehicles that bring something out
+//         G | | |  g  g  g  g       | | | G     g  goals of vehicles that fetch something
 //         G | | |  rack ..........  | | | G
 //
 // Roads run along both sides, an aisle between any two racks; each has two lanes, and traffic keeps
 // to the right. An aisle is two bodies and half a metre wide between its two strips for standing,
-// so that a vehicle that stands is in no vehicle's way.
+// so that a standing vehicle obstructs none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace giveway::sim {
 namespace {
 
 constexpr double kAisleLane_m = 0.42;  // from an aisle's middle to its lanes'
-constexpr double kStrip_m = 1.35;      // from an aisle's middle to those who stand in it
+constexpr double kStrip_m = 1.35;      // from an aisle's middle to vehicles that stand in it
 constexpr double kRack_m = 1.9;        // from an aisle's middle to its racks
 constexpr double kPitch_m = 4.8;       // from aisle to aisle
 constexpr std::uint32_t kSlots = 4;
@@ -34,7 +34,7 @@ constexpr double kRows_m = -6.2;
 constexpr double kEastOuter_m = kAisle_m + 2.1;  // northbound
 constexpr double kEastInner_m = kAisle_m + 0.9;
 constexpr double kEastGoals_m = kAisle_m + 3.9;
-// Beside the west road two goals and a row of waiting take turns.
+// Along the west road two goals and a waiting row alternate.
 constexpr double kTurn_m = 3 * kBay_m;
 constexpr std::uint32_t kRowDepth = 4;
 constexpr double kRowQueue_m = 2.4;

@@ -1,4 +1,4 @@
-// What the generators share: a scenario under construction, with vehicles put in one by one.
+// What the generators share: a scenario under construction, to which vehicles are added one by one.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@
 
 namespace giveway::sim {
 
-// No starts and no goals are nearer to each other than this, centre to centre.
+// The smallest distance between two starts and between two goals, centre to centre.
 inline constexpr double kRoom_m = 2.0;
 
 // The edge of a cell of Layout::AddCellToCell.
 inline constexpr double kCell_m = 2.4;
 
-// Makes another robot of the one that a generator is about to put in: body, drive, cruise speed.
-// The way is not known to it yet.
+// Changes the robot that a generator is about to add: body, drive, cruise speed. Its route is not
+// known yet.
 using RobotDraw = std::function<void(VehicleOptions* options)>;
 
 struct Size {
@@ -34,18 +34,19 @@ class Layout {
 
   Random& Dice() { return dice_; }
   const Scenario& SoFar() const { return scenario_; }
-  // The next vehicle: it stands at `start`, looks at the first point of its way, passes
-  // `waypoints` and ends at `goal`. Its cruise speed is drawn, and more of it by Size::draw.
+  // Adds the next vehicle: it stands at `start`, faces the first point of its route, passes
+  // `waypoints` and ends at `goal`. Its cruise speed is drawn, and further properties by
+  // Size::draw.
   void Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal);
-  // So many vehicles, each from a cell of a square grid to another, both its own; the places are
-  // moved a little within their cells. columns * columns is at least twice the vehicles.
+  // Adds that many vehicles, each from a cell of a square grid to another, both its own; the places
+  // are moved a little within their cells. columns * columns is at least twice the vehicles.
   void AddCellToCell(std::uint32_t vehicles, std::uint32_t columns);
   void AddObstacle(const Obstacle& obstacle) { scenario_.obstacles.push_back(obstacle); }
   void AddWall(Vec2 from, Vec2 to) { scenario_.walls.push_back({from, to}); }
   // Four walls round a rectangle along the axes.
   void AddBlock(Vec2 low, Vec2 high);
 
-  // Sets what follows from the whole: duration and expectation. `tightest_m` is the length of the
+  // Sets what depends on all vehicles: duration and expectation. `tightest_m` is the length of the
   // tightest place, which in the worst case they pass one by one.
   Scenario Take(double tightest_m = 0);
 
@@ -55,8 +56,8 @@ class Layout {
   Scenario scenario_;
 };
 
-// Where those who go by park: beside a lane, so that they are in no vehicle's way. Between two bays
-// there is room.
+// Where vehicles that have passed park: next to a lane, so that they obstruct none. There is space
+// between two bays.
 inline constexpr double kBay_m = 2.1;     // along the lane
 inline constexpr double kBeside_m = 1.6;  // from the lane's middle
 

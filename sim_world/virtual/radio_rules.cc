@@ -9,7 +9,7 @@
 namespace giveway::sim {
 namespace {
 
-constexpr std::uint64_t kOfRows = 1;  // the stream beside that of single beacons
+constexpr std::uint64_t kOfRows = 1;  // a stream separate from that of single beacons
 
 }  // namespace
 
@@ -61,7 +61,7 @@ void RadioRules::Follow(std::int64_t tick, std::int64_t lasting, Rules* rules) {
   }
 }
 
-// What was said under a rule may be heard long after it.
+// What was sent under a rule may be received long after it.
 void RadioRules::BeginTick(double time_s) {
   now_ = std::llround(time_s / Seconds(tick_period_));
   Follow(now_, 0, &cuts_);

@@ -139,8 +139,9 @@ bool AccountsForCorruptedPackets(const DomainLock& domain, std::uint64_t seed) {
   });
 }
 
-// One corrupted number in hundreds passes the packet filter, and the library takes all that come
-// after it for old: then by another pair.
+// In the first second of a writer the packet filter lets its numbers jump by up to 2^24. A
+// corrupted number among those makes the library drop all lower ones as old: then another pair is
+// tried.
 TEST(Accounting, CorruptedPacketsAreRefusedOrLostAndLeaveNoDifference) {
   const DomainLock domain;
   EXPECT_TRUE(AccountsForCorruptedPackets(domain, 7) || AccountsForCorruptedPackets(domain, 8) ||

@@ -27,6 +27,9 @@ refusals() {
   refused 'skip-unsupported' patrol --faults "$SCRATCH/spoofed.textproto" --duration 60
   refused 'attacker PROGRAM' patrol --faults "$SCRATCH/spoofed.textproto" --duration 60
   refused 'No such file' patrol --faults "$SCRATCH/spoofed.textproto" --duration 60 --attacker "$SCRATCH/none"
+  echo 'at { name: "a" time_s: 20 kind: "restart" target: "discovery_server" for_s: 1 }' >"$SCRATCH/server.textproto"
+  refused 'takes --discovery-servers' patrol --faults "$SCRATCH/server.textproto" --duration 60
+  refused "'lo' is none" patrol --faults calm --duration 60 --discovery-servers 1 --interface lo
   refused 'b' patrol --faults "$SCRATCH/twice.textproto" --duration 60
   refused 'no_such' patrol --faults no_such --duration 60
   refused '30 s' patrol --faults calm --duration 5

@@ -1,5 +1,5 @@
-// Which shard a process is: as the engine that started it says in the environment. Pure; the
-// environment is lent as a function.
+// Which shard this process is, from the environment set by the engine that started it. Pure: the
+// environment is passed as a function.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace giveway::fleetctl {
 
-// What stands under a name; nothing where it is unset.
+// The value of a variable; nullopt if it is unset.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 
 // The shard's number from 0 to of - 1: `given` if there is one, else of JOB_COMPLETION_INDEX

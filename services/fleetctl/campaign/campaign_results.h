@@ -1,5 +1,5 @@
-// Results of shards out of files, and out of logs in which other lines stand beside them. A log of
-// a whole campaign may be large: it is read line by line, and what is no result is not kept.
+// Reads shard results from files, and from logs that also have other lines. The log of a whole
+// campaign may be large: it is read line by line, and only results are kept.
 #pragma once
 
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace giveway::fleetctl {
 
-// Adds what stands in the file, each line that starts with { being a result, or why it cannot be
-// had.
+// Adds what is in the file: each line that starts with { is a result, or an error that says why it
+// cannot be read.
 void ReadResults(const std::string& file, std::vector<NamedShard>* shards, ProblemList* problems);
 
 }  // namespace giveway::fleetctl

@@ -55,9 +55,17 @@ Words OwnFlags(const FleetOptions& options, MemberId member) {
 }  // namespace
 
 std::string NameOf(MemberId member) {
-  if (member == kTheWorld) return "the world";
-  return fmt::format("{} {}", member.kind == MemberKind::kVehicle ? "vehicle" : "newcomer",
-                     member.number);
+  switch (member.kind) {
+    case MemberKind::kWorld:
+      return "the world";
+    case MemberKind::kVehicle:
+      return fmt::format("vehicle {}", member.number);
+    case MemberKind::kNewcomer:
+      return fmt::format("newcomer {}", member.number);
+    case MemberKind::kDiscoveryServer:
+      return fmt::format("discovery server {}", member.number);
+  }
+  return {};
 }
 
 std::uint32_t NewcomerCount(const FleetOptions& options, const Scenario& scenario) {

@@ -17,18 +17,19 @@
 
 namespace giveway::fleetctl {
 
-enum class MemberKind : std::uint8_t { kWorld, kVehicle, kNewcomer };
+enum class MemberKind : std::uint8_t { kWorld, kVehicle, kNewcomer, kDiscoveryServer };
 
 // One process of a fleet, through all of its restarts.
 struct MemberId {
   MemberKind kind = MemberKind::kWorld;
-  std::uint32_t number = 0;  // a vehicle's id; a newcomer's, which has none yet, from 1
+  // A vehicle's id; of newcomers, which have none yet, and of discovery servers from 1.
+  std::uint32_t number = 0;
 
   friend auto operator<=>(const MemberId&, const MemberId&) = default;
 };
 inline constexpr MemberId kTheWorld{};
 constexpr MemberId MemberOf(VehicleId vehicle) { return {MemberKind::kVehicle, Number(vehicle)}; }
-// For people: "the world", "vehicle 2", "newcomer 1".
+// For people: "the world", "vehicle 2", "newcomer 1", "discovery server 1".
 std::string NameOf(MemberId member);
 
 // Flags of every process. Absent values are the scenario's.

@@ -1,6 +1,6 @@
-// The key that orders to a fleet are sealed with. A fleet that is started here without one gets a
-// key of its own for as long as it runs, in a folder of this user alone: who may start a fleet may
-// give it orders from the same account, and nobody else may.
+// The key that seals orders to a fleet. A fleet started here without one gets its own for as long
+// as it runs, in a folder of this user alone: the account that started a fleet may give it orders,
+// and no other.
 #pragma once
 
 #include <cstdint>
@@ -8,10 +8,10 @@
 
 namespace giveway::fleetctl {
 
-// Makes the key of the fleet on a domain, and removes it at the end.
+// Creates the key of the fleet on a domain, and removes it at the end.
 class RunKey {
  public:
-  // `given`: the operator's own file, which is then used and left alone. Throws auth::KeyError.
+  // `given`: the operator's own file, which is used and not changed. Throws auth::KeyError.
   RunKey(const std::string& given, std::uint32_t domain);
   ~RunKey();
   RunKey(const RunKey&) = delete;
@@ -24,8 +24,8 @@ class RunKey {
   bool is_own_ = false;
 };
 
-// The key to give orders with: of the file `given`, else of the fleet that was started on the
-// domain here, else empty. Throws auth::KeyError.
+// The key for orders: from the file `given`, else of the fleet that was started on the domain here,
+// else empty. Throws auth::KeyError.
 std::string KeyToOrderWith(const std::string& given, std::uint32_t domain);
 
 }  // namespace giveway::fleetctl

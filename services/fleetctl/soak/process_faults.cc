@@ -67,7 +67,8 @@ void SetFlag(std::vector<std::string>* words, const std::string& flag, const std
 ProcessFaults::ProcessFaults(FaultTools tools, FleetProcesses* processes)
     : tools_(std::move(tools)), processes_(processes) {}
 
-const char* ProcessFaults::WhyNot(const faults::Fault& fault) {
+const char* ProcessFaults::WhyNot(const faults::Fault& fault, bool has_discovery_servers) {
+  constexpr const char* kNoServer = "it takes --discovery-servers: there is none in this fleet";
   const bool world = fault.target.what == Target::What::kWorld;
   const bool vehicles =
       fault.target.what == Target::What::kVehicle || fault.target.what == Target::What::kAll;
@@ -79,7 +80,7 @@ const char* ProcessFaults::WhyNot(const faults::Fault& fault) {
     case Kind::kMemoryLimit:
     case Kind::kDescriptorLimit:
     case Kind::kLogReaderStops:
-      return world || vehicles ? nullptr : "there is no discovery server in this fleet";
+      return world || vehicles || has_discovery_servers ? nullptr : kNoServer;
     case Kind::kHang:
     case Kind::kDiskFull:
     case Kind::kQosMismatch:
@@ -100,7 +101,7 @@ const char* ProcessFaults::WhyNot(const faults::Fault& fault) {
     default:
       return "it is not the supervisor's";
   }
-  return "there is no discovery server in this fleet";
+  return "no clock of a discovery server is stepped";
 }
 
 std::vector<MemberId> ProcessFaults::MembersOf(const Target& target) const {
@@ -110,13 +111,17 @@ std::vector<MemberId> ProcessFaults::MembersOf(const Target& target) const {
     case Target::What::kWorld:
       return {kTheWorld};
     case Target::What::kDiscoveryServer:
-      return {};
     case Target::What::kAll:
       break;
   }
-  std::vector<MemberId> all;
-  for (const MemberCommand& command : tools_.commands) all.push_back(command.member);
-  return all;
+  const bool servers = target.what == Target::What::kDiscoveryServer;
+  std::vector<MemberId> members;
+  for (const MemberCommand& command : tools_.commands) {
+    if ((command.member.kind == MemberKind::kDiscoveryServer) == servers) {
+      members.push_back(command.member);
+    }
+  }
+  return members;
 }
 
 const MemberCommand* ProcessFaults::CommandOf(MemberId member) const {
@@ -364,7 +369,7 @@ std::vector<ProcessFaults::OrderEnd> ProcessFaults::TakeOrderEnds() {
 
 MemberCommand ProcessFaults::CommandNow(MemberId member) const {
   MemberCommand command = *CommandOf(member);
-  if (member == kTheWorld) return command;
+  if (member.kind != MemberKind::kVehicle) return command;
   DropFlag(&command.child.words, "--impair");
   const std::string impair = tools_.impairment_since(VehicleId{member.number}, time_s_);
   if (!impair.empty()) SetFlag(&command.child.words, "--impair", impair);
@@ -394,6 +399,9 @@ void ProcessFaults::GiveOrder(const faults::Fault& fault, MemberId member) {
                  "--domain",      std::to_string(tools_.domain)};
   if (!tools_.interface.empty()) {
     order.words.insert(order.words.end(), {"--interface", tools_.interface});
+  }
+  if (!tools_.discovery_servers.empty()) {
+    order.words.insert(order.words.end(), {"--discovery-server", tools_.discovery_servers});
   }
   if (!tools_.admin_key.empty()) {
     order.words.insert(order.words.end(), {"--admin-key", tools_.admin_key});

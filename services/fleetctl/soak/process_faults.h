@@ -27,7 +27,8 @@ struct FaultTools {
   std::string fleetctl;                 // the program, for orders
   std::uint32_t domain = 0;
   std::string interface;
-  std::string admin_key;  // the file of the key that the fleet's orders are sealed with
+  std::string discovery_servers;  // as --discovery-server has them; empty: none
+  std::string admin_key;          // the file of the key that the fleet's orders are sealed with
   // Of every member, where the list steps clocks: each was started with its own.
   std::map<MemberId, SteppableClock> clocks;
   std::string attacker;       // the program that is the intruder; empty: no fault is of one
@@ -46,7 +47,7 @@ class ProcessFaults {
   ProcessFaults(FaultTools tools, FleetProcesses* processes);
 
   // Null: this kind can be made to happen to this target. Otherwise why not.
-  static const char* WhyNot(const faults::Fault& fault);
+  static const char* WhyNot(const faults::Fault& fault, bool has_discovery_servers);
 
   // Faults of other actors are none of ours: nothing happens. `fault` outlives its end. Throws
   // StartError where a process cannot be started.

@@ -45,9 +45,11 @@ link::ObserverLink::Ranges RangesFor(const FleetSpec& spec) {
                                           : link::ObserverLink::Ranges::kYes;
 }
 
-// "vehicle-3", "world": as in the report.
+// "vehicle-3", "world": as in the report. Discovery servers are not measured.
 std::string ProcessName(MemberId member) {
-  return member == kTheWorld ? "world" : fmt::format("vehicle-{}", member.number);
+  if (member == kTheWorld) return "world";
+  return member.kind == MemberKind::kVehicle ? fmt::format("vehicle-{}", member.number)
+                                             : NameOf(member);
 }
 
 }  // namespace

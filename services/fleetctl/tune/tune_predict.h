@@ -1,13 +1,12 @@
-// What a candidate's figures should be by arithmetic alone, to stand beside what was measured:
-// where the two differ by more than chance, either the model or the system is not what we think.
-// Pure.
+// Predicts a candidate's figures by arithmetic alone, for comparison with the measurement: where
+// the two differ by more than chance, either the model or the system is not what we think. Pure.
 //
-// The model. A beacon is sent every tick T, and half a tick late where its sender's scan was lost
-// (services/vehicle_node/main.cc waits one and a half). Each is lost, and late by delay and jitter,
-// as types/impairment.h says. A silence of m lost beacons lasts (m + 1) T from arrival to arrival:
-// deadline and lease report it if it is longer than they are; the age limit, judged once a tick on
-// beacons of the tick before, if m T is, and sooner where the hearer's own scans were lost. What is
-// told between two turns of the loop is acted on at the second.
+// The model. A beacon is sent every tick T, and half a tick late if its sender's scan was lost
+// (services/vehicle_node/main.cc waits one and a half). Beacons are lost, delayed and jittered as
+// types/impairment.h says. A silence of m lost beacons lasts (m + 1) T from arrival to arrival:
+// deadline and lease report it if it is longer than they are; the age limit, checked once a tick on
+// beacons of the tick before, if m T is, and sooner if the receiver's own scans were lost. An event
+// between two loop cycles is acted on in the second.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +20,7 @@
 
 namespace giveway::fleetctl {
 
-// How beacons come from any vehicle to any other.
+// The channel from any vehicle to any other.
 struct BeaconChannel {
   double loss = 0;
   double burst = 0;  // Gilbert-Elliott, as ImpairmentRule
@@ -35,7 +34,7 @@ struct BeaconChannel {
   double scan_burst_loss = 1;
 };
 
-// Nothing where the impairment is not the same for all, or has no closed form: a rate limit,
+// nullopt if the impairment is not the same for all, or has no closed form: a rate limit,
 // blackouts, reordering, corruption.
 std::optional<BeaconChannel> ChannelOf(const Impairment& impairment);
 
@@ -49,16 +48,16 @@ struct TuneFleet {
 };
 
 struct Prediction {
-  double alarms_per_hour = 0;  // of a vehicle, over all of its peers
+  double alarms_per_hour = 0;  // per vehicle, over all of its peers
   double detection_ms = 0;     // mean, from the target's last beacon
   double age_mean_ms = 0;      // of beacons at a decision
 };
 
-// Nothing for reliable beacons: what a retransmission brings depends on the library's timers.
+// nullopt for reliable beacons: the gain of a retransmission depends on the library's timers.
 std::optional<Prediction> Predict(const BeaconQos& qos, const BeaconChannel& channel,
                                   const TuneFleet& fleet);
 
-// Where measured and predicted differ by more than chance: words, empty if they agree.
+// A message if measured and predicted differ by more than chance, empty if they agree.
 std::string Disagreement(const TuneFigures& measured, const Prediction& predicted);
 
 }  // namespace giveway::fleetctl

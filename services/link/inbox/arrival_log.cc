@@ -30,4 +30,23 @@ std::optional<BeaconArrival> ArrivalLog::At(std::uint64_t writer, std::uint64_t 
   return *at;
 }
 
+void ArrivalLog::NoteLeft(std::span<const std::uint64_t> writers) {
+  const std::scoped_lock lock(mutex_);
+  ++turn_;
+  for (const std::uint64_t writer : writers) {
+    const auto found = writers_.find(writer);
+    if (found != writers_.end()) left_.push_back({writer, turn_, found->second.newest.arrived});
+  }
+  for (; !left_.empty() && turn_ - left_.front().turn >= kTurnsToForget; left_.pop_front()) {
+    Forget(left_.front());
+  }
+}
+
+void ArrivalLog::Forget(const Left& left) {
+  const auto found = writers_.find(left.writer);
+  if (found == writers_.end() || found->second.newest.arrived != left.arrived) return;
+  writers_.erase(found);
+  std::erase(oldest_, left.writer);
+}
+
 }  // namespace giveway::link

@@ -69,27 +69,12 @@ double CosNearZero(double r) {
   return Polynomial(kTaylor, r * r);
 }
 
-// Both series at once, each with the very operations it would take by itself. The sine's is
-// shorter: its first term here is 0.
-using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
-
-SineCosine SinCosNearZero(double r) {
-  static constexpr auto kSine = AlternatingFactorials<9>(1);
-  static constexpr auto kCosine = AlternatingFactorials<10>(0);
-  const Lanes x = {r * r, r * r};
-  Lanes sum = {0, kCosine[9]};
-#pragma GCC unroll 9
-  for (std::size_t i = 9; i-- > 0;) sum = Lanes{kSine[i], kCosine[i]} + x * sum;
-  return {r * sum[0], sum[1]};
-}
-
 struct Quadrant {
   std::int64_t index;  // of the quarter turn nearest to x
   double rest;         // x minus that many quarter turns, in [-pi/4, pi/4]
 };
 
-// Inline: it is half the cost of a sine, and too long for the compiler to inline by itself.
-[[gnu::always_inline]] inline Quadrant Reduce(double x) {
+Quadrant Reduce(double x) {
   const double n = Nearest(x * (2 / kPi));
   const double rest = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3;
   return {std::isnan(n) ? 0 : static_cast<std::int64_t>(n), rest};
@@ -118,12 +103,18 @@ double Cos(double x_rad) {
 
 SineCosine SinCos(double x_rad) {
   const auto [index, rest] = Reduce(x_rad);
-  // A lookup instead of a branch: the quadrant of a heading is unpredictable.
-  static constexpr double kSigns[] = {1, -1};
-  const auto [sine, cosine] = SinCosNearZero(rest);
-  const double magnitudes[] = {sine, cosine};
-  return {kSigns[index >> 1 & 1] * magnitudes[index & 1],
-          kSigns[(index + 1) >> 1 & 1] * magnitudes[(index + 1) & 1]};
+  const double sine = SinNearZero(rest);
+  const double cosine = CosNearZero(rest);
+  switch (index & 3) {
+    case 0:
+      return {sine, cosine};
+    case 1:
+      return {cosine, -sine};
+    case 2:
+      return {-sine, -cosine};
+    default:
+      return {-cosine, sine};
+  }
 }
 
 double Atan2(double y, double x) {

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "services/types/fleet_limits.h"
@@ -66,7 +64,6 @@ constexpr Beacon kMost = {
 constexpr std::size_t kNumbers = 19;
 using Numbers = std::array<double, kNumbers>;
 
-// The numbers of a beacon, which lie in it side by side in this order.
 constexpr Numbers NumbersOf(const Beacon& b) {
   const PoseCovariance& c = b.covariance;
   const Pose& pose = b.world_from_body;
@@ -90,8 +87,6 @@ constexpr Numbers NumbersOf(const Beacon& b) {
           b.toward_world.x,
           b.toward_world.y};
 }
-constexpr std::size_t kNumbersAt = offsetof(Beacon, wheels);
-static_assert(kNumbersAt + sizeof(Numbers) == offsetof(Beacon, toward_world) + sizeof(Vec2));
 
 constexpr Numbers kLowest = NumbersOf(kLeast);
 constexpr Numbers kHighest = NumbersOf(kMost);
@@ -112,61 +107,10 @@ constexpr std::array<const char*, kNumbers> kNames = {
     "acceleration_m_s2",   "deceleration_m_s2",   "toward_x_m",
     "toward_y_m"};
 
-// Fast path: for positive doubles the upper 32 bits (sign, exponent, leading digits) order like the
-// value, so four range checks fit one SIMD compare; only values near a bound take the exact path.
-// These checks are most of the cost of a far peer's beacon.
-static_assert(std::endian::native == std::endian::little);
-using Halves = std::uint32_t __attribute__((vector_size(4 * sizeof(std::uint32_t))));
-using SignedHalves = std::int32_t __attribute__((vector_size(sizeof(Halves))));
-
-// What the upper halves of four numbers in a row are between. Where the lowest and the highest are
-// the same but for the sign, the sign is passed over.
-struct Bounds {
-  alignas(Halves) std::array<std::uint32_t, 4> digits;
-  alignas(Halves) std::array<std::uint32_t, 4> least;
-  alignas(Halves) std::array<std::uint32_t, 4> most;
-};
-
-constexpr std::uint32_t UpperHalf(double number) {
-  return static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number) >> 32);
-}
-
-constexpr Bounds BoundsFrom(std::size_t first) {
-  Bounds bounds{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double lowest = kLowest[first + i];
-    bounds.digits[i] = lowest < 0 ? 0x7fff'ffff : 0xffff'ffff;
-    bounds.least[i] = lowest > 0 ? UpperHalf(lowest) + 1 : 0;
-    bounds.most[i] = UpperHalf(kHighest[first + i]) - 1;
-  }
-  return bounds;
-}
-
-// No sign bit is set where all four numbers are well within.
-template <std::size_t First>
-[[gnu::always_inline]] inline Halves Outside(const Beacon& beacon) {
-  static constexpr Bounds kBounds = BoundsFrom(First);
-  const char* from = reinterpret_cast<const char*>(&beacon) + kNumbersAt + First * sizeof(double);
-  Halves two, two_more, digits, least, most;
-  std::memcpy(&two, from, sizeof two);
-  std::memcpy(&two_more, from + sizeof two, sizeof two_more);
-  std::memcpy(&digits, kBounds.digits.data(), sizeof digits);
-  std::memcpy(&least, kBounds.least.data(), sizeof least);
-  std::memcpy(&most, kBounds.most.data(), sizeof most);
-  const Halves x = __builtin_shufflevector(two, two_more, 1, 3, 5, 7) & digits;
-  const auto above = std::bit_cast<SignedHalves>(x) > std::bit_cast<SignedHalves>(most);
-  return x | (x - least) | std::bit_cast<Halves>(above);
-}
-
 double MostCovariance(const PoseCovariance& c) { return (c.xx_m2 + c.yy_m2) / 2 + kRounding_m2; }
 
 bool AreNumbersInRange(const Beacon& b) {
-  const Halves outside =
-      Outside<0>(b) | Outside<4>(b) | Outside<8>(b) | Outside<12>(b) | Outside<15>(b);
-  const SignedHalves signs = std::bit_cast<SignedHalves>(outside) < 0;
-  const auto halves = std::bit_cast<std::array<std::uint64_t, 2>>(signs);
-  const bool all_well_within = (halves[0] | halves[1]) == 0;
-  if (!all_well_within && !AreWithin(NumbersOf(b))) return false;
+  if (!AreWithin(NumbersOf(b))) return false;
   const PoseCovariance& c = b.covariance;
   return Magnitude(c.xy_m2) <= MostCovariance(c);
 }

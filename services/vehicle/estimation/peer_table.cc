@@ -20,34 +20,21 @@ const Beacon* LastBeaconOf(const Peer& peer) {
 
 }  // namespace
 
-// Where the id is, or would have to be.
-std::uint32_t PeerTable::IndexOf(VehicleId id) {
-  if (count_ == 0) return 0;
-  const std::uint32_t guess = after_[found_];
-  if (guess < count_ && ids_[guess] == id) return found_ = guess;
-  const auto end = ids_.begin() + count_;
-  const auto at =
-      static_cast<std::uint32_t>(std::lower_bound(ids_.begin(), end, id) - ids_.begin());
-  if (at < count_) found_ = after_[found_] = at;
-  return at;
+// Where the id is, or would have to be inserted.
+std::vector<Peer>::iterator PeerTable::PlaceOf(VehicleId id) {
+  return std::ranges::lower_bound(peers_, id, {}, &Peer::id);
 }
 
 Peer* PeerTable::Find(VehicleId id) {
-  const std::uint32_t at = IndexOf(id);
-  return at < count_ && ids_[at] == id ? &peers_[at] : nullptr;
+  const auto place = PlaceOf(id);
+  return place != peers_.end() && place->id == id ? &*place : nullptr;
 }
 
 Peer* PeerTable::FindOrInsert(VehicleId id) {
-  const std::uint32_t at = IndexOf(id);
-  if (at < count_ && ids_[at] == id) return &peers_[at];
-  if (count_ == kMaxPeers) return nullptr;
-  std::move_backward(peers_.begin() + at, peers_.begin() + count_, peers_.begin() + count_ + 1);
-  std::move_backward(ids_.begin() + at, ids_.begin() + count_, ids_.begin() + count_ + 1);
-  peers_[at] = Peer{.id = id};
-  ids_[at] = id;
-  after_[count_] = at;  // so that no place in use is without a guess
-  ++count_;
-  return &peers_[at];
+  const auto place = PlaceOf(id);
+  if (place != peers_.end() && place->id == id) return &*place;
+  if (peers_.size() == kMaxPeers) return nullptr;
+  return &*peers_.insert(place, Peer{.id = id});
 }
 
 // One writer speaks for an id. Another is believed once the first is silent past its lease or has
@@ -210,11 +197,7 @@ void PeerTable::Advance(SteadyTime now, Tick tick) {
 }
 
 void PeerTable::ForgetSilent(SteadyTime now) {
-  const auto end = peers_.begin() + count_;
-  const auto kept = std::remove_if(
-      peers_.begin(), end, [now](const Peer& peer) { return now - peer.spoke > kForgetAfter; });
-  count_ = static_cast<std::uint32_t>(kept - peers_.begin());
-  for (std::uint32_t i = 0; i < count_; ++i) ids_[i] = peers_[i].id;
+  std::erase_if(peers_, [now](const Peer& peer) { return now - peer.spoke > kForgetAfter; });
 }
 
 void PeerTable::LeaveWorld() {
@@ -235,9 +218,8 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options) {
   if (Has(Defect::kStaleBeaconTrusted)) return peer.known && !peer.left;
-  // Checked for every peer in every step: one branch for all the rare cases.
-  const bool doubtful =
-      peer.left | peer.rivalled | peer.deadline_missed | peer.liveliness_lost | peer.out_of_reach;
+  const bool doubtful = peer.left || peer.rivalled || peer.deadline_missed ||
+                        peer.liveliness_lost || peer.out_of_reach;
   return peer.known && !doubtful &&
          Age(peer, now, tick, options.tick_period) <= options.beacon_age_limit;
 }
@@ -250,7 +232,7 @@ bool IsLost(const Peer& peer, bool fresh) {
 }
 
 void PeerTable::AddTo(StateHash* hash) const {
-  hash->Add(count_);
+  hash->Add(static_cast<std::uint32_t>(peers_.size()));
   for (const Peer& peer : Peers()) {
     hash->Add(peer.id);
     hash->Add(peer.known);

@@ -1,11 +1,12 @@
-// What this vehicle knows of the others: one entry a vehicle id, bounded, trivially copyable. Takes
-// in beacons and QoS events, refuses and counts invalid ones, and says which peers are fresh. Its
+// What this vehicle knows of the others: one entry a vehicle id, at most kMaxPeers. Takes in
+// beacons and QoS events, refuses and counts invalid ones, and says which peers are fresh. Its
 // only clock is the receiver's, passed in. Decides nothing.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "services/types/beacon.h"
 #include "services/types/counters.h"
@@ -79,8 +80,6 @@ struct Self {
 
 class PeerTable {
  public:
-  PeerTable() {}  // not `= default`: for the union's sake that would be deleted
-
   // Accepts one beacon or refuses it; exactly one counter of `counters` besides `taken` moves. One
   // that does not fit the one before is accepted, counted in `trust`, and its sender doubted.
   BeaconRefusal Take(const ReceivedBeacon& received, const Self& self,
@@ -92,8 +91,8 @@ class PeerTable {
   // Forgets where the peers were; id owners and how far they counted stay.
   void LeaveWorld();
 
-  std::span<Peer> Peers() { return {peers_.data(), count_}; }
-  std::span<const Peer> Peers() const { return {peers_.data(), count_}; }
+  std::span<Peer> Peers() { return peers_; }
+  std::span<const Peer> Peers() const { return peers_; }
   Peer* Find(VehicleId id);
 
   VehicleId LastDeadlineMissed() const { return last_deadline_missed_; }
@@ -110,20 +109,9 @@ class PeerTable {
   bool BelongsTo(Peer* peer, const ReceivedBeacon& received);
   void Store(Peer* peer, const ReceivedBeacon& received, Tick tick);
 
-  std::uint32_t IndexOf(VehicleId id);
+  std::vector<Peer>::iterator PlaceOf(VehicleId id);
 
-  // Sorted by id. In a union, so that those beyond the count are not made: most of a table is never
-  // touched, and clearing all of it costs a fleet in virtual time as much as hundreds of ticks.
-  union {
-    std::array<Peer, kMaxPeers> peers_;
-  };
-  std::array<VehicleId, kMaxPeers> ids_;  // theirs, side by side: these are searched
-  std::uint32_t count_ = 0;
-  // Beacons tend to arrive in the same order each tick: the slot of the peer found last, and for
-  // each slot that of the peer found after it. Guesses: the id in the slot is always compared, for
-  // slots move when a peer joins or leaves.
-  std::uint32_t found_ = 0;
-  std::array<std::uint32_t, kMaxPeers> after_;
+  std::vector<Peer> peers_;  // sorted by id
   VehicleId last_deadline_missed_ = kNobody;
   VehicleId last_liveliness_lost_ = kNobody;
   VehicleId last_rejected_ = kNobody;

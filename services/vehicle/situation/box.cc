@@ -138,8 +138,7 @@ Boxes FindBoxes(PeerViews<RelatedPeer> related, const OwnView& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   const Crossings crossings = cooperative ? CrossingsAhead(views) : Crossings{};
   for (PeerView& view : views) {
-    if (!view.crossing) continue;
-    view.box_begin_m = BoxBegin(crossings, view.crossing->own.begin_m);
+    view.box_begin_m = view.crossing ? BoxBegin(crossings, view.crossing->own.begin_m) : 0;
   }
   return {views, NearestBlocked(views, crossings, s)};
 }

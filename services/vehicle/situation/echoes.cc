@@ -1,8 +1,6 @@
 #include "services/vehicle/situation/echoes.h"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
 #include "services/types/math/math.h"
 
@@ -18,40 +16,6 @@ constexpr std::uint32_t kMotionStreak = 4;
 constexpr std::uint32_t kSlowMotionStreak = 2;
 // Standard deviations of a closing speed that the readings' noise may leave unexplained.
 constexpr double kNoiseSigmas = 4;
-
-// Four at a time: plain SSE2 or NEON.
-using FourFloats = float __attribute__((vector_size(4 * sizeof(float))));
-using FourWords = std::uint32_t __attribute__((vector_size(4 * sizeof(std::uint32_t))));
-
-FourFloats Load(const float* from) {
-  FourFloats lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
-
-// Bit k is set unless the echo in place k is for another distance than that of the body by more
-// than it may be. Most are, and four at a time and without a root it takes little to see.
-std::uint32_t PerhapsOf(Vec2 centre_body, double radius_m, const HeardEchoes& echoes) {
-  constexpr float kRounding_m = 1e-3F;  // of single precision, as far as any ultrasonics hear
-  constexpr float kSlack_m = static_cast<float>(kSameBody_m) + kRounding_m;
-  const auto centre_x = static_cast<float>(centre_body.x);
-  const auto centre_y = static_cast<float>(centre_body.y);
-  const auto radius = static_cast<float>(radius_m);
-  FourWords perhaps{};
-  FourWords bits{1, 2, 4, 8};
-  for (std::size_t k = 0; k < echoes.count; k += 4, bits <<= 4) {
-    const FourFloats x = centre_x - Load(&echoes.rough_x_body[k]);
-    const FourFloats y = centre_y - Load(&echoes.rough_y_body[k]);
-    const FourFloats expected = Load(&echoes.rough_range_m[k]) + radius;
-    const FourFloats squared = x * x + y * y;
-    const FourFloats most = expected + kSlack_m;
-    const FourFloats least = expected - kSlack_m;
-    const FourFloats above = least > 0 ? least : FourFloats{};
-    perhaps |= bits & std::bit_cast<FourWords>(squared <= most * most) &
-               std::bit_cast<FourWords>(squared >= above * above);
-  }
-  return perhaps[0] | perhaps[1] | perhaps[2] | perhaps[3];
-}
 
 // How far a direction is off a cone's axis.
 double OffAxis(Vec2 direction_body, const Cone& cone) {
@@ -162,35 +126,21 @@ std::optional<double> FreeBeforeDisc(Vec2 centre_body, double sum_of_radii) {
 
 void HearEchoes(const RangeView& ranges, Tick tick, const VehicleOptions& options,
                 HeardEchoes* heard) {
-  heard->any_old = false;
-  std::size_t count = 0;
+  heard->count = 0;
   for (const std::size_t i : BitsOf(ranges.Echoes())) {
-    const SensorMount& mount = options.profile.sonar[i];
-    heard->rough_x_body[count] = static_cast<float>(mount.position_body.x);
-    heard->rough_y_body[count] = static_cast<float>(mount.position_body.y);
-    heard->rough_range_m[count] = static_cast<float>(ranges[i].range_m);
-    heard->age_s[count] = EchoAge(ranges[i], tick, options.tick_period);
-    heard->sensor[count] = i;
-    heard->any_old = heard->any_old || heard->age_s[count] > 0;
-    ++count;
-  }
-  heard->count = count;
-  for (std::size_t k = count; k % 4 != 0; ++k) {
-    heard->rough_x_body[k] = heard->rough_y_body[k] = 0;
-    heard->rough_range_m[k] = 0;
+    heard->sensor[heard->count] = i;
+    heard->age_s[heard->count] = EchoAge(ranges[i], tick, options.tick_period);
+    ++heard->count;
   }
 }
 
 std::uint32_t EchoesOf(const CarriedPeer& peer, const OwnView& s) {
   const HeardEchoes& echoes = s.echoes;
-  if (echoes.count == 0) return 0;
   const double radius_m = peer.peer->beacon.body_radius_m;
   const Vec2 centre_now = InBody(s, peer.position_world);
-  const std::uint32_t all = (1U << echoes.count) - 1;
   const double unsure_m = kNearer_m + kSigmas * peer.sigma_m;
   std::uint32_t explains = 0;
-  for (const std::size_t k :
-       BitsOf(all & (echoes.any_old ? all : PerhapsOf(centre_now, radius_m, echoes)))) {
+  for (std::size_t k = 0; k < echoes.count; ++k) {
     const std::size_t sensor = echoes.sensor[k];
     const double age_s = echoes.age_s[k];
     const double range_m = s.ranges[sensor].range_m;

@@ -95,11 +95,6 @@ constexpr double kThere_m = 0.05;
 // at its target.
 constexpr double kWellAway_m = 2 * kThere_m + 0.001;
 
-// Copied field by field: a 16-byte load straight after two 8-byte stores defeats store forwarding.
-void Put(const Conflict& from, std::optional<Conflict>* to) {
-  *to = {{from.own.begin_m, from.own.end_m}, {from.peer.begin_m, from.peer.end_m}, from.across};
-}
-
 // Where the paths of both vehicles to their next targets cross, if neither follows the other.
 void FindCrossing(RelatedPeer* view, const OwnView& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
@@ -111,7 +106,7 @@ void FindCrossing(RelatedPeer* view, const OwnView& s) {
   const auto conflict = FindConflict(s.path, peer_path, reach_m);
   if (!conflict || conflict->own.begin_m > s.distance_to_goal_m) return;
   if (conflict->peer.begin_m > way_m) return;
-  Put(*conflict, &view->crossing);
+  view->crossing = conflict;
 }
 
 // After a longer silence nothing can be said of a peer; the ultrasonics and PeerLost take over.
@@ -223,9 +218,8 @@ PeerViews<CarriedPeer> CarryForward(PeerViews<HeardPeer> heard, const OwnView& s
     const Facing now = AdvanceFacing(told, twist, CarriedSeconds(beacon, view.fresh, s));
     view.speed_m_s = twist.forward_m_s;
     view.turn_rad_s = twist.turn_rad_s;
-    // By halves: a pair that is loaded right after its halves were stored is waited for.
-    view.position_world = {now.position_world.x, now.position_world.y};
-    view.forward_world = {now.forward_world.x, now.forward_world.y};
+    view.position_world = now.position_world;
+    view.forward_world = now.forward_world;
   }
   for (CarriedPeer& view : views) Measure(&view, s);
   return PeerViews<CarriedPeer>(views);
@@ -259,7 +253,7 @@ void Relate(RelatedPeer* related, const OwnView& s) {
   // One that stands and comes later in the order is a body to steer round.
   const bool stands = view.standing && (view.believed || !view.fresh);
   const bool steered_round = cooperative && stands && !view.goes_first;
-  if (view.crossing && !steered_round) Put(*view.crossing, &view.conflict);
+  if (!steered_round) view.conflict = view.crossing;
   view.free_m = FreeAlong(view, s.forward_world, s);
   const bool halted = view.standing && IsGiveWay(beacon.rule) && !view.goes_first;
   view.grants = view.believed && (beacon.gives_way_to == s.options.id || StaysPut(beacon) ||
@@ -274,7 +268,6 @@ RelatedPeers LookAt(PeerViews<CarriedPeer> carried, const OwnView& s) {
   RelatedPeers related{.views = PeerViews<RelatedPeer>(views)};
   for (PeerView& view : views) {
     Relate(&view, s);
-    view.box_begin_m = 0;  // FindBoxes need not fetch those without a crossing again
     related.someone_doubted = related.someone_doubted || (view.fresh && !view.believed);
     // An echo near a doubted peer counts as unexplained; the lecture's behaviours keep the same
     // distance from a known body as from an unknown one.

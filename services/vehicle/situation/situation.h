@@ -65,13 +65,13 @@ struct RelatedPeer : CarriedPeer {
   double free_m;
   std::uint32_t explains;  // bit i: the echo of sensor i is where this peer's body should be
   std::optional<Conflict> conflict;  // as `crossing`, where it is a matter of right of way
-  std::optional<Conflict> crossing;  // of both paths, whichever vehicle has the right of way
+  std::optional<Conflict> crossing;  // of both paths, independent of the right of way
 };
 
 // What this vehicle knows of one peer, all of it: with what follows from all peers together, by
 // FindBoxes.
 struct PeerView : RelatedPeer {
-  double box_begin_m;  // of `crossing`: how far to drive without blocking another vehicle
+  double box_begin_m;  // of `crossing`: how far to drive without blocking any
 };
 static_assert(sizeof(PeerView) <= 336);  // a step makes up to a thousand: they must not grow
 
@@ -88,17 +88,11 @@ class PeerViews {
   std::span<PeerView> views_;
 };
 
-// The echoes that the sensors hold, entry by entry `count` of them. What comes after them, up to
-// the next multiple of four, is of no sensor.
+// The echoes that the sensors hold, `count` of them.
 struct HeardEchoes {
   std::size_t count = 0;
-  bool any_old;  // has an age
   std::array<double, kSensorCount> age_s;
   std::array<std::size_t, kSensorCount> sensor;
-  // The sensor's place and the range once more, for a rough look at four at a time.
-  alignas(16) std::array<float, kSensorCount> rough_x_body;
-  alignas(16) std::array<float, kSensorCount> rough_y_body;
-  alignas(16) std::array<float, kSensorCount> rough_range_m;
 };
 
 // The middles of cells of the obstacle grid that count, in the body frame: see heard_places.h.

@@ -242,7 +242,7 @@ TEST(PlaceRules, CountsHaveALimit) {
   EXPECT_THAT(With(Times(16383, "spawn {}\n")), Contains(Is(1, "", "16385 of vehicle and spawn")));
 }
 
-// 38 MB: refused by its size, before anybody reads it.
+// 38 MB: refused by its size, before it is parsed.
 TEST(PlaceRules, AMillionWallsAreTooLargeAFile) {
   const auto problems = With(Times(1'000'000, "wall{from{x_m:0 y_m:9}to{x_m:1 y_m:9}}"));
   ASSERT_EQ(problems.size(), 1U);
@@ -254,8 +254,8 @@ TEST(PlaceRules, AMillionWallsInFewBytesAreTooMany) {
               ElementsAre(Is(17, "wall[65536]", "is one of 1000001; at most 65536")));
 }
 
-// A fleet as large as allowed, in rank and file with walls between: compared pair by pair this
-// would be over a thousand million pairs.
+// The largest fleet allowed, in rows and columns with walls between: comparing pair by pair would
+// take over a thousand million pairs.
 TEST(PlaceRules, AFullFleetAmongManyWallsIsCheckedAtOnce) {
   std::string text = "name: \"full\" expect {}\n";
   for (int i = 0; i < 16384; ++i) {

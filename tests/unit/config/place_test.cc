@@ -1,5 +1,4 @@
-// What a scenario file says of its place, of boxes, sensors and spawn places, and what that
-// becomes.
+// How a scenario file describes its place, boxes, sensors and spawn places, and what that becomes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -192,7 +191,7 @@ TEST(Place, AClosedFleetStartsWithNobodyInParticular) {
   EXPECT_EQ(Load(kGoodScenario).start_with, 0U);
 }
 
-// Vehicles have 1 and 2, so whoever joins first gets 3.
+// Vehicles have ids 1 and 2, so the first to join gets 3.
 TEST(Place, AnExpectationMayNameTheIdsTheWorldGives) {
   const auto text = [](const char* ids) {
     return Spoilt("arrived: [1]", std::string("arrived: [") + ids + "]") + kSpawn;

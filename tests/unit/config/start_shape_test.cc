@@ -43,7 +43,7 @@ TEST(StartShape, ABoxIsJudgedByItsSidesAndNotByTheDiscThatHoldsIt) {
   EXPECT_TRUE(Overlap(Disc({0, 0.34}, 0.25), lying));
 }
 
-// Corner towards side: apart only along a direction that is a side of the turned one.
+// Corner towards side: only a direction along a side of the turned box separates them.
 TEST(StartShape, ATurnedBoxIsApartWhereOnlyItsOwnSidesShowIt) {
   const StartShape square = Box({0, 0}, 0, {1, 1});
   EXPECT_FALSE(Overlap(square, Box({1.8, 1.8}, 45, {1, 1})));
@@ -61,7 +61,7 @@ TEST(StartShape, ALineThroughABoxOrInsideItOverlaps) {
   EXPECT_TRUE(Overlap(box, StartLine{{-5, 1}, {9, 1}}));
   EXPECT_TRUE(Overlap(box, StartLine{{2, 1}, {2.01, 1}}));
   EXPECT_FALSE(Overlap(box, StartLine{{-5, 1}, {1.4, 1}}));
-  EXPECT_FALSE(Overlap(box, StartLine{{1.7, 1.4}, {2.6, 1.9}}));  // beside its long side
+  EXPECT_FALSE(Overlap(box, StartLine{{1.7, 1.4}, {2.6, 1.9}}));  // next to its long side
 }
 
 TEST(StartShape, WhatIsNotFiniteOverlapsNothing) {

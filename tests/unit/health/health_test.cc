@@ -25,7 +25,7 @@ using ::testing::StartsWith;
 
 constexpr SteadyTime kNow = seconds(100);
 
-// Vehicle 2 of 2, in a run that has begun, with ranges a moment old.
+// Vehicle 2 of 2, in a started run, with ranges a moment old.
 VehicleHealth Driving() {
   VehicleHealth vehicle;
   vehicle.loop = {.stage = HealthStage::kUnderWay, .turned = kNow - milliseconds(50), .turns = 7};
@@ -186,7 +186,7 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
   }
 }
 
-// What does not exist is left out, instead of being told as 0.
+// A value that does not exist is left out, not reported as 0.
 TEST(Health, ThereIsNoEchoAndNoAgeBeforeTheFirst) {
   VehicleHealth vehicle = Driving();
   vehicle.scanned = SteadyTime{0};
@@ -201,7 +201,7 @@ TEST(Health, ThereIsNoEchoAndNoAgeBeforeTheFirst) {
   EXPECT_THAT(some, HasSubstr("\ngiveway_vehicle_ranges_age_seconds 0.125\n"));
 }
 
-// Scrapers refuse a text in which a counter is called otherwise, or a family comes twice.
+// Scrapers refuse a text in which a counter's name is wrong, or a family occurs twice.
 TEST(Health, EveryCounterEndsInTotalAndEveryFamilyComesOnce) {
   const std::string all = MetricsText(Driving(), {}, kNow) + MetricsText(WorldHealth{}, {}, kNow);
   std::vector<std::string> names;
@@ -222,7 +222,7 @@ struct Many {
   std::array<std::uint64_t, 100> numbers{};
 };
 
-// A board that tears shows two numbers of different writes.
+// A torn read of the board shows two numbers of different writes.
 TEST(HealthBoard, WhatIsReadIsOneWriteAndNeverOlderThanTheLastRead) {
   HealthBoard<Many> board;
   std::atomic<bool> over{false};

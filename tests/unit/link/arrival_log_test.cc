@@ -2,10 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace giveway::link {
 namespace {
 
 constexpr std::uint64_t kWriter = 5;
+
+void Turns(std::uint64_t turns, ArrivalLog* log) {
+  for (std::uint64_t turn = 0; turn < turns; ++turn) log->NoteLeft({});
+}
 
 TEST(ArrivalLog, CountsFromTheFirstThatArrives) {
   ArrivalLog log;
@@ -58,6 +64,37 @@ TEST(ArrivalLog, KeepsTheNewestOfABoundedNumberOfWriters) {
   }
   EXPECT_FALSE(log.At(kWriter, 2)) << "the oldest is forgotten";
   EXPECT_TRUE(log.At(100, 1));
+}
+
+TEST(ArrivalLog, ForgetsAWriterThatLeftButOnlyOnceItsLastSamplesWereTaken) {
+  ArrivalLog log;
+  log.Note(kWriter, 1, true);
+  log.NoteLeft(std::array{kWriter});
+  Turns(ArrivalLog::kTurnsToForget - 1, &log);
+  EXPECT_TRUE(log.At(kWriter, 1));
+  Turns(1, &log);
+  EXPECT_FALSE(log.At(kWriter, 1));
+}
+
+TEST(ArrivalLog, KeepsAWriterThatSpeaksAgainAfterItLeft) {
+  ArrivalLog log;
+  log.Note(kWriter, 1, true);
+  log.NoteLeft(std::array{kWriter});
+  log.Note(kWriter, 2, true);
+  Turns(ArrivalLog::kTurnsToForget + 1, &log);
+  EXPECT_TRUE(log.At(kWriter, 2));
+}
+
+TEST(ArrivalLog, AForgottenWriterFreesItsPlace) {
+  ArrivalLog log;
+  log.Note(1, 1, true);
+  for (std::uint64_t writer = 2; writer <= ArrivalLog::kMostWriters; ++writer) {
+    log.Note(writer, 1, true);
+  }
+  log.NoteLeft(std::array<std::uint64_t, 1>{2});
+  Turns(ArrivalLog::kTurnsToForget, &log);
+  log.Note(ArrivalLog::kMostWriters + 1, 1, true);
+  EXPECT_TRUE(log.At(1, 1)) << "the oldest may stay";
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(Picture, ItMarksTheClosestApproachAndContacts) {
   EXPECT_THAT(svg, HasSubstr(">contact at 3.0 s<"));
 }
 
-// The world says when a vehicle fell silent, not where.
+// The world reports when a vehicle fell silent, not where.
 TEST(Picture, ADeathIsMarkedOnceWhereTheVehicleWasSeenLast) {
   const std::vector<WorldEvent> events{Event(EventKind::kSilent, 6.2, 2),
                                        Event(EventKind::kRemoved, 11.2, 2)};
@@ -172,7 +172,7 @@ TEST(Picture, ABoxIsDrawnAsABoxThatPointsItsWay) {
   EXPECT_NEAR(standing.y, 4 * standing.x, 1);
 }
 
-// The world tells where a vehicle was closest, its track which way it pointed.
+// The world reports where the closest approach was; the track gives the heading there.
 TEST(Picture, ABoxAtItsClosestPointsAsItDroveThere) {
   Scenario scenario = Crossing();
   scenario.vehicles[0].profile.shape = BodyShape::kBox;

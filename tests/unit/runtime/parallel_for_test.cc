@@ -1,4 +1,4 @@
-// The pool of threads: every index once, whatever the count, the threads, and who else calls.
+// The thread pool: every index once, whatever the count, the threads, and the other callers.
 #include "services/runtime/parallel_for.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace giveway {
 namespace {
 
 // How often each index was given out. Plain bytes: two threads on one index are a data race, which
-// the thread sanitizer tells.
+// the thread sanitizer reports.
 std::vector<std::uint8_t> Visits(const ParallelFor& parallel_for, std::size_t count) {
   std::vector<std::uint8_t> visits(count, 0);
   parallel_for(count, [&](std::size_t begin, std::size_t end) {
@@ -40,7 +40,7 @@ TEST_P(ParallelPoolOf, VisitsEachIndexOnceWhateverTheCount) {
   }
 }
 
-// Calls in close order: a worker that is late for one meets the next.
+// Calls in quick succession: a worker that is late for one meets the next.
 TEST_P(ParallelPoolOf, KeepsItsCallsApart) {
   ParallelPool pool(GetParam());
   const ParallelFor parallel_for = pool.Function();
@@ -90,7 +90,7 @@ TEST_P(ParallelPoolOf, EndsUnusedToo) {
   for (int i = 0; i < 100; ++i) ParallelPool pool(GetParam());
 }
 
-// Nested, the outer call's body goes on: the pool serves the next call as before.
+// Called from within a body, which then continues: the pool serves the next call as before.
 TEST_P(ParallelPoolOf, IsFreeAgainAfterEachCall) {
   ParallelPool pool(GetParam());
   const ParallelFor parallel_for = pool.Function();
@@ -108,7 +108,7 @@ TEST_P(ParallelPoolOf, IsFreeAgainAfterEachCall) {
 INSTANTIATE_TEST_SUITE_P(Threads, ParallelPoolOf, ::testing::Values(0U, 1U, 2U, 3U, 8U),
                          ::testing::PrintToStringParamName());
 
-// Every body waits for the other: only two threads at once ever end this.
+// Every body waits for the other: this ends only with two threads at the same time.
 TEST(ParallelPool, TheCallerAndTheWorkersWorkTogether) {
   ParallelPool pool(2);
   std::atomic<int> here{0};

@@ -1,4 +1,4 @@
-// What a vehicle that asks is told of where it is and how far its task was.
+// What the world answers a joining vehicle about its pose and the progress of its task.
 #include <gtest/gtest.h>
 
 #include "sim_world/run/admission.h"
@@ -7,7 +7,7 @@
 namespace giveway::sim {
 namespace {
 
-// An open fleet of one place, whose vehicle drives straight on as soon as it is in.
+// An open fleet of one place, whose vehicle drives straight on as soon as it has joined.
 class OnePlace {
  public:
   explicit OnePlace(std::uint32_t waypoints = 0, WorldEpoch epoch = kEpoch)
@@ -36,7 +36,7 @@ class OnePlace {
       admission.FollowRun();
     }
   }
-  // The answer of the tick in which it asks; made before the world moves on.
+  // The answer of the tick in which it asks; given before the world moves on.
   RosterEntry Join(const JoinRequest& request) {
     admission.Take(request);
     Tick();
@@ -57,7 +57,7 @@ class OnePlace {
   WorldEpoch epoch_;
 };
 
-// It drove 3.6 m in four_way, restarted itself and was told that it stood where it had started.
+// Regression: it drove 3.6 m in four_way, restarted itself, and the answer gave its start pose.
 TEST(AdmissionPlaces, EveryAnswerSaysWhereTheBodyIsNow) {
   OnePlace fleet;
   fleet.Join(Ask(1));
@@ -84,14 +84,14 @@ TEST(AdmissionPlaces, AReturnedVehicleIsToldHowFarItsTaskWas) {
   fleet.task = {3, 20};
   fleet.Tick(40);
   EXPECT_EQ(fleet.Join(Ask(1, 1)).task, fleet.task);
-  // Killed and back under its id.
+  // Killed, and back under its id.
   fleet.speaks = false;
   fleet.Tick(40);
   const RosterEntry back = fleet.Join(Ask(9, 1));
   EXPECT_EQ(back.task, fleet.task);
   EXPECT_EQ(back.start_world, fleet.TheBody().world_from_body);
   EXPECT_EQ(back.counted, fleet.TheBody().counted);
-  // Then its world is, from a checkpoint.
+  // Then the same for its world, from a checkpoint.
   OnePlace after(4, WorldEpoch{8});
   const auto bytes = ToBytes(fleet.admission.Save(5));
   ASSERT_TRUE(after.admission.Restore(std::get<FleetCheckpoint>(FromBytes(bytes))));

@@ -1,4 +1,4 @@
-// Radar, lidar and camera against references that know no closed form of theirs: the ultrasonics'
+// Radar, lidar and camera against references that do not use their closed forms: the ultrasonics'
 // own cone, and outlines sampled point by point.
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ struct Box {
   Vec2 half_m;
 };
 
-// Shapes round a sensor, kept beside the scene so that a reference can go through them one by one.
+// Shapes round a sensor, kept apart from the scene so that a reference can go through them one by
+// one.
 struct Place {
   std::vector<Wall> walls;
   std::vector<std::pair<Vec2, double>> discs;
@@ -77,8 +78,8 @@ std::array<Vec2, 4> CornersOf(const Box& box) {
 
 // ---- lidar
 
-// A point moved along the ray until it is within a hair of some shape, by the distance to the
-// nearest one: knows only how far a point is from a shape.
+// A point moved along the ray until it nearly touches some shape, by the distance to the nearest
+// one: needs only the distance of a point from a shape.
 double DistanceToNearest(const Place& place, Vec2 point) {
   double nearest = 1e9;
   const auto segment = [&](Vec2 from, Vec2 to) {
@@ -210,7 +211,7 @@ TEST(Radar, EveryRangeIsTheConesAndTheNearestIsNeverMissed) {
   }
 }
 
-// The range rate is what the range does: move everything on for an instant and measure again.
+// The range rate is the change of range: move everything on for an instant and measure again.
 TEST(Radar, RangeRateIsHowTheRangeOfADiscChanges) {
   Random random(5);
   for (int i = 0; i < kPlaces; ++i) {
@@ -285,7 +286,7 @@ TEST(Radar, OfManyTheNearestWinAndTheOrderOfAddingDoesNotShow) {
     Scene scene({});
     for (Owner i = 0; i < 60; ++i) {
       const Owner owner = backwards ? 59 - i : i;
-      // A fan of posts, each further than the one beside it, none behind another.
+      // A fan of posts, each further than its neighbour, none behind another.
       const double bearing = Radians(-38 + 1.25 * owner);
       const double range = 3 + 0.03 * owner;
       scene.AddDisc({range * Cos(bearing), range * Sin(bearing)}, 0.01, owner);

@@ -1,6 +1,6 @@
-// Ranges of the ideal tier against an oracle that knows no closed form: it searches along the
-// outline for what lies in the cone, and refines by bisection and golden section.
-// GIVEWAY_CASES sets the number of placements.
+// Ranges of the ideal tier against an oracle without closed forms: it searches along the outline
+// for what lies in the cone, and refines by bisection and golden section. GIVEWAY_CASES sets the
+// number of placements.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -99,7 +99,8 @@ double Search(const View& view, Vec2 from, Vec2 to) {
   return GoldenMinimum([&](double u) { return view.Distance(at(u)); }, low, high);
 }
 
-// Along a ray the way to the disc's rim; beyond kMissed_m what it misses the disc by.
+// The distance along a ray to the disc's rim; beyond kMissed_m, the distance by which the ray
+// misses the disc.
 constexpr double kMissed_m = 1000;
 
 double WayToRim(Vec2 apex, Vec2 unit, Vec2 centre, double radius_m) {
@@ -195,7 +196,7 @@ Placement Place(Random* random, int kind, Vec2 position, std::optional<Scene>* s
   return placed;
 }
 
-// They differ in whether there is an echo only where a hair's breadth of cone or range decides.
+// They disagree about an echo only where rounding decides about the cone or the range.
 bool IsCloseCall(View view, const Placement& placed) {
   view.half_rad += kTolerance_m;
   view.max_range_m += kTolerance_m;

@@ -1,4 +1,4 @@
-// Boxes, slip and encoder noise, symmetry, and independence of how the work is cut.
+// Boxes, slip and encoder noise, symmetry, and independence of how the work is divided.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -75,7 +75,7 @@ TEST(WorldBodies, ATouchingPairThatSlidesIsOneContact) {
   EXPECT_LE(world.Contacts(), 2U);
 }
 
-// Four meet in the middle: nobody is favoured.
+// Four meet in the middle: none is favoured.
 TEST(WorldBodies, ASymmetricSituationStaysSymmetric) {
   Scenario scenario = ScenarioOf({});
   for (std::uint32_t i = 0; i < 4; ++i) {
@@ -219,7 +219,7 @@ TEST(WorldBodies, NothingDependsOnHowTheWorkIsCut) {
   }
 }
 
-// Shells never overlap by more than a contact is found to, whatever happens.
+// Shells never overlap by more than the tolerance of a contact, whatever happens.
 TEST(WorldBodies, NobodyEverOverlapsAnything) {
   Scenario scenario = ScenarioOf({});
   Random random(78);

@@ -37,8 +37,8 @@ TEST(World, EncodersAreEnoughForPerfectDeadReckoning) {
   EXPECT_GT(world.Contacts(), 0U);  // cut ticks were among them
 }
 
-// Whoever misses scans knows by the count how far it rolled, errors of the encoders included; a
-// body that is put into the world again starts to count again.
+// A vehicle that misses scans learns from the count how far it rolled, encoder errors included; a
+// body that is put into the world again counts from zero.
 TEST(World, EncodersCountWhatTheyTell) {
   Scenario scenario = Facing(0.6);
   scenario.vehicles[0].profile.encoder_noise = 0.1;
@@ -119,7 +119,7 @@ TEST(World, AWallIsAContactWithNobody) {
 }
 
 TEST(World, TheContactTickIsCutToTheClosedFormsMoment) {
-  // Full speed first, then the gap of the deciding tick is known exactly.
+  // Full speed first, so that the gap of the deciding tick is known exactly.
   World world = WorldOf(Facing(2.0));
   DriveAll(&world, 4, 4, 30);
   const double before = X(world, 1) - X(world, 0) - 0.5;

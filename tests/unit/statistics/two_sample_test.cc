@@ -15,7 +15,7 @@ using testing::ElementsAre;
 
 using Values = std::vector<double>;
 
-// Of 4 choose 2 = 6 ways to deal out ranks only one has the two greatest.
+// Of the 4 choose 2 = 6 rank assignments only one has the two greatest.
 TEST(MannWhitney, FewValuesAreCountedOut) {
   EXPECT_NEAR(MannWhitneyGreater(Values{1, 2}, Values{3, 4}), 1.0 / 6, 1e-12);
   EXPECT_NEAR(MannWhitneyGreater(Values{3, 4}, Values{1, 2}), 1, 1e-12);
@@ -56,7 +56,7 @@ TEST(MannWhitneyOfHistograms, SeesAShiftAndOnlyItsDirection) {
   EXPECT_GT(MannWhitneyGreater(after, 1e9, before, 1e9), 0.999);
 }
 
-// A hundred times the values of the same few seconds are no more evidence.
+// A hundred times the values from the same few seconds are no more evidence.
 TEST(MannWhitneyOfHistograms, WeighsNoMoreThanIsIndependent) {
   const Histogram before = Normal(1, 20'000, 50, 10);
   const Histogram after = Normal(2, 20'000, 50.6, 10);

@@ -60,13 +60,14 @@ RC_GTEST_PROP(Distance, GrowsInProportion, ()) {
   RC_ASSERT(Distance(metric, 2.0 * offset) == 2 * Distance(metric, offset));
 }
 
-// The safety of every gate: whoever is inside it by the Euclidean distance is inside it by any.
+// The safety of every gate: a vehicle inside it by the Euclidean distance is inside it by any
+// metric.
 RC_GTEST_PROP(GateDistance, IsNeverAboveTheEuclideanNotEvenByRounding, ()) {
   const Vec2 offset = AnyOffset();
   RC_ASSERT(GateDistance(AnyMetric(), offset) <= Norm(offset));
 }
 
-// There the scaled Manhattan distance is the Euclidean one, but for the last bit.
+// There the scaled Manhattan distance equals the Euclidean one, except for the last bit.
 TEST(GateDistance, IsNotAboveTheEuclideanOnTheDiagonalEither) {
   for (int i = 1; i <= 1000; ++i) {
     const Vec2 offset{i / 1000.0, i / -1000.0};

@@ -1,4 +1,5 @@
-// A way round what stands: it exists where a coarse eye sees one, and never leads through a body.
+// A detour round standing obstacles: it is found where a coarse search finds one, and never leads
+// through a body.
 #include "services/vehicle/decision/detour.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kRoom_m = 0.65;
 
-// Discs side by side, open towards the west: a bag to drive out of backwards.
+// Discs side by side, open towards the west: a pocket to back out of.
 std::vector<KeepOut> Bag() {
   std::vector<KeepOut> discs;
   for (int i = -2; i <= 2; ++i) discs.push_back({{2, 1.0 * i}, kRoom_m});

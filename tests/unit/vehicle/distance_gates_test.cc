@@ -14,7 +14,7 @@ Scenario Measured(Scenario scenario, DistanceMetric metric) {
   return scenario;
 }
 
-// Driven by vehicle 2 until it first gives way; huge if it never does.
+// The distance vehicle 2 drives until it first gives way; huge if it never does.
 double DrivenBeforeGivingWay(const Scenario& scenario) {
   sim::VirtualFleet fleet(scenario);
   const Vec2 from = scenario.vehicles[1].start_world.position_world;
@@ -59,14 +59,15 @@ INSTANTIATE_TEST_SUITE_P(Of, Gates,
                                   std::string(Name(test.param.metric));
                          });
 
-// At the crossing the other is askew: by the longer of the two ways only it is nearer.
+// At the crossing the peer lies off axis: it is nearer only by the longer of the two axis
+// distances.
 TEST(GatesOfTheLecture, ChebyshevMakesItStopSoonerForOneThatIsAskew) {
   const Scenario scenario = test::Crossing(Behaviour::kLectureYield, 0.4, 0.3);
   EXPECT_LT(DrivenBeforeGivingWay(Measured(scenario, DistanceMetric::kChebyshev)) + 0.1,
             DrivenBeforeGivingWay(scenario));
 }
 
-// The metric is a matter of gates: the printed scripts compare echoes alone.
+// The metric applies to gates only: the printed scripts compare echoes alone.
 TEST(GatesOfTheLecture, ThePrintedScriptsKnowOneDistanceOnly) {
   const Scenario scenario = test::Crossing(Behaviour::kLecturePrinted, 0.4, 0.3);
   EXPECT_EQ(DrivenBeforeGivingWay(Measured(scenario, DistanceMetric::kChebyshev)),

@@ -1,4 +1,5 @@
-// What doubt takes away from a peer's word, and that it never makes a vehicle less careful.
+// What distrust takes away from a peer's statements, and that it never makes a vehicle less
+// careful.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -14,8 +15,8 @@ using test::BeaconOf;
 using test::BrainBench;
 using test::ClearScan;
 
-// The own vehicle is first in the order, at 0.3 m/s; the conflict begins at x = 3.4. A peer to the
-// south of it grants, and may have jumped shortly before.
+// The own vehicle has priority, at 0.3 m/s; the conflict starts at x = 3.4. A peer to the south of
+// it grants, and may have jumped shortly before.
 Outputs DriveUpToAGrant(bool jumps) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   RangeScan scan = ClearScan(0);
@@ -40,7 +41,7 @@ TEST(Doubt, AGrantIsNotBelieved) {
   EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.4 - 0.075);
 }
 
-// Any inputs a few ticks long, by number.
+// Random inputs of a few ticks, by number.
 Inputs AnyInputs(Random* random, std::uint32_t tick, std::vector<ReceivedBeacon>* heard) {
   Inputs inputs;
   inputs.now = tick * Nanoseconds(50'000'000);
@@ -89,7 +90,7 @@ TEST(Doubt, NeverRaisesTheMode) {
     for (Peer& peer : doubting->heard.peers.Peers()) {
       peer.trust = {.ever_doubted = true, .doubted_at = last.now};
     }
-    // Judged anew all the same: of that only the jumps are left out.
+    // The last step is repeated without the beacons, which hold the jumps.
     Inputs without_jumps = last;
     without_jumps.beacons = {};
     vehicle.Restore(*believing);

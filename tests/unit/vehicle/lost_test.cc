@@ -1,5 +1,5 @@
-// A vehicle that does not know well enough where it is: it slows down, halts and says so; others
-// take it for an obstacle, and nobody waits for what it says.
+// A vehicle that does not know its pose well enough slows down, halts and says so; others take it
+// for an obstacle and do not wait for what its beacon says.
 #include <gtest/gtest.h>
 
 #include "services/types/math/math.h"
@@ -28,7 +28,7 @@ RangeScan Rolling(double rad_s) {
   return scan;
 }
 
-// Drives until it says by which rule it stands, for a minute at most.
+// Drives until it stands and names the rule, for a minute at most.
 Outputs UntilLost(BrainBench* bench, bool* slowed = nullptr) {
   Outputs out;
   for (int i = 0; i < 1200 && out.command.decision.rule != Rule::kLost; ++i) {
@@ -68,7 +68,7 @@ TEST(Lost, OneThatIsUnsureSaysAllTheSameThatALightStopsIt) {
   EXPECT_EQ(bench.Step(Rolling(3)).beacon.rule, Rule::kSignal);
 }
 
-// None of them asks how well it knows its place; one that does not know it at all stands.
+// These behaviours ignore how well the pose is known; without any known pose the vehicle stands.
 TEST(Lost, TheLecturesBehavioursHaltToo) {
   for (const Behaviour behaviour : {Behaviour::kLectureAvoid, Behaviour::kStockAvoid,
                                     Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {
@@ -109,8 +109,7 @@ TEST(Lost, WithoutALimitItNeverIs) {
   EXPECT_EQ(UntilLost(&bench).command.decision.rule, Rule::kCruise);
 }
 
-// The same peer on a crossing way, from the right and faster: as one that drives and as one that is
-// lost.
+// The same peer on a crossing path, from the right and faster: once driving, once lost.
 Rule RuleBefore(Rule peers_rule) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   Rule rule = Rule::kCruise;
@@ -127,7 +126,7 @@ TEST(Lost, NobodyWaitsForTheWordOfOneThatIs) {
   EXPECT_FALSE(IsGiveWay(RuleBefore(Rule::kLost)));
 }
 
-// It may stand beside where it says that it does.
+// It may stand off the place that its beacon states.
 TEST(Lost, OneThatIsIsPassedAsFarAwayAsItIsUnsure) {
   const auto room_m = [](Rule rule) {
     const test::Onlooker onlooker;
@@ -138,7 +137,7 @@ TEST(Lost, OneThatIsIsPassedAsFarAwayAsItIsUnsure) {
   EXPECT_NEAR(room_m(Rule::kLost), room_m(Rule::kArrived) + kSigmas * 0.3, 1e-9);
 }
 
-// A fix that shows that it is not in its goal sends it on.
+// A fix that shows that it is not at its goal makes it drive on.
 TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
   VehicleOptions options = Slipping();
   options.goal.at_world = {1, 0};
@@ -157,7 +156,7 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
     out = bench.Step(Rolling(0));
   }
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
-  // How near it came by its wheels alone does not count: it has yet to come nearer.
+  // Approaches measured by its wheels alone do not count: it has yet to come nearer.
   const VehicleState& state = bench.Brain().State();
   EXPECT_LE(state.progress.aimless_ticks, 1U);
   EXPECT_GT(state.progress.nearest_m, 0.1);

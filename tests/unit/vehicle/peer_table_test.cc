@@ -44,7 +44,7 @@ TEST_F(PeerTableTest, EveryNeighbourKeepsItsOwnPlace) {
   EXPECT_EQ(counters_.accepted, 3U);
 }
 
-// Whoever was heard after another one last time is looked for there first.
+// The table looks first at the peer that came next the last time.
 TEST_F(PeerTableTest, InWhateverOrderTheyAreHeardEachIsFoundInItsPlace) {
   const std::vector<std::vector<std::uint32_t>> orders = {{7, 3, 9, 5},    {7, 3, 9, 5},
                                                           {5, 9, 4, 7, 3}, {3, 4, 5, 7, 9},
@@ -81,7 +81,7 @@ TEST_F(PeerTableTest, ASilentPeerIsNotBelievedPastTheAgeLimit) {
   EXPECT_FALSE(Fresh(2, milliseconds(201)));
 }
 
-// The receiver's clock says "just now", the content is from long ago: a peer without ranges.
+// The receiver's clock says "just now", but the content is old: a peer without ranges.
 TEST_F(PeerTableTest, OldContentIsOldHoweverLatelyItCame) {
   Hear(2, 94, milliseconds(0));
   EXPECT_FALSE(Fresh(2, milliseconds(0)));
@@ -171,7 +171,7 @@ TEST_F(PeerTableTest, BeyondTheEmissionRadiusIsNotHeardAndNoLoss) {
   EXPECT_EQ(counters_.lost, 0U);
 }
 
-// For the tick that its first beacon waits, what is known of it is as old as when it left.
+// During the tick that its first beacon waits, what is known of it is as old as when it left.
 TEST_F(PeerTableTest, OneThatComesBackIntoReachIsNotLostUntilItsBeaconCounts) {
   Hear(2, 97, milliseconds(0));
   Take(Received(BeaconOf(2, 98, {.position_world = {5.1, 0}}), milliseconds(50)));
@@ -185,7 +185,7 @@ TEST_F(PeerTableTest, OneThatComesBackIntoReachIsNotLostUntilItsBeaconCounts) {
   EXPECT_TRUE(Fresh(2, now + milliseconds(50)));
 }
 
-// The one that waits is older than the one from beyond.
+// The waiting one is older than the one from out of range.
 TEST_F(PeerTableTest, OneThatLeavesWhileABeaconWaitsIsNoLossEither) {
   Hear(2, 99, milliseconds(0));
   Hear(2, 100, milliseconds(50));
@@ -196,7 +196,8 @@ TEST_F(PeerTableTest, OneThatLeavesWhileABeaconWaitsIsNoLossEither) {
   EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(1500))));
 }
 
-// Every start-up showed a refused beacon or two that nobody had done anything wrong to earn.
+// Regression: every start-up counted a refused beacon or two, though no sender had done anything
+// wrong.
 TEST_F(PeerTableTest, BeforeTheWorldIsHeardNobodyIsHeardAndNobodyIsRefused) {
   Beacon early = BeaconOf(2, 1, {});
   early.world_epoch = kNoEpoch;

@@ -20,7 +20,7 @@ __attribute__((noinline)) void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-// The library's own would not be counted, and not be free's to end.
+// Otherwise the library's own would be used: not counted, and not compatible with free().
 __attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   return std::malloc(size);
@@ -71,8 +71,8 @@ TEST(Vehicle, ALostTickIsBridgedAndCostsCertainty) {
   EXPECT_GT(SigmaPosition(bridged.beacon.covariance), SigmaPosition(out.beacon.covariance));
 }
 
-// A process that stood still while its vehicle braked and stood: what the encoders counted says how
-// far it came, not the speed before or after.
+// A process that was paused while its vehicle braked and stood: the encoder count says how far it
+// went, not the speed before or after.
 TEST(Vehicle, AfterAPauseItKnowsByItsEncodersHowFarItRolled) {
   BrainBench bench(test::DefaultOptions());
   RangeScan scan = ClearScan(0);
@@ -113,8 +113,8 @@ TEST(Vehicle, CountsThatNoDriveMadeAreNotBelieved) {
   EXPECT_GT(SigmaPosition(out.beacon.covariance), 0);
 }
 
-// Ticks begin again with a world; a wait counted in the old one's would be longer than the new one
-// is old, and no peer would believe it.
+// Ticks restart with a world; a wait counted in the old world's ticks would be longer than the new
+// one is old, and peers would reject it.
 TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   VehicleOptions options = test::DefaultOptions();
   options.ageing_limit = 2 * options.tick_period;
@@ -140,7 +140,7 @@ TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   EXPECT_EQ(brain.PeersHeard(), 0U);
 }
 
-// At 1.1 m/s with weak brakes 12.2 m are not too far to see to it.
+// At 1.1 m/s with weak brakes a peer 12.2 m away already matters.
 TEST(Vehicle, KeepsClearOfWhomItNeedsLongToStopFor) {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
   options.cruise_m_s = 1.1;
@@ -157,7 +157,7 @@ TEST(Vehicle, KeepsClearOfWhomItNeedsLongToStopFor) {
   EXPECT_EQ(out.command.decision.rule, Rule::kKeepClear);
 }
 
-// A tick of the old world in which it turned is none of the new one's, where echoes tell motion.
+// A turn in the old world must not count in the new one, where echoes then reveal motion.
 TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
   BrainBench bench(test::DefaultOptions());
   for (int i = 0; i < 100; ++i) bench.Step(ClearScan(0));
@@ -176,7 +176,7 @@ TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
   EXPECT_EQ(out.command.decision.rule, Rule::kDeaf);
 }
 
-// One number that is none, once in the pose, would never leave it again.
+// A NaN in the pose would never leave it again.
 TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](auto spoil) {

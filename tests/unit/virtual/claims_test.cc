@@ -1,4 +1,5 @@
-// What a beacon claims holds the body as long as it drives as it said, and no longer.
+// The claim of a beacon holds the body as long as the vehicle drives as its beacon said, and no
+// longer.
 #include "sim_world/virtual/claims.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ class ClaimsTest : public testing::Test {
     beacon_.cruise_m_s = 0.3;
     beacon_.wheels = WheelsFromTwist(beacon_.drive, {0.3, 0});
   }
-  // One tick of driving as the truth has it; how many left their claims.
+  // One tick of driving, by the truth; returns how many left their claims.
   std::size_t Drive(double forward_m_s, double moved_m, Claims* claims) {
     ++tick_;
     now_[0].position_world.x += moved_m;
@@ -46,18 +47,18 @@ TEST_F(ClaimsTest, ALeapLeavesThem) {
   Claims claims(scenario_);
   for (int i = 0; i < 10; ++i) Drive(0.3, 0.015, &claims);
   EXPECT_EQ(Drive(0.3, 0.5, &claims), 1U);
-  EXPECT_EQ(Drive(0.3, 0.015, &claims), 0U);  // told once
+  EXPECT_EQ(Drive(0.3, 0.015, &claims), 0U);  // reported once
 }
 
-// It has not left yet, but cannot stay.
+// It is still inside, but cannot stop there.
 TEST_F(ClaimsTest, OneThatCannotStopWithinLeavesThem) {
   Claims claims(scenario_);
   for (int i = 0; i < 10; ++i) Drive(0.3, 0.015, &claims);
   EXPECT_EQ(Drive(0.9, 0.03, &claims), 1U);
 }
 
-// By so little a tick that no later beacon of it shows: who was told to stop stands where it said
-// then.
+// The deviation per tick is too small for any later beacon to show: after the order to stop it
+// stands where its last beacon said.
 TEST_F(ClaimsTest, OneThatBrakesOnAnArcLeavesThem) {
   Claims claims(scenario_);
   for (int i = 0; i < 10; ++i) Drive(0.3, 0.015, &claims);

@@ -1,4 +1,4 @@
-// Who drives too near to what, and who only stands or leaves.
+// Which vehicles drive too near to what, and which only stand or leave.
 #include "sim_world/virtual/clearance.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ class ClearanceTest : public testing::Test {
     now_[0].forward_m_s = 0.3;
     now_[1].position_world = {10, 10};
   }
-  // How many are told of, of the scenario as it is, in one tick.
+  // How many are reported, of the scenario as it is, in one tick.
   std::size_t Told() {
     Clearance clearance(scenario_, 0.05);
     return clearance.Observe(now_, {}).size();
@@ -94,7 +94,7 @@ TEST_F(ClearanceTest, EachTimeIsToldOnce) {
   EXPECT_EQ(clearance.Observe(now_, {})[0].other, VehicleId{2});
 }
 
-// Counted and named; a run passes all the same unless it is held to it.
+// Counted and named; a run passes nevertheless unless it is held to it.
 TEST_F(ClearanceTest, IsNoReasonToFailUnlessAskedFor) {
   now_[1].position_world = {0.54, 0};
   InvariantLimits limits;

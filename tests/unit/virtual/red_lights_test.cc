@@ -1,4 +1,4 @@
-// Who passes a red light, and who only comes near.
+// Which vehicles pass a red light, and which only come near.
 #include "sim_world/virtual/red_lights.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ class RedLightsTest : public testing::Test {
     now_ = {.vehicle = options.id, .present = true, .lives = true};
   }
 
-  // Drives from `from` to `to` at the speed, beginning at_s; how often that passed red.
+  // Drives from `from` to `to` at the speed, starting at at_s; returns how often that passed red.
   int Drive(double at_s, Vec2 from, Vec2 to, double speed_m_s) {
     RedLights lights(scenario_);
     const Vec2 way = to - from;

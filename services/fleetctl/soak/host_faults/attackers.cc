@@ -19,7 +19,7 @@ namespace {
 
 using faults::Kind;
 
-// The fault's end ends it; by itself it ends if that never comes.
+// The fault's end ends it; this is its own limit if that never comes.
 constexpr double kLonger_s = 5;
 constexpr std::string_view kProgress = "sent ";
 
@@ -43,7 +43,7 @@ bool IsAddress(const std::string& interface) {
   return ::inet_pton(AF_INET, interface.c_str(), &address) == 1;
 }
 
-// What the program counts, of a line of its progress.
+// The program's own count, from a line of its progress.
 std::uint64_t SentBy(std::string_view line) {
   std::uint64_t sent = 0;
   if (!line.starts_with(kProgress)) return 0;
@@ -70,7 +70,7 @@ std::string WhyNoAttacker(const std::string& program, bool may_open_packet_socke
                                   "open and this user may not";
 }
 
-// Whoever is on this machine is sent to through lo, whatever interface the fleet is on.
+// Targets on this machine are reached through lo, whichever interface the fleet uses.
 std::vector<std::string> AttackWords(const AttackerTools& tools, const faults::Fault& fault) {
   std::vector<std::string> words = {
       tools.program, AttackOf(fault.kind),

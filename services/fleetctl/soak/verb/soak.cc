@@ -30,6 +30,7 @@
 #include "services/fleetctl/process/interrupts.h"
 #include "services/fleetctl/process/run_key.h"
 #include "services/fleetctl/soak/host_faults/attackers.h"
+#include "services/fleetctl/soak/host_faults/discovery_servers.h"
 #include "services/fleetctl/soak/host_faults/private_shm.h"
 #include "services/fleetctl/soak/soak_draw.h"
 #include "services/fleetctl/soak/soak_json.h"
@@ -62,11 +63,13 @@ struct Prepared {
 };
 
 // The world's faults need a world that takes them, the hearers' an impairment: always.
-std::string WhyNot(const faults::Fault& fault, const std::string& why_no_attacker) {
+std::string WhyNot(const faults::Fault& fault, const std::string& why_no_attacker,
+                   bool has_discovery_servers) {
   const auto actor = faults::ActorOf(fault.kind);
   if (actor == faults::Actor::kAttacker) return why_no_attacker;
-  const char* const why =
-      actor == faults::Actor::kSupervisor ? ProcessFaults::WhyNot(fault) : nullptr;
+  const char* const why = actor == faults::Actor::kSupervisor
+                              ? ProcessFaults::WhyNot(fault, has_discovery_servers)
+                              : nullptr;
   return why == nullptr ? "" : why;
 }
 
@@ -87,7 +90,7 @@ std::string WhyNot(const SoakOptions& options, const Scenario& scenario,
   const std::string sensors = WhyNotOf(faults::IncapableWithSensorsOf(scenario), fault);
   if (!sensors.empty()) return sensors;
   return options.in_virtual_time ? WhyNotOf(faults::IncapableInVirtualTime(), fault)
-                                 : WhyNot(fault, why_no_attacker);
+                                 : WhyNot(fault, why_no_attacker, options.discovery_servers > 0);
 }
 
 // Refuses what cannot be carried out here, all at once; or leaves it out and says so.
@@ -165,6 +168,8 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
                  .stagger = std::chrono::milliseconds(100)};
   spec.options.seed = options.seed;
   spec.options.interface = options.interface;
+  spec.options.discovery_servers =
+      FreeServerAddresses(options.discovery_servers, options.interface);
   spec.options.admin_key = key.File();
   spec.options.vehicles = prepared.newcomers;
   spec.options.logs_folder = (folder / "logs").string();
@@ -195,9 +200,11 @@ bool Has(const faults::Schedule& schedule, std::initializer_list<faults::Kind> k
 FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prepared& prepared) {
   FaultTools tools;
   tools.commands = MakeCommands(spec, prepared.scenario);
+  const auto servers = ServerCommands(spec.options.discovery_servers, spec.options.logs_folder);
   tools.fleetctl = (spec.program_folder / "fleetctl").string();
   tools.domain = spec.domain;
   tools.interface = spec.options.interface;
+  tools.discovery_servers = ToText(spec.options.discovery_servers);
   tools.admin_key = spec.options.admin_key;
   tools.attacker = options.attacker;
   const fs::path folder = fs::path(options.report_folder) / "impair";
@@ -217,7 +224,14 @@ FaultTools ToolsOf(const SoakOptions& options, const FleetSpec& spec, const Prep
     const std::string impair = tools.impairment_since(VehicleId{command.member.number}, 0);
     if (!impair.empty()) SetFlag(&command.child.words, "--impair", impair);
   }
+  tools.commands.insert(tools.commands.begin(), servers.begin(), servers.end());
   return tools;
+}
+
+void RefuseServersThatCannotStart(const SoakOptions& options) {
+  if (options.discovery_servers == 0) return;
+  const std::string why = WhyNoDiscoveryServers(options.interface);
+  if (!why.empty()) throw StartError("--discovery-servers: " + why);
 }
 
 std::string CommandLine(const SoakOptions& options) {
@@ -226,6 +240,9 @@ std::string CommandLine(const SoakOptions& options) {
       options.faults, options.duration_s, options.seed, options.report_folder);
   if (options.vehicles) line += fmt::format(" --vehicles {}", *options.vehicles);
   if (!options.qos_file.empty()) line += " --qos " + options.qos_file;
+  if (options.discovery_servers > 0) {
+    line += fmt::format(" --discovery-servers {}", options.discovery_servers);
+  }
   if (!options.attacker.empty()) line += " --attacker " + options.attacker;
   if (options.skip_unsupported) line += " --skip-unsupported";
   if (options.record) line += " --record";
@@ -375,6 +392,7 @@ int Resume(const SoakOptions& asked) {
 
 int Soak(const SoakOptions& options) {
   if (options.in_virtual_time) return SoakVirtually(options);
+  RefuseServersThatCannotStart(options);
   if (!options.resume.empty()) return Resume(options);
   return SoakProcesses(options, Prepare(options), nullptr);
 }

@@ -17,8 +17,9 @@ struct SoakOptions {
   std::optional<std::uint32_t> domain;    // absent: the first free one
   std::string qos_file;                   // empty: the shipped one
   std::string interface = "127.0.0.1";
-  std::string admin_key;          // a file; empty: one is made for the soak
-  std::string attacker;           // the program that is an intruder; empty: there is none
+  std::string admin_key;                // a file; empty: one is made for the soak
+  std::uint32_t discovery_servers = 0;  // that the soak starts; its fleet finds itself through them
+  std::string attacker;                 // the program that is an intruder; empty: there is none
   bool skip_unsupported = false;  // leave out what this host cannot do, and say so in the report
   bool record = false;            // every vehicle records into the report folder
   std::uint32_t ring_s = 0;       // each keeps so much of it; 0: all of it, where `record` says so

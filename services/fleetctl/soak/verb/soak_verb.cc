@@ -7,6 +7,7 @@
 #include "services/fleetctl/args/observer_flags.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/process/domain_lock.h"
+#include "services/fleetctl/soak/host_faults/discovery_servers.h"
 #include "services/fleetctl/soak/soak_phases.h"
 #include "services/fleetctl/soak/verb/soak.h"
 #include "services/fleetctl/soak/verb/soak_around.h"
@@ -34,7 +35,7 @@ new fleet and the rest of the list, and the verdict says so.
 
 Faults of an intruder (spoofed, replayed, flooded, malformed) are carried out by
 the program that is built with the tests: --attacker build/release/bin/attacker.
-It needs root.
+It needs root. Faults of discovery servers need --discovery-servers.
 
 A DURATION is seconds, or has a unit: 90, 90s, 30m, 12h, 7d. Faults are files or
 shipped sets: calm, radio_storm, flaky_hardware, everything; `fleetctl faults
@@ -74,6 +75,10 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
       ->check(CLI::Range(kFirstDomain, kLastDomain));
   AddInterfaceFlag(verb, &options->interface);
   AddAdminKeyFlag(verb, &options->admin_key);
+  verb->add_option("--discovery-servers", options->discovery_servers,
+                   "Discovery servers that the soak starts for its fleet")
+      ->check(CLI::Range(0U, kMostDiscoveryServers))
+      ->capture_default_str();
   verb->add_option("--attacker", options->attacker,
                    "The intruder of spoofed, replayed, flooded and malformed; needs root")
       ->check(CheckNotEmpty)
@@ -86,7 +91,8 @@ void AddSoakFlags(CLI::App* verb, SoakOptions* options) {
   verb->add_flag("--virtual", options->in_virtual_time, "In virtual time: the same bits each time")
       ->excludes("--record")
       ->excludes("--record-ring")
-      ->excludes("--domain");
+      ->excludes("--domain")
+      ->excludes("--discovery-servers");
   verb->add_option("--resume", options->resume, "Continue in this folder of a soak that died")
       ->check(CheckNotEmpty)
       ->excludes("--report")

@@ -19,8 +19,7 @@ inline CampaignPlan SmallCampaign() {
   return plan;
 }
 
-// What a run of a seed might have come to: figures that differ from seed to seed. Every ninth
-// fails.
+// Invented results of a seed: figures that differ from seed to seed. Every ninth fails.
 inline BatchTotals PretendedRun(std::uint32_t seed) {
   BatchTotals totals;
   totals.runs = 1;
@@ -49,7 +48,7 @@ inline ShardResult PretendedShard(const CampaignPlan& plan, const ShardOf& shard
     result.generators.emplace_back().generator = generator;
   }
   const ShardRuns runs(plan, shard);
-  // Backwards: in which order runs end is nobody's promise.
+  // In reverse: the order in which runs end is not guaranteed.
   for (std::uint32_t place = runs.Count(); place-- > 0;) {
     const CampaignRun run = runs.At(place);
     result.generators[run.generator].Add(PretendedRun(run.seed));

@@ -1,4 +1,4 @@
-// What is called worse of two soaks, and that equal ones are not.
+// Which differences of two soaks are called worse, and that equal ones are not.
 #include "services/fleetctl/report/report_compare.h"
 
 #include <gmock/gmock.h>
@@ -61,7 +61,7 @@ TEST(ComparedSoaks, ALongerTailIsFound) {
   EXPECT_THAT(Worse(SampleSoak(1), after), ElementsAre("reaction, 99 %"));
 }
 
-// Surely another, but by less than anybody cares.
+// A significant difference, but too small to matter.
 TEST(ComparedSoaks, ASmallChangeIsNoneHoweverSure) {
   SoakResult before = SampleSoak(1);
   SoakResult after = SampleSoak(2);

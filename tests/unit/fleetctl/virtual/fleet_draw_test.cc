@@ -1,4 +1,4 @@
-// What a drawn fleet is, and that a seed without the draws means what it meant.
+// What a drawn fleet is, and that a seed without the draws means the same as before.
 #include "services/fleetctl/virtual/fleet_draw.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ TEST(FleetDraw, DrawsAllThereIs) {
   EXPECT_LT(turns_least, 0.7);
 }
 
-// A box is held by the disc that beacons tell of.
+// A box is represented by the disc that its beacons publish.
 TEST(FleetDraw, ABoxHasTheDiscRoundIt) {
   OnManySeeds(MixedOf("swarm"), [](const Scenario& scenario) {
     for (const VehicleOptions& vehicle : scenario.vehicles) {
@@ -127,7 +127,7 @@ TEST(FleetDraw, TheDurationIsThatOfTheRobotsDrawn) {
   });
 }
 
-// Goldens and campaigns rest on it: nothing asked for, nothing drawn, and the places are the same.
+// Goldens and campaigns rely on it: without options nothing is drawn, and the places are the same.
 TEST(FleetDraw, LeavesTheRestOfASeedAlone) {
   CaseOptions plain = MixedOf("warehouse");
   plain.fleet = {};
