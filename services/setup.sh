@@ -40,7 +40,7 @@ runtime_packages() {
   fi
 }
 
-# What the image of fleetctl has beside those: the discovery server.
+# What the image of fleetctl has in addition to those: the discovery server.
 tools_packages() { printf '%s\n' fastdds-tools; }
 
 # fastddsgen is a Java program: without a working Java it writes nothing, and says little. Any

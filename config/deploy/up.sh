@@ -63,7 +63,7 @@ read_arguments() {
     refuse "--vehicles $vehicles: $scenario has places for $places; name another one by GIVEWAY_SCENARIO"
 }
 
-# An engine that answers, whoever made it; else Debian's.
+# An engine that answers, from any vendor; else Debian's.
 have_engine() {
   engine_is_up && return
   [[ $(id -u) -eq 0 ]] || die "no container engine answers to this user; as root, or by sudo -E, it is installed and started"
@@ -136,7 +136,7 @@ say_what_next() {
     more=" --servers" found=" --discovery-server $subnet.250,$subnet.251"
   fi
   cat <<TEXT
-$vehicles vehicles are ready, and drive until they are told to stop.
+$vehicles vehicles are ready, and drive until they are stopped.
 
 look in    $words run --rm tools top
            $top$found    # from this host

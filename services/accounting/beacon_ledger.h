@@ -20,8 +20,8 @@ class BeaconLedger {
   static constexpr std::size_t kMostWriters = 1024;
   // The last beacons of a writer may be taken so many steps after the news that it left.
   static constexpr std::uint64_t kStepsToLeave = 3;
-  // So many beacons one after the other whose two numbers are otherwise apart than before, all
-  // equally, are a new count; fewer may be corrupted in the same bit.
+  // So many beacons in a row whose two numbers differ by another amount than before, all by the
+  // same, are a new count; fewer may be corrupted in the same bit.
   static constexpr std::uint32_t kNewCount = 10;
 
   // What became of the beacons of one step: fates[i] of beacons[i].

@@ -29,39 +29,40 @@ void AddFlags(Service service, CommandLine* line) {
   line->Add("--domain", "1..99", "DDS domain (required)");
   line->Add("--interface", "NAME|ADDRESS|any", "network interface (default 127.0.0.1)");
   line->Add("--discovery-server", "HOST[:PORT],...",
-            "find everyone through these servers, and not by what --qos says; "
+            "find all participants through these servers, and not by what --qos says; "
             "the first has the id 0, the next 1 (port 11811)");
   line->Add("--qos", "FILE", "complete Fast DDS XML profiles (default: the shipped ones)");
   if (service == Service::kVehicle) {
     line->Add("--id", "1..4294967295", "id to ask the world for (default: any free one)");
     line->Add("--record", "FILE",
-              "record all inputs and outputs of the brain, for fleetctl replay; where FILE is "
-              "there already, into the first free of FILE with a number");
+              "record all inputs and outputs of the brain, for fleetctl replay; where FILE "
+              "exists, into the first free of FILE with a number");
     line->Add("--record-split", "SIZE", "start another file of the recording at this size: 64MiB");
     line->Add("--record-ring", "SECONDS",
               "keep only the last so many seconds of the recording, in two files: 60");
     line->Add("--impair", "RULES",
-              "impairs what it receives instead of the scenario: loss=0.1,delay=20ms, or "
+              "impairs what it receives, in place of the scenario's rules: loss=0.1,delay=20ms, or "
               "none, or @FILE; link/impairment/README.md lists the keys");
     line->AddSwitch("--stay", "when the run has ended, halt and ask the next world for a place");
-    line->AddSwitch("--partition-free", "beacons also without a partition, for foreign tools");
+    line->AddSwitch("--partition-free",
+                    "publishes beacons without a partition, too, for foreign tools");
     line->AddSwitch("--hang-on-signal",
-                    "a drill: SIGUSR2 makes the control loop hang, and go on the next time");
+                    "a drill: SIGUSR2 makes the control loop hang, and the next one resume");
     line->AddSwitch("--no-watchdog", "a drill: a control loop that hangs does not end the process");
   } else {
     line->Add("--threads", "1..256", "threads that share the work of a tick (default 1)");
-    line->Add("--checkpoint", "FILE", "go on from there after a crash, and keep it up to date");
+    line->Add("--checkpoint", "FILE", "resume from there after a crash, and keep it up to date");
     line->Add("--faults", "FILE",
               "carries out the world's faults of this list: ultrasonics, motors and "
               "encoders; fleetctl faults expand writes one");
   }
   line->Add("--try-qos", "FILE",
-            "make every endpoint of this set once, say whether that succeeds, and end");
+            "create every endpoint of this set once, report whether that succeeds, and exit");
   line->Add("--resume", "FILE",
-            "this and the next are given by a service to itself when an order "
+            "internal, as the next ones: set by a service for itself when an order "
             "restarts it");
   line->Add("--former-qos", "FILE", "the set it had before");
-  line->Add("--rolled-back", "TEXT", "why it came back with that");
+  line->Add("--rolled-back", "TEXT", "why it restarted with that");
   if (service == Service::kWorld) line->Add("--go-on-from", "FILE", "the run as it was");
   line->Add("--seed", "0..4294967295", "moves start poses and cruise speeds; 0 moves nothing");
   line->Add("--behaviour", "NAME",
@@ -71,15 +72,15 @@ void AddFlags(Service service, CommandLine* line) {
   line->Add("--admin-key", "FILE",
             "takes orders (fleetctl qos apply) sealed with the key in this file:\n"
             "openssl rand -hex 32 > FILE makes one. Without it no order is taken");
-  line->AddSwitch("--admin", "takes orders without a key, of anybody who reaches it");
+  line->AddSwitch("--admin", "takes orders without a key, from any participant that reaches it");
   line->AddSwitch("--lockstep", "the world waits for every command of a tick");
   line->Add("--health-port", "0..65535",
-            "serves /livez, /readyz, /metrics; 0, the default: nowhere");
-  line->Add("--health-address", "ADDRESS", "address that port is of (default 127.0.0.1)");
+            "serves /livez, /readyz, /metrics; 0, the default: not served");
+  line->Add("--health-address", "ADDRESS", "address of that port (default 127.0.0.1)");
   line->AddOptional("--health", "live|ready|metrics",
-                    "asks the service at --health-port, prints the answer, and ends: "
+                    "asks the service at --health-port, prints the answer, and exits: "
                     "0 yes, 1 no, 2 no answer (ready if no value follows)");
-  line->Add("--log-format", "text|json", "of the lines on stderr (default text)");
+  line->Add("--log-format", "text|json", "format of the log lines on stderr (default text)");
   line->Add("--log-level", "LEVEL", "debug, info, warning or error (default info)");
 }
 

@@ -83,7 +83,7 @@ ImpairedSender ReadFrom(const Section& section) {
                                                  ImpairedSender::kWorld};
   if (section.Has("from_vehicle")) {
     if (section.Has("from")) {
-      section.Complain("from", "is given beside from_vehicle", "remove one of the two");
+      section.Complain("from", "is given together with from_vehicle", "remove one of the two");
     }
     return ImpairedSender::kOneVehicle;
   }
@@ -95,7 +95,7 @@ Blackout ReadBlackout(const Section& section) {
   const Blackout blackout{section.Number("from_s", kBlackoutTime),
                           section.Number("to_s", kBlackoutTime)};
   if (blackout.from_s >= blackout.to_s) {
-    section.Complain("to_s", "the blackout ends before it begins", "write to_s above from_s");
+    section.Complain("to_s", "the blackout ends before it starts", "write to_s above from_s");
   }
   return blackout;
 }
@@ -108,7 +108,7 @@ void ReadDuring(const Section& section, ImpairmentRule* rule) {
   if (section.Has("from_s")) rule->from_s = section.Number("from_s", kBlackoutTime);
   if (section.Has("to_s")) rule->to_s = section.Number("to_s", kBlackoutTime);
   if (rule->to_s && rule->from_s.value_or(0) >= *rule->to_s) {
-    section.Complain("to_s", "the rule ends before it begins", "write to_s above from_s");
+    section.Complain("to_s", "the rule ends before it starts", "write to_s above from_s");
   }
 }
 
@@ -302,7 +302,7 @@ class Parser {
     }
     if (!kBlackoutTime.Contains(*from_s) || !kBlackoutTime.Contains(*to_s) || *from_s >= *to_s) {
       return Complain("blackout", value,
-                      "must begin before it ends, both " + Describe(kBlackoutTime),
+                      "must start before it ends, both " + Describe(kBlackoutTime),
                       "write seconds since the start signal, such as 5s..7s");
     }
     if (std::ssize(rule_.blackouts) >= kMaxBlackouts) {
@@ -328,7 +328,7 @@ class Parser {
     const double from_s = rule_.from_s.value_or(0);
     if (!kBlackoutTime.Contains(from_s) || (rule_.to_s && !kBlackoutTime.Contains(*rule_.to_s)) ||
         (rule_.to_s && from_s >= *rule_.to_s)) {
-      Complain("during", value, "must begin before it ends, both " + Describe(kBlackoutTime),
+      Complain("during", value, "must start before it ends, both " + Describe(kBlackoutTime),
                "write seconds since the start signal, such as 60s..80s");
     }
   }

@@ -10,7 +10,7 @@
 namespace giveway {
 namespace {
 
-constexpr double kShortest_m = 0.001;  // of a wall, a leaf, a stop line, a way between waypoints
+constexpr double kShortest_m = 0.001;  // of a wall, a leaf, a stop line, a leg between waypoints
 constexpr double kFastest_m_s = 10;    // of what is no vehicle
 constexpr int kMaxWaypoints = 1024;
 constexpr std::int64_t kArraySlots = kSensorCount / 2;
@@ -64,7 +64,7 @@ void ReadShape(const Section& section, Obstacle* obstacle) {
   const bool disc = section.Has("disc_radius_m");
   if (disc == box.has_value()) {
     section.Complain(disc ? "disc_radius_m" : "",
-                     disc ? "is given beside box" : "the obstacle has no shape",
+                     disc ? "is given together with box" : "the obstacle has no shape",
                      "write one of disc_radius_m: and box { ... }");
   }
   obstacle->radius_m = section.NumberOr(obstacle->radius_m, "disc_radius_m", {0.01, 10, "m"});
@@ -74,7 +74,7 @@ void ReadShape(const Section& section, Obstacle* obstacle) {
   obstacle->radius_m = Norm(obstacle->box_half_m);
 }
 
-// Every leg of the way must lead somewhere, the one that closes a loop too.
+// Every leg of the route must have a length, the one that closes a loop too.
 void CheckLegs(const Section& section, const Obstacle& obstacle) {
   const auto& points = obstacle.waypoints_world;
   Vec2 before = obstacle.start_world.position_world;
@@ -96,7 +96,7 @@ void ReadCourse(const Section& section, Obstacle* obstacle) {
   if (count == 0) {
     for (const char* field : {"speed_m_s", "loop"}) {
       if (!section.Has(field)) continue;
-      section.Complain(field, "is given, but there is no way to go",
+      section.Complain(field, "is given, but there is no waypoint",
                        "write waypoint { x_m: y_m: }, or remove it");
     }
     return;

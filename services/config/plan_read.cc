@@ -80,7 +80,7 @@ std::vector<VehicleId> ReadIds(const Section& section, const char* field, const 
 bool ReadAny(const Section& section, const char* field, const char* ids) {
   const bool any = section.FlagOr(false, field);
   if (any && section.Has(ids)) {
-    section.Complain(field, fmt::format("is given beside {}", ids), "remove one of the two");
+    section.Complain(field, fmt::format("is given together with {}", ids), "remove one of the two");
   }
   return any;
 }
@@ -115,7 +115,7 @@ std::optional<Rule> ReadReason(const Section& section, const Expectation& expect
   const std::optional<int> reason = section.Choice("halted_for");
   if (!reason) return std::nullopt;
   if (expect.halted.empty() && !expect.any_halted) {
-    section.Complain("halted_for", "is given, and nobody is expected to halt",
+    section.Complain("halted_for", "is given, and no vehicle is expected to halt",
                      "write halted or any_halted, or remove it");
   }
   return kAsNumberedInTheSchema[static_cast<std::size_t>(*reason)];

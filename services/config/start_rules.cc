@@ -102,7 +102,7 @@ void ComplainOfBody(const ReadScenario& read, const Starts& starts, std::size_t 
       "start",
       fmt::format("{}{} overlaps {}: {:.3f} m between their centres", cause, NameOf(read, body),
                   NameOf(read, other), distance_m),
-      fmt::format("move them apart; {:.3f} m is enough whichever way they point",
+      fmt::format("move them apart; {:.3f} m is enough whatever their headings",
                   reach_m(body) + reach_m(other) + 0.001));
 }
 

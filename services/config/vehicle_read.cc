@@ -82,7 +82,7 @@ void ReadBody(const Section& section, VehicleProfile* profile) {
   }
   if (!section.Has("body_radius_m")) return;
   if (box) {
-    section.Complain("body_radius_m", "is given beside box, whose half diagonal it is",
+    section.Complain("body_radius_m", "is given together with box, whose half diagonal it is",
                      "remove one of the two");
     return;
   }

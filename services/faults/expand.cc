@@ -42,8 +42,8 @@ struct Drawn {
   std::size_t rule = 0;  // index in the file
 };
 
-// Who of two that exclude each other stays: planned before drawn, kill before others (it ends what
-// follows), earlier before later.
+// Which of two that exclude each other stays: planned before drawn, kill before others (it ends
+// what follows), earlier before later.
 bool Stays(const Drawn& a, const Drawn& b) {
   const auto rank = [](const Drawn& drawn) {
     return std::make_pair(drawn.random, drawn.fault.kind != Kind::kKill);
@@ -126,7 +126,7 @@ class Expander {
              "the fault ends " + SecondsText(fault.EndsAt_s()) + " s after the start; a run of " +
                  SecondsText(course_.duration_s) + " s heals from " + SecondsText(HealingFrom_s()) +
                  " s on",
-             "begin it earlier, or let the run last longer");
+             "start it earlier, or let the run last longer");
     }
     drawn_.push_back({fault, rule.line, false, 0});
   }

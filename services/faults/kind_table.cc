@@ -86,7 +86,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      {},
      false,
      "",
-     "is stopped as a whole, and goes on"},
+     "is stopped as a whole, and resumes"},
     {Kind::kHang,
      "hang",
      kS,
@@ -96,7 +96,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      {},
      false,
      "",
-     "its deciding thread stands, the others go on"},
+     "its control loop hangs, its other threads run on"},
     {Kind::kSlow, "slow", kS, kProcess, kLasts, kVirtualToo, kSlowNumbers, false, "",
      "gets a share of one processor"},
     {Kind::kMemoryLimit, "memory_limit", kS, kProcess, kLasts, kReal, kMemoryNumbers, false, "",
@@ -122,7 +122,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      {},
      false,
      "",
-     "nobody reads its stderr"},
+     "its stderr is not read"},
     {Kind::kClockStep, "clock_step", kS, kProcess | kOnAll, kLasts, kReal, kClockQuantities, false,
      "", "its system clock jumps, and back"},
     {Kind::kQosMismatch,
@@ -234,7 +234,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      {},
      false,
      "",
-     "its ultrasonics say what they said when it began"},
+     "its ultrasonics repeat what they said when it started"},
     {Kind::kSonarGarbage,
      "sonar_garbage",
      kW,
@@ -264,7 +264,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
      {},
      false,
      "",
-     "its wheels go on as they turned when it began"},
+     "its wheels keep turning as they did when it started"},
     {Kind::kEncoderWrong, "encoder_wrong", kW, kEar, kLasts, kVirtualToo, kEncoderNumbers, false,
      "", "its encoders count a multiple of what the wheels turn"},
     {Kind::kPoseFixLost,
@@ -282,7 +282,7 @@ constexpr std::array<KindRow, kKinds> kTable = {{
     {Kind::kSpoofed, "spoofed", kA, kOnVehicle, kLasts, kReal, kForgedNumbers, false, "",
      "beacons of another come under its id"},
     {Kind::kReplayed, "replayed", kA, kOnVehicle, kLasts, kReal, kForgedNumbers, false, "",
-     "its beacons of before come again"},
+     "its earlier beacons are sent again"},
     {Kind::kFlooded, "flooded", kA, kOnVehicle | kOnAll, kLasts, kReal, kFloodNumbers, false, "",
      "gets so many packets a second that are none of the fleet"},
     {Kind::kMalformed, "malformed", kA, kOnVehicle | kOnAll, kLasts, kReal, kMalformedNumbers,
@@ -415,7 +415,7 @@ std::string TargetsOf(const KindRow& row) {
 
 std::string_view NearestKind(std::string_view word) {
   word = word.substr(0, kLongestWord);
-  // Who writes the start of a word means it, however much is missing.
+  // The start of a word stands for it, however much is missing.
   const auto begun = std::ranges::find_if(
       kTable, [&](const KindRow& row) { return word.size() > 2 && row.word.starts_with(word); });
   if (begun != kTable.end()) return begun->word;

@@ -70,7 +70,7 @@ Incapable IncapableInVirtualTime() {
   for (const KindRow& row : KindTable()) {
     if (row.in_virtual_time) continue;
     incapable.kinds[row.kind] =
-        "the virtual fleet has no " + std::string(ToString(row.actor)) + " who could";
+        "the virtual fleet has no " + std::string(ToString(row.actor)) + " that could";
   }
   for (const auto what : {Target::What::kWorld, Target::What::kDiscoveryServer}) {
     incapable.targets[what] = "it is no process in virtual time";

@@ -37,7 +37,7 @@ class Metrics {
     Begin(name, help, MetricType::Gauge);
     Add({}, value);
   }
-  // A family whose members have one label each: begun, then filled.
+  // A family whose members have one label each: first Begin, then Add for each.
   void Begin(const std::string& name, const std::string& help, MetricType type) {
     families_.push_back({.name = prefix_ + name, .help = help, .type = type, .metric = {}});
   }
@@ -49,8 +49,8 @@ class Metrics {
     const bool counts = families_.back().type == MetricType::Counter;
     (counts ? metric.counter.value : metric.gauge.value) = number;
   }
-  // What has been counted since the process began, with quantiles 0.5, 0.99 and 1: millionths
-  // of the unit in its name.
+  // Totals since the process started, with quantiles 0.5, 0.99 and 1: millionths of the unit in its
+  // name.
   void Summary(const std::string& name, const std::string& help, const FigureSummary& figure) {
     Begin(name, help, MetricType::Summary);
     ClientMetric::Summary& summary = families_.back().metric.emplace_back().summary;
@@ -73,18 +73,18 @@ void AddInfo(const std::vector<ClientMetric::Label>& labels, Metrics* metrics) {
 
 void AddLoop(const LoopHealth& loop, bool ready, SteadyTime now, Metrics* metrics) {
   metrics->Gauge("ready", "1 if /readyz says so.", ready);
-  metrics->Counter("loop_turns", "Turns of the control loop.", loop.turns);
-  metrics->Gauge("loop_silence_seconds", "Time since the control loop was last heard of.",
+  metrics->Counter("loop_turns", "Iterations of the control loop.", loop.turns);
+  metrics->Gauge("loop_silence_seconds", "Time since the last iteration of the control loop.",
                  Seconds(now - loop.turned));
 }
 
 void AddLog(const ProcessFigures& process, Metrics* metrics) {
-  metrics->Counter("log_lines_dropped", "Lines of the log that its reader did not take.",
+  metrics->Counter("log_lines_dropped", "Log lines dropped because they were not read.",
                    process.log_lines_dropped);
 }
 
 void AddPackets(const PacketCounters& packets, Metrics* metrics) {
-  metrics->Counter("packets_received", "Packets that the filter handed on to the middleware.",
+  metrics->Counter("packets_received", "Packets that the filter passed to the middleware.",
                    packets.Of(PacketDrop::kNone));
   metrics->Begin("packets_dropped_total", "Packets that the filter dropped, by reason.",
                  MetricType::Counter);
@@ -98,7 +98,7 @@ void AddBeacons(const VehicleStatus& status, Metrics* metrics) {
   const BeaconCounters& beacons = status.beacons;
   metrics->Counter("beacons_sent", "Beacons sent.", beacons.sent);
   metrics->Counter("beacons_received", "Beacons taken from the middleware.", beacons.taken);
-  metrics->Counter("beacons_accepted", "Beacons decided by.", beacons.accepted);
+  metrics->Counter("beacons_accepted", "Beacons accepted for decisions.", beacons.accepted);
   metrics->Counter("beacons_not_heard", "Beacons from beyond the emission radius.",
                    beacons.not_heard);
   metrics->Counter("beacons_lost", "Sequence numbers that never arrived.", beacons.lost);
@@ -134,7 +134,7 @@ void AddRefused(const RefusedSamples& refused, Metrics* metrics) {
 }
 
 void AddTrust(const TrustCounters& trust, Metrics* metrics) {
-  metrics->Begin("doubts_total", "What did not fit in what peers said, by kind.",
+  metrics->Begin("doubts_total", "Inconsistencies in what peers published, by kind.",
                  MetricType::Counter);
   metrics->Add({{"kind", "beacon_without_echo"}}, trust.beacon_without_echo);
   metrics->Add({{"kind", "echo_without_beacon"}}, trust.echo_without_beacon);
@@ -150,11 +150,10 @@ void AddPeers(const VehicleHealth& vehicle, Metrics* metrics) {
   metrics->Counter("deadline_missed", "Deadlines that beacons of peers missed.",
                    qos.deadline_missed);
   metrics->Counter("liveliness_lost", "Peers whose liveliness was lost.", qos.liveliness_lost);
-  metrics->Counter("incompatible_qos", "Endpoints refused for their QoS.", qos.incompatible_qos);
+  metrics->Counter("incompatible_qos", "Endpoints with incompatible QoS.", qos.incompatible_qos);
   metrics->Counter("ranges_deadline_missed", "Deadlines that the world's ranges missed.",
                    vehicle.ranges_deadline_missed);
-  metrics->Counter("write_failures", "Samples the middleware did not take.",
-                   vehicle.write_failures);
+  metrics->Counter("write_failures", "Writes that the middleware refused.", vehicle.write_failures);
 }
 
 void AddDriving(const VehicleHealth& vehicle, SteadyTime now, Metrics* metrics) {
@@ -171,36 +170,36 @@ void AddDriving(const VehicleHealth& vehicle, SteadyTime now, Metrics* metrics) 
     metrics->Gauge("ranges_age_seconds", "Age of the newest ranges.",
                    Seconds(now - vehicle.scanned));
   }
-  metrics->Counter("late_scans", "Ranges overwritten by newer ones before the loop came.",
+  metrics->Counter("late_scans", "Ranges overwritten by newer ones before the loop took them.",
                    vehicle.late_scans);
   metrics->Gauge("step_p99_seconds", "Processor time of the last 1000 decisions, 99th percentile.",
                  status.step_p99_us * kSecondsPerUs);
   metrics->Gauge("loop_max_seconds", "The longest time from ranges to command.",
                  status.loop_max_ms * kSecondsPerMs);
-  metrics->Counter("placements", "Places taken in a world: one, and one after each restart of it.",
+  metrics->Counter("placements", "Placements in a world: one, and one after each restart of it.",
                    vehicle.placements);
 }
 
 void AddPose(const VehicleHealth& vehicle, Metrics* metrics) {
-  metrics->Gauge("lost", "1 while it stands for not knowing well enough where it is.",
+  metrics->Gauge("lost", "1 while it stands because its pose is too uncertain.",
                  vehicle.status.decision.rule == Rule::kLost);
   metrics->Gauge("pose_sigma_meters", "Standard deviation of its own position.",
                  vehicle.pose_sigma_m);
-  metrics->Counter("pose_fixes_used", "Fixes of its position that were weighed.",
-                   vehicle.fixes_used);
-  metrics->Counter("pose_fixes_refused", "Fixes that were out of date, or not believed.",
+  metrics->Counter("pose_fixes_used", "Pose fixes used in the estimate.", vehicle.fixes_used);
+  metrics->Counter("pose_fixes_refused", "Pose fixes rejected as outdated or implausible.",
                    vehicle.fixes_refused);
 }
 
 void AddTiming(const DriveFigures& timing, Metrics* metrics) {
-  metrics->Summary("beacon_age_seconds", "Time since the tick of the oldest beacon decided by.",
+  metrics->Summary("beacon_age_seconds", "Age of the oldest beacon used in a decision, by ticks.",
                    timing.Of(DriveFigure::kBeaconAge));
-  metrics->Summary("tick_jitter_seconds", "Time between two ranges, off what their ticks say.",
+  metrics->Summary("tick_jitter_seconds",
+                   "Deviation of the time between two range scans from their ticks.",
                    timing.Of(DriveFigure::kTickJitter));
   metrics->Summary("turn_seconds", "Time from ranges to command.", timing.Of(DriveFigure::kTurn));
-  metrics->Summary("reaction_seconds", "Time from a cause to wheels that obey.",
+  metrics->Summary("reaction_seconds", "Time from a cause to the response of the wheels.",
                    timing.Of(DriveFigure::kReaction));
-  metrics->Summary("reaction_meters", "Driven from a cause to wheels that obey.",
+  metrics->Summary("reaction_meters", "Distance driven from a cause to the response of the wheels.",
                    timing.Of(DriveFigure::kReactionWay));
   metrics->Summary("reaction_ratio", "The same as a share of the distance free at the cause.",
                    timing.Of(DriveFigure::kReactionShare));
@@ -210,11 +209,12 @@ void AddTiming(const DriveFigures& timing, Metrics* metrics) {
       timing.Of(DriveFigure::kBeaconLatency));
   metrics->Summary("scan_latency_seconds", "From publishing to reception of scans, by wall clocks.",
                    timing.Of(DriveFigure::kScanLatency));
-  metrics->Counter("samples_received_before_sent", "Samples that by wall clocks came too early.",
+  metrics->Counter("samples_received_before_sent",
+                   "Samples received before they were sent, by wall clocks.",
                    timing.received_before_sent);
   if (timing.narrowest) {
     metrics->Gauge("narrowest_margin_ratio",
-                   "The least of its free distance that a reaction has left.",
+                   "Smallest share of its free distance that a reaction left.",
                    timing.narrowest->ShareLeft());
   }
   metrics->Counter("budget_spent", "Reactions that left less than a fifth of the free distance.",
@@ -224,7 +224,7 @@ void AddTiming(const DriveFigures& timing, Metrics* metrics) {
 // Under the names every exporter has for them.
 std::string Text(const ProcessFigures& process) {
   Metrics metrics("process_");
-  metrics.Gauge("start_time_seconds", "When the process began, since 1970.", process.started_s);
+  metrics.Gauge("start_time_seconds", "When the process started, since 1970.", process.started_s);
   metrics.Counter("cpu_seconds", "Processor time used.", process.cpu_s);
   metrics.Gauge("resident_memory_bytes", "Resident memory.", process.resident_bytes);
   return metrics.Text();
@@ -284,11 +284,11 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
     metrics.Add({{"state", name}}, world.run_state == state);
   }
   metrics.Gauge("run_seconds", "Time since the start signal.", world.time_s);
-  metrics.Counter("late_ticks", "Ticks of the run that began a whole period late.",
+  metrics.Counter("late_ticks", "Ticks of the run that started a whole period late.",
                   world.late_ticks);
   metrics.Gauge("vehicles_joined", "Vehicles with a place.", world.vehicles_joined);
-  metrics.Counter("contacts", "Pairs of bodies that began to touch.", world.contacts);
-  metrics.Counter("reactions", "Commands that answered a cause.", world.reactions);
+  metrics.Counter("contacts", "Pairs of bodies that came into contact.", world.contacts);
+  metrics.Counter("reactions", "Reactions: commands that answered a cause.", world.reactions);
   metrics.Counter("commands_received", "Motor commands taken.", world.commands_taken);
   metrics.Begin("commands_rejected_total", "Motor commands refused, by reason.",
                 MetricType::Counter);
@@ -299,11 +299,10 @@ std::string MetricsText(const WorldHealth& world, const ProcessFigures& process,
   metrics.Summary("command_latency_seconds",
                   "From publishing a motor command to the tick that applies it, by wall clocks.",
                   world.command_latency);
-  metrics.Counter("joins_rejected", "Requests to join that were not looked at.",
-                  world.joins_refused);
+  metrics.Counter("joins_rejected", "Join requests refused.", world.joins_refused);
   metrics.Counter("orders_rejected", "Orders of a writer that names too many vehicles.",
                   world.orders_refused);
-  metrics.Counter("write_failures", "Samples the middleware did not take.", world.write_failures);
+  metrics.Counter("write_failures", "Writes that the middleware refused.", world.write_failures);
   AddPackets(world.packets, &metrics);
   AddLog(process, &metrics);
   return metrics.Text() + Text(process);

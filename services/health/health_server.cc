@@ -168,7 +168,7 @@ struct HealthServer::Impl {
   std::atomic<bool> ended{false};
   std::thread listener;
 
-  // A network that fails for a moment ends the library's loop; then it begins again.
+  // A momentary network failure ends the library's loop; then it starts again.
   void Listen(const std::string& address, std::uint16_t port) {
     while (!server.GivesUp()) {
       server.listen_after_bind();
@@ -219,7 +219,7 @@ int AskHealth(const std::string& address, std::uint16_t port, const std::string&
   const std::string path = what == "metrics" ? "/metrics" : "/" + what + "z";
   const httplib::Result answer = client.Get(path.c_str());
   if (!answer) {
-    std::fprintf(stderr, "nobody answers on %s:%u: is the service running, with this port?\n",
+    std::fprintf(stderr, "no answer on %s:%u: is the service running, with this port?\n",
                  host.c_str(), static_cast<unsigned>(port));
     return kNoAnswer;
   }

@@ -13,7 +13,7 @@
 namespace giveway::link {
 namespace {
 
-// The twelve bytes that begin the GUID of all that a participant owns.
+// The first twelve bytes of the GUID of every entity of a participant.
 using Prefix = std::array<std::uint8_t, 12>;
 
 Prefix PrefixOf(const rtps::GUID_t& guid) {
@@ -104,7 +104,7 @@ std::unique_ptr<Listener> MakeListener(Participant& participant, const EarTopic&
     made = std::make_unique<TopicListener<Wire>>(participant, topic.partition);
   };
   (make_if(static_cast<const Wires*>(nullptr)), ...);
-  if (made == nullptr) throw LinkError("nobody can listen to the topic " + topic.name);
+  if (made == nullptr) throw LinkError("no probe for the topic " + topic.name);
   return made;
 }
 

@@ -50,7 +50,7 @@ bool IsSecured(const dds::DomainParticipantQos& qos) {
   });
 }
 
-// Where the library would keep records of who is dropped for its lease: whether all that a
+// Where the library would keep records of writers dropped for their lease: whether all that a
 // participant says, and its announcements by itself, pass the transport; and the library may be
 // made to remove one just when others are found, as farewells do.
 // The call of ForgetsDroppedWriters is what links that file in, and with it what it puts in front
@@ -74,7 +74,7 @@ FilteredTransportOptions FilterOf(const LinkOptions& options,
           .says_farewell = SaysFarewell(options, qos)};
 }
 
-// UDP, and beside it shared memory if the profile names it: the profile says how, the options say
+// UDP, and in addition shared memory if the profile names it: the profile says how, the options say
 // on which interfaces. Impaired if `impairer` is, and filtered behind that.
 void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options, bool filtered,
                   const std::shared_ptr<Impairer>& impairer) {
@@ -99,7 +99,7 @@ void SetTransport(dds::DomainParticipantQos& qos, const LinkOptions& options, bo
   if (udp_transports != 1 || others || qos.transport().use_builtin_transports) {
     throw LinkError("QoS file " + options.qos.name + ": profile \"" + kParticipantProfile +
                     "\" must switch useBuiltinTransports off and name one UDPv4 transport, and "
-                    "beside it at most shared memory (SHM)");
+                    "in addition at most shared memory (SHM)");
   }
   if (impairer != nullptr && shared_memories != 0) {
     throw LinkError("QoS file " + options.qos.name + ": profile \"" + kParticipantProfile +
@@ -118,7 +118,7 @@ rtps::GuidPrefix_t ServerPrefix(std::size_t id) {
   return prefix;
 }
 
-// Instead of what the profile says: everyone is found through these servers.
+// Replaces the profile's discovery: all participants are found through these servers.
 void SetDiscoveryServers(rtps::DiscoverySettings& discovery,
                          const std::vector<DiscoveryServer>& servers) {
   discovery.discoveryProtocol = Discovery::CLIENT;
@@ -153,7 +153,7 @@ dds::DomainParticipantQos MakeQos(const LinkOptions& options, const std::string&
   return qos;
 }
 
-// As the user named them; empty where everyone is found by multicast.
+// As the user named them; empty where participants are found by multicast.
 std::string ServersOf(const dds::DomainParticipantQos& qos, const LinkOptions& options) {
   if (!options.discovery_servers.empty()) return ToText(options.discovery_servers);
   const auto& discovery = qos.wire_protocol().builtin.discovery_config;
@@ -239,8 +239,8 @@ Participant::Participant(const LinkOptions& options, const std::string& name,
 std::string Participant::WhyNobodyIsFound() const {
   if (servers_.empty() || listener_->HasFoundAnybody()) return {};
   constexpr const char* kWhy =
-      "no discovery server answers: does fast-discovery-server run there, and does UDP pass both "
-      "ways? (";
+      "no discovery server answers: does fast-discovery-server run there, and does UDP pass in "
+      "both directions? (";
   return kWhy + servers_ + ")";
 }
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t kExpectedBeacons = 256;  // a drain; more only costs an allocation, once
 
-// Closing waits for the good-bye to have been heard, until this long after it was said.
+// Closing waits until the leave notice is acknowledged, at most this long after it was sent.
 constexpr Nanoseconds kLeaveTimeout = std::chrono::milliseconds(300);
 
 template <typename Wire, typename Ours>
@@ -52,7 +52,7 @@ const Ours* NewestOf(OptionalInbox<Wire, Ours>& inbox, const WriterNames& names,
   return inbox.has_value() ? inbox->Take(names, now) : nullptr;
 }
 
-// The sensors beside the ultrasonics.
+// The sensors besides the ultrasonics.
 struct FittedSensors {
   FittedSensors(VehicleId id, const VehicleProfile& profile, Participant& participant,
                 const WorldEar& world, SampleFilter* filter)
@@ -207,7 +207,7 @@ struct VehicleLink::Impl {
     roster.Follow(request.session);
     filters.roster.Follow(request.session);
     JoinRequest said = request;
-    if (!request.leaving) said.secret = {};  // it is told once, when it ends the session
+    if (!request.leaving) said.secret = {};  // sent once, when it ends the session
     CountWrite(join_writer.Write(ToWire(said)));
   }
   void OpenSignals();
@@ -233,7 +233,7 @@ struct VehicleLink::Impl {
   RosterInbox::Mark told_to_join = 0;
   RosterInbox::Mark told_to_step = 0;
   std::optional<JoinRequest> joined;                              // the last request
-  std::optional<std::chrono::steady_clock::time_point> heard_by;  // of the good-bye, once said
+  std::optional<std::chrono::steady_clock::time_point> heard_by;  // of the leave notice, once sent
   PeerEvents peers;
   std::optional<OwnEndpoints> own;
   std::optional<SignalInbox> signals;
@@ -276,7 +276,7 @@ bool VehicleLink::WorldSpeaks() const {
   if (!Ok(reader.get_subscription_matched_status(matched)) || matched.current_count == 0) {
     return false;
   }
-  // Without a lease the library keeps no account of who lives.
+  // Without a lease the library keeps no account of live writers.
   const Duration& lease = reader.get_qos().liveliness().lease_duration;
   if (NanosecondsOf(lease) == kInfiniteDuration) return true;
   dds::LivelinessChangedStatus liveliness;
@@ -322,7 +322,7 @@ void VehicleLink::Open(VehicleId id, const VehicleProfile& profile, bool signals
   if (signals) link.OpenSignals();
   if (Impairer* const impairer = link.participant.ImpairerOrNull()) impairer->NameHearer(id);
   link.told_to_step = link.told_to_join;
-  // A world that starts anew must not give another id to a vehicle that already drives as this one.
+  // A restarted world must not give another id to a vehicle that already drives as this one.
   if (link.joined && link.joined->wanted != id) {
     JoinRequest request = *link.joined;
     request.wanted = id;
@@ -341,8 +341,8 @@ Taken VehicleLink::Take(SteadyTime now) {
   OwnEndpoints& own = link.Own();
   link.taken_beacons.clear();
   link.qos_events.clear();
-  // Events before names: whoever an event is about is then known by name. Events before beacons: a
-  // miss is told before the beacon that ends it.
+  // Events before names: the vehicle of an event is then known by name. Events before beacons: a
+  // miss is reported before the beacon that ends it.
   const ReaderNews news = link.events.Take();
   link.names.Update();
   link.peers.Translate(news, now, link.qos_events);

@@ -30,7 +30,7 @@ ClientMetric MakeMetric(std::vector<Label> labels, double value, MetricType type
   return metric;
 }
 
-// The families of all vehicles: each is begun, then filled vehicle by vehicle.
+// The families of all vehicles: each is started, then filled vehicle by vehicle.
 class Families {
  public:
   Families(const FleetView& view, SteadyTime now) : view_(view), now_(now) {}
@@ -41,7 +41,7 @@ class Families {
   void Add(std::vector<Label> labels, double value) {
     families_.back().metric.push_back(MakeMetric(std::move(labels), value, families_.back().type));
   }
-  // One number a vehicle that has told its status.
+  // One number for each vehicle that has published its status.
   template <typename Of>
   void OfStatus(const std::string& name, const std::string& help, MetricType type, Of&& of) {
     Begin("giveway_vehicle_" + name, help, type);
@@ -105,8 +105,7 @@ void AddHearing(Families* to) {
   for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
     to->Add({Families::Vehicle(id)}, heard.HearingAt(to->Now()) == Hearing::kLeft);
   }
-  to->Begin("giveway_vehicle_silence_seconds", "Time since something last came of it.",
-            MetricType::Gauge);
+  to->Begin("giveway_vehicle_silence_seconds", "Time since its last sample.", MetricType::Gauge);
   for (const auto& [id, heard] : to->View().Heard().Vehicles()) {
     if (heard.HeardAt()) to->Add({Families::Vehicle(id)}, Seconds(to->Now() - *heard.HeardAt()));
   }
@@ -152,7 +151,7 @@ void AddPeers(Families* to) {
           [](const VehicleStatus& status) { return status.beacons.sent; });
   counter("beacons_received_total", "Beacons taken from the middleware.",
           [](const VehicleStatus& status) { return status.beacons.taken; });
-  counter("beacons_accepted_total", "Beacons decided by.",
+  counter("beacons_accepted_total", "Beacons accepted for decisions.",
           [](const VehicleStatus& status) { return status.beacons.accepted; });
   counter("beacons_lost_total", "Sequence numbers that never arrived.",
           [](const VehicleStatus& status) { return status.beacons.lost; });
@@ -162,7 +161,7 @@ void AddPeers(Families* to) {
           [](const VehicleStatus& status) { return status.qos.deadline_missed; });
   counter("liveliness_lost_total", "Peers whose liveliness was lost.",
           [](const VehicleStatus& status) { return status.qos.liveliness_lost; });
-  counter("incompatible_qos_total", "Endpoints refused for their QoS.",
+  counter("incompatible_qos_total", "Endpoints with incompatible QoS.",
           [](const VehicleStatus& status) { return status.qos.incompatible_qos; });
 }
 
@@ -188,7 +187,7 @@ void AddRefusals(Families* to) {
        {"stranger", [](const auto& s) -> double { return s.refused.strangers; }},
        {"implausible", [](const auto& s) -> double { return s.refused.implausible; }}});
   to->ByReason<Of>(
-      "doubts_total", "What did not fit in what peers said, by kind.", "kind",
+      "doubts_total", "Inconsistencies in what peers published, by kind.", "kind",
       {{"beacon_without_echo", [](const auto& s) -> double { return s.trust.beacon_without_echo; }},
        {"echo_without_beacon", [](const auto& s) -> double { return s.trust.echo_without_beacon; }},
        {"halted_but_closing", [](const auto& s) -> double { return s.trust.halted_but_closing; }},
@@ -202,7 +201,7 @@ void AddPackets(Families* to) {
       return static_cast<double>(status.packets.Of(drop));
     };
   };
-  to->OfStatus("packets_received_total", "Packets that the filter handed on to the middleware.",
+  to->OfStatus("packets_received_total", "Packets that the filter passed to the middleware.",
                MetricType::Counter, count(PacketDrop::kNone));
   using Of = std::function<double(const VehicleStatus&)>;
   std::vector<std::pair<const char*, Of>> reasons;
@@ -232,12 +231,12 @@ void AddObserver(const ObserverHealth& observer, Families* to) {
   to->Add({{"version", GIVEWAY_VERSION}}, 1);
   add("giveway_observer_frames_total", "Frames made for the page.", MetricType::Counter,
       static_cast<double>(observer.frames));
-  add("giveway_observer_streams", "Clients that follow the stream.", MetricType::Gauge,
+  add("giveway_observer_streams", "Clients connected to the stream.", MetricType::Gauge,
       observer.streams);
   add("giveway_observer_requests_refused_total", "Requests refused.", MetricType::Counter,
       static_cast<double>(observer.refused_requests));
   add("giveway_observer_samples_refused_total",
-      "Samples of a participant that may not say that, or of another id.", MetricType::Counter,
+      "Samples of a participant without the authority, or of another id.", MetricType::Counter,
       static_cast<double>(observer.refused_samples));
   add("giveway_observer_foxglove_clients", "Clients of the Foxglove WebSocket.", MetricType::Gauge,
       observer.foxglove_clients);
@@ -258,9 +257,9 @@ std::string FleetMetrics(const FleetView& view, const ObserverHealth& observer, 
   AddPeers(&families);
   AddRefusals(&families);
   AddPackets(&families);
-  families.Histogram("beacon_age_seconds", "Time since the tick of the oldest beacon decided by.",
+  families.Histogram("beacon_age_seconds", "Age of the oldest beacon used in a decision, by ticks.",
                      &VehicleView::beacon_age);
-  families.Histogram("reaction_seconds", "Time from a cause to wheels that obey.",
+  families.Histogram("reaction_seconds", "Time from a cause to the response of the wheels.",
                      &VehicleView::reaction);
   AddWorld(&families);
   AddObserver(observer, &families);

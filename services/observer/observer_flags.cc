@@ -44,10 +44,10 @@ constexpr FlagHelp kFlags[] = {
     {"--port", "1..65535", "port of the page (default 8080)"},
     {"--foxglove-port", "1..65535", "port of the Foxglove WebSocket, at --address (default: none)"},
     {"--host-name", "NAME,...",
-     "names by which a browser may ask for the page, beside localhost and addresses"},
+     "names by which a browser may ask for the page, besides localhost and addresses"},
     {"--ros2-rate", "0.1..100", "messages a second of each ROS 2 topic (default 10)"},
     {"--ros2-domain", "1..99", "domain of the ROS 2 topics (default: that of the fleet)"},
-    {"--log-format", "text|json", "of the lines on stderr (default text)"},
+    {"--log-format", "text|json", "format of the log lines on stderr (default text)"},
     {"--log-level", "LEVEL", "debug, info, warning or error (default info)"},
 };
 
@@ -120,7 +120,7 @@ std::variant<ObserverFlags, int> ParseObserverFlags(int argc, const char* const*
                  "publishes odometry, ranges, transforms, markers and motor commands as "
                  "ROS 2 topics: rt/giveway/v1/odom");
   line.AddOptional("--health", "live|ready",
-                   "asks the observer at --address and --port, prints the answer, and ends: "
+                   "asks the observer at --address and --port, prints the answer, and exits: "
                    "0 yes, 1 no, 2 no answer (ready if no value follows)");
   try {
     FlagValues values(line.Parse(argc, argv));

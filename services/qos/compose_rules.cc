@@ -61,7 +61,7 @@ void CheckComposeSet(const ComposeService& service, const ProfileSet& set, Findi
          "network_mode host without ipc host, and shared memory in " + set.file,
          "All take each other for processes of one host and write into memory that no other "
          "sees: they match, and hear nothing.",
-         "ipc: host beside network_mode: host, or a set without shared memory"});
+         "ipc: host together with network_mode: host, or a set without shared memory"});
     return;
   }
   findings->push_back({Severity::kWarning, "shared_memory_apart", service.place, service.name,

@@ -110,7 +110,7 @@ void CheckSurroundings(const Deployment& deployment, Findings* findings) {
          "",
          "lies in the working folder",
          std::string("Every program of Fast DDS ") + (of2 ? "2" : "3") +
-             " started here loads it without a word; the services shut it out, other tools then "
+             " started here loads it silently; the services shut it out, other tools then "
              "differ from them.",
          "rename it, and name it with --qos"});
   }

@@ -132,7 +132,7 @@ void FleetRules::CheckHistory() {
       profile_.Number(Policy::kReliability) != kReliable) {
     Add(Severity::kError, "late_joiner_unserved", Policy::kDurability,
         ", reliability " + Said(profile_, Policy::kReliability),
-        "Who comes after the sample was sent never learns of it, and waits for ever.",
+        "A late joiner never receives the sample, and waits for ever.",
         "RELIABLE and TRANSIENT_LOCAL, in the writer and in the reader");
   }
 }

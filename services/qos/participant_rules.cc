@@ -77,13 +77,13 @@ void ParticipantRules::CheckLease() {
   const std::int64_t others = std::min(participants_, kLargeFleet);
   if (announcement > 0 && others * others * kSecond / announcement > kMostAnnouncements) {
     Add(Severity::kWarning, "announcement_storm", Policy::kAnnouncement, There(),
-        "Everyone announces to everyone: " +
+        "Every participant announces to every other: " +
             std::to_string(others * others * kSecond / announcement) + " packets a second.",
         "announce every 1 s");
   }
   if (Number(Policy::kInitialAnnouncements) == 0) {
     Add(Severity::kWarning, "no_initial_announcement", Policy::kInitialAnnouncements, "",
-        "Whoever starts is found only by the next periodic announcement.", "5, every 100 ms");
+        "A new participant is found only by the next periodic announcement.", "5, every 100 ms");
   }
 }
 
@@ -98,15 +98,15 @@ void ParticipantRules::CheckPause(Policy policy) {
 void ParticipantRules::CheckDiscovery() {
   const std::int64_t protocol = Number(Policy::kDiscoveryProtocol);
   if (protocol == kNone) {
-    Add(Severity::kError, "discovery_off", Policy::kDiscoveryProtocol, "", "Nobody finds anybody.",
-        "SIMPLE, or CLIENT with a server");
+    Add(Severity::kError, "discovery_off", Policy::kDiscoveryProtocol, "",
+        "No participant is found.", "SIMPLE, or CLIENT with a server");
   } else if (protocol == kServer || protocol == kBackup) {
     Add(Severity::kError, "server_for_all", Policy::kDiscoveryProtocol, "",
         "Every process of the fleet takes this profile, and all would be the same server.",
         "CLIENT here; the server is a process of its own");
   } else if (protocol != kSimple && participation_.servers == 0) {
     Add(Severity::kError, "discovery_server_missing", Policy::kDiscoveryProtocol,
-        " without a discoveryServersList", "A client without a server finds nobody.",
+        " without a discoveryServersList", "A client without a server finds no participant.",
         "name the server's prefix and address");
   }
   if (participation_.static_discovery) {
@@ -179,8 +179,7 @@ void ParticipantRules::CheckReach() {
   }
   if (Number(Policy::kAvoidBuiltinMulticast) == 0) {
     Add(Severity::kWarning, "multicast_endpoint_discovery", Policy::kAvoidBuiltinMulticast, "",
-        "Discovery of endpoints goes to everyone by multicast, which radio links send slowest.",
-        "true");
+        "Discovery of endpoints goes to all by multicast, which radio links send slowest.", "true");
   }
 }
 

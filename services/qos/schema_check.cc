@@ -17,7 +17,7 @@ constexpr char kUnknown[] =
     "Fast DDS refuses the whole file, and no process starts; what 3.1 alone knows stops every "
     "process with 2.9.";
 constexpr char kDropped[] =
-    "The library reads the digits it finds first, drops the rest without a word, and runs with "
+    "The library reads the digits it finds first, drops the rest silently, and runs with "
     "that.";
 constexpr char kHangs[] =
     "The library loops for ever on such a duration: the process that makes the endpoint hangs, and "
@@ -196,7 +196,7 @@ void Checker::CheckElement(const XmlElement& element, const ElementRule& rule) {
   }
   if (rule.content == Content::kNoEffect) {
     Add("no_effect", element, "is accepted by Fast DDS and not looked at",
-        "remove it: whoever reads the file believes it holds", Severity::kWarning,
+        "remove it: a reader of the file believes it holds", Severity::kWarning,
         "Nothing changes; the policy stays what it is without it.");
   } else if (rule.content == Content::kDuration) {
     CheckDuration(element);
@@ -228,7 +228,7 @@ void Checker::CheckName(const XmlElement& profile) {
   if (profile.Attribute("profile_name").empty()) {
     Add("unnamed_profile", profile, "has no attribute profile_name",
         "name it; the services take profiles by name", Severity::kError,
-        "The library refuses the whole file, or keeps a profile that nobody can ask for.");
+        "The library refuses the whole file, or keeps a profile that cannot be asked for.");
   }
   for (const XmlAttribute& attribute : profile.attributes) {
     if (attribute.name == "profile_name" || attribute.name == "is_default_profile") continue;
@@ -305,9 +305,9 @@ void Checker::CheckRoot(const XmlElement& root) {
 }
 
 void Checker::AddSecondProfiles(const XmlElement& second, const XmlElement& first) {
-  Add("second_profiles", second, "stands beside the one of line " + std::to_string(first.line),
+  Add("second_profiles", second, "is a second one after that of line " + std::to_string(first.line),
       "move what is in it to the first", Severity::kError,
-      "The library reads the first <profiles> and drops every other without a word.");
+      "The library reads the first <profiles> and drops every other silently.");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace giveway::qos {
 namespace {
 
-constexpr std::int64_t kLargestSample = 4096;  // a lidar scan with room to spare
+constexpr std::int64_t kLargestSample = 4096;  // a lidar scan with a margin
 constexpr std::int64_t kUdpMessage = 65'500;   // the library's default maxMessageSize
 constexpr std::int64_t kLargestBuffer = 0x7fff'ffff;
 constexpr char kNoParticipant[] =
@@ -71,9 +71,8 @@ void TransportRules::CheckUse(const Participation& participation) {
     Add(Severity::kError, "not_one_udp_transport", profile.place, profile.name,
         std::to_string(participation.transports.size()) + " user transports, of them " +
             std::to_string(udp) + " UDPv4",
-        "The services do not start: one UDPv4 transport finds the others, and shared memory may "
-        "stand "
-        "beside it.",
+        "The services do not start: one UDPv4 transport finds the others, and shared memory may be "
+        "the only other.",
         "name one transport of type UDPv4");
   }
 }
@@ -138,7 +137,7 @@ void TransportRules::CheckBuffers(const Transport& transport) {
     if (size < most) {
       Add(Severity::kError, "buffer_below_message", buffer->second.place, transport.id,
           said + " against maxMessageSize " + std::to_string(most), kNoParticipant,
-          "room for several messages, or 0 for what the system gives");
+          "space for several messages, or 0 for what the system gives");
     } else if (size > kLargestBuffer) {
       Add(Severity::kWarning, "buffer_above_limit", buffer->second.place, transport.id, said,
           "Fast DDS 2.9 takes it for as much as the system grants; 3.1 makes no participant.",

@@ -33,7 +33,7 @@ void RecordingFile::Begin(Record first) {
   }
   auto* life = std::get_if<RecordedLife>(&first);
   if (life == nullptr) {
-    complaint_ = "does not begin with the making of a vehicle";
+    complaint_ = "does not start with the making of a vehicle";
     return;
   }
   if (life->boot_epoch == 0) {
@@ -69,7 +69,7 @@ bool RecordingFile::ReadMark() {
   } else if (kRecordingMark.starts_with(line)) {
     complaint_ = "is cut off in its first line";
   } else {
-    complaint_ = "is no recording: it does not begin with giveway-recording-";
+    complaint_ = "is no recording: it does not start with giveway-recording-";
   }
   return false;
 }
@@ -103,12 +103,12 @@ std::optional<Record> RecordingFile::Next() {
   if (const auto* end = std::get_if<RecordedEnd>(&*record)) {
     end_ = *end;
     if (stream_.peek() != std::istream::traits_type::eof()) {
-      complaint_ = "goes on behind its end";
+      complaint_ = "continues behind its end";
     }
     return std::nullopt;
   }
   if (std::holds_alternative<RecordedLife>(*record)) return Refuse("a second vehicle is made");
-  if (std::holds_alternative<RecordedContinuation>(*record)) return Refuse("another part begins");
+  if (std::holds_alternative<RecordedContinuation>(*record)) return Refuse("another part starts");
   if (const auto* image = std::get_if<RecordedImage>(&*record)) {
     constexpr std::uint32_t kBehindContinuation = 2;
     if (!continues_ || records_ != kBehindContinuation) return Refuse("a brain amid a part");

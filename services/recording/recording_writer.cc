@@ -153,7 +153,7 @@ bool RecordingWriter::Split() {
     steps_before_ = Steps();
     const std::string before = part_.Name();
     part_ = std::move(next);
-    is_ring_ ? MakeRoom(before) : LogInfo("the recording goes on in " + part_.Name());
+    is_ring_ ? MakeRoom(before) : LogInfo("the recording continues in " + part_.Name());
     return true;
   } catch (const std::runtime_error& error) {
     return Fail(part_.Name(), error.what(), 1);

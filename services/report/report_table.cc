@@ -33,7 +33,7 @@ std::string Word(Verdict verdict) {
 std::string Ids(const std::vector<VehicleId>& ids) {
   std::vector<std::uint32_t> numbers;
   for (const VehicleId id : ids) numbers.push_back(Number(id));
-  return ids.empty() ? "nobody" : fmt::format("{}", fmt::join(numbers, ", "));
+  return ids.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", "));
 }
 
 std::string Measure(const std::optional<double>& value, int digits, const char* unit) {
@@ -49,7 +49,7 @@ std::string Reaction(const Report& report) {
 }
 
 std::string Invariants(const Report& report) {
-  if (report.ticks_judged == 0) return "not judged: nobody was seen";
+  if (report.ticks_judged == 0) return "not judged: no vehicle was seen";
   const std::string over =
       fmt::format("over {} ticks, {} not seen whole", report.ticks_judged, report.ticks_unseen);
   if (report.first_violations.empty()) return "all held " + over;

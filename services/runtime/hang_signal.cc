@@ -37,7 +37,7 @@ bool HangSignal::IsUp() { return is_up; }
 void HangWhileUp() {
   LogWarning("drill: the control loop hangs");
   while (HangSignal::IsUp()) SleepUntil(SteadyNow() + kPoll);
-  LogWarning("drill: the control loop goes on");
+  LogWarning("drill: the control loop resumes");
 }
 
 }  // namespace giveway

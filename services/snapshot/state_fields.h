@@ -149,8 +149,8 @@ struct StateFields {
   }
 };
 
-// Counts the layouts; beside VehicleState::kVersion, which counts what the fields mean. What a
-// layout has more than the one before stands at the end of the state.
+// Counts the layouts; in addition to VehicleState::kVersion, which counts what the fields mean.
+// What a layout has more than the one before stands at the end of the state.
 enum class StateFormat : std::uint32_t {
   kFirst = 1,
   kWithPose = 2,

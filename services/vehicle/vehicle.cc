@@ -27,7 +27,7 @@
 namespace giveway {
 namespace {
 
-constexpr std::uint32_t kBlockedTicks = 20;  // what was in the way is still, for so long
+constexpr std::uint32_t kBlockedTicks = 20;  // how long a blocker counts after it was last seen
 // What the wheels do and what the encoders say of it are wrong independently of each other.
 double WheelError(const VehicleProfile& profile) {
   return Sqrt(profile.wheel_slip * profile.wheel_slip +
@@ -71,8 +71,8 @@ bool Vehicle::TakeOver(const Handover& handover) {
 
 std::uint64_t Vehicle::Hash() const { return HashOf(*state_, options_.profile); }
 
-// Dead reckoning: the encoders give the constant wheel speeds since the last tick, or what they
-// counted since the pose was true that the vehicle was told.
+// Dead reckoning: the encoders give the constant wheel speeds since the last tick, or the angles
+// counted since the assigned start pose was true.
 void Vehicle::TakeScan(const RangeScan& scan, SteadyTime now) {
   VehicleState& state = *state_;
   if (!IsBelievable(scan, options_)) {  // as if none had come: the ranges grow old, and it halts
@@ -192,7 +192,7 @@ OwnMotion Vehicle::LookAtOwnMotion() {
   motion.slows_m =
       StoppingDistance(options_.cruise_m_s, motion.reaction_s, options_.profile.deceleration_m_s2);
   motion.sweeps_m = OwnSweep(motion, options_);
-  // The printed scripts look at nobody.
+  // The printed scripts know no peers.
   motion.turns = options_.behaviour != Behaviour::kLecturePrinted &&
                  NoteTurning(motion.turn_rad_s, state_->world.tick, &state_->movers);
   return motion;
@@ -279,7 +279,7 @@ PeersNow Vehicle::LookAtPeers(const OwnView& s) {
           .encounters = UpdateEncounters(boxes.views, s)};
 }
 
-// The printed scripts know neither places nor ways, only the one variable.
+// The printed scripts know neither places nor paths, only the one variable.
 PeersNow Vehicle::HearTheLastAlone(const OwnView& s) {
   const std::span<const Peer> peers = state_->heard.peers.Peers();
   peers_heard_ =
@@ -332,7 +332,8 @@ void Vehicle::Remember(const Situation& s, const Action& action) {
   KeepBlocked(BlockedBy(s, decision, action.blocked_by), s);
 }
 
-// What is in the way now and then is in the way: the order it is lent must not come and go.
+// Hysteresis: an intermittent obstruction counts as continuous, so that the inherited priority does
+// not flicker.
 void Vehicle::KeepBlocked(VehicleId blocked_by, const Situation& s) {
   VehicleState& state = *state_;
   if (blocked_by != kNobody) {

@@ -31,7 +31,7 @@ struct RefusedBeacon {
 
 class Vehicle {
  public:
-  // `boot_epoch` is random and not 0: it tells two lives of one vehicle apart.
+  // `boot_epoch` is random and not 0: it distinguishes two lives of one vehicle.
   Vehicle(const VehicleOptions& options, std::uint32_t boot_epoch);
 
   // One step. The outputs answer inputs.scan, or repeat the tick of the last one.
@@ -40,18 +40,18 @@ class Vehicle {
   const VehicleState& State() const { return *state_; }
   // Continues from a snapshot taken with the same options.
   void Restore(const VehicleState& state) { *state_ = state; }
-  // Drives by other options of the same vehicle id from its next roster entry on. Peers take it for
-  // the same life: sequence numbers go on.
+  // Applies other options of the same vehicle id from its next roster entry on. Peers take it for
+  // the same life: sequence numbers continue.
   void Reseat(const VehicleOptions& options);
-  // What the next process of this vehicle needs to go on; nothing before it was placed.
+  // What the next process of this vehicle needs to resume; empty before it was placed.
   std::optional<Handover> HandOver() const;
-  // Goes on where the process before stopped. Before the first step. False, and nothing is done,
-  // where a handover is not sound.
+  // Resumes where the process before stopped. Before the first step. False, with nothing changed,
+  // if the handover is not sound.
   bool TakeOver(const Handover& handover);
   std::uint64_t Hash() const;
   // Forward speed as last measured, m/s.
   double SpeedMps() const;
-  // Neither rolls nor turns, as last measured. Until it is told it is taken to.
+  // Neither rolls nor turns, as last measured. Assumed until the first measurement.
   bool Stands() const { return state_->motion.wheels == WheelSpeeds{}; }
   // What the last step decided by.
   const DecisionEvidence& Evidence() const { return evidence_; }

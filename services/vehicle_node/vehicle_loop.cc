@@ -18,7 +18,7 @@ using std::chrono::milliseconds;
 
 constexpr Nanoseconds kStatusPeriod = milliseconds(200);
 constexpr Nanoseconds kFlushTimeout = milliseconds(300);
-// From an order to restart to standing; the world brakes whom it does not hear.
+// From an order to restart to standing; the world brakes a vehicle that it does not hear.
 constexpr Nanoseconds kHaltPatience = std::chrono::seconds(5);
 constexpr int kGoodByes = 3;  // best effort: one may be lost
 
@@ -50,7 +50,7 @@ VehicleLoop::VehicleLoop(const VehicleLoopParts& parts, const Scenario& scenario
 // False where it is not to be gone by: then the world's word is.
 bool VehicleLoop::TakeOver(const Handover& handover) {
   if (!IsOfTheSameBody(handover, place_.Entry())) {
-    LogWarning("stands elsewhere than before its restart: begins where the world says");
+    LogWarning("stands elsewhere than before its restart: starts where the world says");
     return false;
   }
   return vehicle_.TakeOver(handover);
@@ -66,10 +66,10 @@ DriveEnd VehicleLoop::Drive(const std::function<bool()>& is_stopped) {
   const bool goes = is_stopped() || restarts;
   for (int i = 0; goes && i < kGoodByes; ++i) Turn(true);
   if (restarts && !is_stopped()) AskForTime();
-  // It may have been told to stop while it asked; then it leaves.
+  // It may have been stopped while it asked; then it leaves.
   if (restarts && !is_stopped()) return DriveEnd::kRestarts;
   report_.SendFinal(vehicle_, link_);
-  // Said before the wait: whoever has died without a word delays both, and may do so only once.
+  // Sent before the wait: a process that died silently delays both, and may do so only once.
   if (is_stopped() && !place_.RunHasEnded()) link_.SendLeave(Session());
   link_.FlushStatus(kFlushTimeout);
   return place_.IsRefused() ? DriveEnd::kRefused : DriveEnd::kOver;
@@ -83,8 +83,8 @@ void VehicleLoop::Halt(const std::function<bool()>& is_stopped) {
   }
 }
 
-// To the world a second of silence is a death. Who asks for its place again is given longer,
-// until it speaks; so what it said last must have been taken by then.
+// To the world a second of silence is a death. A vehicle that asks for its place again is given
+// longer, until it sends a command; so its last one must have been taken by then.
 void VehicleLoop::AskForTime() {
   clock_.SleepUntil(clock_.Now() + 3 * options_.tick_period);
   link_.SendJoin({Session(), options_.id});
@@ -169,7 +169,7 @@ bool VehicleLoop::Step(link::Taken* taken, SteadyTime woke, bool by_scan) {
   last_beacon_ = woke;
   const SteadyTime sent = clock_.Now();
   report_.NoteStep(decided, by_scan ? sent - woke : Nanoseconds{0});
-  // After the wheels have their command: nobody waits for what follows.
+  // After the wheels have their command: the rest is not time-critical.
   const auto spent = report_.NoteTurn({.woke = woke,
                                        .sent = sent,
                                        .scan = inputs->scan ? &*inputs->scan : nullptr,

@@ -15,7 +15,7 @@ std::string LogLine(const WorldEvent& event) {
     case EventKind::kFaultDue:
       return "fault due: " + event.text;
     case EventKind::kFaultBegan:
-      return "fault begins: " + event.text;
+      return "fault starts: " + event.text;
     case EventKind::kFaultOver:
       return "fault is over: " + event.text;
     case EventKind::kSilent:

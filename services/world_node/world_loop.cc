@@ -22,7 +22,7 @@ constexpr Nanoseconds kCheckpointPeriod = milliseconds(200);
 constexpr Nanoseconds kReminder = seconds(5);
 // For the vehicles of a world that was restarted to find it: those that do not are silent then.
 constexpr Nanoseconds kResumePatience = seconds(10);
-// Who joins under way stands until it hears everybody, but not for ever.
+// A vehicle that joins a running fleet stands until it hears all peers, but not for ever.
 constexpr Nanoseconds kDeafStand = seconds(3);
 
 std::string Text(VehicleId vehicle) { return std::to_string(Number(vehicle)); }
@@ -56,7 +56,7 @@ WorldLoop::WorldLoop(const Scenario& scenario, link::WorldLink* link, ServiceAdm
 
 void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
   if (!fleet_->admission.Restore(checkpoint)) {
-    LogWarning("the checkpoint does not fit the scenario: starts anew");
+    LogWarning("the checkpoint does not fit the scenario: starts a new run");
     fleet_ = std::make_unique<Fleet>(scenario_, epoch_, options_);
     return;
   }
@@ -66,7 +66,7 @@ void WorldLoop::Resume(const sim::FleetCheckpoint& checkpoint) {
     if (!fleet_->run.IsAbandoned(vehicle)) resumed_with_->push_back(vehicle);
   }
   start_by_ = SteadyNow() + kResumePatience;
-  LogInfo("goes on from the checkpoint with " + std::to_string(resumed_with_->size()) +
+  LogInfo("resumes from the checkpoint with " + std::to_string(resumed_with_->size()) +
           " vehicles, " + std::to_string(fleet_->run.TimeSeconds()) + " s after the start");
 }
 
@@ -90,7 +90,7 @@ WorldEnd WorldLoop::Drive(const StopSignal& stop) {
     const bool goes = !resumed_with_ || fleet_->run.State() == RunState::kRunning;
     if (goes && options_.on_back) std::exchange(options_.on_back, nullptr)();
     if (admin_.Serve() && !stop.IsSet()) {
-      link_.FlushAnswer(kFlushTimeout);  // who does not hear the next scan halts
+      link_.FlushAnswer(kFlushTimeout);  // a vehicle that misses the next scan halts
       return WorldEnd::kRestarts;
     }
   }
@@ -138,7 +138,7 @@ void WorldLoop::SayLeftOut() {
   if (events > 0) LogInfo("and " + std::to_string(events) + " more such events");
 }
 
-// Somebody new under this id has not been heard yet, even if the last one was.
+// A new vehicle under this id has not been heard yet, even if the last one was.
 void WorldLoop::Welcome(const RosterEntry& entry) {
   Newcomer& newcomer = newcomers_[entry.vehicle];
   if (newcomer.session == entry.session) return;
@@ -147,7 +147,7 @@ void WorldLoop::Welcome(const RosterEntry& entry) {
   heard_.erase(entry.vehicle);
 }
 
-// Forgets whose bodies are no more.
+// Forgets the vehicles whose bodies are gone.
 void WorldLoop::Close() {
   for (const VehicleId vehicle : fleet_->admission.TakeGone()) {
     link_.CloseVehicle(vehicle);
@@ -178,7 +178,7 @@ void WorldLoop::Heed(const MotorCommand& command) {
   TellOfRefused(command, {"world_epoch", double(Number(command.epoch)), epoch, epoch}, true);
 }
 
-// Whoever was given no place has no wheels here, and nobody answers a scan that is to come.
+// A vehicle without a place has no wheels here, and a command cannot answer a scan that is to come.
 bool WorldLoop::MayCommand(const MotorCommand& command) {
   if (!fleet_->admission.Told().contains(command.vehicle)) return command.epoch != epoch_;
   const Tick now = fleet_->run.Now();
@@ -187,7 +187,7 @@ bool WorldLoop::MayCommand(const MotorCommand& command) {
   return false;
 }
 
-// The log says why, if it goes on.
+// The log says why, if it continues.
 void WorldLoop::TellOfRefused(const MotorCommand& command, const FieldFault& fault, bool passing) {
   const Refusal refusal{.sample = "motor command",
                         .vehicle = command.vehicle,
@@ -213,7 +213,7 @@ void WorldLoop::CountSpeaking() {
       [this](const auto& told) { return !fleet_->run.IsAbandoned(told.first); }));
 }
 
-// Who is still waited for; empty if nobody is.
+// Which vehicles are still waited for; empty if none.
 std::string WorldLoop::Missing() const {
   const auto& told = fleet_->admission.Told();
   if (sim::IsOpen(scenario_) && !resumed_with_) {
@@ -244,7 +244,7 @@ void WorldLoop::StartIfReady() {
     fleet_->run.End("start_timeout: not joined and matched in time: " + missing);
     return;
   }
-  if (!missing.empty()) LogWarning("goes on without: " + missing);
+  if (!missing.empty()) LogWarning("starts without: " + missing);
   fleet_->run.Start();
   next_checkpoint_ = {};
   for (const RosterEntry& entry : fleet_->admission.TellAll("")) link_.SendRoster(entry);
@@ -291,7 +291,7 @@ void WorldLoop::SendEvent(const WorldEvent& event) {
   if (!line.empty() && event_lines_.Take(SteadyNow())) LogInfo(line);
 }
 
-// Lockstep: the tick goes on when everyone who still answers has answered it.
+// Lockstep: the tick ends when all vehicles that still answer have answered it.
 void WorldLoop::AwaitAnswers() {
   const SteadyTime give_up = SteadyNow() + kLockstepPatience;
   while (Unanswered() && SteadyNow() < give_up) {
@@ -310,8 +310,8 @@ bool WorldLoop::Unanswered() const {
   return false;
 }
 
-// After the tick's scans are out: the vehicles think meanwhile. At once where somebody came or
-// went.
+// After the tick's scans are out: the vehicles compute meanwhile. At once where a vehicle joined or
+// left.
 void WorldLoop::KeepCheckpoint() {
   const SteadyTime begun = SteadyNow();
   if (options_.checkpoint_file.empty() || begun < next_checkpoint_) return;
@@ -335,7 +335,7 @@ bool WorldLoop::TellTheEnd(Nanoseconds patience) {
   for (const RosterEntry& entry : fleet_->admission.TellAll(reason)) link_.SendRoster(entry);
   link_.Flush(patience);
   if (!options_.checkpoint_file.empty()) {
-    RemoveStateFile(options_.checkpoint_file);  // what has ended does not go on
+    RemoveStateFile(options_.checkpoint_file);  // what has ended does not resume
     LogInfo("the longest checkpoint took " + std::to_string(Milliseconds(longest_checkpoint_)) +
             " ms");
   }

@@ -36,11 +36,11 @@ std::uint64_t MarkOf(const ServiceFlags& flags, const Scenario& scenario) {
   return hash.Value();
 }
 
-// The state to go on from, or none; the log says which, and why.
+// The state to resume from, or none; the log says which, and why.
 std::optional<sim::FleetCheckpoint> ReadCheckpoint(const std::string& file, std::uint64_t mark) {
   const std::optional<std::string> bytes = ReadStateFile(file);
   if (!bytes) {
-    LogInfo("no checkpoint in " + file + ": starts anew");
+    LogInfo("no checkpoint in " + file + ": starts a new run");
     return std::nullopt;
   }
   auto checkpoint = sim::FromBytes(*bytes);
@@ -51,14 +51,14 @@ std::optional<sim::FleetCheckpoint> ReadCheckpoint(const std::string& file, std:
     fault = "it is of another scenario";
   }
   if (fault.empty()) return std::get<sim::FleetCheckpoint>(std::move(checkpoint));
-  LogWarning("the checkpoint in " + file + " is of no use: " + fault + "; starts anew");
+  LogWarning("the checkpoint in " + file + " is of no use: " + fault + "; starts a new run");
   return std::nullopt;
 }
 
 }  // namespace
 
-// What is random depends on the fleet and the course of the run, and whoever else carries out the
-// list must have the very same.
+// Random draws depend on the fleet and the course of the run, and every process that carries out
+// the list must draw the same.
 sim::FaultSchedule LoadSchedule(const ServiceFlags& flags, const Scenario& scenario) {
   sim::FaultSchedule schedule{.seed = scenario.seed};
   if (flags.faults.empty()) return schedule;

@@ -53,7 +53,7 @@ for ((crossing = 0; crossing < crossings; ++crossing)); do
 done
 cat <<'TEXT'
 
-# Who halts and who arrives is up to whoever comes; that no two bodies touch is not.
+# Any vehicle may halt or arrive; none may touch another.
 expect {
   contacts: 0
   any_halted: true

@@ -45,7 +45,7 @@ for _ in $(seq 300); do
 done
 tail -n "+$((lines + 1))" "$SCRATCH/logs/vehicle-1.log" | grep -q 'drives on in world' ||
   fail "the world was not started again: $(cat "$SCRATCH/fleet.log")"
-grep -q 'goes on from the checkpoint' "$SCRATCH/logs/world+.log" || fail "the world began anew"
+grep -q 'resumes from the checkpoint' "$SCRATCH/logs/world+.log" || fail "the world began anew"
 sleep 2
 "$FLEETCTL" run intersection_yield --restart >"$SCRATCH/closed.log" 2>&1 && fail "a closed fleet is restarted"
 grep -q 'a death is the end of its run' "$SCRATCH/closed.log" || fail "$(cat "$SCRATCH/closed.log")"

@@ -38,7 +38,7 @@ echo "$scenario seed $seed: real $real, virtual $virtual"
 [[ -n $real && $real == "$virtual" ]] || fail "the real run and the virtual one differ"
 if [[ -n $faults ]]; then
   log=$(cat "$SCRATCH"/logs/*world*)
-  seen="$(grep -c 'fault begins' <<<"$log") began, $(grep -c 'fault is over' <<<"$log") over"
+  seen="$(grep -c 'fault starts' <<<"$log") began, $(grep -c 'fault is over' <<<"$log") over"
   echo "faults: $seen"
   [[ $seen == "$(cat "$SCRATCH/virtual.err")" && $seen != 0* ]] ||
     fail "the world saw $seen; the virtual one $(cat "$SCRATCH/virtual.err")"

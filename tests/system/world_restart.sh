@@ -31,7 +31,7 @@ done
 for vehicle in a b c; do await "at first: $vehicle drives" 15 "$vehicle" 'cruise'; done
 
 kill_now world1
-restart world2 "with its checkpoint" 'goes on from the checkpoint with 3 vehicles' \
+restart world2 "with its checkpoint" 'resumes from the checkpoint with 3 vehicles' \
   --checkpoint "$checkpoint"
 
 kill_now world2

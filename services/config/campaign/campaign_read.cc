@@ -32,7 +32,7 @@ std::string ReadCampaignName(const Section& root) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
   if (!clean || name.empty() || name.size() > kLongestCampaignName || name.front() == '-') {
-    root.Complain("name", "must be 1 to 64 of the characters a-z 0-9 _ -, none a - at its begin",
+    root.Complain("name", "must be 1 to 64 of the characters a-z 0-9 _ -, the first not a -",
                   "write such as nightly_1");
   }
   return name;
@@ -85,7 +85,7 @@ void ReadSubjects(const Section& root, std::span<const std::string_view> known,
                   "write generator:, or the path of the scenario's file");
   }
   if (root.Has("generator")) {
-    root.Complain("generator", "stands beside a scenario", "write a campaign for each");
+    root.Complain("generator", "is given together with a scenario", "write a campaign for each");
   }
   plan->generators = {scenario};
   const double duration_s = root.NumberOr(1, "duration_s", kCampaignDuration_s);

@@ -157,7 +157,7 @@ Target ReadTarget(const Section& section, const KindRow* row) {
   if (section.Has("vehicle") == section.Has("target")) {
     section.Complain(
         section.Has("target") ? "target" : "",
-        section.Has("target") ? "is given beside vehicle" : "has no target",
+        section.Has("target") ? "is given together with vehicle" : "has no target",
         section.Has("target") ? "remove one of the two" : "write vehicle: with an id, or target:");
     return {};
   }
@@ -202,7 +202,7 @@ Targets ReadTargets(const Section& section, const KindRow* row) {
   }};
   if (section.Has("vehicle")) {
     if (section.Has("target")) {
-      section.Complain("target", "is given beside vehicle", "remove one of the two");
+      section.Complain("target", "is given together with vehicle", "remove one of the two");
     }
     ComplainUnlessAllowed(section, row, "vehicle", Target::What::kVehicle);
     return {Targets::What::kNamed, ReadNamed(section)};

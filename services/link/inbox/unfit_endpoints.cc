@@ -8,8 +8,8 @@ namespace giveway::link {
 namespace {
 
 constexpr Nanoseconds kSettles = std::chrono::seconds(1);
-// Judged ones that are still known as what their participant has beside: of a dozen vehicles, for
-// what one makes is found close together. Some 300 bytes each.
+// Checked endpoints that are remembered as other endpoints of their participant: those of a dozen
+// vehicles, for a participant's endpoints are discovered close together. Some 300 bytes each.
 constexpr std::size_t kMostJudged = 128;
 
 // "a reader of fleet/beacon in v5 (Eclipse Cyclone DDS, participant 0110...)".
@@ -42,7 +42,7 @@ std::string WhyUnfit(const FoundEndpoint& other, const std::vector<FoundEndpoint
       if (misfit.empty()) return {};
       why = misfit;
     } else if (why.empty() && !HasPartition(other) && !SpeaksInAPartitionToo(other, known)) {
-      why = "ours is in " + PartitionText(ours) + ", and no status of DDS tells of a partition";
+      why = "ours is in " + PartitionText(ours) + ", and no status of DDS reports a partition";
     }
   }
   return why.empty() ? why : Describe(other) + " does not match: " + why;

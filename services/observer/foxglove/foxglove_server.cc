@@ -114,7 +114,7 @@ struct FoxgloveServer::Impl {
   std::thread thread;
 };
 
-// From the first byte to the last. Lives as long as an operation of it is under way.
+// From the first byte to the last. Lives as long as one of its operations is pending.
 class FoxgloveServer::Impl::Connection : public std::enable_shared_from_this<Connection> {
  public:
   Connection(Impl& server, tcp::socket socket)
@@ -346,7 +346,7 @@ void FoxgloveServer::Impl::Run() {
     try {
       context.run();
     } catch (const std::exception& error) {
-      LogError("the server for Foxglove goes on after: " + std::string(error.what()));
+      LogError("the server for Foxglove continues after: " + std::string(error.what()));
     }
   }
 }

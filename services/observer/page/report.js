@@ -22,7 +22,7 @@ function noteSpans(frame, spans) {
   }
 }
 
-// The least room between two bodies in a frame; null where there are not two.
+// The smallest separation of two bodies in a frame; null where there are not two.
 function leastGap(frame) {
   const bodies = [...frame.vehicles.values()].filter((v) => v.has_body);
   let least = null;

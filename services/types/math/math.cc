@@ -19,7 +19,7 @@ constexpr double kLn2High = 6.93147180369123816490e-01;
 constexpr double kLn2Low = 1.90821492927058770002e-10;
 
 constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
-// Beyond it a double does not tell one turn from the next well enough.
+// Beyond it a double does not resolve a turn well enough.
 constexpr double kMostTurns = 0x1p30;
 
 // No number for |x| beyond kMostTurns, and for what is none.

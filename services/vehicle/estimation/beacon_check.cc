@@ -147,7 +147,7 @@ std::optional<FieldFault> FaultOf(const Beacon& b) {
   if (order.waited_ticks > Number(b.tick)) {
     return fault("order_waited_ticks", order.waited_ticks, 0, Number(b.tick));
   }
-  // Its own key says its own cruise speed, rounded; a key it was lent, that of another.
+  // Its own key carries its own cruise speed, rounded; an inherited key that of another vehicle.
   const bool own = order.vehicle == b.vehicle;
   const double least = own ? SpeedBucket(b.cruise_m_s) : 0;
   const double most = SpeedBucket(own ? b.cruise_m_s : kMaxSpeed_m_s);

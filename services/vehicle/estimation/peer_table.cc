@@ -151,7 +151,7 @@ void PeerTable::Note(const QosEvent& event, QosCounters* counters) {
   Peer* peer = Find(event.vehicle);
   switch (event.kind) {
     case QosEventKind::kDeadlineMissed:
-      // A good-bye is no miss, and a miss is an edge: one until the next accepted beacon.
+      // A leave notice is no miss, and a miss is an edge: one until the next accepted beacon.
       if (peer == nullptr || peer->left || peer->deadline_missed) return;
       ++counters->deadline_missed;
       last_deadline_missed_ = event.vehicle;

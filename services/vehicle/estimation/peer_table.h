@@ -1,5 +1,5 @@
 // What this vehicle knows of the others: one entry a vehicle id, at most kMaxPeers. Takes in
-// beacons and QoS events, refuses and counts what it cannot believe, and says who is fresh. Its
+// beacons and QoS events, refuses and counts invalid ones, and says which peers are fresh. Its
 // only clock is the receiver's, passed in. Decides nothing.
 #pragma once
 
@@ -23,9 +23,9 @@ inline constexpr std::uint32_t kMaxPeers = 1024;
 struct Encounter {
   bool active = false;
   bool holds = false;     // this vehicle stops, or stands, because of the peer
-  bool clears = false;    // this vehicle was in the peer's way: it drives out instead of holding
+  bool clears = false;    // this vehicle was blocking the peer: it drives out instead of holding
   bool lost = false;      // the peer fell silent while the encounter was active
-  bool released = false;  // lost, waited out, and the own ranges show the way clear
+  bool released = false;  // lost, the waiting time is over, and the own ranges show the path clear
   bool entered = false;   // too far to stop, or in the conflict: it drives through
   SteadyTime lost_at{0};
   double lost_wait_s = 0;  // how long the silent peer may take to pass at its cruise speed
@@ -35,7 +35,7 @@ struct Encounter {
 struct Peer {
   VehicleId id = kNobody;
   std::uint32_t boot_epoch = 0;
-  std::uint64_t writer = 0;  // who speaks for this id
+  std::uint64_t writer = 0;  // the endpoint that speaks for this id
   std::uint32_t last_seq = 0;
   std::uint32_t waiting_count = 0;
   SteadyTime spoke{0};        // last beacon of `writer`, accepted or not
@@ -46,11 +46,11 @@ struct Peer {
 
   bool deadline_missed = false;  // since the last accepted beacon
   bool liveliness_lost = false;  // since the last accepted beacon
-  bool left = false;             // said good-bye: a departure, not a loss
+  bool left = false;             // sent a leave notice: a departure, not a loss
   bool out_of_reach = false;     // `beacon` was followed by one from beyond the emission radius
   Encounter encounter;
   PeerTrust trust;
-  KnownHeading told;                // of a beacon of late
+  KnownHeading told;                // of a recent beacon
   Beacon beacon;                    // newest of a tick before this vehicle's
   std::array<Beacon, 2> waiting{};  // of this tick or later, older first
   std::array<SteadyTime, 2> waiting_received{};
@@ -80,15 +80,15 @@ struct Self {
 
 class PeerTable {
  public:
-  // Takes one beacon in or refuses it; exactly one counter of `counters` beside `taken` moves. One
-  // that does not fit the one before is taken, counted in `trust`, and its sender doubted.
+  // Accepts one beacon or refuses it; exactly one counter of `counters` besides `taken` moves. One
+  // that does not fit the one before is accepted, counted in `trust`, and its sender doubted.
   BeaconRefusal Take(const ReceivedBeacon& received, const Self& self,
                      const VehicleOptions& options, BeaconCounters* counters, TrustCounters* trust);
   // Notes what the middleware says. Only ever makes a peer less believed.
   void Note(const QosEvent& event, QosCounters* counters);
   // Moves waiting beacons of ticks before `tick` up, and drops peers silent for kForgetAfter.
   void Advance(SteadyTime now, Tick tick);
-  // Forgets where everybody was; who speaks for which id, and how far they counted, stays.
+  // Forgets where the peers were; id owners and how far they counted stay.
   void LeaveWorld();
 
   std::span<Peer> Peers() { return peers_; }
@@ -128,8 +128,8 @@ Nanoseconds Age(const Peer& peer, SteadyTime now, Tick tick, Nanoseconds tick_pe
 // True if what the peer says may be used to decide: young enough, alive, and spoken by one voice.
 bool IsFresh(const Peer& peer, SteadyTime now, Tick tick, const VehicleOptions& options);
 
-// True if it said good-bye or drove out of reach: where it is by now nobody knows, and it is no
-// loss.
+// True if it sent a leave notice or drove out of radio range: its position is unknown by now, and
+// it is no loss.
 bool IsGone(const Peer& peer);
 
 // True if the peer should be heard and is not: it is not gone.

@@ -7,7 +7,7 @@ namespace giveway {
 namespace {
 
 constexpr double kRoomToStand_m = 0.7;  // between two conflicts: a body and what it keeps clear of
-// Who is farther from where the ways cross is not kept waiting by one that stops there now.
+// A peer further from the crossing than this is not made to wait by a vehicle stopping there now.
 constexpr double kPeerNear_m = 3;
 constexpr double kOwnNear_m = 8;
 constexpr double kNever_m = 1e6;
@@ -16,7 +16,7 @@ constexpr double kNever_m = 1e6;
 struct Crossings {
   std::array<const PeerView*, 64> of;  // the first `count`
   std::size_t count = 0;
-  // No stretch of the own way begins before the one or ends after the other.
+  // No stretch of the own path starts before the one or ends after the other.
   double first_begin_m = kNever_m;
   double last_end_m = -kNever_m;
 
@@ -36,8 +36,8 @@ Crossings CrossingsAhead(std::span<const PeerView> views) {
   return crossings;
 }
 
-// Where the box begins that a point of the own way lies in: back over every stretch that leaves no
-// room to stand before the next.
+// Where the box starts that contains a point of the own path: back over every stretch that leaves
+// too little space to stand before the next.
 double BoxBegin(const Crossings& crossings, double point_m) {
   const bool alone =
       point_m <= crossings.first_begin_m || point_m - kRoomToStand_m > crossings.last_end_m;
@@ -59,8 +59,8 @@ double AlongOwnWay(const CarriedPeer& view, const OwnView& s) {
   return Dot(view.offset_world, s.path.direction_world);
 }
 
-// Room that the own lane needs for the vehicle and all between it and the place `along_m` on, where
-// they stand behind each other.
+// Length of own lane needed by this vehicle and all vehicles queued up to the place `along_m`, one
+// behind the other.
 double QueueLength(double along_m, std::span<const PeerView> views, const OwnView& s) {
   constexpr double kMoreThanClear_m = 0.01;
   double length_m = 0;
@@ -72,7 +72,7 @@ double QueueLength(double along_m, std::span<const PeerView> views, const OwnVie
   return length_m;
 }
 
-// Where one that drives ahead and means to go on may stop all the same: before the next crossing.
+// Where a leader that will resume may nevertheless stop: before the next crossing.
 double NextStop(double from_m, const Crossings& crossings) {
   double next_m = kNever_m;
   for (const PeerView* view : crossings.All()) {
@@ -83,7 +83,7 @@ double NextStop(double from_m, const Crossings& crossings) {
   return next_m;
 }
 
-// How far along the own way the leader gets if it is stopped.
+// How far along the own path the leader gets before it stops.
 double LeaderStops(const RelatedPeer& leader, const Crossings& crossings, const OwnView& s) {
   const double along_m = AlongOwnWay(leader, s);
   if (leader.standing) return along_m;
@@ -93,9 +93,9 @@ double LeaderStops(const RelatedPeer& leader, const Crossings& crossings, const 
   return goes_on ? NextStop(stops_m, crossings) : stops_m;
 }
 
-// How far the own vehicle gets if the peer stays, or is stopped, in its way; huge if it is not. Up
-// to a claim it is measured along the heading, which is the way unless the vehicle steers round
-// something.
+// How far this vehicle gets if the peer stays or stops on its path; huge if the peer does not block
+// it. Up to a claim it is measured along the heading, which is the path unless the vehicle steers
+// round something.
 double StopsBehind(const RelatedPeer& view, std::span<const PeerView> views,
                    const Crossings& crossings, const OwnView& s) {
   if (!view.fresh) return kNever_m;
@@ -103,8 +103,8 @@ double StopsBehind(const RelatedPeer& view, std::span<const PeerView> views,
   return LeaderStops(view, crossings, s) - QueueLength(AlongOwnWay(view, s), views, s);
 }
 
-// Where the box begins that a point lies in; huge if it lies in none, or in one entered already.
-// Ways that run along each other, or against, are no crossings.
+// Where the box starts that contains a point; huge if none does, or if the vehicle is already
+// inside. Parallel or opposing paths are no crossings.
 double BoxRound(double point_m, const PeerView& but, const Crossings& crossings) {
   double begin_m = kNever_m;
   for (const PeerView* view : crossings.All()) {

@@ -55,7 +55,7 @@ double LeastRange(double distance_m, double radius_m, double off_rad) {
   return distance_m * Cos(off_rad) - Sqrt(radius_m * radius_m - across_m * across_m);
 }
 
-// Something before the body, or beside it: too near for what is unsure to be its echo.
+// In front of the body, or at its side: too near to be the echo of something uncertain.
 bool IsBefore(double range_m, double radius_m, double unsure_m, const Sight& centre,
               double distance_m, double cone_rad, const Cone& cone) {
   constexpr double kUnsure_rad = 0.1;

@@ -18,7 +18,7 @@ bool StaysPut(const Beacon& beacon) {
   return StaysPut(beacon.rule);
 }
 
-// Of where a peer is to this vehicle that was carried forward by a way since its beacon.
+// Uncertainty of the offset to a peer that was carried forward by a displacement since its beacon.
 PoseCovariance Apart(const Beacon& beacon, Vec2 way_world, const OwnView& s) {
   return s.covariance + Carried(beacon.covariance, way_world);
 }
@@ -36,31 +36,31 @@ double Reach(const Beacon& beacon, double sigma_m, const OwnView& s) {
   return s.options.profile.body_radius_m + beacon.body_radius_m + kMargin_m + kSigmas * sigma_m;
 }
 
-// True if one drives behind the other in the same lane: that is a matter of distance, not of right
-// of way. Side by side, or coming from another lane, it is not following.
+// True if one drives behind the other in the same lane: then distance decides, not right of way.
+// Side by side, or coming from another lane, it is not following.
 bool Follows(const CarriedPeer& view, bool standing, const OwnView& s) {
   if (Has(Defect::kLeaderIsConflict)) return false;
   constexpr double kSameWay = 0.94;        // the cosine of 20 degrees
-  constexpr double kThereAlready_m = 0.5;  // which way it is on says little
+  constexpr double kThereAlready_m = 0.5;  // nearer to its target its direction says little
   const double across = Cross(s.path.direction_world, view.offset_world);
   const double bodies = s.options.profile.body_radius_m + view.peer->beacon.body_radius_m;
   if (across >= bodies || across <= -bodies) return false;
   const double along = Dot(s.path.direction_world, view.offset_world);
   if (along <= bodies && along >= -bodies) return false;
   if (Dot(s.path.direction_world, view.forward_world) >= kSameWay) return true;
-  // One that stands may be turned to whatever it looks for a way past; it means to go on.
+  // A standing peer may be turned anywhere, looking for a path past something; it will resume.
   if (s.options.behaviour != Behaviour::kCooperative || !standing) return false;
   const double way_m = Norm(view.way_world);
   return way_m > kThereAlready_m && Dot(s.path.direction_world, view.way_world) >= kSameWay * way_m;
 }
 
-// Only the ids tell the two keys apart.
+// The two keys differ by their ids alone.
 bool IsTie(const OrderKey& a, const OrderKey& b) {
   return a.waited_ticks == b.waited_ticks && a.speed_bucket == b.speed_bucket;
 }
 
-// By both keys as published. Whom a light stops comes after whom none does, as long as it says so:
-// it stands before its line, and would only block the ones with green.
+// Compares the published priority keys. A vehicle stopped at a red light yields to one that is not:
+// it could only block traffic that has green.
 bool ComesFirst(const HeardPeer& view, bool at_signal, const OwnView& s) {
   if (at_signal != s.at_signal) return s.at_signal;
   const OrderKey& peers = view.peer->beacon.order;
@@ -70,15 +70,15 @@ bool ComesFirst(const HeardPeer& view, bool at_signal, const OwnView& s) {
   return giveway::ComesFirst(peers, view.peer->id, s.order, s.options.id);
 }
 
-// The light's word counts only while the peer could still keep it: it stands, or can stop before
-// the conflict. Of two that lights stopped until now neither may count on the other's.
+// A red light counts only while the peer can still stop for it: it stands, or can stop before the
+// conflict. Two vehicles that were both at a red light until now may not count on each other's.
 bool WaitsAtSignal(const RelatedPeer& view, const OwnView& s) {
   if (!view.at_signal || s.at_signal) return false;
   return view.standing || !view.conflict ||
          view.conflict->peer.begin_m >= StoppingDistanceOf(view, s);
 }
 
-// True if no point of the way comes within reach_m of the own path.
+// True if no point of the peer's path comes within reach_m of the own path.
 bool StaysAway(Vec2 from_world, Vec2 to_world, double reach_m, const Path& own) {
   const Vec2 from = from_world - own.from_world;
   const Vec2 to = to_world - own.from_world;
@@ -89,13 +89,13 @@ bool StaysAway(Vec2 from_world, Vec2 to_world, double reach_m, const Path& own) 
   return Dot(own.direction_world, from) < -reach_m && Dot(own.direction_world, to) < -reach_m;
 }
 
-// Which way a peer drives says little about one that is there.
+// The direction to its target says little about a peer that is nearly there.
 constexpr double kThere_m = 0.05;
-// What is out of reach by this much is so however it is rounded, and whatever way it turns when it
-// is there.
+// Out of reach by this margin holds however it is rounded, and in whatever direction the peer turns
+// at its target.
 constexpr double kWellAway_m = 2 * kThere_m + 0.001;
 
-// Where both vehicles' ways to where they drive next cross, of two that do not follow each other.
+// Where the paths of both vehicles to their next targets cross, if neither follows the other.
 void FindCrossing(RelatedPeer* view, const OwnView& s) {
   const bool cooperative = s.options.behaviour == Behaviour::kCooperative;
   if (!view->way_is_near) return;
@@ -109,26 +109,26 @@ void FindCrossing(RelatedPeer* view, const OwnView& s) {
   view->crossing = conflict;
 }
 
-// Of one that was silent for longer nothing can be said; the ultrasonics and PeerLost see to it.
+// After a longer silence nothing can be said of a peer; the ultrasonics and PeerLost take over.
 constexpr double kClaimLasts_s = 1.0;
 
-// How long a peer may have done as it liked when what this decision moves comes to its end.
+// How long a peer may have moved freely by the time that the motion decided now has ended.
 double UnknownSeconds(const Beacon& beacon, const OwnView& s) {
   return Seconds((TicksBetween(beacon.tick, s.tick) + 1) * s.options.tick_period);
 }
 
-// How far apart the centre of this vehicle keeps from a claim.
+// The clearance that the centre of this vehicle keeps from a claim.
 double ApartFrom(double sigma_m, const OwnView& s) {
   return s.options.profile.body_radius_m + kClearance_m + s.sweeps_m + kSigmas * sigma_m;
 }
 
-// How far the centre of this vehicle surely keeps from a claim without length, and a bit more.
+// At this distance the centre of this vehicle surely clears a claim without length, with a margin.
 double KeptFrom(const Beacon& beacon, double sigma_m, const OwnView& s) {
   return ApartFrom(sigma_m, s) + beacon.body_radius_m + kWellAway_m;
 }
 
-// True if the claim lies beyond where it could slow this vehicle down: a claim reaches no farther
-// than its length and is no wider than that and the body.
+// True if the claim lies too far away to slow this vehicle down: a claim reaches no further than
+// its length and is no wider than that and the body.
 bool IsClaimFar(const Beacon& beacon, double speed_m_s, double sigma_m, double unknown_s,
                 const OwnView& s) {
   const double length_m =
@@ -140,8 +140,8 @@ bool IsClaimFar(const Beacon& beacon, double speed_m_s, double sigma_m, double u
   return SquaredNorm(offset) > far_m * far_m;
 }
 
-// Beyond this, shell to shell, nothing is looked for but claims and ways: detours and echoes of the
-// ultrasonics are nearer, what radar and lidar show may be this far.
+// Beyond this, shell to shell, only claims and paths are computed: detours and echoes of the
+// ultrasonics are nearer, objects of radar and lidar may be this far.
 constexpr double kLooksAround_m = 8;
 constexpr double kSeesFar_m = 25;
 
@@ -151,7 +151,7 @@ double CarriedSeconds(const Beacon& beacon, bool fresh, const OwnView& s) {
   return fresh ? Seconds(TicksBetween(beacon.tick, s.tick) * s.options.tick_period) : 0;
 }
 
-// How far it is, how sure that is, and which way it drives from there.
+// How far away it is, how certain that is, and where it drives from there.
 void Measure(CarriedPeer* measured, const OwnView& s) {
   CarriedPeer& view = *measured;
   const Beacon& beacon = view.peer->beacon;
@@ -244,8 +244,8 @@ void Relate(RelatedPeer* related, const OwnView& s) {
                             ? view.distance_m
                             : GateDistance(metric, view.offset_world);
   view.gate_gap_m = gate_m - radius_m - beacon.body_radius_m;
-  // One that has arrived goes nowhere, however it is turned: nobody queues behind it. Nor behind
-  // one that is gone, which has no way to cross either.
+  // One that has arrived does not move, whatever its heading: no vehicle queues behind it. Nor
+  // behind one that has left, which has no path to cross either.
   const bool goes_on = !StaysPut(beacon) && !IsGone(*view.peer);
   const bool follows = goes_on && Follows(view, view.standing, s);
   view.leads = follows && Dot(view.offset_world, s.path.direction_world) > 0;
@@ -269,8 +269,8 @@ RelatedPeers LookAt(PeerViews<CarriedPeer> carried, const OwnView& s) {
   for (PeerView& view : views) {
     Relate(&view, s);
     related.someone_doubted = related.someone_doubted || (view.fresh && !view.believed);
-    // To a doubted peer's word an echo near it is still an echo that nobody explains; by the
-    // lecture's behaviours a known body is kept from no less than an unknown one.
+    // An echo near a doubted peer counts as unexplained; the lecture's behaviours keep the same
+    // distance from a known body as from an unknown one.
     const bool explains = view.believed || s.options.behaviour != Behaviour::kCooperative;
     related.explained |= explains ? view.explains : 0;
   }

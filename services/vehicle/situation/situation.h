@@ -1,10 +1,10 @@
-// One tick as the rules see it, in stages. Each is made whole by one function, of those before it,
-// and is only read from then on: what is not known yet cannot be asked for.
+// One tick as the rules see it, in stages. Each is completed by one function from those before it,
+// and only read from then on: what is not known yet cannot be asked for.
 //
 //   OwnView     Vehicle::LookAtSelf    this vehicle: pose, motion, course, sensors, lights
-//   PeersNow    Vehicle::LookAround    the peers that matter, related to it
+//   PeersNow    Vehicle::LookAround    the relevant peers, related to it
 //   Movers      ListenForMovers        what moves near and is none of them
-//   Escape      Detour                 what to try where it gets no nearer
+//   Escape      Detour                 what to try when it makes no progress
 //   Situation   BuildSituation         all of these: what the rules read
 #pragma once
 
@@ -40,9 +40,9 @@ struct CarriedPeer : HeardPeer {
   double distance_m;     // the same
   PoseCovariance apart;  // of where the peer is to this vehicle
   double sigma_m;        // the same along its worst axis
-  Vec2 way_world;        // from where it is to where it drives next
-  bool way_is_near;      // that comes within reach of the own way, or may
-  // Only of a way that is near: its length and its unit vector, or that of the heading where the
+  Vec2 way_world;        // from where it is to its next target
+  bool way_is_near;      // that path comes within reach of the own path, or may
+  // Only if that path is near: its length and its unit vector, or that of the heading where the
   // peer is there already.
   double way_m;
   Vec2 way_direction_world;
@@ -76,7 +76,8 @@ struct PeerView : RelatedPeer {
 static_assert(sizeof(PeerView) <= 336);  // a step makes up to a thousand: they must not grow
 
 // Views in the making. They are made where they stay, a part of all of them at a time: copying one
-// costs as much as making it. `Part` is the last that is made; only who makes the next sees them.
+// costs as much as making it. `Part` is the last that is made; only the function that makes the
+// next part sees them.
 template <typename Part>
 class PeerViews {
  public:
@@ -104,7 +105,7 @@ struct HeardPlaces {
 
 // A box that would be left too late: see box.h.
 struct BlockedBox {
-  double begin_m = 0;  // from the own axle centre, along the own way; above 0
+  double begin_m = 0;  // from the own axle centre, along the own path; above 0
   VehicleId by = kNobody;
   Tick told = kNoTick;  // of the beacon that shows it
 };
@@ -134,10 +135,10 @@ struct OwnMotion {
   double turn_rad_s = 0;  // measured
   WheelSpeeds wheels;     // measured
   double reaction_s = 0;  // see ReactionSeconds
-  double slows_m = 0;     // a free way no longer than this is too short for the cruise speed
+  double slows_m = 0;     // a free path no longer than this is too short for the cruise speed
   double sweeps_m = 0;    // see OwnSweep
   double looks_m = 0;     // see LooksAround
-  bool turns = false;     // sharply, or did just now: echoes do not say who moves
+  bool turns = false;     // sharply, or did just now: echoes do not show which of both moves
 };
 
 // Where it drives to.
@@ -175,12 +176,12 @@ struct OwnView : Moment, OwnPose, OwnMotion, OwnCourse, SensorsNow, Lights {
 struct Encounters {
   bool holds = false;     // this vehicle holds for any of them
   bool let_pass = false;  // one with a peer that comes first is over, just now
-  bool meets = false;     // one is under way
+  bool meets = false;     // one is active
 };
 
 // The second stage: the peers, and what follows from all of them together.
 struct PeersNow {
-  // Those that are near, that cross the own way, or with whom an encounter is under way.
+  // Those that are near, that cross the own path, or with which an encounter is active.
   std::span<const PeerView> peers;
   std::uint32_t explained = 0;   // union of the `explains` of peers it is believed of
   bool someone_lost = false;     // of all peers
@@ -195,15 +196,15 @@ struct Movers {
   int deaf_sensor = -1;
 };
 
-// What a vehicle does that comes no nearer to where it drives.
+// What a vehicle does when it makes no progress towards its target.
 struct Escape {
   bool aimless = false;              // has driven about for seconds without coming nearer
   bool very_aimless = false;         // for so long that it does not stay in line any more
   std::optional<Vec2> detour_world;  // where to go first, instead of straight to the goal
-  // World frame: taken of late, past echoes or out of where it is caught. Echoes turn with the
-  // vehicle: a new choice in every tick would oscillate.
+  // World frame: chosen recently, to get past echoes or out of where it is stuck. Echoes turn with
+  // the vehicle: choosing again each tick it would turn to and fro for ever.
   std::optional<double> away_rad;
-  int tries = -1;  // headings tried since it is caught where it is; negative if it is not
+  int tries = -1;  // headings tried since it is stuck at this place; negative if it is not
 };
 
 // The last stage, what the rules read: both before, and what follows from both.
@@ -224,7 +225,7 @@ inline constexpr double kNoGoal_m = 1e6;
 inline constexpr double kSigmas = 2;
 // Kept between two shells beyond what geometry and uncertainty ask for.
 inline constexpr double kPassingMargin_m = 0.2;
-// Kept from a claim on top of what is not known: steering bends the straight way a little.
+// Kept from a claim on top of the uncertainty: steering bends the straight path a little.
 inline constexpr double kClearance_m = 0.05;
 // Left between where the vehicle stops and where it must have stopped.
 inline constexpr double kInHand_m = 0.03;
@@ -238,13 +239,13 @@ inline double ReactionSeconds(const VehicleOptions& options) {
 // Distance this vehicle needs to stand still from its present speed, with one tick in hand.
 double OwnStoppingDistance(const OwnView& s);
 
-// How far beside its straight stopping way this vehicle ends, turning as it does now.
+// How far from its straight stopping path this vehicle ends, turning as it does now.
 double OwnSweep(const OwnMotion& s, const VehicleOptions& options);
 
 // Distance the peer needs to stand still from its present speed, by what it says of its brakes.
 double StoppingDistanceOf(const CarriedPeer& view, const OwnView& s);
 
-// The distance, shell to shell, at which two closing vehicles must begin to stop: both stopping
+// The distance, shell to shell, at which two closing vehicles must start to stop: both stopping
 // distances, margin and uncertainty; never below the gate.
 double CriticalDistance(const OwnView& s, const CarriedPeer& view);
 
@@ -257,14 +258,14 @@ inline Vec2 InBody(const OwnView& s, Vec2 point_world) {
 // How far the two axle centres keep apart when one steers round the other.
 double RoomBeside(const CarriedPeer& view, const OwnView& s);
 
-// Where the vehicle drives to in a straight line; without a goal straight on, as far as anybody
-// looks; its own place if it has arrived.
+// The point that the vehicle drives straight to; without a goal straight ahead, beyond the range of
+// any computation; its own place if it has arrived.
 Vec2 Toward(const OwnView& s);
 
-// True if the own body leaves the peer no room where it drives to.
+// True if the own body covers the peer's target, so that the peer cannot stand there.
 bool IsOnGoalOf(const CarriedPeer& view, const OwnView& s);
 
-// True if the peer's body leaves no room for the own one at that point.
+// True if the peer's body covers that point, so that this vehicle cannot stand there.
 bool Occupies(const CarriedPeer& view, Vec2 point_world, const OwnView& s);
 
 // The velocity of a peer where it is now.

@@ -110,7 +110,7 @@ TEST(FaultsFile, IsRefusedFieldByField) {
   ExpectRefused(R"(at { name: "a" time_s: 1 vehicle: 1 })", "at[0].kind", "missing");
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "kill" })", "at[0]", "has no target");
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "pause" vehicle: 1 target: "world" for_s: 1 })",
-                "at[0].target", "beside vehicle");
+                "at[0].target", "together with vehicle");
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "kill" vehicle: 0 })", "at[0].vehicle",
                 "between 1");
   ExpectRefused(R"(at { name: "a" time_s: 1 kind: "kill" target: "moon" })", "at[0].target",
@@ -150,7 +150,7 @@ TEST(FaultsFile, IsRefusedFieldByField) {
   ExpectRefused(R"(random { name: "a" kind: "churn" mean_between_s: 9 for_s: 5 })", "random[0]",
                 "churn cannot meet vehicle");
   ExpectRefused(R"(random { name: "a" kind: "kill" mean_between_s: 9 vehicle: 1 target: "world" })",
-                "random[0].target", "beside vehicle");
+                "random[0].target", "together with vehicle");
   ExpectRefused(R"(random { name: "a" kind: "kill" mean_between_s: 9 when: 3 })", "when",
                 "no field");
 }

@@ -126,14 +126,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Refused{"from=4294967296", "no sender"}, Refused{"to=world", "no vehicle"},
                       Refused{"blackout=5s", "is no span of time"},
                       Refused{"blackout=5..7", "is no span of time"},
-                      Refused{"blackout=7s..5s", "must begin before it ends"},
-                      Refused{"blackout=5s..5s", "must begin before it ends"},
+                      Refused{"blackout=7s..5s", "must start before it ends"},
+                      Refused{"blackout=5s..5s", "must start before it ends"},
                       Refused{"blackout=-1s..5s", "between 0 and 2592000 s"},
                       Refused{"during=5s", "is no span of time"},
                       Refused{"during=..", "is no span of time"},
                       Refused{"during=5s..7", "is no span of time"},
-                      Refused{"during=7s..5s", "must begin before it ends"},
-                      Refused{"during=..0s", "must begin before it ends"},
+                      Refused{"during=7s..5s", "must start before it ends"},
+                      Refused{"during=..0s", "must start before it ends"},
                       Refused{"during=1s..2s,during=4s..5s", "is given twice"},
                       Refused{"during=2592001s..", "between 0 and 2592000 s"},
                       Refused{"seed=-1", "seed = -1: must be a whole number"},
@@ -225,11 +225,11 @@ TEST(ImpairmentInAFile, IsRefusedFieldByField) {
   refused("rate_bytes_s: -1", "rate_bytes_s", "bytes/s");
   refused("from_vehicle: 3", "from_vehicle", "no vehicle has this id");
   refused("to_vehicle: 0", "to_vehicle", "between 1");
-  refused("from: world from_vehicle: 1", "from", "beside from_vehicle");
-  refused("blackout { from_s: 5 to_s: 5 }", "blackout[0].to_s", "ends before it begins");
+  refused("from: world from_vehicle: 1", "from", "together with from_vehicle");
+  refused("blackout { from_s: 5 to_s: 5 }", "blackout[0].to_s", "ends before it starts");
   refused("blackout { from_s: 5 }", "blackout[0].to_s", "missing");
-  refused("from_s: 5 to_s: 5", "to_s", "ends before it begins");
-  refused("to_s: 0", "to_s", "ends before it begins");
+  refused("from_s: 5 to_s: 5", "to_s", "ends before it starts");
+  refused("to_s: 0", "to_s", "ends before it starts");
   refused("from_s: -1", "from_s", "between 0 and 2592000 s");
 }
 

@@ -50,7 +50,7 @@ TEST(PlaceRules, ANumberWithoutEffectInItsTierIsRefused) {
 
 TEST(PlaceRules, ABodyHasOneShape) {
   EXPECT_THAT(With("profile { body_radius_m: 0.3 box { half_length_m: 0.4 half_width_m: 0.3 } }"),
-              ElementsAre(Is(17, "profile.body_radius_m", "given beside box")));
+              ElementsAre(Is(17, "profile.body_radius_m", "together with box")));
   EXPECT_THAT(With("profile { box { half_length_m: 0.04 } }"),
               ElementsAre(Is(17, "profile.box.half_length_m", "between 0.05 and 10 m"),
                           Is(17, "profile.box.half_width_m", "missing")));
@@ -71,7 +71,7 @@ TEST(PlaceRules, AnObstacleHasOneShapeAndAPlace) {
                                                 Is(17, "obstacle[0].start", "missing")));
   EXPECT_THAT(With("obstacle { disc_radius_m: 1 box { half_length_m: 1 half_width_m: 1 } "
                    "start { x_m: 8 y_m: 0 } }"),
-              ElementsAre(Is(17, "obstacle[0].disc_radius_m", "beside box")));
+              ElementsAre(Is(17, "obstacle[0].disc_radius_m", "together with box")));
   EXPECT_THAT(With("obstacle { disc_radius_m: 0.001 start { x_m: nan y_m: inf } }"),
               ElementsAre(Is(17, "obstacle[0].disc_radius_m", "between 0.01 and 10"),
                           Is(17, "obstacle[0].start.x_m", "finite"),
@@ -81,8 +81,9 @@ TEST(PlaceRules, AnObstacleHasOneShapeAndAPlace) {
 TEST(PlaceRules, WhatMovesHasAWayAndASpeed) {
   const std::string disc = "obstacle { disc_radius_m: 0.1 start { x_m: 8 y_m: 0 } ";
   EXPECT_THAT(With(disc + "speed_m_s: 1 }"),
-              ElementsAre(Is(17, "obstacle[0].speed_m_s", "no way to go")));
-  EXPECT_THAT(With(disc + "loop: true }"), ElementsAre(Is(17, "obstacle[0].loop", "no way to go")));
+              ElementsAre(Is(17, "obstacle[0].speed_m_s", "there is no waypoint")));
+  EXPECT_THAT(With(disc + "loop: true }"),
+              ElementsAre(Is(17, "obstacle[0].loop", "there is no waypoint")));
   EXPECT_THAT(With(disc + "waypoint { x_m: 9 y_m: 0 } }"),
               ElementsAre(Is(17, "obstacle[0].speed_m_s", "missing")));
   EXPECT_THAT(With(disc + "waypoint { x_m: 9 y_m: 0 } speed_m_s: 10.1 }"),
@@ -168,7 +169,7 @@ TEST(PlaceRules, WhoJoinsWithoutAGoalCannotBeExpectedToArrive) {
 
 TEST(PlaceRules, ASetIsNotNamedAndLeftOpenAtOnce) {
   EXPECT_THAT(ProblemsOf(Spoilt("arrived: [1]", "arrived: [1] any_arrived: true")),
-              ElementsAre(Is(16, "expect.any_arrived", "given beside arrived")));
+              ElementsAre(Is(16, "expect.any_arrived", "together with arrived")));
 }
 
 TEST(PlaceRules, SignalIdsAreUnique) {

@@ -156,7 +156,7 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
                          "# HELP giveway_vehicle_ready 1 if /readyz says so.\n"
                          "# TYPE giveway_vehicle_ready gauge\n"
                          "giveway_vehicle_ready 1\n"
-                         "# HELP giveway_vehicle_loop_turns_total Turns of the control loop.\n"
+                         "# HELP giveway_vehicle_loop_turns_total Iterations of the control loop.\n"
                          "# TYPE giveway_vehicle_loop_turns_total counter\n"
                          "giveway_vehicle_loop_turns_total 7\n"));
   for (const char* line : {"\ngiveway_vehicle_mode{mode=\"cooperative\"} 1\n",

@@ -92,7 +92,7 @@ TEST(RecordingFile, WhatIsNoRecordingIsSaidInWords) {
 
 TEST(RecordingFile, RecordsOutOfPlaceAreRefused) {
   std::vector<Record> records = test::RecordedCrossing(2);
-  EXPECT_THAT(Read(test::FileOf({records[1]})).complaint, HasSubstr("does not begin"));
+  EXPECT_THAT(Read(test::FileOf({records[1]})).complaint, HasSubstr("does not start"));
   EXPECT_THAT(Read(test::FileOf({records[0], records[0]})).complaint, HasSubstr("second vehicle"));
   EXPECT_THAT(Read(test::FileOf(records) + "x").complaint, HasSubstr("behind its end"));
   RecordedLife life = std::get<RecordedLife>(records[0]);

@@ -121,7 +121,7 @@ TEST(Report, TheTableAlignsItsValues) {
 TEST(Report, TheTableSaysWhatDoesNotExist) {
   const std::string table = ToTable(Report{}, 40);
   EXPECT_THAT(table, HasSubstr("NOT RUN"));
-  EXPECT_THAT(table, HasSubstr("\nhalted       nobody\n"));
+  EXPECT_THAT(table, HasSubstr("\nhalted       none\n"));
   EXPECT_THAT(table, HasSubstr("\nclosest      -\n"));
 }
 

@@ -115,7 +115,7 @@ TEST(CampaignFile, SaysWhatIsWrongWithItsScenario) {
   EXPECT_THAT(
       ProblemsOfCampaign(least + "scenario: \"convoy\"\nduration_s: 0\ngenerator: \"swarm\""),
       ElementsAre(Is(3, "scenario", "is a generator too"), Is(4, "duration_s", "between 1"),
-                  Is(5, "generator", "beside a scenario")));
+                  Is(5, "generator", "together with a scenario")));
   EXPECT_THAT(ProblemsOfCampaign(least + "scenario: \"-x\""),
               ElementsAre(Is(3, "scenario", "no name")));
   EXPECT_THAT(ProblemsOfCampaign(std::string(kLeast) + "duration_s: 9"),

@@ -26,7 +26,7 @@ TEST(StopwatchWords, ALineSaysWhenWhatAndAboutWhom) {
 
 TEST(StopwatchWords, OtherLinesSayNothing) {
   for (const std::string& line :
-       {Line("cruise (cooperative)"), Line("drill: the control loop goes on"),
+       {Line("cruise (cooperative)"), Line("drill: the control loop resumes"),
         Line("unmatched: a vehicle the library does not name"), Line("beacon_stale: vehicle x"),
         std::string("12:00:00 warning vehicle 1: beacon_stale: vehicle 2"), std::string()}) {
     EXPECT_FALSE(WordOf(line)) << line;
