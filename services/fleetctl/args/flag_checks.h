@@ -1,5 +1,5 @@
-// What several verbs ask of the text of a flag: empty if it is right, else what is wrong, for
-// CLI11's check(). And the flags that all who open a link have alike.
+// Validators of flags that several verbs share: each returns an empty string or the error message,
+// for CLI11's check(). And the flags common to all verbs that open a link.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -11,7 +11,7 @@
 
 namespace giveway::fleetctl {
 
-// Vehicles of a fleet that a verb starts, and of one that it only reckons with.
+// Most vehicles of a fleet that a verb starts, and of one that it only calculates for.
 inline constexpr std::uint32_t kMostStarted = 1024;
 inline constexpr std::uint32_t kMostReckonedWith = 4096;
 

@@ -1,5 +1,5 @@
-// Which shard a process is: as the engine that started it says in the environment. Pure; the
-// environment is lent as a function.
+// Which shard this process is, from the environment set by the engine that started it. Pure: the
+// environment is passed as a function.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Results of shards out of files, and out of logs in which other lines stand beside them. A log of
-// a whole campaign may be large: it is read line by line, and what is no result is not kept.
+// Reads shard results from files, and from logs that also have other lines. The log of a whole
+// campaign may be large: it is read line by line, and only results are kept.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// What is wrong with a host a fleet is to run on, or runs on. Pure: facts in, findings out; each
-// rule adds its own, and none depends on another having run.
+// What is wrong with a host that runs a fleet or is going to. Pure: facts in, findings out; each
+// rule adds its own findings and depends on no other rule.
 #pragma once
 
 #include "services/fleetctl/doctor/doctor_facts.h"
@@ -7,7 +7,7 @@
 
 namespace giveway::fleetctl {
 
-// Of /dev/shm: unused files, files of others, room.
+// Of /dev/shm: unused files, other users' files, free space.
 void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings);
 void CheckForeignFiles(const HostFacts& host, qos::Findings* findings);
 void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings);

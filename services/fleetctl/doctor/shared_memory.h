@@ -2,7 +2,7 @@
 // process still uses them. Pure.
 //
 //   fastrtps_<16 hex digits>   a participant's segment    ..._el  locked as long as its owner lives
-//   fastrtps_port<N>           the queue of a port        ..._el, ..._sl  locked by who listens
+//   fastrtps_port<N>           the queue of a port        ..._el, ..._sl  locked by the listener
 //   sem.fastrtps_port<N>_mutex held while a port is opened
 //   fast_datasharing_...       a writer's samples; without a lock
 //
@@ -30,8 +30,8 @@ struct MemoryFile {
   std::uint32_t user = 0;    // who owns it
   std::uint32_t mode = 0;    // permission bits
   std::int64_t age_s = 0;    // since it was last written to or made
-  std::optional<bool> held;  // another process has it open or mapped, as the kernel says; it does
-                             // not tell every user
+  std::optional<bool> held;  // another process has it open or mapped, according to the kernel,
+                             // which does not show this to every user
   bool locked = false;       // another process holds its lock; looked at where `held` is not known
   std::vector<int> users;    // those seen to have it open or mapped
 };

@@ -1,4 +1,4 @@
-// Which topics `fleetctl listen` knows, and the lines one topic's samples become. Pure.
+// The topics that `fleetctl listen` knows, and the output lines of a sample. Pure.
 #pragma once
 
 #include <cstdint>
@@ -36,8 +36,8 @@ struct ListenFilter {
   bool json = false;
 };
 
-// One line a sample, without its line feed; each says that it was heard `heard_s` after the
-// beginning.
+// One line per sample, without its line feed; each says that the sample was received `heard_s`
+// after the start.
 std::vector<std::string> SampleLines(const link::Observed& observed, const ListenFilter& filter,
                                      double heard_s);
 

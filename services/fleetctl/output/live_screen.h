@@ -1,5 +1,5 @@
-// Shows the progress of a run: a table redrawn in place where stdout is a terminal, else a line a
-// second on stderr. The cursor is restored on destruction, so on every way out.
+// Shows the progress of a run: a table redrawn in place if stdout is a terminal, else one line a
+// second on stderr. The destructor restores the cursor, so it is restored on every exit path.
 #pragma once
 
 #include <cstddef>

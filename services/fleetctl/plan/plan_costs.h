@@ -1,9 +1,9 @@
-// What tests/bench/fleet_costs.sh measured of fleets of 2, 8, 16 and 32 vehicles, as straight lines
-// through its rows: config/qos/default.xml, Fast DDS 2.9.1 over loopback, 20 ticks a second,
-// all receive all, two cores of a virtual machine, nothing else running. Two runs differ
-// by 10 % in processor time, which is of such a core; another one differs by its speed. Fast DDS
-// 3.1.2 has more threads; memory, sockets, descriptors and packets were within 4 % of these, and
-// its processor time was not measured on a machine that does nothing else.
+// Linear fits to what tests/bench/fleet_costs.sh measured of fleets of 2, 8, 16 and 32 vehicles:
+// config/qos/default.xml, Fast DDS 2.9.1 over loopback, 20 ticks a second, all receive all, two
+// cores of a virtual machine, nothing else running. Processor time differs by 10 % between two
+// runs, and by core speed between machines. Fast DDS 3.1.2 has more threads; its memory, sockets,
+// descriptors and packets were within 4 % of these, its processor time was not measured on an idle
+// machine.
 #pragma once
 
 namespace giveway::fleetctl {
@@ -31,10 +31,10 @@ struct Costs {
   double sockets = 5;  // UDP
   double descriptors = 12;
 
-  // Packets a second of a vehicle and of the world to it, beside beacons and announcements.
+  // Packets a second of a vehicle and of the world to it, in addition to beacons and announcements.
   double packets_a_vehicle = 113.5;
   double bytes_a_packet = 360;
-  // Until all have found all: for each ordered pair of vehicles.
+  // During discovery: for each ordered pair of vehicles.
   double discovery_packets_a_pair = 60;
 };
 

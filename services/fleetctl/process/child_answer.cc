@@ -22,7 +22,7 @@ namespace {
     if (count < 0 && errno != EINTR) break;
     sent += count > 0 ? static_cast<std::size_t>(count) : 0;
   }
-  ::_exit(0);  // the library's own goodbye may hang on threads that a fork did not copy
+  ::_exit(0);  // the library's exit handlers may wait for threads that fork() did not copy
 }
 
 // Until the other end is closed, or `limit`.

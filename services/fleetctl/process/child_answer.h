@@ -1,5 +1,5 @@
-// What a function answers in a forked copy of this process: for what a process can do only once, or
-// what may crash it. Called while this process has no other threads.
+// Runs a function in a forked copy of this process and returns its answer: for what a process can
+// do only once, or what may crash it. Call it while this process has no other threads.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,8 @@ struct ChildAnswer {
   bool whole = true;  // false: it crashed or took too long; the text may be cut off
 };
 
-// `tell` throws nothing. The child dies with this process, and after `patience`. Throws StartError.
+// The function throws nothing. The child dies with this process, and after `patience`. Throws
+// StartError.
 ChildAnswer AskChild(const std::function<std::string()>& tell,
                      Nanoseconds patience = std::chrono::hours(1));
 

@@ -1,6 +1,6 @@
-// One child process that cannot be lost: started with its output through a pipe, polled and
-// signalled by process id only, killed and reaped on destruction. It dies with its parent (parent-
-// death signal). Judges nothing: whether an end was wanted is for the caller to say.
+// One child process that cannot leak: started with its output through a pipe, polled and signalled
+// by process id only, killed and reaped on destruction. It dies with its parent (parent-death
+// signal). Whether an exit was expected is for the caller to decide.
 #pragma once
 
 #include <sys/types.h>
@@ -40,7 +40,7 @@ struct ProcessEnd {
 // "exit code 2" or "signal 9 (Killed)".
 std::string Describe(ProcessEnd end);
 
-// Where the fleet's programs are: beside this one.
+// The folder of the fleet's programs: that of this executable.
 std::filesystem::path ProgramFolder();
 
 struct ChildCommand {

@@ -1,8 +1,8 @@
 // Takes a DDS domain for this run, so that two runs on one machine never hear each other. The lock
-// is an flock on a file of the temporary folder every user shares; it lasts until the last process
-// that holds the descriptor is gone, so children that inherit it keep the domain taken. Whoever
-// does not share that folder, a container on the host's network or another program, is seen by its
-// ports.
+// is an flock on a file in the temporary folder that all users share; it is held until the last
+// process with the descriptor ends, so children that inherit it keep the domain taken. Fleets that
+// do not share that folder (a container on the host's network, another program) are detected by
+// their ports.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What every verb's exit code means beside 0: 1 is a verdict (failed, found something, differs).
+// The exit codes of every verb besides 0: 1 is a verdict (failed, found something, differs).
 #pragma once
 
 namespace giveway::fleetctl {

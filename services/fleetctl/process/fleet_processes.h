@@ -1,5 +1,6 @@
-// The processes of one fleet: starts, polls, signals, restarts, measures and ends them, and tells
-// planned ends from others. Which ends are allowed is for the caller to say. Knows no DDS.
+// The processes of one fleet: starts, polls, signals, restarts, measures and ends them, and
+// distinguishes planned exits from others. The caller decides which exits are allowed. Knows no
+// DDS.
 #pragma once
 
 #include <deque>

@@ -1,6 +1,6 @@
-// The key that orders to a fleet are sealed with. A fleet that is started here without one gets a
-// key of its own for as long as it runs, in a folder of this user alone: who may start a fleet may
-// give it orders from the same account, and nobody else may.
+// The key that seals orders to a fleet. A fleet started here without one gets its own for as long
+// as it runs, in a folder of this user alone: the account that started a fleet may give it orders,
+// and no other.
 #pragma once
 
 #include <cstdint>

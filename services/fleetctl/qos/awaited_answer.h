@@ -1,4 +1,4 @@
-// Which of the answers that come counts as the one to an order. Pure.
+// Decides which of the answers received is the one to an order. Pure.
 #pragma once
 
 #include <chrono>
@@ -12,8 +12,8 @@ namespace giveway::fleetctl {
 
 class AwaitedAnswer {
  public:
-  // A refusal without a seal is of another key, or of a clock that is behind; or the order was said
-  // again by an intruder, and what the service answered to the operator is on its way.
+  // An unsealed refusal comes from a service with another key, or whose clock is behind; or an
+  // intruder replayed the order, and the answer to the operator is still in transit.
   static constexpr Nanoseconds kUnsealedPatience = std::chrono::seconds(1);
 
   // `has_key`: answers are sealed, but for refusals.

@@ -60,7 +60,7 @@ ServiceFigures Between(const VehicleStatus& before, const VehicleStatus& after, 
 }
 
 std::string WhyWorse(const ServiceFigures& canary, const ServiceFigures& rest) {
-  if (rest.taken == 0) return "there is nobody to compare it with";
+  if (rest.taken == 0) return "there is no other vehicle to compare it with";
   if (canary.taken == 0) return "it hears no beacon";
   const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
   if (IsMore(number(canary.alarms), canary.pair_seconds, number(rest.alarms), rest.pair_seconds)) {

@@ -50,7 +50,7 @@ CanaryWatch::Both CanaryWatch::Watch(VehicleId vehicle, Nanoseconds span) {
   if (ours == seen_.end() || end - ours->second.last_at > kSilence) {
     both.trouble = "it fell silent";
   } else if (ours->second.began_anew) {
-    both.trouble = "its process began anew";
+    both.trouble = "its process restarted";
   }
   for (const auto& [id, seen] : seen_) {
     ServiceFigures& figures = id == vehicle ? both.canary : both.rest;

@@ -1,5 +1,5 @@
-// `fleetctl qos show --live`: what a running vehicle says its beacons run with, beside what a
-// profile file would give it. Values in; the exit code out.
+// `fleetctl qos show --live`: the QoS a running vehicle reports for its beacons, compared with what
+// a profile file would give it. Values in, exit code out.
 #pragma once
 
 #include <cstdint>

@@ -58,12 +58,12 @@ std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcom
     return "";
   }
   const auto state = StateFrom(image.state, image.options);
-  if (state == nullptr) return "begins with a brain that this program cannot be in";
+  if (state == nullptr) return "starts from a vehicle state that this program cannot restore";
   brain_.emplace(image.options, next_.boot_epoch);
   brain_->Restore(*state);
   if (brain_->Hash() == image.hash) return "";
   brain_.reset();
-  return "begins with a brain that is not the one recorded";
+  return "starts from a vehicle state that differs from the recorded hash";
 }
 
 ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {

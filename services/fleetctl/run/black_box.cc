@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A soak that goes on after a crash keeps the pages of before.
+// A resumed soak keeps the pages written before the crash.
 fs::path FreePage(const fs::path& folder, std::size_t* number) {
   std::error_code error;
   while (true) {

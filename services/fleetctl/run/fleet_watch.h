@@ -1,5 +1,5 @@
-// What an observer knows of a run: folds what the link brings into the newest status of each
-// vehicle, its track, the events and the figures, and makes the report of it. Pure.
+// An observer's view of a run: folds what the link delivers into each vehicle's newest status, its
+// track, the events and the figures, and builds the report from them. Pure.
 #pragma once
 
 #include <cstdint>
@@ -55,12 +55,12 @@ class FleetWatch {
  private:
   void FoldEvent(const WorldEvent& event);
   void FoldStatus(const VehicleStatus& status);
-  // Of a vehicle's way at most this many points are kept, however long the run: when they are that
-  // many, every other one is left out, and from then on of those that come.
+  // Most points kept of one vehicle's track, however long the run: when it is full, every other
+  // point is dropped and the sampling interval doubles.
   static constexpr std::size_t kMostPoints = 8192;
   static constexpr std::size_t kMostTracks = 1024;
 
-  // One vehicle's way. Its last point is always the newest.
+  // One vehicle's track. Its last point is always the newest.
   struct KeptTrack {
     Track track;
     std::uint32_t stride = 1;  // of so many points one is kept

@@ -1,14 +1,14 @@
-// Holds a real run to the invariants of the virtual ones, by what an observer sees of it: truths,
-// beacons, statuses and events. Off the vehicles' path: no vehicle waits for it. Pure.
+// Checks a real run against the invariants of the virtual ones, from what an observer receives:
+// truths, beacons, statuses and events. Off the vehicles' path: no vehicle waits for it. Pure.
 //
-// A tick is judged kLagTicks after it was, when everything said in it has come. A tick of which
-// something is not known is left out and counted, for a check that looks away must say so.
+// A tick is judged kLagTicks later, when all its samples have arrived. A tick with missing samples
+// is left out and counted, because a check must report what it did not see.
 //
-// Limits are wider than in a virtual run whose radio loses nothing, each for its cause:
-//  - brains miss beacons and scans here as they do behind a radio that loses some: LimitsFor;
-//  - what is seen may be VehicleSight::kHeldTicks old: this much longer may a circle last, and
-//    everyone halt; this much older may a key be that somebody goes by; this much later may
-//    braking start.
+// Limits are wider than in a virtual run without loss, each for its own cause:
+//  - brains miss beacons and scans as they do with a lossy radio: LimitsFor;
+//  - an observation may be VehicleSight::kHeldTicks old: a wait cycle or a halt of all vehicles may
+//    last that much longer, a priority key may be that much older, and braking may start that much
+//    later.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ class InvariantWatch {
   Scenario scenario_;
   sim::Invariants invariants_;
   std::map<VehicleId, VehicleSight> sights_;
-  std::map<VehicleId, std::uint32_t> spawns_;  // where those stand whom the scenario does not name
+  std::map<VehicleId, std::uint32_t> spawns_;  // of vehicles that the scenario does not name
   WorldEpoch epoch_ = kNoEpoch;                // of the first world heard
   Tick newest_ = kNoTick;                      // of any truth
   Tick next_ = kNoTick;                        // to be judged; kNoTick before the start

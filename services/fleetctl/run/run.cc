@@ -52,7 +52,7 @@ int RefuseToRun(const RunOptions& options, const char* reason, const std::except
   return kCouldNotRun;
 }
 
-// For what a run keeps on disk and nobody needs after it.
+// For files that are needed only during the run.
 class ScratchFolder {
  public:
   explicit ScratchFolder(bool wanted) {

@@ -1,5 +1,5 @@
-// One run from the first process to the last: watches the fleet, carries out planned faults, ends
-// the run when it is over, when a process died, or when the operator says so, and reports.
+// One run from the first process to the last: supervises the fleet, carries out planned faults,
+// ends the run when it is over, when a process dies or on the operator's request, and reports.
 #pragma once
 
 #include <map>
@@ -38,15 +38,15 @@ class RunSession {
  private:
   // Waits for the run's end. A value where the verdict is not the world's to give.
   std::optional<Overruled> Supervise();
-  // Starts those again that died, if the operator wants it.
+  // Restarts processes that died, if the operator asked for it.
   void BringBack();
-  // A process ended that should not have, unless the end of the run is just on its way to us.
+  // A process ended unexpectedly, unless the event of the run's end is still in transit.
   std::optional<Overruled> JudgeEnd(const MemberEnd& gone);
   std::optional<MemberEnd> FirstEarlyEnd() const;
   std::optional<MemberEnd> FirstBadEnd() const;
-  // Takes in what is still on its way after the last process is gone.
+  // Takes the samples still in transit after the last process is gone.
   void DrainLast();
-  // How the processes ended says more than the world could know.
+  // Exit statuses show what the world cannot know.
   std::optional<Overruled> JudgeExits();
   // Takes in what has come.
   void Drain();

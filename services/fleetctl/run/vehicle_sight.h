@@ -1,14 +1,14 @@
-// What an observer saw of one vehicle in the last ticks, and what that says of the vehicle at one
-// of them: its body by the truth, its decision and place in the order by its beacons, whom that
-// concerns by its status. Pure; knows no other vehicle and judges nothing.
+// What an observer received from one vehicle in the last ticks, and the state that this shows for
+// one of them: body from the truth, decision and priority from its beacons, the peers concerned
+// from its status. Pure; knows no other vehicle and judges nothing.
 //
-// Watching from outside adds what a simulation does not have:
-//  - samples are lost and overwritten. A gap in the beacons' sequence numbers says that the watcher
-//    missed something, none says that the vehicle was silent. What was missed is never held against
-//    the vehicle: facts are held for kHeldTicks, and then nothing is known.
-//  - a beacon names the tick of the scan it answers. Where that is new, it is the tick at which it
-//    was said; a vehicle that gets no scans repeats the old one, and when it spoke is known only by
-//    when it was heard.
+// An observer of a real run has problems that a simulation does not:
+//  - samples are lost and overwritten. A gap in the beacons' sequence numbers shows that the
+//    observer missed something; without a gap the vehicle was silent. What was missed is never held
+//    against the vehicle: facts are held for kHeldTicks, then they are unknown.
+//  - a beacon names the tick of the scan it answers. If that is new, it is the tick in which the
+//    beacon was published; a vehicle that receives no scans repeats the old one, and then only the
+//    reception time shows when it was published.
 #pragma once
 
 #include <deque>

@@ -1,4 +1,4 @@
-// Says which faults of a schedule start and end as time goes by. Makes nothing happen. Pure.
+// Reports which faults of a schedule start and end as time advances. Injects none itself. Pure.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace giveway::fleetctl {
 
-// One end of a fault. One that takes no time has a beginning alone.
+// The start or the end of a fault. An instantaneous fault has only a start.
 struct FaultEdge {
   std::size_t fault = 0;  // index into the schedule
   double at_s = 0;        // since the start signal
@@ -27,9 +27,9 @@ class FaultClock {
   // Those that are due at `now_s` and were not given out before, in order of time. Of two at one
   // time the end comes first.
   std::span<const FaultEdge> TakeDue(double now_s);
-  // Every fault that has started and not ended is to end now; none starts any more.
+  // Ends every active fault now; no further one starts.
   std::span<const FaultEdge> EndAll(double now_s);
-  // Indices of those under way, ascending.
+  // Indices of the active faults, ascending.
   std::vector<std::size_t> UnderWay() const;
   // When the last one ends; 0 where there is none.
   double LastEnd_s() const { return last_end_s_; }

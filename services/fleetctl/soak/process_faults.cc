@@ -85,7 +85,7 @@ const char* ProcessFaults::WhyNot(const faults::Fault& fault) {
     case Kind::kQosMismatch:
     case Kind::kQosApply:
     case Kind::kDuplicateId:
-      return vehicles ? nullptr : "only a vehicle can be struck so";
+      return vehicles ? nullptr : "only vehicles can have this fault";
     case Kind::kChurn:
       return nullptr;
     case Kind::kClockStep:
@@ -151,7 +151,7 @@ std::string ProcessFaults::EffectOn(const faults::Fault& fault, MemberId member)
     case Kind::kDiskFull:
       return LimitOf(*pid, RLIMIT_FSIZE);
     case Kind::kLogReaderStops:
-      return "nobody reads its log";
+      return "its log has no reader";
     case Kind::kDuplicateId:
       return doubles_.contains(&fault) ? "a second process asks for its id" : "";
     case Kind::kClockStep:

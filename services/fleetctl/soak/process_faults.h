@@ -1,7 +1,7 @@
-// Makes the supervisor's faults happen to the processes of a fleet, and undoes them. Whatever it
-// does dies with this process: what is stopped is a child that is killed with its parent, limits go
-// with the process they are of, and the processes started here are children too.
-// Knows no DDS; whether a fault had an effect is found out elsewhere.
+// Injects the supervisor's faults into the processes of a fleet, and removes them. Nothing outlives
+// this process: stopped processes are children that are killed with their parent, limits end with
+// the process they apply to, and the processes started here are children too. Knows no DDS; whether
+// a fault had an effect is checked elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -67,10 +67,10 @@ class ProcessFaults {
     std::string last_line;
   };
   std::vector<OrderEnd> TakeOrderEnds();
-  // How a member is to be started that ended just now.
+  // How to start a member that has just ended.
   MemberCommand CommandNow(MemberId member) const;
-  // What is seen from outside of a fault under way: that the process is stopped, gone, limited;
-  // empty where nothing is seen, or it shows elsewhere.
+  // The visible effect of an active fault: process stopped, gone, limited. Empty if none is
+  // visible, or if it is visible elsewhere.
   std::string EffectOf(const faults::Fault& fault) const;
   // Of the member's planned end: the faults, by their place in the schedule, that killed it.
   std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;

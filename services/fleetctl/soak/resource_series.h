@@ -1,9 +1,9 @@
-// What the processes of a fleet use over time, life by life, and how fast it grows. Bounded for
-// weeks: a life keeps kMostPoints samples of each resource, neighbours being averaged whenever they
-// are full; a life that has ended keeps its slopes alone.
+// The resource use of a fleet's processes over time, per life, and how fast it grows. Bounded for
+// weeks: a life keeps kMostPoints samples of each resource, and averages neighbours whenever they
+// are full; of a life that has ended only the slopes are kept.
 //
-// Not among them: heap in use. Only the process itself can ask its allocator (mallinfo2); from
-// outside its resident private memory is seen, which an allocator may keep though it is free.
+// Heap in use is not included: only the process itself can ask its allocator (mallinfo2). From
+// outside, only resident private memory is visible, which an allocator may keep after it is freed.
 #pragma once
 
 #include <sys/types.h>
@@ -46,7 +46,7 @@ inline constexpr double kLeastLeakSpan_s = 120;
 
 class ResourceSeries {
  public:
-  // Of each life's beginning nothing is judged for `warm_up_s`.
+  // The first `warm_up_s` of each life are not judged.
   explicit ResourceSeries(double warm_up_s) : warm_up_s_(warm_up_s) {}
 
   // To be called at 1 Hz with what ReadResources gave, `time_s` since the start signal. The first

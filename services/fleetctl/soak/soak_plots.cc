@@ -1,5 +1,5 @@
-// The gnuplot programs of a soak's pictures. Colours differ for the colour-blind too
-// (Okabe and Ito 2008), and stand on white as on black: the page gives black its text's colour.
+// The gnuplot programs of a soak's plots. The colours can be distinguished with colour blindness
+// (Okabe and Ito 2008) and read on white and on black: the page gives black its text colour.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr std::size_t kMostRows = 48;     // that a timeline shows, then the res
 constexpr std::size_t kMostCurves = 14;   // of processes in one picture
 constexpr std::size_t kLabelLength = 24;  // letters of a name
 
-// What names hold beside letters could be gnuplot's.
+// gnuplot could interpret any character that is not a letter or digit.
 std::string PlotLabel(const std::string& text) {
   std::string label;
   for (const char c : text.substr(0, kLabelLength)) {

@@ -1,7 +1,7 @@
-// What a soak came to, as values: what was run, what was done to it, what was seen, and the
-// verdict. Who fills it is the supervisor; soak_json.h writes and reads it, soak_page.h shows it.
-// Field names, units and meaning are those of idl/soak.proto. Lists hold at most kMostListed; what
-// did not fit is counted.
+// The result of a soak as values: what was run, which faults were injected, what was observed, and
+// the verdict. The supervisor fills it; soak_json.h writes and reads it, soak_page.h shows it.
+// Field names, units and meaning are those of idl/soak.proto. Lists hold at most kMostListed; the
+// rest is counted.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct SoakFault {
   bool observed = false;     // by its effect, not by the order given
   std::string observed_how;  // "waitpid: signal 9"
   std::optional<double> observed_s;
-  std::optional<double> noticed_after_s;  // by peers, from its beginning
+  std::optional<double> noticed_after_s;  // by peers, from its start
   std::optional<double> promised_s;       // to be noticed within
   std::optional<double>
       recovered_after_s;  // until every vehicle concerned drove again, from its end
@@ -80,7 +80,7 @@ struct ModeChange {
 };
 
 enum class HistogramUnit : std::uint8_t { kNanoseconds, kMicrometres, kPartsPerMillion };
-// "ns", "um", "ppm"; and the other way.
+// "ns", "um", "ppm", and the inverse.
 const char* ToString(HistogramUnit unit);
 std::optional<HistogramUnit> HistogramUnitOf(const std::string& word);
 
@@ -108,7 +108,7 @@ enum class ResourceKind : std::uint8_t {
   kSharedMemoryBytes,
 };
 inline constexpr std::size_t kResourceKinds = 6;
-// "private_bytes"; and the other way.
+// "private_bytes", and the inverse.
 const char* ToString(ResourceKind kind);
 std::optional<ResourceKind> ResourceKindOf(const std::string& word);
 

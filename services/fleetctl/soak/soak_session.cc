@@ -345,7 +345,7 @@ void SoakSession::ShowProgress(SteadyTime now) {
   std::string names;
   for (const VehicleId vehicle : unwell) names += fmt::format(" {}", Number(vehicle));
   std::fprintf(
-      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu under way  invariants broken %lu%s%s\n",
+      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu active  invariants broken %lu%s%s\n",
       watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(), clock_.UnderWay().size(),
       invariants_.Judged().Broken(), names.empty() ? "" : "  not driving:", names.c_str());
 }

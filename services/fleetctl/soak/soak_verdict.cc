@@ -22,7 +22,7 @@ constexpr double kHealP99_s = 2;
 constexpr Nanoseconds kLingers = std::chrono::seconds(10);
 // Of a step of the brain, which takes a thousandth of that: a fifth of the usual tick.
 constexpr double kMostStep_us = 10'000;
-// For a word to be written and read, beside the promise itself.
+// Added to the promised time: writing and reading the log line.
 constexpr Nanoseconds kNoticing = milliseconds(200);
 
 // The stopwatch's name for a silence.

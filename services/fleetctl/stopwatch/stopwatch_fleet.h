@@ -1,4 +1,4 @@
-// One stopwatch fleet on a domain of its own: its processes, and what its vehicles say. Judges
+// One stopwatch fleet in its own domain: its processes, and what its vehicles report. Judges
 // nothing.
 #pragma once
 
@@ -45,7 +45,7 @@ class StopwatchFleet {
   bool IsRunning(VehicleId vehicle) const { return processes_.IsRunning(MemberOf(vehicle)); }
   // A new process for a vehicle whose last one has ended.
   void Restart(VehicleId vehicle);
-  // In words, if a process ended that is not in `struck`.
+  // A message if a process ended that no fault of the wave targets.
   std::optional<std::string> Loss(std::span<const VehicleId> struck) const;
 
  private:

@@ -41,7 +41,7 @@ Nanoseconds LongestPromise(const Limits& limits) {
   return longest;
 }
 
-// "3.250s..15s" while `victim` is faulted, in each wave.
+// "3.250s..15s": when the vehicle is faulted, in each wave.
 std::vector<std::string> WindowsOf(VehicleId victim, std::span<const Wave> waves) {
   std::vector<std::string> windows;
   for (const Wave& wave : waves) {

@@ -1,5 +1,5 @@
-// Who is faulted when: the waves of one stopwatch fleet from a seed, the blackouts that cuts are
-// made of, and the scenario its vehicles drive in. Pure.
+// Which vehicle is faulted when: the waves of one stopwatch fleet from a seed, the blackouts that
+// implement cuts, and the scenario its vehicles drive. Pure.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +27,13 @@ struct Wave {
   std::vector<Strike> strikes;  // in the order of time
 };
 
-// Waves start at any phase of the beacons: their strikes spread over this long.
+// Waves start at any phase of the beacons: their faults spread over this period.
 inline constexpr Nanoseconds kWaveSpread{1'500'000'000};
 
 std::vector<VehicleId> StopwatchVehicles(std::uint32_t count);
 
-// `trials` strikes in all. Of cuts no more than VictimsOf, one wave: Fast DDS 2.9.1 does not always
-// find peers again that were dropped on one side only, and the next wave would wait for ever.
+// `trials` faults in all. Cuts: at most VictimsOf, in one wave, because Fast DDS 2.9.1 does not
+// always rediscover peers that were dropped on one side only, and the next wave would wait forever.
 std::vector<Wave> PlanWaves(Fault fault, std::uint32_t trials, std::span<const VehicleId> fleet,
                             const Limits& limits, std::uint64_t seed);
 

@@ -1,4 +1,4 @@
-// What a stopwatch found, as a table for people and as one JSON object.
+// The result of a stopwatch as a table and as one JSON object.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct StopwatchReport {
   std::uint32_t false_alarms = 0;
   std::vector<std::string> problems;  // trials that could not be made
 
-  // Every cell kept its promise, and nothing stood in the way.
+  // Every cell kept its promise, and every trial could be made.
   bool Kept() const;
 };
 

@@ -114,13 +114,13 @@ class Conductor {
     const SteadyTime limit = SteadyNow() + kUntilWell;
     const auto counts = [this](VehicleId id) { return fleet_.BlackoutsSince(id).has_value(); };
     while (!std::ranges::all_of(task_.fleet, counts)) {
-      if (SteadyNow() > limit) throw Trouble("not everyone heard the start signal");
+      if (SteadyNow() > limit) throw Trouble("not every vehicle received the start signal");
       Turn();
     }
     const SteadyTime ready = BeginOf(wave.begin) - 2 * kNoticing;
     WaitUntil(ready);
     result_.too_soon = fleet_.WhoHears().FirstDeaf(task_.fleet).has_value();
-    if (result_.too_soon) throw Trouble("a link was cut before everyone heard everyone");
+    if (result_.too_soon) throw Trouble("a link was cut before all vehicles received each other");
   }
 
   bool Watches(VehicleId vehicle) const {
@@ -258,7 +258,7 @@ class Conductor {
   const StallMonitor& monitor_;
   const std::vector<Wave> waves_;
   StopwatchFleet fleet_;
-  std::vector<VehicleId> victims_;  // of the wave under way
+  std::vector<VehicleId> victims_;  // of the current wave
   StopwatchResult result_;
 };
 

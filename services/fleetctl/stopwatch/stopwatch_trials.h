@@ -1,5 +1,5 @@
-// Conducts the trials of one fleet: waits until all receive all, strikes, collects what the
-// peers say, heals, and starts again.
+// Conducts the trials of one fleet: waits until all receive all, injects faults, collects what the
+// peers report, heals, and starts again.
 #pragma once
 
 #include <cstdint>

@@ -9,12 +9,12 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kStopwatchFooter = R"(
-Starts fleets of real processes, strikes vehicles one by one, and takes the time until each peer says
-in its log that it noticed, by each mechanism: the age of the newest beacon, DEADLINE, LIVELINESS, the
-participant's lease, a good-bye. --table says which must see which fault, and within what time.
+Starts fleets of real processes, injects faults into one vehicle at a time, and measures when each peer
+reports in its log that it noticed, by each mechanism: age of the newest beacon, DEADLINE, LIVELINESS,
+participant lease, leave notice. --table shows which must notice which fault, and within what time.
 
 Faults
-  kill     kill -9                      hung     the control loop stands still, its threads go on
+  kill     kill -9                      hung     the control loop stops, other threads run
   pause    SIGSTOP                      cut      no packet between it and its peers, either way
   exit     SIGTERM                      one_way  its packets are lost, it hears its peers
 

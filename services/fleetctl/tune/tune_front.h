@@ -14,8 +14,8 @@
 
 namespace giveway::fleetctl {
 
-// Detection times nearer than this are the same: a vehicle looks once a tick, and what is told
-// between two looks is acted on at the second.
+// Detection times closer than this are equal: a vehicle decides once a tick, and acts on an event
+// between two ticks in the second.
 inline constexpr double kSameDetectionMs = 12.5;  // a quarter of a tick of 50 ms
 
 // However few readings there are, more than this is later: a turn later is 50.

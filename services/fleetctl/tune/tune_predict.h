@@ -1,13 +1,12 @@
-// What a candidate's figures should be by arithmetic alone, to stand beside what was measured:
-// where the two differ by more than chance, either the model or the system is not what we think.
-// Pure.
+// Predicts a candidate's figures by arithmetic alone, for comparison with the measurement: where
+// the two differ by more than chance, either the model or the system is not what we think. Pure.
 //
-// The model. A beacon is sent every tick T, and half a tick late where its sender's scan was lost
-// (services/vehicle_node/main.cc waits one and a half). Each is lost, and late by delay and jitter,
-// as types/impairment.h says. A silence of m lost beacons lasts (m + 1) T from arrival to arrival:
-// deadline and lease report it if it is longer than they are; the age limit, judged once a tick on
-// beacons of the tick before, if m T is, and sooner where the hearer's own scans were lost. What is
-// told between two turns of the loop is acted on at the second.
+// The model. A beacon is sent every tick T, and half a tick late if its sender's scan was lost
+// (services/vehicle_node/main.cc waits one and a half). Beacons are lost, delayed and jittered as
+// types/impairment.h says. A silence of m lost beacons lasts (m + 1) T from arrival to arrival:
+// deadline and lease report it if it is longer than they are; the age limit, checked once a tick on
+// beacons of the tick before, if m T is, and sooner if the receiver's own scans were lost. An event
+// between two loop cycles is acted on in the second.
 #pragma once
 
 #include <cstdint>

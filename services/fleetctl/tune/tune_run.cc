@@ -75,7 +75,7 @@ class Tuning {
                .observer_qos = base_.name,
                .alive_s = options_.trial_s};
     ground_.fleet.options.impair = options_.impair;
-    ground_.fleet.options.vehicles = 0;  // beside those the scenario names
+    ground_.fleet.options.vehicles = 0;  // only those the scenario names
     MakeProfiles();
   }
 
@@ -235,7 +235,7 @@ TuneResult Tuning::Run() {
   const Interrupts interrupts;
   TuneSearch search(ground_, store_, options_.fleets, options_.seed, PlannedTrials(rungs));
   const std::size_t before = search.All().size();
-  if (before > 0) std::fprintf(stderr, "going on: %zu trials are there already\n", before);
+  if (before > 0) std::fprintf(stderr, "resuming: %zu trials are already done\n", before);
   Climb(rungs, &search);
   Judge(&result_);
   Verify(&search);
@@ -289,7 +289,7 @@ int RunQosTune(const QosTuneOptions& options) {
                    folder.c_str());
     });
   } catch (const TuneInterrupted&) {
-    std::fprintf(stderr, "interrupted; the same command goes on from here\n");
+    std::fprintf(stderr, "interrupted; run the same command again to resume\n");
     return 1;
   }
 }

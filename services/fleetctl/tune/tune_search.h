@@ -1,5 +1,5 @@
-// A search under way: which trials are still to be run, running them side by side, and saying how
-// long it will take. What comes out is evidence, by candidate.
+// A search in progress: which trials are still to be run, running them in parallel, and estimating
+// the remaining time. The result is evidence, by candidate.
 #pragma once
 
 #include <cstddef>

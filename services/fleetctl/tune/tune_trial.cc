@@ -166,7 +166,7 @@ void TuneTrial::Turn(SteadyTime now) {
   switch (phase_) {
     case Phase::kStarting:
       if (AllHearAll()) Enter(Phase::kSettling, now + kSettle);
-      if (phase_ == Phase::kStarting && now > until_) Fail("not everybody heard everybody");
+      if (phase_ == Phase::kStarting && now > until_) Fail("not all vehicles received each other");
       return;
     case Phase::kSettling:
       if (now >= until_) BeginAlive(now);
@@ -227,7 +227,7 @@ TrialEvidence TuneTrial::TakeEvidence() {
 std::string TuneScenarioText(std::uint32_t vehicles) {
   std::string text =
       "name: \"qos_tune\"\n"
-      "description: \"Parallel lanes, slowly: all hear all, and nobody is in anybody's way.\"\n"
+      "description: \"Parallel lanes at low speed: all vehicles receive each other, none conflicts.\"\n"
       "duration_s: 3600\nstart_timeout_s: 60\nemission_radius_m: 1000\n";
   for (std::uint32_t i = 1; i <= vehicles; ++i) {
     text += fmt::format(

@@ -1,7 +1,7 @@
-// Fleets as they are: of what a generator puts in, another robot each, another sensor tier, wheels
-// that slip and encoders that miscount. Draws of its own, so that without it every seed means what
-// it ever meant. What physics forbids, by the sums that refuse it in a scenario file, is drawn
-// again.
+// Realistic fleets: gives each vehicle of a generator another robot model, another sensor tier,
+// wheels that slip and encoders that miscount. Has its own random stream, so that without it every
+// seed keeps its meaning. What is physically impossible, by the checks that refuse it in a scenario
+// file, is drawn again.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ struct FleetChoice {
 
 class FleetDraw {
  public:
-  // Bodies up to most_radius_m. `delay_s` is the longest that a beacon is under way.
+  // Bodies up to most_radius_m. `delay_s` is the longest transit time of a beacon.
   FleetDraw(const FleetChoice& choice, double most_radius_m, double delay_s, Random dice);
 
   // The place's ultrasonics: the tier drawn, or as they were.

@@ -42,7 +42,7 @@ class Shrinker {
   Shrinker(VirtualCase failing, sim::Invariant broken, const ShrinkProgress& progress)
       : best_(std::move(failing)), broken_(broken), progress_(progress) {}
 
-  // Anything left out may make room for more.
+  // Any removal may make further ones possible.
   void Run() {
     TryRounded();
     bool smaller = true;

@@ -14,12 +14,12 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr WholeRange kDefaultVehicles{6, 6};
-constexpr std::uint64_t kDraws = 0x5eed;   // the stream beside the generators' own
+constexpr std::uint64_t kDraws = 0x5eed;   // a stream separate from the generators'
 constexpr std::uint64_t kRobots = 0xb0d1;  // and that of the robots
 constexpr double kMeanBurst_ticks = 5;
-// Faults fall into the time in which ways cross.
+// Faults fall into the time in which paths cross.
 constexpr NumberRange kFaultTime_s{2, 25};
-constexpr NumberRange kAbsence_s{0.1, 0.8};  // the world takes a second's silence for a death
+constexpr NumberRange kAbsence_s{0.1, 0.8};  // the world treats a second of silence as a death
 
 std::uint32_t Draw(const WholeRange& range, Random* dice) {
   return range.low + static_cast<std::uint32_t>(dice->Next() % (range.high - range.low + 1ULL));

@@ -1,4 +1,4 @@
-// What one seed of `fleetctl virtual` means: the scenario and everything that goes wrong in it.
+// What one seed of `fleetctl virtual` means: the scenario and its faults.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +42,7 @@ struct CaseOptions {
   double jitter_ms = 0;
   double reorder_percent = 0;
   double duplicate_percent = 0;
-  bool loops_back = false;  // everyone hears its own beacons too
+  bool loops_back = false;  // every vehicle receives its own beacons too
   WholeRange crashes;       // vehicles that die, pause, or start again, each at a time drawn
   WholeRange pauses;
   WholeRange restarts;

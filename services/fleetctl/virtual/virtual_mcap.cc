@@ -9,7 +9,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Virtual time begins here, for a recording of 1970 shows as one of no time at all in some tools.
+// Virtual time starts here, because some tools show a recording from 1970 as having no time.
 constexpr std::uint64_t kStart_ns = 1'000'000'000'000'000'000;
 constexpr std::uint32_t kTicksAStatus = 4;  // five reports a second at 20 Hz
 

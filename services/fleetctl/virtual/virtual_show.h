@@ -1,4 +1,4 @@
-// One virtual run shown: a picture of the ways, and a trace of every vehicle in every tick.
+// Shows one virtual run: a picture of the paths, and a trace of every vehicle in every tick.
 #pragma once
 
 #include <string>

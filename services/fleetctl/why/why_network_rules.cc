@@ -58,9 +58,9 @@ std::string Where(const ProcessSituation& process) {
                      Listed(AllowedAddresses(process)));
 }
 
-// Whether two in one network namespace hear each other's first announcements. As measured with Fast
-// DDS 2.9.1: two whitelists need an address in common, one interface is not enough; and whoever has
-// a whitelist never meets one that has none where there is more than the loopback.
+// Whether two in one network namespace receive each other's first announcements. As measured with
+// Fast DDS 2.9.1: two whitelists need a common address, a common interface is not enough; and a
+// participant with a whitelist never finds one without if there is more than the loopback.
 bool MeetInside(const ProcessSituation& a, const ProcessSituation& b) {
   const auto allowed_a = AllowedAddresses(a);
   const auto allowed_b = AllowedAddresses(b);
@@ -198,7 +198,7 @@ void CheckDiscovery(const ProcessSituation& hearer, const ProcessSituation& spea
   };
   const std::string values = Both(hearer, text(*a), speaker, text(*b));
   if (*a == qos::kNone || *b == qos::kNone) {
-    Add(Weight::kPrevents, "discovery_off", values, "A participant without discovery meets nobody.",
+    Add(Weight::kPrevents, "discovery_off", values, "A participant without discovery finds no peers.",
         "discoveryProtocol SIMPLE or CLIENT in both profile sets", causes);
   } else if (IsClient(*a) != IsClient(*b)) {
     Add(Weight::kPrevents, "discovery_apart", values,

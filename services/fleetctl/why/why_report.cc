@@ -89,7 +89,7 @@ std::string OwnWordText(const WhyReport& report) {
   if (!Probed(report) || !report.probe->own_word) return {};
   const OwnWord& word = *report.probe->own_word;
   return fmt::format(
-      "its own status: {} near peer{} with a fresh beacon; of {} beacons it took since it began {} "
+      "its own status: {} near peer{} with a fresh beacon; of {} beacons taken since it started {} "
       "accepted, {} from too far, {} rejected; {} incompatible writer{}",
       word.peers_heard, word.peers_heard == 1 ? "" : "s", word.taken, word.accepted, word.too_far,
       word.rejected, word.incompatible, word.incompatible == 1 ? "" : "s");
@@ -112,7 +112,7 @@ std::string HostIdText(const WhyReport& report) {
   if (*report.probe->host_id == *report.host_id) return {};
   return fmt::format(
       "host id of {}: {:#06x} by its addresses now, {:#06x} as it reports itself: its addresses "
-      "have changed since it began",
+      "have changed since it started",
       report.speaker, *report.host_id, *report.probe->host_id);
 }
 

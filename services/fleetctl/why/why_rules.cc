@@ -48,9 +48,9 @@ void CheckProfilesChanged(const ProcessSituation& process, Causes* causes) {
                       "profiles_changed",
                       {process.told.qos_file, 0},
                       NameOf(process),
-                      "the file was written to after the process began",
-                      "The process runs with what it read then, which may be other than foretold.",
-                      "start the process anew, or compare with fleetctl qos show --live"},
+                      "the file was written to after the process started",
+                      "The process runs with what it read then, which may differ from what is predicted here.",
+                      "restart the process, or compare with fleetctl qos show --live"},
                      Weight::kBeside});
 }
 
@@ -59,8 +59,8 @@ void CheckState(const ProcessSituation& process, bool hears, Causes* causes) {
   if (!process.state) return;
   const char state = *process.state;
   if (state != 'T' && state != 't') return;
-  const std::string deaf = "It takes nothing from its readers until it goes on.";
-  const std::string silent = "It sends nothing until it goes on.";
+  const std::string deaf = "It takes nothing from its readers until it is resumed.";
+  const std::string silent = "It sends nothing until it is resumed.";
   causes->push_back({{qos::Severity::kError,
                       "process_stopped",
                       {},

@@ -70,7 +70,7 @@ std::string WhyNoAttacker(const std::string& program, bool may_open_packet_socke
                                   "open and this user may not";
 }
 
-// Whoever is on this machine is sent to through lo, whatever interface the fleet is on.
+// Targets on this machine are reached through lo, whichever interface the fleet uses.
 std::vector<std::string> AttackWords(const AttackerTools& tools, const faults::Fault& fault) {
   std::vector<std::string> words = {
       tools.program, AttackOf(fault.kind),

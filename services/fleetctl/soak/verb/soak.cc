@@ -367,7 +367,7 @@ int Resume(const SoakOptions& asked) {
   WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
   // A new fleet: what the world of the one that died knew of its time and places is over.
   fs::remove(folder / "world.checkpoint");
-  std::fprintf(stderr, "goes on at %.0f of %.0f s\n", so_far.ran_s, so_far.planned_s);
+  std::fprintf(stderr, "resuming at %.0f of %.0f s\n", so_far.ran_s, so_far.planned_s);
   return SoakProcesses(options, prepared, &so_far);
 }
 

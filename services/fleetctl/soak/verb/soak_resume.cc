@@ -107,9 +107,9 @@ SoakResult LoadSoFar(const std::string& folder) {
   throw InputError({{.file = folder,
                      .field = "--resume",
                      .value = folder,
-                     .message = "holds no soak to go on with: " + read.complaint,
-                     .remedy = "one that came to its verdict is over: see report.json there; one "
-                               "that died before its fleet drove is to be started anew"}});
+                     .message = "holds no soak to resume: " + read.complaint,
+                     .remedy = "one that reached its verdict is finished: see report.json there; "
+                               "one that died before its fleet drove must be started again"}});
 }
 
 faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
@@ -122,7 +122,7 @@ faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double war
       rest.push_back(std::move(fault));
     } else {
       lost->push_back(
-          fmt::format("{}#{} at {:.1f} s: fell into the start of the fleet that went on",
+          fmt::format("{}#{} at {:.1f} s: fell into the start of the resumed fleet",
                       fault.rule, fault.nth, fault.at_s + from_s));
     }
   }

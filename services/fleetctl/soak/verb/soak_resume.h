@@ -1,5 +1,5 @@
-// Going on with a soak whose supervisor or machine died: what was seen up to there is saved in the
-// report folder, whole or not at all, and a new fleet takes up the rest of the list.
+// Resumes a soak whose supervisor or machine died: what was observed up to then is saved atomically
+// in the report folder, and a new fleet continues with the rest of the schedule.
 #pragma once
 
 #include <string>
