@@ -15,7 +15,7 @@ namespace giveway::sim {
 struct Body {
   VehicleId vehicle = kNobody;
   bool joined = false;
-  bool present = false;  // joined and not removed: stands in the way and is sensed
+  bool present = false;  // joined and not removed: can be hit and is sensed
   bool obeyed = false;   // this tick followed `command`; false: braked by the world itself
   Pose world_from_body;
   KnownHeading heading;  // recently; follow `world_from_body` before use

@@ -1,5 +1,5 @@
-// The sensors beside the ultrasonics, of every vehicle that has them, once a tick. They read the
-// world as it stands at the tick's end and change nothing in it.
+// The sensors other than the ultrasonics, of every vehicle that has them, once a tick. They read
+// the state of the world at the tick's end and change nothing in it.
 #pragma once
 
 #include <span>
@@ -13,7 +13,7 @@ namespace giveway::sim {
 
 class FurtherSensing {
  public:
-  // Costs nothing where nobody present has such a sensor.
+  // Costs nothing if no vehicle present has such a sensor.
   void Sense(WorldEpoch epoch, World* world);
 
   // Of the last Sense, by vehicle.

@@ -54,7 +54,7 @@ std::uint32_t World::ThingOf(const Body& body) const {
   return static_cast<std::uint32_t>(&body - bodies_.data());
 }
 
-// The lists that go by a body's place in bodies_ all make room at that place.
+// Inserts at the body's index into every list that is indexed like bodies_.
 void World::Insert(const VehicleOptions& options) {
   Body body;
   body.vehicle = options.id;

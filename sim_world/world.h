@@ -1,7 +1,7 @@
 // The world: bodies that follow motor commands, walls, obstacles, doors, contacts and ultrasonics,
-// tick by tick. It knows no brain, no clock and no run: it moves while it is told to, and brakes
-// otherwise. The same commands in the same ticks give the same bits, whatever the order of joining
-// and however its work is cut.
+// tick by tick. It knows no brain, no clock and no run: it moves bodies while the caller lets it,
+// and brakes them otherwise. The same commands in the same ticks give the same bits, in any order
+// of joining and with any number of threads.
 #pragma once
 
 #include <cstdint>
@@ -63,8 +63,8 @@ class World {
   void Advance(bool driving);
 
   Checkpoint Save() const;
-  // Continues from there: whom it names is present, whom it does not is not. False, and nothing is
-  // done, where it names vehicles that are not known or is not of this scenario.
+  // Continues from there: vehicles in the checkpoint are present, others are not. Returns false,
+  // and changes nothing, if it has unknown vehicles or is of another scenario.
   bool Restore(const Checkpoint& checkpoint);
 
   Tick Now() const { return now_; }

@@ -14,7 +14,8 @@ namespace {
 // kTouch_m are one contact, not hundreds.
 constexpr double kRelease_m = 1e-3;
 
-// Slip and encoder noise of one vehicle in one tick: numbers of their own, whoever else draws.
+// Slip and encoder noise of one vehicle in one tick: a stream of its own, independent of all other
+// draws.
 Random RollRandom(std::uint32_t seed, VehicleId vehicle, std::uint32_t tick) {
   constexpr std::uint64_t kRoll = 0x726f6c6cULL << 32;
   return Random(kRoll | seed, std::uint64_t{Number(vehicle)} << 32 | tick);
@@ -48,7 +49,7 @@ void World::Advance(bool driving) {
   sensing_.Sense(now_, dt_s_, things_, parallel_, bodies_);
 }
 
-// What everything would do in this tick if nothing were in the way.
+// The motion of everything in this tick if nothing obstructed it.
 void World::Plan(bool driving) {
   const auto plan = [&](std::size_t begin, std::size_t end) {
     for (; begin != end; ++begin) {
@@ -189,7 +190,7 @@ void World::SettleBody(std::size_t i) {
     body.wheels = {};
   }
   body.counted = CountOn(body.counted, body.encoders, dt_s_);
-  // From the speeds over the whole tick, so that whoever integrates them lands on the same bits.
+  // From the speeds over the whole tick, so that any integration of them gives the same bits.
   body.heading.Follow(body.world_from_body);
   body.world_from_body = AdvanceArc(body.world_from_body, body.heading.forward_world,
                                     TwistFromWheels(body.profile.drive, body.ground), dt_s_);

@@ -1,5 +1,5 @@
-// The contacts of one tick: stops everything where it would touch something and still close in, in
-// order of time. Knows motions, no vehicles; whether a contact is new is for others to say.
+// The contacts of one tick: stops everything that would touch something and still close in, in
+// order of time. Knows motions, not vehicles; the caller decides whether a contact is new.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +27,12 @@ class Contacts {
  public:
   explicit Contacts(std::span<const Wall> walls);
 
-  // Sets the stops of `things` for a tick of dt_s. `pairs` names all that may touch in it. The
-  // hits, in order of time; of hits at one time the lowest number first, so the order of finding
-  // does not show.
+  // Sets the stops of `things` for a tick of dt_s. `pairs` names all that may touch in it. Returns
+  // the hits in order of time, and at one time the lowest number first, so that the order of search
+  // has no effect.
   //
-  // Two vehicles that meet both stop. With anything else only what itself closes in stops: a
-  // vehicle may leave a cart that pushes it, and a door is not held by who stands beside it.
+  // Two vehicles that meet both stop. Against anything else only what closes in stops: a vehicle
+  // may leave a cart that pushes it, and a vehicle next to a door does not hold it.
   std::span<const Hit> StopAll(std::span<const NearPair> pairs, double dt_s,
                                const ParallelFor& parallel, Things* things);
 

@@ -1,5 +1,5 @@
-// A door: a leaf that slides into its jamb and out again, by the time since the start signal. What
-// stands in its way stops it; it follows its times again, at its own speed, when it can.
+// A door: a leaf that slides into its jamb and out again, by the time since the start signal. An
+// obstruction stops it; once clear, it catches up with its schedule at its own speed.
 #pragma once
 
 #include "services/types/scenario.h"
@@ -14,14 +14,14 @@ class SlidingDoor {
   // The leaf's motion in the tick of dt_s that ends end_s after the start signal. Standing unless
   // `moving`.
   Leaf Plan(bool moving, double end_s, double dt_s) const;
-  // Takes in what became of the plan.
+  // Applies the outcome of the planned motion.
   void Settle(const Leaf& leaf, double dt_s);
 
-  // What its times say, whatever stands in its way; as Opening.
+  // The scheduled opening, whatever obstructs the leaf; as Opening.
   double PlannedOpening(double time_s) const;
 
-  // The share of the leaf that is in the jamb: 0 closed, 1 open. Opened wholly it is in no
-  // vehicle's way.
+  // The share of the leaf that is in the jamb: 0 closed, 1 open. Fully open, it obstructs no
+  // vehicle.
   double Opening() const { return opening_; }
   void Restore(double opening) { opening_ = opening; }
 

@@ -1,5 +1,5 @@
-// How wheels follow a command, limited by the drive's acceleration and the profile's caps, and what
-// ground and encoders make of it.
+// How wheels follow a command, limited by the drive's acceleration and the profile's caps, and how
+// ground and encoders change the result.
 #pragma once
 
 #include <optional>
@@ -14,9 +14,9 @@ namespace giveway::sim {
 // The wheel speeds nearest to `wheels` in forward and turn rate that the profile's caps allow.
 WheelSpeeds WithinCaps(const VehicleProfile& profile, WheelSpeeds wheels);
 
-// Wheel speeds dt_s after `current` on the way to `target`. Each wheel on its own: slowed at the
-// profile's deceleration while its speed shrinks, sped up at the acceleration while it grows, one
-// after the other when it passes through standstill. The caps win over both.
+// Wheel speeds dt_s after `current`, moving towards `target`. Each wheel by itself: at the
+// profile's deceleration while its speed decreases, at the acceleration while it increases, and one
+// after the other through standstill. The caps win over both.
 WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, WheelSpeeds target,
                        double dt_s);
 

@@ -1,5 +1,5 @@
-// A body that is not a vehicle: it stands, or follows its waypoints at constant speed. Something in
-// its way holds it up; it continues from there when it can.
+// A body that is not a vehicle: it stands, or follows its waypoints at constant speed. An
+// obstruction stops it; it continues from there once clear.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace giveway::sim {
 
-// The way from a start over waypoints, for ever round or there and back.
+// The path from a start over waypoints, repeated as a loop or back and forth.
 class Course {
  public:
   explicit Course(const Obstacle& obstacle);
@@ -29,18 +29,18 @@ class Course {
 // What of an obstacle changes.
 struct ObstacleState {
   Vec2 position_world;
-  double progress_m = 0;  // how far along its course it heads; after a stop in a bend it may be a
-                          // hand's breadth beside
+  double progress_m = 0;  // how far along its course it heads; after a stop in a bend it may be
+                          // some centimetres off it
 };
 
 class MovingObstacle {
  public:
   explicit MovingObstacle(const Obstacle& obstacle);
 
-  // Its motion in a tick of dt_s: straight to where its course leads, bends cut by less than the
-  // way of one tick. Standing unless `moving`.
+  // Its motion in a tick of dt_s: straight to where its course leads, cutting bends by less than
+  // one tick's travel. Standing unless `moving`.
   Motion Plan(bool moving, double dt_s) const;
-  // Takes in what became of the plan.
+  // Applies the outcome of the planned motion.
   void Settle(const Motion& motion, double dt_s);
 
   const ObstacleState& State() const { return state_; }

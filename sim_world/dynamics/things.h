@@ -1,5 +1,5 @@
-// Everything that can be run into within one tick, under one numbering: first the bodies of
-// vehicles, then obstacles, then the leaves of doors. Walls have a numbering of their own.
+// Everything that can be hit within one tick, under one numbering: first the bodies of vehicles,
+// then obstacles, then the leaves of doors. Walls have a separate numbering.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct Things {
   std::size_t bodies = 0;       // so many of the motions are vehicles'
   std::vector<Motion> motions;  // of bodies and obstacles
   std::vector<Leaf> leaves;
-  std::vector<std::uint8_t> present;  // by number; what is absent is in no vehicle's way
+  std::vector<std::uint8_t> present;  // by number; what is absent cannot be hit
 
   std::size_t Count() const { return motions.size() + leaves.size(); }
   bool IsBody(std::size_t thing) const { return thing < bodies; }

@@ -104,8 +104,8 @@ void Combine(const faults::Fault& fault, WheelSpeeds held, DriveFault* drive) {
   }
 }
 
-// By `factor` of its standard deviations, to a side drawn anew: as radio that came by way of a
-// wall.
+// Displaces the fix by `factor` of its standard deviations, each time in a new random direction,
+// like a radio signal reflected by a wall.
 void MisplaceFix(const faults::Parameters& parameters, Random random, PoseFix* fix) {
   if (random.Uniform(0, 1) >= parameters.probability.value_or(1)) return;
   const double off_m = parameters.factor.value_or(0) * fix->sigma_position_m;

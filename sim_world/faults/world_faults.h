@@ -1,8 +1,8 @@
-// The faults of a schedule that the world carries out: of ultrasonics, motors, encoders, pose
-// fixes. Says in each driving tick what they make of which body's wheels, alters the scans that
-// leave the world, and names those that start and end. Which tick a fault starts and ends in hangs
-// on its times alone, and every number drawn on seed, rule, the fault's number and the tick. Faults
-// of other actors are not its business. Pure.
+// The faults of a schedule that the world injects: into ultrasonics, motors, encoders, pose fixes.
+// Computes in each driving tick their effect on the wheels of each body, alters the scans that
+// leave the world, and names the faults that start and end. The first and last tick of a fault
+// depend only on its times, and every random number on seed, rule, the fault's number and the tick.
+// Ignores the faults of other actors. Pure.
 #pragma once
 
 #include <cstdint>
@@ -34,10 +34,10 @@ class WorldFaults {
  public:
   WorldFaults(const FaultSchedule& schedule, Nanoseconds tick_period);
 
-  // The driving tick that is about to be made, by its number since the start signal, from 1.
+  // Starts the driving tick of that number, from 1 since the start signal.
   void BeginTick(std::uint32_t driven_tick, std::span<const Body> bodies);
-  // The tick that is about to be made is none in which the world drives: no fault is at work, and
-  // time stands still for those under way.
+  // The next tick is not a driving tick: no fault has an effect, and time stands still for the
+  // active ones.
   void Rest();
 
   // What goes wrong with wheels in this tick, by vehicle.
@@ -54,9 +54,9 @@ class WorldFaults {
   std::span<const faults::Fault* const> Begun() const { return begun_; }
   std::span<const faults::Fault* const> Ended() const { return ended_; }
 
-  // What a checkpoint keeps of a fault under way. What ultrasonics said before is not part of it:
-  // in a world that was restarted stuck ones are stuck at what they say first, and those of delayed
-  // ones start to be late again.
+  // What a checkpoint keeps of an active fault. Earlier ultrasonic readings are not part of it: in
+  // a restarted world stuck sensors stick to their first reading, and delayed ones start their
+  // delay again.
   struct HeldWheels {
     VehicleId vehicle = kNobody;
     WheelSpeeds wheels;
@@ -67,8 +67,8 @@ class WorldFaults {
     std::vector<HeldWheels> held;  // of kMotorStuck
   };
   std::vector<State> Save() const;
-  // Continues after that driving tick. False, and nothing is done, where no such faults can have
-  // been under way then.
+  // Continues after that driving tick. Returns false, and changes nothing, if such faults cannot
+  // have been active then.
   bool Restore(std::span<const State> states, std::uint32_t driven_tick);
 
  private:
@@ -80,8 +80,8 @@ class WorldFaults {
   };
   struct Planned {
     faults::Fault fault;
-    std::uint32_t begins = 0;  // driving ticks; from `begins` on, before `ends`
-    std::uint32_t ends = 0;
+    std::uint32_t begins = 0;  // first driving tick
+    std::uint32_t ends = 0;    // one past the last
     std::uint64_t draws = 0;
     bool of_sonar = false;
     bool of_fix = false;

@@ -1,6 +1,6 @@
-// Which things may meet: pairs of discs that lie near each other, found with a grid. The few that
-// are much larger than a vehicle are looked for from their own side, so that they do not widen
-// everyone's search.
+// The broad phase of collision detection: pairs of things whose discs are near each other, found
+// with a grid. The few that are much larger than a vehicle are searched from their own side, so
+// that they do not widen the search of all others.
 #pragma once
 
 #include <cstdint>

@@ -59,7 +59,7 @@ Separating OnSidesOf(const Outline& a, const Outline& b) {
   return best;
 }
 
-// The shortest way from one core to the other, where they do not overlap.
+// The shortest connection between two cores that do not overlap.
 struct Way {
   double squared_m2 = kInfinity;
   Vec2 from_a_world;
@@ -128,8 +128,8 @@ Nearest NearestBetween(const Outline& a, const Outline& b) {
   best.Keep(of_b.apart_m, -1 * of_b.axis_world);
   const Way way = ShortestWay(a, b);
   const double distance = Sqrt(way.squared_m2);
-  // Where a side is nearest its own direction is exact, the way's is only as good as it is long.
-  // Only corners are nearer to each other than any side shows.
+  // If a side is nearest, its own direction is exact; that of the connection is only as accurate as
+  // it is long. Two corners are nearest if their distance is greater than any side shows.
   const bool corners = best.apart_m > 0 && distance > best.apart_m + kNoDirection_m;
   const bool discs = best.apart_m == -kInfinity;
   Nearest nearest = {best.apart_m, best.axis_world, {}};

@@ -61,9 +61,9 @@ class Stretch {
   double Gap() const { return nearest_.gap_m; }
   double Rate() const { return GapRate(at_a_, at_b_, nearest_); }
 
-  // How long from now on the gap stays above `floor_m` for certain. A direction in which the two
-  // are apart by more proves it, and it may turn with either: with the one whose side it stands on
-  // the other's corners tell the truth.
+  // How long from now on the gap certainly stays above `floor_m`. A direction in which the two are
+  // further apart proves it, and may turn with either of them: if it turns with the outline whose
+  // side it is normal to, the other's corners give the bound.
   double SafeUntil(double floor_m) const {
     const double with_a = SafeAlongTurning(of_a_.turn_rad_s, floor_m);
     if (of_a_.turn_rad_s == of_b_.turn_rad_s) return with_a;

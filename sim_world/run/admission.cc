@@ -9,8 +9,8 @@
 namespace giveway::sim {
 namespace {
 
-// Long enough for a process that died to fall silent, and its body to stand, before another is told
-// that its id is taken; and for who waits to ask again.
+// Long enough for a process that died to fall silent and for its body to stop, before another is
+// refused because its id is taken; and for a waiting process to ask again.
 constexpr Nanoseconds kPatience{3'000'000'000};
 constexpr double kStill_rad_s = 1e-9;
 
@@ -81,7 +81,7 @@ std::vector<RosterEntry> Admission::Answer() {
 
 Admission::Result Admission::Try(Waiting* waiting) {
   const JoinRequest& request = waiting->request;
-  // A body it has from an earlier epoch still rolls: what it were told now would soon be wrong.
+  // Its body from an earlier epoch still rolls: a pose sent now would soon be wrong.
   if (const Seat* seat = roster_.SeatOf(request.session)) {
     const auto told = told_.find(seat->vehicle);
     if (told != told_.end()) {

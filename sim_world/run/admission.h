@@ -1,6 +1,6 @@
-// The door between a running world and those who want in: keeps join requests until a seat is free
-// for them, puts bodies into the run and takes them away, and says what each session is to be sent.
-// A vehicle drives on only from where the world says that its body stands.
+// Admits vehicles to a running world: keeps join requests until a seat is free for them, puts
+// bodies into the run and removes them, and decides what each session is sent. A vehicle continues
+// only from where the world says that its body stands.
 #pragma once
 
 #include <map>
@@ -40,7 +40,7 @@ class Admission {
   const std::map<VehicleId, RosterEntry>& Told() const { return told_; }
   // Requests that found the waiting list full.
   std::uint32_t PassedOver() const { return passed_over_; }
-  // Seats in use, told or not: after Restore none was informed yet.
+  // Seats in use, whether informed or not: after Restore none is.
   std::vector<VehicleId> Expected() const;
 
   FleetCheckpoint Save(std::uint64_t scenario) const;

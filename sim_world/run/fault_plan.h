@@ -1,5 +1,5 @@
-// Says when a scenario's planned faults are due. Whoever runs the vehicles and the signal heads
-// makes them happen.
+// Reports when a scenario's planned faults are due. The process that runs the vehicles or the
+// signal heads carries them out.
 #pragma once
 
 #include <cstdint>

@@ -1,11 +1,11 @@
-// Watches a run by the truth and says what happened: who halted to give way, who continued, who
-// arrived, who touched. It decides nothing about the run's end. What must be true of every run is
-// judged in sim_world/virtual/invariants.h.
+// Watches the true state of a run and reports what happened: which vehicle halted to give way,
+// continued, arrived, touched something. Does not decide when the run ends. What must hold in every
+// run is checked in sim_world/virtual/invariants.h.
 //
 // A vehicle has arrived while it stands in its goal: its process drives it, it came to a standstill
 // with the axle centre within the goal's radius, and it has not left the circle since. Driving
-// through is no arrival, and who leaves again has not arrived. A route that loops has no goal.
-#pragma once
+// through does not count, and a vehicle that leaves again has not arrived. A looping route has no
+// goal.
 
 #include <cstdint>
 #include <optional>
@@ -48,10 +48,10 @@ class Judge {
   // What is remembered of one vehicle.
   struct Track {
     VehicleId vehicle = kNobody;
-    std::uint32_t still_ticks = 0;  // in a row, standing for a give-way reason
+    std::uint32_t still_ticks = 0;  // consecutive, standing to give way
     bool halted = false;            // stands, after a halt that was logged
     bool halted_once = false;
-    Rule stopping_for = Rule::kCruise;  // the first of the give-way rules in a row; else kCruise
+    Rule stopping_for = Rule::kCruise;  // the first of consecutive rules to give way; else kCruise
     std::uint32_t halted_for = 0;       // bit i: rule i started a halt
     bool arrived_before = false;        // and was put on its start pose again since
     std::optional<double> arrived_s;    // stands in its goal since then

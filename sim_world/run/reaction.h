@@ -1,5 +1,5 @@
 // Measures reaction times: from the publication of the scans of the tick that first showed a cause
-// to the application of the first command that answers it. Reads no clock; times are arguments.
+// to the application of the first command that reacts to it. Reads no clock; times are arguments.
 #pragma once
 
 #include <array>
@@ -26,11 +26,11 @@ class ReactionMeter {
   // 64 KiB, a part of the object: a run of many hours takes no more memory than one of a minute.
   static constexpr std::size_t kKeptSamples = 8192;
 
-  // The scans of `tick` went out at `at`. Only ticks of the running run are told, so that nothing
+  // The scans of `tick` were published at `at`. Called for ticks of the run only, so that nothing
   // before the start signal counts as a cause.
   void Published(Tick tick, SteadyTime at);
   // The world applied the command at `at`. Counts it if it is the first of a new decision whose
-  // cause is a tick told and not yet forgotten.
+  // cause is a published tick that is still kept.
   void Applied(const MotorCommand& command, SteadyTime at);
 
   ReactionFigures Figures() const;

@@ -61,7 +61,7 @@ RosterEntry Roster::AdmitBySpawn(VehicleId vehicle, const JoinRequest& request,
   return Refuse(request, "no start place is free", true);
 }
 
-// Whoever drives in a circle comes by again: another one from this place would be one too many.
+// A vehicle on a looping route returns to its start: another one must not start there.
 bool Roster::IsPatrolled(std::uint32_t spawn) const {
   return spawns_[spawn - 1].route.loop &&
          std::ranges::find(seats_, spawn, &Seat::spawn) != seats_.end();

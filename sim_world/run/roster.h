@@ -1,6 +1,6 @@
-// Who has which place: one seat a vehicle id, with the session that has it. Answers join requests
-// by the scenario's list of vehicles and, in an open fleet, by its spawn places. Knows no bodies:
-// whether a place is free and who still speaks it asks its caller.
+// Assigns places: one seat per vehicle id, with the session that has it. Answers join requests by
+// the scenario's list of vehicles and, in an open fleet, by its spawn places. Knows no bodies: it
+// asks the caller whether a place is free and whether a session is alive.
 #pragma once
 
 #include <functional>
@@ -22,9 +22,9 @@ struct Seat {
   SessionId session{};
 };
 
-// What must be known of the world to give a seat.
+// What must be known about the world to assign a seat.
 struct SeatQuestions {
-  // Whether whoever has the vehicle's seat has fallen silent: then another session may have it.
+  // Whether the session with the vehicle's seat has fallen silent: then another may have it.
   std::function<bool(VehicleId)> is_silent = [](VehicleId) { return false; };
   // Whether a body could be put where these options start.
   std::function<bool(const VehicleOptions&)> is_free = [](const VehicleOptions&) { return true; };

@@ -331,7 +331,7 @@ std::uint64_t Run::Hash() const {
   return hash.Value();
 }
 
-// A run's way through the end of its process: what a checkpoint keeps of it.
+// What a checkpoint keeps of a run, so that it survives the end of its process.
 RunCheckpoint Run::Save() const {
   return {.epoch = epoch_,
           .started = started_,

@@ -1,15 +1,15 @@
 // One run of a scenario: the world, its faults and its judge, advanced tick by tick. Pure: the
-// caller brings commands and takes scans, truths and events away. world_main wires it to DDS, the
-// virtual fleet wires it to brains in memory.
+// caller passes commands in and takes scans, truths and events out. The world service connects it
+// to DDS, the virtual fleet connects it to brains in memory.
 //
 // A closed run knows every vehicle from the start and ends when its vehicles have arrived or one
-// dies. In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration.
-// Where that is without an end, until End is called.
+// dies. In an open one (Scenario::spawns) vehicles come and go, and it lasts for its duration, or
+// until End is called if that is unlimited.
 //
-// A schedule of faults beside the scenario: the world's own are carried out here, and each start
-// and end is an event. Of others' faults it only knows whose silence is meant to be. Where
-// processes are stopped or restarted by it, a closed run too continues without a vehicle that falls
-// silent, waits for it, and takes it back.
+// A fault schedule may be added to the scenario: the world's own faults are injected here, and each
+// start and end is an event. Of all others it only knows which vehicles are meant to be silent. If
+// the schedule stops or restarts processes, a closed run too continues without a silent vehicle,
+// waits for it, and takes it back.
 #pragma once
 
 #include <cstdint>
@@ -44,13 +44,13 @@ class Run {
 
   // Puts the body of one of the scenario's vehicles on its start pose.
   void Join(VehicleId vehicle);
-  // The same for any vehicle, also while the run is under way. A body that still stands, since the
-  // vehicle had fallen silent, stays where it is and is the vehicle's again.
+  // The same for any vehicle, also during the run. A body that still stands after its vehicle fell
+  // silent stays where it is and belongs to the vehicle again.
   void Join(const VehicleOptions& options);
-  // A vehicle that is in the run asks for its place with the same session: its process has
-  // restarted itself, and its new endpoints must be found before it is heard again.
+  // A vehicle in the run asks for its place with the same session: its process has restarted
+  // itself, and its new endpoints must be discovered before it is received again.
   void AsksAgain(VehicleId vehicle);
-  // The vehicle sent a leave notice: its body is taken away. Ends a closed run that is under way.
+  // The vehicle sent a leave notice: its body is removed. Ends a closed run in progress.
   void Leave(VehicleId vehicle);
   bool EveryoneJoined() const;
   // The start signal: from the next tick on bodies move and time counts.
@@ -89,16 +89,16 @@ class Run {
   // however long they waited.
   std::uint64_t Hash() const;
 
-  // Says in an answer to a vehicle where its body is now, and how far its task; nothing where it
+  // Adds to an answer to a vehicle where its body is and how far it is on its route; nothing if it
   // has no body.
   void Locate(const VehicleOptions& options, RosterEntry* entry) const;
-  // Whom the last Advance forgot, of which nothing more is reported: vehicles that are not the
-  // scenario's, a second after their bodies were taken away.
+  // The vehicles that the last Advance forgot, of which nothing more is reported: those that are
+  // not the scenario's, a second after their bodies were removed.
   std::span<const VehicleId> Forgotten() const { return forgotten_; }
 
   // Null if no body of the vehicle is in the world.
   const Body* BodyOf(VehicleId vehicle) const;
-  // What moves beside the bodies, in the scenario's order.
+  // In the scenario's order.
   std::span<const MovingObstacle> Obstacles() const { return world_.Obstacles(); }
   std::span<const SlidingDoor> Doors() const { return world_.Doors(); }
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }

@@ -1,6 +1,6 @@
-// All of a run, and of who takes part in it, that a restarted world needs to continue: a value, and
-// the bytes of it. The bytes carry a version and a checksum; whatever is not exactly what ToBytes
-// wrote is refused. Knows no files.
+// All of a run and its participants that a restarted world needs to continue: as a value, and as
+// bytes. The bytes carry a version and a checksum; anything that is not exactly what ToBytes wrote
+// is refused. Knows no files.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct RunCheckpoint {
   bool started = false;
   std::uint32_t ticks_run = 0;
   std::vector<FaultPlan::State> faults;          // the scenario's
-  std::vector<WorldFaults::State> world_faults;  // of a schedule, under way
+  std::vector<WorldFaults::State> world_faults;  // of a schedule, active
   std::vector<Judge::Track> tracks;
   std::vector<Attendance::Entry> attendance;
   Checkpoint world;

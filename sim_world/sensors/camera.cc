@@ -1,6 +1,6 @@
-// Camera: a picture of one line, a tenth of a degree a column. Each column shows what is nearest
-// there; whoever is shown by at least one column is seen, from its first column to its last. Walls
-// hide what is behind them and are nobody.
+// Camera: a one-line image, a tenth of a degree per column. Each column shows what is nearest
+// there; an object in at least one column is seen, from its first column to its last. Walls hide
+// what is behind them and are not reported.
 #include <algorithm>
 #include <array>
 
@@ -21,7 +21,7 @@ struct Seen {
   double range_m = 0;  // of its nearest column
 };
 
-// Everybody in the picture. A column is a step to the next, so `seen` has room for all.
+// All objects in the image. Each step to another object is a new column, so `seen` is large enough.
 std::size_t Recognise(std::span<const RayHit> columns, std::span<Seen> seen) {
   std::size_t count = 0;
   for (std::size_t column = 0; column < columns.size(); ++column) {

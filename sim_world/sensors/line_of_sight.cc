@@ -6,10 +6,10 @@
 namespace giveway::sim {
 namespace {
 
-// Twice the area of what rounding leaves between two ways along one line.
+// Twice the area that rounding leaves between two segments on one line.
 constexpr double kEdgeOn_m2 = 1e-9;
 
-// Whether the ways from p to q and along the wall cross or touch.
+// Whether the segment from p to q and the wall cross or touch.
 bool Crosses(Vec2 p, Vec2 q, const SceneSegment& wall) {
   const Vec2 a = wall.from_world;
   const Vec2 b = wall.to_world;

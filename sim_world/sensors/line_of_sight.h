@@ -1,12 +1,12 @@
-// Whether anything stands on the straight way between two points of a scene.
+// Whether anything stands on the line between two points of a scene.
 #pragma once
 
 #include "sim_world/sensors/scene.h"
 
 namespace giveway::sim {
 
-// Whether a shape that is neither's stands on the straight way from one to the other. A wall met
-// edge on hides nothing.
+// Whether a shape of neither owner stands on the line between the two points. A wall met edge-on
+// hides nothing.
 bool IsBlocked(const Scene& scene, Vec2 from_world, Vec2 to_world, Owner from, Owner to);
 
 }  // namespace giveway::sim

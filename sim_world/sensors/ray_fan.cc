@@ -54,7 +54,7 @@ RayFan::Rays RayFan::MeetingSegment(Vec2 from_body, Vec2 to_body) const {
   }
   const double a = Atan2(from_body.y, from_body.x);
   const double b = Atan2(to_body.y, to_body.x);
-  // More than half a turn apart: the segment runs behind the sensor, or hardly beside it.
+  // More than half a turn apart: the segment passes behind the sensor, or hardly to one side of it.
   if (std::abs(a - b) > kPi - 1e-6) return All();
   return Between(std::min(a, b), std::max(a, b));
 }

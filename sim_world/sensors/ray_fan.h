@@ -1,4 +1,4 @@
-// Rays side by side, as a lidar's beams or a camera's columns, and what each of them meets first.
+// Adjacent rays, such as a lidar's beams or a camera's columns, and what each of them hits first.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace giveway::sim {
 struct RayHit {
   bool hit = false;
   double range_m = 0;      // only if hit
-  Owner owner = kNoOwner;  // of what was hit; a wall is nobody's
+  Owner owner = kNoOwner;  // of what was hit; walls have none
 };
 
 class RayFan {

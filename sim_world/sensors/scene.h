@@ -1,7 +1,7 @@
 // Everything a sensor can hear or see at one instant, as bare shapes: discs, boxes and segments in
-// the world frame, indexed so that what is near is found fast. Walls are given once; the rest is
-// put in anew each time. Knows no vehicles: a shape has an owner number, and a sensor skips its
-// own. Once indexed it only answers, and several threads may ask at once.
+// the world frame, indexed so that near ones are found fast. Walls are given once; the rest is
+// inserted again each time. Knows no vehicles: a shape has an owner number, and a sensor skips its
+// own. Once indexed it is read-only, and several threads may query it at once.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace giveway::sim {
 
-// Whose a shape is: the caller's numbering; walls are nobody's.
+// Identifies the owner of a shape, in the caller's numbering; walls have none.
 using Owner = std::uint32_t;
 inline constexpr Owner kNoOwner = 0xffffffff;
 
@@ -65,8 +65,8 @@ class Scene {
   void Index();
 
   SceneDiscs Discs() const;
-  // Visits stretches [begin, end) of Discs() that hold every disc whose surface is within reach_m
-  // of `centre_world`, and some others.
+  // Visits half-open ranges of Discs() that contain every disc whose surface is within reach_m of
+  // `centre_world`, and some others.
   template <typename Visit>
   void DiscsNear(Vec2 centre_world, double reach_m, Visit&& visit) const {
     disc_grid_.Near(centre_world, reach_m + largest_radius_m_, visit);

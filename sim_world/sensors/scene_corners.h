@@ -1,5 +1,5 @@
-// Where the walls of a scene end or meet: what echoes ultrasonics beside the faces themselves.
-// Found once, for walls stand. Knows no transducers.
+// Where the walls of a scene end or meet: what echoes ultrasonics in addition to the faces.
+// Computed once, because walls do not move. Knows no transducers.
 //
 // Sound that meets a wall's end or the outside of a corner is diffracted: a weak echo, whatever the
 // incidence. In the inside of a right-angled corner it is reflected twice and comes straight back,
@@ -17,7 +17,7 @@
 
 namespace giveway::sim {
 
-// Answers whoever is in its sector: counter-clockwise from one wall to the next.
+// Echoes transducers within its sector: counter-clockwise from one wall to the next.
 struct SceneCorner {
   Vec2 at_world;
   Vec2 from_world;     // unit vector along the first wall, away from the corner

@@ -1,6 +1,6 @@
-// What every sensor beside the ultrasonics gets to see of the world, and all that it may use:
+// What every sensor other than the ultrasonics receives from the world, and all that it may use:
 // radar, lidar and camera are pure functions from a SensorView to their scan. All sit at the axle
-// centre, look forward and are exact; what stands nearer hides what is behind it.
+// centre, look forward and are exact; what is nearer hides what is behind it.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@
 
 namespace giveway::sim {
 
-// What a sensor can learn of a shape's owner beside its outline. Owners are numbered as in
+// What a sensor can learn of a shape's owner besides its outline. Owners are numbered as in
 // things.h; walls have none.
 struct OwnerFacts {
   Vec2 velocity_world;    // m/s, of the middle of a disc or box, of the whole of a segment

@@ -2,8 +2,8 @@
 // other: ideal (exact, every tick), typical (blind zone, noise, incidence cut-off, drop-outs; edges
 // and corners answer too, sonar_corners.h), p3dx (one transducer of each array at a time, slot by
 // slot) and crosstalk (others' pulses are heard).
-// Every number drawn hangs on seed, vehicle, time and transducer only, so neither the order of the
-// vehicles nor the number of threads shows.
+// Every random number depends only on seed, vehicle, time and transducer, so neither the order of
+// the vehicles nor the number of threads changes the result.
 //
 // The world calls Sense once a tick, after the bodies have moved:
 //
@@ -37,7 +37,7 @@ namespace giveway::sim {
 struct SonarState {
   Readings readings{};  // as they can be read now; what has not fired yet is no data
 
-  // Of the slot under way: what is being heard, and by which transducer.
+  // The current slot: what is being heard, and by which transducer.
   struct Listening {
     RangeReading reading;  // kNoData: this array is not listening
     std::uint32_t transducer = 0;

@@ -63,8 +63,8 @@ class Listener {
 
 }  // namespace
 
-// Edges of cardboard and of door frames are heard by Polaroid transducers from about 2 m in a quiet
-// room; on a vehicle that drives, with the gain that its schedule of 40 ms leaves, from less.
+// Polaroid transducers hear the edges of cardboard and of door frames from about 2 m when it is
+// quiet; on a moving vehicle, with the gain that its schedule of 40 ms leaves, from less.
 double EdgeReach(SonarTier tier) {
   switch (tier) {
     case SonarTier::kIdeal:

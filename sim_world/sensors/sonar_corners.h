@@ -2,9 +2,10 @@
 // send back from any angle. The tiers above ideal add it to what faces answer (sonar_ring.h).
 //
 // An edge's echo is 20 to 30 dB below that of a face at the same distance, falls with the range to
-// the power of 3/2 and not 1, and by the beam on the way out and back: so it is heard only from
-// near, and from nearer still towards the rim of the cone (Kuc and Siegel, IEEE PAMI 9(6), 1987;
-// Kleeman and Kuc, IJRR 14(4), 1995, section 2). An inner corner answers as strongly as a face.
+// the power of 3/2 instead of 1, and by the beam both out and back: so it is heard only at short
+// range, and at even shorter range towards the rim of the cone (Kuc and Siegel, IEEE PAMI 9(6),
+// 1987; Kleeman and Kuc, IJRR 14(4), 1995, section 2). An inner corner echoes as strongly as a
+// face.
 #pragma once
 
 #include <cstdint>

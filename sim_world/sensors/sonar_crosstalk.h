@@ -1,6 +1,6 @@
-// Pulses that reach other vehicles directly. A transducer that listens takes another's pulse, fired
-// in the same slot, for its own echo: as it came the way once and not there and back, it reads half
-// the distance.
+// Pulses that reach other vehicles directly. A listening transducer takes another's pulse, fired in
+// the same slot, for its own echo: the pulse has travelled the distance once instead of out and
+// back, so the transducer reads half of it.
 #pragma once
 
 #include <array>

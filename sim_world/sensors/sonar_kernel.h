@@ -21,7 +21,7 @@ struct Ear {
   Vec2 position_world;
   Vec2 x_axis_world;  // of the body: one sine and cosine for all that is near
   Owner self = kNoOwner;
-  double reach_m = 0;  // from the position; nothing farther away can be heard
+  double reach_m = 0;  // from the position; nothing beyond it can be heard
   Incidence incidence;
   SectorSet sectors = kEverySector;  // the others' ranges may stay as they are
 
@@ -32,8 +32,8 @@ struct Ear {
 // Objects near one vehicle, in its body frame. Kept on the stack; a full list is heard and emptied.
 inline constexpr std::size_t kNearListSize = 128;
 
-// Numbers of objects, put down without a branch: all of four are written, as many counted as are
-// wanted. Hence the room for four more.
+// Indices of objects, appended without a branch: all four are written, and only the wanted ones
+// counted. Hence the four extra elements.
 template <std::size_t size>
 struct Chosen {
   std::size_t count = 0;

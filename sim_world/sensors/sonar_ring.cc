@@ -10,8 +10,7 @@
 namespace giveway::sim {
 namespace {
 
-// What is gathered may lie this much farther away than it could be heard from, so that rounding
-// loses nothing.
+// Gathered objects may be this much beyond hearing range, so that rounding loses none.
 constexpr double kRingSlack_m = 1e-9;
 
 void Keep(RangeReading* reading, std::optional<double> range_m) {

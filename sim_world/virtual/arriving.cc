@@ -18,8 +18,8 @@ bool ExcludeEachOther(const VehicleOptions& a, const VehicleOptions& b) {
 
 }  // namespace
 
-// Each wheel errs again in each tick by a share of what it rolls, so that the heading is a random
-// walk and the place beside the way its sum.
+// Each wheel has a new error in each tick, a share of what it rolls, so that the heading is a
+// random walk and the lateral offset its sum.
 GoalTolerance ToleranceOf(const VehicleOptions& options) {
   constexpr double kSigmas = 3;
   constexpr double kDetour = 1.5;

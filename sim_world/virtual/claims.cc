@@ -8,7 +8,7 @@
 namespace giveway::sim {
 namespace {
 
-// Rounding, and what a tick of turning bends a straight stopping way.
+// Rounding, and how far a tick of turning bends a straight stopping path.
 constexpr double kClaimSlack_m = 0.01;
 constexpr double kClaimSigmas = 2;  // as the vehicles allow for
 

@@ -1,6 +1,7 @@
-// Who drives nearer to something than the margin it promises, shell to shell and by the truth: to
-// another body, a wall, an obstacle or the leaf of a door. Only of one that moves towards it:
-// a vehicle that stands is passed at the other's cost, and one that started near may leave.
+// Which vehicles drive nearer to something than the margin they promise, shell to shell and by the
+// truth: to another body, a wall, an obstacle or the leaf of a door. Counts only a vehicle that
+// moves towards it: a standing vehicle is passed at the other's cost, and one that started near may
+// leave.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@
 
 namespace giveway::sim {
 
-// What moves beside the vehicles. Empty where it is not known.
+// Moving things other than vehicles. Empty if they are not known.
 struct Surroundings {
   std::span<const MovingObstacle> obstacles;
   std::span<const SlidingDoor> doors;

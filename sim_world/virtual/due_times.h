@@ -1,6 +1,6 @@
-// When each vehicle is due: what it takes a vehicle alone in the place, and a bound on what the
-// others cost it that depends on the place alone. The bound is what a crossing guard of little wit
-// reaches, who lets all others through the place first, one after the other, each from standstill.
+// When each vehicle is due: the time it takes alone in the place, and a bound on the delay caused
+// by others that depends on the place alone. The bound is what a simple crossing guard achieves who
+// lets all others through the place first, one after the other, each from standstill.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace giveway::sim {
 // From its start over its waypoints to its goal, metres, in straight lines.
 double RouteLength(const VehicleOptions& options);
 
-// Seconds a vehicle alone would take: its way at cruise speed, speeding up and slowing down.
+// Seconds a vehicle alone would take: its route at cruise speed, with acceleration and braking.
 double FreeFlowSeconds(const VehicleOptions& options);
 
 // The same with the turns at its waypoints, on the spot.

@@ -1,9 +1,9 @@
 // Makes scenarios of a kind, sized by vehicles and varied by seed. Only layouts that can be solved:
-// starts and goals at least two metres apart (one vehicle per 4 m^2), goals off the ways of others
-// or in the order they are reached, or as in convoy and antipodal where every vehicle can make
-// room. Two lanes are two bodies and half a metre wide; door and one_lane are passed one by one.
-// Every vehicle can arrive but of those who share a goal (arriving.h), and it is said so before the
-// run. The same values give the same scenario anywhere.
+// starts and goals at least two metres apart (one vehicle per 4 m^2), goals off the paths of others
+// or in the order they are reached, or, as in convoy and antipodal, where every vehicle can move
+// aside. Two lanes are two bodies and half a metre wide; door and one_lane are passed one by one.
+// Every vehicle can arrive except those that share a goal (arriving.h), and this is known before
+// the run. The same values give the same scenario on every machine.
 #pragma once
 
 #include <cstdint>
@@ -40,20 +40,20 @@ Scenario MakeMerge(const Size& size);
 Scenario MakeWarehouse(const Size& size);
 // Random starts and goals in an open field.
 Scenario MakeSwarm(const Size& size);
-// One lane, all the same way, at different speeds.
+// One lane in one direction, at different speeds.
 Scenario MakeConvoy(const Size& size);
 
-// Two rooms, and a door of one to two bodies between them, with traffic both ways.
+// A door one to two bodies wide in a wall, with traffic in both directions.
 Scenario MakeDoor(const Size& size);
 // A passage in which no two pass each other, with traffic from both ends.
 Scenario MakeOneLane(const Size& size);
-// A circle on which every vehicle wants to the opposite side.
+// A circle on which every vehicle has its goal on the opposite side.
 Scenario MakeAntipodal(const Size& size);
 // A car park: one half drives in, the other out, and some into the bay of one that leaves.
 Scenario MakeParking(const Size& size);
-// Two or three want to stand on the same place: one of them can.
+// Two or three vehicles with the same goal: one of them can arrive.
 Scenario MakeSharedGoal(const Size& size);
-// A swarm among pallets, posts and ends of walls close beside the ways, and one that walks about.
+// A swarm among pallets, posts and ends of walls close to the paths, and a moving obstacle.
 Scenario MakeMixedYard(const Size& size);
 
 }  // namespace giveway::sim

@@ -19,7 +19,7 @@ constexpr double kParked_m = 2.1;     // between goals of one lane
 //              | v  ^ |          Each of the four streams has a lane of its own. Those waiting
 //        ------+      +------    stand behind each other before the crossing; beyond it they park
 //        <                 <     in their lane in the same order, the first the farthest, so that
-//        >                 >     no vehicle arrives in anyone's way.
+//        >                 >     none blocks a later one.
 //        ------+      +------
 //              | v  ^ |
 Scenario MakeCrossing(const Size& size) {
@@ -38,8 +38,8 @@ Scenario MakeCrossing(const Size& size) {
   return layout.Take();
 }
 
-// A square of 16 m^2 a vehicle, cut into cells; every vehicle has a cell to start in and another to
-// end in, each with its own, moved a little within it. Ways cross anywhere.
+// A square of 16 m^2 per vehicle, cut into cells; every vehicle has one cell to start in and one to
+// end in, shared with no other, and is offset a little within it. Paths cross anywhere.
 Scenario MakeSwarm(const Size& size) {
   Layout layout("swarm", size);
   const double side_m = std::sqrt(16.0 * size.vehicles);

@@ -1,6 +1,6 @@
-// Layouts with lanes: roundabout, corridor, door, one_lane, merge. Who has come through parks in a
-// bay beside the lane, at a place drawn: overtaking is not asked of anyone, and no vehicle's order
-// of arrival matters.
+// Layouts with lanes: roundabout, corridor, door, one_lane, merge. A vehicle that has passed
+// through parks in a bay next to the lane, at a random place: no vehicle has to overtake, and the
+// order of arrival does not matter.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -19,7 +19,7 @@ constexpr double kMouths_m = 3;       // before and behind a passage, where only
 Vec2 Direction(double angle_rad) { return {Cos(angle_rad), Sin(angle_rad)}; }
 Vec2 Right(Vec2 along) { return -1 * Left(along); }
 
-// A passage along the x axis, its middle at the origin; its lanes lie lane_m beside the axis.
+// A passage along the x axis, centred on the origin; its lanes are lane_m off the axis.
 struct Passage {
   double half_m = 0;  // of its length
   double lane_m = 0;
@@ -49,7 +49,7 @@ void SendThrough(const Passage& passage, std::uint32_t vehicles, Layout* layout)
   }
 }
 
-// What the passage leads through, wider than anyone looks for a way round.
+// The buildings on both sides of the passage, too deep for any vehicle to plan a detour.
 void AddBuildings(const Passage& passage, double width_m, Layout* layout) {
   constexpr double kDepth_m = 12;
   layout->AddBlock({-passage.half_m, width_m / 2}, {passage.half_m, width_m / 2 + kDepth_m});
@@ -92,10 +92,10 @@ Scenario MakeRoundabout(const Size& size) {
   return layout.Take();
 }
 
-// A passage of 8 to 14 m between two walls, two bodies and 0.5 to 1.5 m wide: room for two that
-// pass each other. Before either end those who want to go through wait in two rows on their right;
-// behind the other end they park on both sides of a lane, on their right again, so that the two
-// streams meet nowhere but in the passage.
+// A passage of 8 to 14 m between two walls, two bodies and 0.5 to 1.5 m wide: enough for two to
+// pass each other. Vehicles wait in two rows on their right at either end; behind the other end
+// they park on both sides of a lane, on their right again, so that the two streams meet only in the
+// passage.
 Scenario MakeCorridor(const Size& size) {
   Layout layout("corridor", size);
   constexpr double kBody_m = 0.5;
@@ -109,8 +109,8 @@ Scenario MakeCorridor(const Size& size) {
   return layout.Take(2 * half_m);
 }
 
-// The wall between the rooms is 0.2 m thick. A door narrower than two bodies and half a metre is
-// passed one by one, down its middle.
+// The wall is 0.2 m thick. A door narrower than two bodies and half a metre is passed one by one,
+// through its middle.
 Scenario MakeDoor(const Size& size) {
   Layout layout("door", size);
   constexpr double kHalf_m = 0.1;
@@ -121,7 +121,7 @@ Scenario MakeDoor(const Size& size) {
   return layout.Take(kMouths_m);
 }
 
-// 6 to 12 m between two buildings: once in, there is no way but through, or back.
+// 6 to 12 m between two buildings: once in, a vehicle can only go through, or back.
 Scenario MakeOneLane(const Size& size) {
   Layout layout("one_lane", size);
   const double half_m = layout.Dice().Uniform(3, 6);

@@ -1,4 +1,4 @@
-// Open fields in which many want the same: the middle of a circle, or the very same goal.
+// Open fields in which many vehicles need the same space: the middle of a circle, or the same goal.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -17,8 +17,8 @@ Vec2 OnCircle(double radius_m, double angle_rad) {
 
 }  // namespace
 
-// All ways cross in one point. A vehicle that stands on a goal stands where another has started: it
-// is in nobody's way any more once that one has left.
+// All paths cross in one point. A vehicle on its goal stands where another has started: it
+// obstructs none once that one has left.
 Scenario MakeAntipodal(const Size& size) {
   Layout layout("antipodal", size);
   constexpr double kLeast_m = 4;

@@ -8,7 +8,7 @@
 //
 // Roads run along both sides, an aisle between any two racks; each has two lanes, and traffic keeps
 // to the right. An aisle is two bodies and half a metre wide between its two strips for standing,
-// so that a vehicle that stands is in no vehicle's way.
+// so that a standing vehicle obstructs none.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,7 @@ constexpr double kRows_m = -6.2;
 constexpr double kEastOuter_m = kAisle_m + 2.1;  // northbound
 constexpr double kEastInner_m = kAisle_m + 0.9;
 constexpr double kEastGoals_m = kAisle_m + 3.9;
-// Beside the west road two goals and a row of waiting take turns.
+// Along the west road two goals and a waiting row alternate.
 constexpr double kTurn_m = 3 * kBay_m;
 constexpr std::uint32_t kRowDepth = 4;
 constexpr double kRowQueue_m = 2.4;

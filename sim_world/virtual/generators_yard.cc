@@ -1,4 +1,4 @@
-// Places with bays, pallets and ends of walls close beside the ways.
+// Places with bays, pallets and ends of walls close to the paths.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,8 +32,8 @@ void AddBays(std::uint32_t columns, Layout* layout) {
   }
 }
 
-// How near the way of any vehicle, its start and goal included, comes to the segment, shell to
-// segment; huge without vehicles.
+// The smallest distance, shell to segment, from the path of any vehicle, its start and goal
+// included; huge without vehicles.
 double ShellToWays(const Scenario& scenario, Vec2 from, Vec2 to) {
   double least_m = 1e6;
   for (const VehicleOptions& vehicle : scenario.vehicles) {
@@ -124,10 +124,10 @@ Scenario MakeParking(const Size& size) {
   return layout.Take();
 }
 
-// The swarm's cells, and between the ways posts and pieces of wall that come as near to a passing
-// shell as 0.15 m, most of them 0.15 to 0.5: the nearest of some draws is taken. One obstacle walks
-// to and fro along the rim, outside the cells: it stops only where it touches, and would walk into
-// one that stands.
+// The swarm's cells, and between the paths posts and pieces of wall that are as near to a passing
+// shell as 0.15 m, most of them 0.15 to 0.5: the nearest of several draws is taken. One obstacle
+// moves to and fro along the rim, outside the cells: it stops only on contact, and would run into a
+// standing vehicle.
 Scenario MakeMixedYard(const Size& size) {
   Layout layout("mixed_yard", size);
   constexpr double kNearest_m = 0.15;

@@ -10,10 +10,10 @@ namespace giveway::sim {
 namespace {
 
 constexpr std::uint32_t kUnknown = 0xffffffff;
-// How far a vehicle may be from where it says: what it says of its own doubt, and a little.
+// How far a vehicle may be from the pose it publishes: the uncertainty it publishes, and a little.
 constexpr double kPoseSigmas = 3;
 constexpr double kPoseSlack_m = 0.1;
-// Nearer to where it stood it has not gone on.
+// Within this distance of where it stood it has not moved on.
 constexpr double kOnePlace_m = 0.1;
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
@@ -243,7 +243,7 @@ void Invariants::JudgePose(Tick tick, const Observed& now, Track* track) {
   track->pose_told = wrong;
 }
 
-// Everyone waits for at most one other, so a walk along the edges ends or meets itself.
+// Every vehicle waits for at most one other, so a walk along the edges ends or runs into a cycle.
 void Invariants::JudgeCircles(Tick tick, std::span<const Observed> vehicles) {
   for (Track& track : tracks_) track.walk = 0;
   VehicleId found = kNobody;
@@ -267,8 +267,8 @@ void Invariants::JudgeCircles(Tick tick, std::span<const Observed> vehicles) {
   }
 }
 
-// A way is free where nobody has another reason to stand than to let someone else go. Who has
-// arrived stands in nobody's way by right, but while it still rolls there is somebody to let go.
+// Broken only if every vehicle stands to give way and none for another reason. An arrived vehicle
+// may stand, but while it still rolls there is one to give way to.
 void Invariants::JudgeAllHalted(Tick tick, std::span<const Observed> vehicles) {
   bool anyone = false;
   bool all = true;

@@ -1,6 +1,6 @@
 // What must be true of every fleet in every tick, judged by the truth and by what the vehicles
-// publish. Virtual runs fill in an Observed a vehicle from their brains, real ones from
-// world/truth, beacons and status. Counts; decides nothing about the run.
+// publish. Virtual runs fill in an Observed per vehicle from the brains, real ones from
+// world/truth, beacons and status. Counts violations; decides nothing about the run.
 #pragma once
 
 #include <array>
@@ -24,15 +24,15 @@ namespace giveway::sim {
 
 enum class Invariant : std::uint8_t {
   kContact,      // no contact that a moving vehicle caused
-  kStaleMotion,  // no motion on stale data: at the latest the braking is under way
-  kWaitCycle,    // who halts to give way and to whom: never in a circle
-  kWaitBound,  // no vehicle stands on one place for longer than a bound, whatever it says it is for
-  kAllHalted,  // never do all who are not there yet halt to give way, each for another
-  kOrder,      // who halts to give way comes later in the order, as both published it
-  kArrival,    // every living vehicle arrives within the duration, and at least one lives
-  kPose,       // where a beacon says its vehicle was, it was: as nearly as the beacon says
+  kStaleMotion,  // no motion on stale data: the vehicle is at least braking
+  kWaitCycle,    // vehicles that halt to give way to each other never form a cycle
+  kWaitBound,  // no vehicle stands in one place longer than a bound, whatever reason it reports
+  kAllHalted,  // the vehicles that have not arrived never all halt to give way
+  kOrder,      // a vehicle that halts to give way has the lower priority, as both published it
+  kArrival,    // every live vehicle arrives within the duration, and at least one is live
+  kPose,       // a vehicle was where its beacon says, within the uncertainty it states
   kRedLight,   // no vehicle drives past a red light: red_lights.h
-  kProgress,   // no vehicle is wedged: progress.h
+  kProgress,   // no vehicle is stuck: progress.h
   // Counted and reported in virtual runs, and held to where that is asked for: RequiredInvariants.
   kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h
@@ -130,7 +130,7 @@ class Invariants {
     bool shares_goal =
         false;  // of one of kArrival's groups: it may stand where another has arrived
     Rule rule = Rule::kNotRunning;
-    double due_s = 0;   // 0: never, or told
+    double due_s = 0;   // 0: never, or reported
     Vec2 stands_world;  // has not left it for so many ticks
     std::uint32_t stood_ticks = 0;
     bool order_told = false;

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kSlowest_m_s = 0.2;
 constexpr double kFastest_m_s = 0.6;
-// Beyond the free-flow time of the slowest: for everyone once in turn through the tightest place.
+// On top of the free-flow time of the slowest: every vehicle in turn through the tightest place.
 constexpr double kSpare_s = 60;
-constexpr double kTurn_s = 12;  // where two ways cross; a longer place takes longer
+constexpr double kTurn_s = 12;  // where two paths cross; a longer place takes longer
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void Layout::Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal) {
 }
 
 void Layout::AddCellToCell(std::uint32_t vehicles, std::uint32_t columns) {
-  constexpr double kMoved_m = 0.19;  // so that neighbours keep their room
+  constexpr double kMoved_m = 0.19;  // so that neighbours stay apart
   const std::vector<std::uint32_t> cells = Shuffled(columns * columns, &dice_);
   const auto place = [&](std::uint32_t cell) {
     return Vec2{kCell_m * (cell % columns) + dice_.Uniform(-kMoved_m, kMoved_m),

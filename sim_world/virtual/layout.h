@@ -18,8 +18,8 @@ inline constexpr double kRoom_m = 2.0;
 // The edge of a cell of Layout::AddCellToCell.
 inline constexpr double kCell_m = 2.4;
 
-// Makes another robot of the one that a generator is about to put in: body, drive, cruise speed.
-// The way is not known to it yet.
+// Changes the robot that a generator is about to add: body, drive, cruise speed. Its route is not
+// known yet.
 using RobotDraw = std::function<void(VehicleOptions* options)>;
 
 struct Size {
@@ -34,7 +34,7 @@ class Layout {
 
   Random& Dice() { return dice_; }
   const Scenario& SoFar() const { return scenario_; }
-  // The next vehicle: it stands at `start`, looks at the first point of its way, passes
+  // Adds the next vehicle: it stands at `start`, faces the first point of its route, passes
   // `waypoints` and ends at `goal`. Its cruise speed is drawn, and more of it by Size::draw.
   void Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal);
   // So many vehicles, each from a cell of a square grid to another, both its own; the places are
@@ -55,8 +55,8 @@ class Layout {
   Scenario scenario_;
 };
 
-// Where those who go by park: beside a lane, so that they are in no vehicle's way. Between two bays
-// there is room.
+// Where vehicles that have passed park: next to a lane, so that they obstruct none. There is space
+// between two bays.
 inline constexpr double kBay_m = 2.1;     // along the lane
 inline constexpr double kBeside_m = 1.6;  // from the lane's middle
 

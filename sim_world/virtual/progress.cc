@@ -12,7 +12,7 @@ namespace {
 constexpr double kNearer_m = 0.1;  // less may be the turning about of one that is wedged
 constexpr double kNearerTime_s =
     10;  // and a slow one needs no more of it than it drives in so long
-// A vehicle on a detour passes a waypoint that it cannot reach within 1.2 m (vehicle/way.cc).
+// A vehicle on a detour skips a waypoint that it cannot reach within 1.2 m (services/vehicle).
 constexpr double kPassed_m = 1.3;
 // Centre to centre: from a door or a dead vehicle, of which no vehicle says that it waits for them.
 constexpr double kNear_m = 1.7;

@@ -1,13 +1,14 @@
-// Who is wedged: wants to go somewhere, could, and for a long time neither comes nearer nor waits
-// for anyone who does, whatever the rule is called by which it stands or drives about. By the
-// truth; of what the vehicles say only whom they wait for and that a light stops them.
+// Which vehicles are stuck: they have a goal, could move, and for a long time neither come nearer
+// nor wait for a vehicle that does, whatever rule they report. Judged by the truth; of what the
+// vehicles publish only for which peers they wait and that a light stops them.
 //
 // A vehicle makes progress when it passes a waypoint of its route, or comes nearer to the next one,
-// or to its goal, than it ever was on this leg. Waiting for one's turn is no wedge, however long it
-// takes, as long as one makes progress of those it waits for, of those these wait for, and so on:
-// who waits for whom is what they publish, the decision's peer and the one given way to. Who has
-// arrived is not waited for: it never goes. One that stands at a red light, at a door that is not
-// open, or at a dead vehicle is excused, and those who wait for it: these pass.
+// or to its goal, than ever on this leg. Waiting for one's turn is not being stuck, however long it
+// takes, as long as one of the vehicles it waits for makes progress, or one of those that these
+// wait for, and so on. The wait-for relation is what vehicles publish: the decision's peer and the
+// one given way to. An arrived vehicle is not waited for: it never leaves. A vehicle at a red
+// light, at a door that is not open, or at a dead vehicle is excused, and so are those that wait
+// for it, because these obstructions end.
 //
 // In 700 sound runs (every generator, seeds 1 to 100, 2 to 50 vehicles, loss 0 to 20 %) a vehicle
 // came no nearer by itself for 119 s at most, with those it waited for for 53 s at most.

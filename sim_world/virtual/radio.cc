@@ -203,7 +203,7 @@ void Radio::HearSender(std::size_t receiver, std::size_t sender,
   Pair& pair = pairs_[receiver * count_ + sender];
   if (KnowsItIsFar(receiver, sender, &pair)) return;
   const std::size_t first = heard->size();
-  // The longest under way first: it was said first.
+  // Longest in transit first: it was sent first.
   for (std::uint32_t ticks = ruled ? most_ticks_ : longest_ticks_; ticks >= shortest_ticks_;
        --ticks) {
     if (ticks >= Number(now_)) continue;

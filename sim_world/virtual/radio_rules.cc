@@ -9,7 +9,7 @@
 namespace giveway::sim {
 namespace {
 
-constexpr std::uint64_t kOfRows = 1;  // the stream beside that of single beacons
+constexpr std::uint64_t kOfRows = 1;  // a stream separate from that of single beacons
 
 }  // namespace
 

@@ -1,6 +1,6 @@
-// The rules of a radio that are on for a time: whom they cut off from whom now, and what they make
-// of a beacon on its way. Counts in ticks since the start signal; every draw is a hash of the
-// radio's seed, the rule, the pair and the tick in which the beacon was said. Knows no positions.
+// The rules of a radio that are active for a time: which links they cut now, and what they do to a
+// beacon in transit. Counts in ticks since the start signal; every draw is a hash of the radio's
+// seed, the rule, the pair and the tick in which the beacon was sent. Knows no positions.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace giveway::sim {
 
-// A beacon under way for longer is of no use to anyone, and comes by then.
+// A beacon that takes longer would be of no use, and arrives by then.
 inline constexpr std::uint32_t kLongestTicks = 40;
 
 class RadioRules {

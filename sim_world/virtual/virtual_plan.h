@@ -1,4 +1,5 @@
-// What goes wrong in a virtual run beside the scenario: the radio's faults and the processes'.
+// What goes wrong in a virtual run besides the scenario's faults: faults of the radio and of
+// processes.
 #pragma once
 
 #include <cstdint>
@@ -19,21 +20,21 @@ struct BurstLoss {
   double loss = 1;     // share of beacons a bad link loses
 };
 
-// No peer receives the vehicle and it hears nobody.
+// No peer receives the vehicle and it receives none.
 struct Blackout {
-  VehicleId vehicle = kNobody;  // kNobody: everyone
+  VehicleId vehicle = kNobody;  // kNobody: every vehicle
   double from_s = 0;            // since the start signal
   double to_s = 0;
 };
 
-// What goes wrong on the air for a time, in the ear of whoever hears. What is lost, late or twice
-// by a rule hangs on when the beacon was said, a cut on when it would be heard. Rules that are on
-// at once each draw for themselves, and what they delay adds up.
+// A radio fault for a time, on the receiver's side. Loss, delay and duplication depend on when the
+// beacon was sent, a cut on when it would be received. Rules that are active at once draw
+// separately, and their delays add up.
 struct RadioRule {
   double from_s = 0;              // since the start signal
   double to_s = 0;                // not any more
-  VehicleId hearer = kNobody;     // kNobody: everyone
-  VehicleId speaker = kNobody;    // kNobody: anyone
+  VehicleId hearer = kNobody;     // kNobody: every vehicle
+  VehicleId speaker = kNobody;    // kNobody: every vehicle
   bool cut = false;               // nothing of the speaker is heard
   bool both_ways = false;         // of a cut: and the speaker does not hear the hearer
   double period_s = 0;            // of a cut: on for the first half of each period; 0: all the time
@@ -50,17 +51,18 @@ struct RadioRule {
 struct RadioSettings {
   double loss = 0;  // share of beacons lost, each by itself; 0 to 1
   BurstLoss burst;
-  // Under way for delay, and up to jitter more. Heard at the first tick it has come by, and never
-  // at the tick it was said.
+  // In transit for delay, and up to jitter more. Received at the first tick after its arrival, and
+  // never at the tick it was sent.
   Nanoseconds delay{0};
   Nanoseconds jitter{0};
   double reorder = 0;       // share held back for two ticks more, so that later ones overtake them
   double duplicate = 0;     // share heard a second time, a tick after the first
-  bool loops_back = false;  // everyone hears its own beacons too
+  bool loops_back = false;  // every vehicle receives its own beacons too
   std::vector<Blackout> blackouts;
   std::vector<RadioRule> rules;
-  // The radio's own reach by true positions. Without one it carries further than anyone listens, as
-  // the middleware does: brains leave out what was stated from beyond their emission radius.
+  // The radio's own reach by true positions. Without one it reaches further than any vehicle
+  // listens, as the middleware does: brains ignore what was stated from beyond their emission
+  // radius.
   std::optional<double> reach_m;
 };
 
