@@ -1,5 +1,4 @@
-// What goes wrong in a virtual run besides the scenario's faults: faults of the radio and of
-// processes.
+// What goes wrong in a virtual run in addition to the scenario: faults of radio and processes.
 #pragma once
 
 #include <cstdint>

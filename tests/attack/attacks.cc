@@ -175,7 +175,7 @@ class Impostor {
     for (const Packet& packet : captured) NoteOther(packet);
   }
   bool KnowsEnough() const { return !beacons_.empty() && !other_.empty(); }
-  // Whatever anybody said meanwhile.
+  // Updates what it knows by what was sent since the capture.
   void Follow(const Packet& packet) {
     std::vector<Heard> found;
     FindHeard(packet, &found);

@@ -120,7 +120,7 @@ std::vector<Heard> BeaconsOf(std::uint32_t vehicle, const std::vector<Packet>& c
   std::vector<Heard> all;
   for (const Packet& packet : captured) FindHeard(packet, &all);
   std::erase_if(all, [vehicle](const Heard& heard) { return BeaconOf(heard) != vehicle; });
-  // Another intruder may say them as somebody else, less often than the vehicle itself.
+  // Another intruder may impersonate the vehicle, but publishes less often than the vehicle itself.
   std::map<PrefixBytes, std::size_t> times;
   for (const Heard& heard : all) ++times[heard.prefix];
   const auto most = std::ranges::max_element(times, {}, [](const auto& by) { return by.second; });

@@ -1,6 +1,6 @@
-// What one step of the brain costs with 10, 100 and 1000 peers in the table, each heard again every
-// tick, as in a full mesh without loss: a fleet that drives along with the vehicle, to one side of
-// it or all around it.
+// The cost of one step of the brain with 10, 100 and 1000 peers in the table, each received again
+// every tick, as in a full mesh without loss: a fleet that drives along with the vehicle, to one
+// side of it or all around it.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ Beacon PeerAt(std::uint32_t i, Vec2 offset) {
   return beacon;
 }
 
-// On a square grid of 2 m cells, one per 4 m^2, 10 m and more to the right of the vehicle's way.
+// On a square grid of 2 m cells, one per 4 m^2, 10 m and more to the right of the vehicle's path.
 std::vector<Beacon> PeersBeside(std::uint32_t count) {
   std::vector<Beacon> peers;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ std::vector<Beacon> PeersAround(std::uint32_t count) {
 // The vehicle's wheels do what it commands, and the whole fleet moves on as it does.
 void Drive(benchmark::State& bench, const std::vector<Beacon>& peers) {
   VehicleOptions options = test::DefaultOptions();
-  options.emission_radius_m = 1000;  // everyone is heard: the worst case
+  options.emission_radius_m = 1000;  // every peer is received: the worst case
   options.goal.at_world = {90'000, 0};
   Vehicle vehicle(options, 42);
   std::vector<ReceivedBeacon> heard;

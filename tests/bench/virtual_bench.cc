@@ -1,6 +1,6 @@
-// What a vehicle costs in virtual time for a tick: all of it, and the radio, the world and the
-// invariants by themselves. Fifty vehicles on a lattice, each with about ten others in reach, or
-// with all of them.
+// The cost of a vehicle and tick in virtual time: in total, and of the radio, the world and the
+// invariants separately. Fifty vehicles on a lattice, each with about ten others in reach, or with
+// all of them.
 #include <benchmark/benchmark.h>
 
 #include <vector>
@@ -23,7 +23,7 @@ Vec2 Place(std::uint32_t i) {
   return kSpacing_m * Vec2{1.0 * (i % kColumns), 1.0 * (i / kColumns)} + off;
 }
 
-// Everyone drives north in lanes of their own for an hour, so that the neighbours stay the same.
+// All vehicles drive north in lanes of their own for an hour, so that the neighbours stay the same.
 Scenario Fleet(double emission_radius_m) {
   Scenario scenario;
   scenario.name = "bench";

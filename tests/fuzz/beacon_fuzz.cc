@@ -1,4 +1,4 @@
-// Any bytes as beacons: the brain believes or refuses each, counts it once, and stays sane.
+// Any bytes as beacons: the brain accepts or refuses each, counts it once, and stays sane.
 //
 // An input is one byte for the behaviour and then records; Bit says what a record's first byte
 // means.
@@ -15,7 +15,7 @@ namespace giveway::fuzz {
 namespace {
 
 enum Bit : unsigned {
-  kSealed,     // the checksum is made right: else nothing spoilt would pass it
+  kSealed,     // the checksum is recomputed: else no mutated beacon would pass it
   kNamed,      // the writer's partition names the id the beacon claims
   kRival,      // another writer
   kSteps,      // the brain steps after this one; else more beacons come in the same drain
@@ -29,7 +29,7 @@ class Session {
  public:
   explicit Session(Behaviour behaviour) : options_(OptionsOf(behaviour)), brain_(options_, 42) {}
 
-  // The way of a sample through the inbox of services/link.
+  // Passes a sample through the inbox of services/link.
   void Hear(const Record& record) {
     wire::Beacon sample;
     if (!Deserialize(record.sample, &sample)) return;
@@ -89,7 +89,7 @@ void Append(Input* input, unsigned how, const Beacon& beacon) {
 
 constexpr unsigned On(Bit bit) { return 1U << bit; }
 
-// Somebody crosses ahead: 20 ticks of it.
+// A vehicle crosses ahead: 20 ticks of it.
 Input Crossing(Behaviour behaviour, unsigned how) {
   Input input(1, static_cast<char>(behaviour));
   for (std::uint32_t tick = 1; tick <= 20; ++tick) {

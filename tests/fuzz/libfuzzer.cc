@@ -1,4 +1,4 @@
-// In place of driver.cc where libFuzzer drives: without a corpus it begins at our samples.
+// Replaces driver.cc where libFuzzer drives: without a corpus it starts from our samples.
 #include <algorithm>
 
 #include "tests/fuzz/mutate.h"

@@ -156,7 +156,7 @@ Input Mutator::Make(std::uint64_t number) const {
   if (number < samples_.size()) return samples_[number];
   Dice dice(seed_, number);
   Input input = samples_[dice.Below(samples_.size())];
-  // Few changes pass more of the checks, many find stranger ways.
+  // Few changes pass more of the checks, many reach rarer branches.
   for (std::size_t left = 1 + dice.Below(1 + dice.Below(kMostChanges)); left > 0; --left) {
     Change(&input, samples_[dice.Below(samples_.size())], &dice);
   }

@@ -1,5 +1,5 @@
-// Spoils samples at random. An input follows from the seed and its number alone, so any one of a
-// run can be made again without the ones before it.
+// Mutates samples at random. An input follows from the seed and its number alone, so any one of a
+// run can be reproduced without the ones before it.
 #pragma once
 
 #include <cstdint>

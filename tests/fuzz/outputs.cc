@@ -8,7 +8,7 @@
 namespace giveway::fuzz {
 namespace {
 
-constexpr double kSlack = 1e-9;  // relative: what the way there and back through a twist rounds
+constexpr double kSlack = 1e-9;  // relative: rounding of a conversion to a twist and back
 
 void CheckCaps(const WheelSpeeds& target, const VehicleProfile& profile) {
   const Twist twist = TwistFromWheels(profile.drive, target);

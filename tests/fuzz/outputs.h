@@ -1,4 +1,4 @@
-// What must hold of anything a brain says, whatever it was told.
+// What must hold of the outputs of a brain, for any inputs.
 #pragma once
 
 #include "services/types/vehicle_io.h"

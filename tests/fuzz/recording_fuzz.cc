@@ -1,7 +1,8 @@
-// Any bytes as a recording: it is replayed or refused in words, and both times alike.
+// Any bytes as a recording: it is replayed or refused with a message, and a second time with the
+// same result.
 //
-// An input is one byte and a file. Where the byte is odd the sums of the frames are made right
-// first, so that what they guard is spoilt too.
+// An input is one byte and a file. If the byte is odd, the checksums of the frames are recomputed
+// first, so that mutations reach what they guard.
 #include <sstream>
 
 #include "services/fleetctl/replay/replayer.h"

@@ -1,4 +1,4 @@
-// Any bytes as scans: whatever the world says, the wheels are asked for numbers within the caps,
+// Any bytes as scans: whatever the world publishes, the wheel commands are numbers within the caps,
 // and the same inputs give the same bits again.
 //
 // An input is one byte for the behaviour and then records; Bit says what a record's first byte
@@ -15,7 +15,7 @@ namespace giveway::fuzz {
 namespace {
 
 enum Bit : unsigned {
-  kInTime,  // tick and epoch are made right: only what was sensed is spoilt
+  kInTime,  // tick and epoch are corrected: only the readings are corrupted
   kBlind,   // no scan comes with this step
   kLeaves,  // the process was asked to stop
   kLate,    // 200 ms pass, and not 50
@@ -59,7 +59,7 @@ class Session {
     return options;
   }
 
-  // The way of a sample through the inbox of services/link.
+  // Passes a sample through the inbox of services/link.
   std::optional<RangeScan> Take(const Record& record) {
     wire::RangeScan sample;
     RangeScan scan;
@@ -93,7 +93,7 @@ class Session {
   void Step(const Inputs& inputs) {
     const Outputs outputs = brain_.Step(inputs);
     CheckOutputs(outputs, options_);
-    // Where time itself was not spoilt, others must be able to believe what this vehicle says.
+    // If time itself was not corrupted, peers must be able to accept what this vehicle publishes.
     GIVEWAY_CHECK(!only_in_time_ || outputs.beacon.tick == kNoTick || IsInRange(outputs.beacon));
     GIVEWAY_CHECK(outputs.command.decision.rule != Rule::kRangesStale ||
                   outputs.command.target == WheelSpeeds{});

@@ -1,4 +1,4 @@
-// Any text as a scenario file: either a scenario that keeps every rule, in which a fleet can begin
+// Any text as a scenario file: either a scenario that keeps every rule, in which a fleet can start
 // to drive, or problems that a person can read.
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
@@ -12,7 +12,7 @@
 namespace giveway::fuzz {
 namespace {
 
-// The first ticks of what was accepted: nobody says what another must refuse.
+// The first ticks of an accepted scenario: no vehicle publishes what its peers must refuse.
 void CheckDrives(const Scenario& scenario) {
   constexpr std::size_t kLargest = 6;
   constexpr int kTicks = 4;

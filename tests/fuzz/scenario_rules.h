@@ -1,5 +1,5 @@
 // The promises of a loaded scenario, written down a second time: idl/scenario.proto gives them to
-// whoever writes a file, and every module behind config takes them for granted.
+// the author of a file, and every module behind config relies on them.
 #pragma once
 
 #include "services/types/scenario.h"

@@ -106,7 +106,7 @@ TEST(Admin, AnAnswerTellsWhatTheEndpointsRunWith) {
                              .interface = "127.0.0.1",
                              .profiles = {"mine.xml", "<dds/>"},
                              .live = vehicle.Link().LiveQos()});
-  std::vector<AdminAnswer> got;  // kept for whoever comes later
+  std::vector<AdminAnswer> got;  // kept for late joiners
   ASSERT_TRUE(Eventually([&] {
     got = chief.Take();
     return !got.empty();

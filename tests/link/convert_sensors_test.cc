@@ -1,5 +1,5 @@
-// Radar, lidar, camera and signals go to the wire and back unchanged, and what is not finite, not
-// known or too much does not come through.
+// Radar, lidar, camera and signals go to the wire and back unchanged, and values that are not
+// finite, not known or too many are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -206,7 +206,7 @@ bool IsFinite(const CameraScan& scan) {
   return sum == 0;
 }
 
-// Spoils up to four bytes of a sound sample `kRounds` times; whatever then passes is sound too.
+// Corrupts up to four bytes of a valid sample `kRounds` times; whatever then passes is valid too.
 // Returns how many did not pass.
 template <typename Ours>
 int SpoilAndCountRefusals(const Ours& sound) {

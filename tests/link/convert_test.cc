@@ -1,5 +1,5 @@
-// Every type goes to the wire and back unchanged. Each wire sample is also serialized, because the
-// generated code is part of the way.
+// Every type goes to the wire and back unchanged. Each wire sample is also serialized, to include
+// the generated code.
 #include "services/link/convert/convert.h"
 
 #include <gtest/gtest.h>
@@ -423,8 +423,8 @@ TEST(Convert, RefusesAnEnumeratorItDoesNotKnow) {
   EXPECT_FALSE(FromWire(status, status_back));
 }
 
-// Nobody between the socket and main catches what the type support throws: one spoilt packet from
-// anywhere would end a vehicle.
+// Nothing between the socket and main catches what the type support throws: one malformed packet
+// from anywhere would end a vehicle.
 TEST(Convert, BytesThatAreNoSampleAreRefusedWithoutAnException) {
   TopicOf<wire::Roster>::Type type;
   wire::Roster roster = ToWire(RosterEntry{});

@@ -1,4 +1,4 @@
-// Vehicles that fall silent, leave and come back: each is named, and a gone one stays gone.
+// Vehicles that fall silent, leave and come back: each is named, and one that is gone stays gone.
 #include <gmock/gmock.h>
 
 #include <atomic>
@@ -52,7 +52,7 @@ TEST(Departures, OfThreeVehiclesKilledAtOnceAreEachNamed) {
           << Number(id);
     }
   }
-  // Told once is told: the library goes on about the dead, the link does not.
+  // An event is reported once: the library repeats those of the dead, the link does not.
   ears.Forget();
   Repeat(milliseconds(1000), [&] { ears.Listen(); });
   for (const VehicleId id : killed) {
@@ -108,8 +108,8 @@ TEST(Departures, OfFiftyVehiclesLeaveThePublishedCountersStill) {
   EXPECT_EQ(listener.Told(QosEventKind::kUnmatched), 50U);
   EXPECT_GE(listener.Told(QosEventKind::kLivelinessLost), 10U);
 
-  // Nothing is told of the departed, and they cost nothing: the library repeats the miss of an
-  // instance every 150 ms for as long as it has it, and has one left of fifty.
+  // No events of departed vehicles are reported, and they cost nothing: the library repeats the
+  // miss of an instance every 150 ms for as long as it has it, and has one left of fifty.
   const std::size_t told = listener.Told();
   const std::size_t raw = listener.RawMisses();
   Repeat(milliseconds(1500), [&] { listener.Listen(); });

@@ -1,4 +1,4 @@
-// Vehicles that find each other through a discovery server, and say so while none answers. The
+// Vehicles that discover each other through a discovery server, and report while none answers. The
 // server is a participant of this process; fast-discovery-server is another.
 #include <gmock/gmock.h>
 
@@ -51,7 +51,7 @@ class DiscoveryServerTest : public ::testing::Test {
   }
 
   DomainLock domain_;
-  // Of no participant of any domain: those begin at 7400 + 250.
+  // Used by no participant of any domain: their ports start at 7400 + 250.
   std::uint16_t port_ = static_cast<std::uint16_t>(7000 + domain_.Domain());
   link::LinkOptions options_;
 };

@@ -1,4 +1,4 @@
-// An ear tells, process by process, how far it came: found, matched, heard.
+// The discovery probe reports, process by process, how far it came: found, matched, heard.
 #include "services/link/ear.h"
 
 #include <gmock/gmock.h>

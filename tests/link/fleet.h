@@ -47,7 +47,7 @@ class BeaconingProcess {
   ~BeaconingProcess() { Kill(); }
   BeaconingProcess(const BeaconingProcess&) = delete;
   BeaconingProcess& operator=(const BeaconingProcess&) = delete;
-  void Kill();  // SIGKILL: no good-bye
+  void Kill();  // SIGKILL: no leave notice
 
  private:
   pid_t pid_ = -1;
@@ -60,7 +60,7 @@ class Ears {
   void Listen();
   // Vehicles a named, sound beacon came from.
   const std::set<VehicleId>& Heard() const { return heard_; }
-  // Whom events of a kind were about, in order.
+  // The vehicles that events of a kind were about, in order.
   std::vector<VehicleId> Told(QosEventKind kind) const;
   const std::vector<ReceivedBeacon>& Beacons() const { return beacons_; }
   void Forget();

@@ -80,7 +80,7 @@ class ForeignWriter : public ::testing::Test {
     EXPECT_EQ(status.last_policy_id, static_cast<std::uint32_t>(policy));
     const auto told = ears_.Told(QosEventKind::kIncompatibleQos);
     EXPECT_THAT(told, Not(IsEmpty()));
-    EXPECT_THAT(told, Each(kFive));  // the sound one beside it is never taken for it
+    EXPECT_THAT(told, Each(kFive));  // never the valid one next to it
   }
 
   DomainLock domain_;
@@ -199,7 +199,7 @@ TEST_F(ForeignWriter, ThatStillSpeaksDoesNotKeepASilentOneAlive) {
   EXPECT_THAT(ears_.Told(QosEventKind::kLivelinessLost), Each(VehicleId{6}));
 }
 
-// Fast DDS 2.9.1 does not take Cyclone's word that an endpoint is gone: liveliness tells.
+// Fast DDS 2.9.1 ignores Cyclone's notice that an endpoint is gone: only liveliness reports it.
 TEST_F(ForeignWriter, ThatLeavesIsNotAliveByName) {
   const dds_entity_t writer = stranger_->MakeWriter(AsRequested());
   ASSERT_TRUE(IsHeard(writer));

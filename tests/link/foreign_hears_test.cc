@@ -87,7 +87,7 @@ TEST_F(ForeignReader, HearsEveryFieldOfABeacon) {
   EXPECT_NE(beacon.crc, 0U);
 }
 
-// A status gets new members at its end: who knows of fewer goes on reading it.
+// A status gets new members at its end: a reader that knows fewer can still read it.
 TEST_F(ForeignReader, OfAnOlderStatusReadsTheMembersItKnows) {
   const dds_entity_t reader = stranger_.MakeStatusReader();
   VehicleStatus status;

@@ -1,5 +1,5 @@
-// Packets that an intruder forges, against real participants: to the library one sample with a
-// sequence number far ahead, from whoever, ends a reader's hearing of its writer for good; one
+// Packets that an intruder forges, against real participants: one sample with a sequence number far
+// ahead, from any source, permanently stops the library's reader from receiving its writer; one
 // statistics submessage ends the process.
 #include <arpa/inet.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
-// What an impaired vehicle hears of others over real sockets. The model itself is tested in
-// tests/unit/link/channel_model_test.cc; here is whether the transport obeys it.
+// What an impaired vehicle receives from others over real sockets. The model itself is tested in
+// tests/unit/link/channel_model_test.cc; this tests that the transport follows it.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -86,7 +86,8 @@ TEST(Impaired, ByAFifthLostHearsFourFifths) {
   EXPECT_NEAR(heard, 0.8, 5 * std::sqrt(0.2 * 0.8 / kSent) + 0.01);
   const ImpairmentCounters counters = listener.Impaired();
   EXPECT_EQ(counters.packets, counters.passed + counters.dropped_loss);
-  // A gap is told once, however wide: of 2000 with a fifth lost there are some 2000 * 0.2 * 0.8.
+  // A gap is reported once, however wide: of 2000 with a fifth lost there are some 2000 * 0.2 *
+  // 0.8.
   const auto gaps = listener.ears.Told(QosEventKind::kSampleLost);
   EXPECT_NEAR(static_cast<double>(gaps.size()), 320, 100);
   EXPECT_THAT(gaps, ::testing::Each(kThree));
@@ -137,8 +138,8 @@ TEST(Impaired, SecondCopiesAndOvertakenOnesAreNotHeardByABestEffortReader) {
   EXPECT_GE(listener.Impaired().reordered, 20U);
 }
 
-// One spoilt sequence number, believed by the library, makes a best-effort reader deaf to the
-// writer for good: hence one sender after the other.
+// One corrupted sequence number that the library accepts makes a best-effort reader permanently
+// deaf to the writer: hence one sender after the other.
 TEST(Impaired, SpoiltBeaconsAreHeardAsSpoiltAndEverySoundOneIsTrue) {
   const DomainLock domain;
   Listener listener(domain, {{.from = ImpairedSender::kVehicles, .corrupt = 0.3}});
@@ -166,7 +167,7 @@ TEST(Impaired, SpoiltBeaconsAreHeardAsSpoiltAndEverySoundOneIsTrue) {
   EXPECT_GE(listener.Impaired().corrupted, spoilt);
 }
 
-// Also what tells who is there. Some are never found, as above; ghosts may appear; nothing crashes.
+// Discovery traffic too. Some are never found, as above; ghosts may appear; nothing crashes.
 TEST(Impaired, SpoiltDiscoveryIsSurvived) {
   const DomainLock domain;
   Listener listener(domain, {{.duplicate = 0.2, .corrupt = 0.3}});
@@ -201,7 +202,8 @@ TEST(Impaired, FromOneVehicleOnlyHearsTheOthers) {
     four.Send();
     listener.ears.Listen();
     spared.ears.Listen();
-    // Who is dropped is known by name once discovery has told it: how many that were is up to it.
+    // Dropped senders are known by name once discovery has announced them: how many are before
+    // varies.
     return listener.ears.Beacons().size() >= 50 && listener.Impaired().dropped_loss >= 20 &&
            spared.ears.Heard().contains(kThree);
   }));
@@ -209,7 +211,7 @@ TEST(Impaired, FromOneVehicleOnlyHearsTheOthers) {
   EXPECT_EQ(spared.Impaired().Dropped(), 0U);
 }
 
-// The world says that the run is under way; from then on time counts.
+// The world reports that the run has started; from then on time counts.
 void StartRun(link::WorldLink* world, Listener* listener) {
   const SessionId session{1, 2, 3, 4};
   listener->link.SendJoin({session, kListener});

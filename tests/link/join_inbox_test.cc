@@ -1,4 +1,4 @@
-// Who floods the world with requests to join crowds nobody out.
+// A flood of join requests displaces those of no other vehicle.
 #include "services/link/inbox/join_inbox.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// world/pose_fix: from the world to the vehicle that is fitted, and to nobody else.
+// world/pose_fix: from the world to the vehicle with the sensor, and to no other.
 #include <gtest/gtest.h>
 
 #include "services/link/convert/convert.h"

@@ -1,5 +1,5 @@
-// Every element the tables of services/qos know is one the library takes, and it takes no other:
-// each is put into a profile of its own and loaded, in the words of the release at hand.
+// Every element in the tables of services/qos is one that the library accepts, and it accepts no
+// other: each is put into a profile of its own and loaded, in the syntax of the installed release.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -39,7 +39,7 @@ std::string Sample(std::string_view parent, const ElementRule& rule) {
   }
 }
 
-// What the library wants beside an element.
+// What the library requires besides an element.
 std::string Companion(std::string_view parent, std::string_view name) {
   if (parent == "data_sharing" && name != "kind") return "<kind>OFF</kind>";
   if (parent == "participant" && name != "rtps") return "<rtps/>";

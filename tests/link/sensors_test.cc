@@ -1,5 +1,5 @@
-// The further sensors and the signals: who hears them, what is refused, and what their silence
-// costs.
+// The further sensors and the signals: which vehicle receives them, what is refused, and the effect
+// of their silence.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -95,7 +95,7 @@ class FullyFitted : public ::testing::Test {
   link::Taken taken_;
 };
 
-// Sends as the world would, but whatever it is told to.
+// Sends as the world would, but whatever a test wants.
 class RawWorld {
  public:
   explicit RawWorld(const link::LinkOptions& options)

@@ -1,4 +1,4 @@
-// The way of a value over the wire without a network: through the type support that endpoints use.
+// Takes a value over the wire without a network: through the type support that endpoints use.
 #pragma once
 
 #include <gtest/gtest.h>

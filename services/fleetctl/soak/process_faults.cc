@@ -377,7 +377,7 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   child.name = name;
   child.hands_on_lines = false;
   child.environment.clear();  // its clock is not the member's, and what it reads is not counted
-  if (!child.log_file.empty()) child.log_file += fmt::format(".beside-{}", id);
+  if (!child.log_file.empty()) child.log_file += fmt::format(".duplicate-{}", id);
   SetFlag(&child.words, "--id", std::to_string(id));
   DropFlag(&child.words, "--record");
   DropFlag(&child.words, "--record-split");

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint32_t kStrangeEpoch = 0x5eed0001;
 
-// As the world, to the victim, what `change` makes of its own entry.
+// Impersonates the world: sends the target its own entry as modified by `change`.
 void SpeakAsWorld(const Orders& orders, const std::function<void(RosterEntry*)>& change) {
   Intruder intruder(orders);
   intruder.LookRound();
@@ -52,7 +52,7 @@ void RosterRefused(const Orders& orders) {
   });
 }
 
-// By a writer of join requests, what `change` makes of one in the victim's session.
+// Sends leave notices in every vehicle's session, with a join writer of the intruder's.
 void Leave(const Orders& orders) {
   Intruder intruder(orders);
   intruder.LookRound();
@@ -118,7 +118,7 @@ AdminOrder Elsewhere(const Orders& orders) {
   return order;
 }
 
-// Where nobody takes orders there is no reader: that is as good as refused.
+// Without an admin reader the target takes no orders: that is as good as a refusal.
 void OrderElsewhere(const Orders& orders) {
   Intruder intruder(orders);
   intruder.LookRound();
@@ -131,7 +131,7 @@ void OrderElsewhere(const Orders& orders) {
   });
 }
 
-// Says again what operators said to the victim.
+// Replays what operators sent to the target.
 void ReplayOrders(const Orders& orders) {
   Intruder intruder(orders);
   const std::string partition = link::VehiclePartition(orders.victim);

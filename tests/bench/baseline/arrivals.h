@@ -1,5 +1,5 @@
-// In which order vehicles that drive straight to their goals come to where their ways meet. Facts
-// of a scenario; books nothing.
+// The order in which vehicles that drive straight to their goals reach the points where their paths
+// meet. Facts of a scenario; books nothing.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +10,13 @@
 namespace giveway::bench {
 
 struct Arrival {
-  double comes_m = 0;  // from the start to where another's way first crosses its own
+  double comes_m = 0;  // from the start to where another's path first crosses its own
   double comes_s = 0;  // there, when alone
-  // Indices of those in its own lane who stand ahead of it or end further on.
+  // Indices of those in its own lane that stand ahead of it or end further on.
   std::vector<std::size_t> let_first;
 };
 
-// In the scenario's order. Bodies are in each other's way nearer than near_m, centre to centre.
+// In the scenario's order. Bodies block each other nearer than near_m, centre to centre.
 std::vector<Arrival> ArrivalsOf(const Scenario& scenario, double near_m);
 
 }  // namespace giveway::bench

@@ -1,4 +1,4 @@
-// Where along its way a vehicle may be and when, by the tiles that others have booked.
+// Where along its path a vehicle may be and when, by the tiles that others have booked.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace giveway::bench {
 
-// Between the places of a way at which tiles are looked up.
+// Between the places of a path at which tiles are looked up.
 inline constexpr double kSample_m = 0.02;
 
 class Clearance {

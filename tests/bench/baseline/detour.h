@@ -1,5 +1,5 @@
-// The way a string takes that is pulled tight round discs in between: straight pieces that touch
-// the discs, and arcs along their rims.
+// The path of a string pulled tight round discs in between: straight pieces that touch the discs,
+// and arcs along their rims.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace giveway::bench {
 
 struct Standing {
   Vec2 centre_world;
-  double radius_m = 0;  // the way keeps out of it
+  double radius_m = 0;  // the path stays outside it
 };
 
 // From one place to another and straight on for beyond_m; it starts heading where it goes. Not

@@ -1,5 +1,5 @@
-// Wheel speeds that keep a differential drive on a plan: where it should be on its way now, and how
-// fast. Exact on straight ways; where the way starts to bend the wheels lag behind a little.
+// Wheel speeds that keep a differential drive on a plan: where it should be on its path now, and
+// how fast. Exact on straight paths; where the path starts to bend the wheels lag a little.
 #pragma once
 
 #include "services/types/profile.h"

@@ -79,8 +79,8 @@ class Reach {
     return std::nullopt;
   }
 
-  // Back through the slowest there was, so that at any time it is as far on as it can be: who
-  // comes behind or across finds the way free the sooner.
+  // Back through the slowest predecessors, so that it is as far on as possible at any time: a
+  // vehicle behind or across finds the path free sooner.
   Passage TraceBack(std::uint32_t step, std::uint32_t unit, std::uint32_t level) const {
     Passage passage = {.levels = std::vector<std::uint32_t>(step + 1, 0),
                        .units = std::vector<std::uint32_t>(step + 1, 0),

@@ -1,6 +1,6 @@
-// The soonest a vehicle can come along a given way that is taken here and there, now and then: a
-// search over every way of speeding up and slowing down its drive allows, in steps of time and of
-// speed. Exact on that lattice. Knows nothing of ground, tiles and other vehicles.
+// The earliest a vehicle can pass along a given path that is taken in places and at times: a search
+// over all accelerations and decelerations that its drive allows, in steps of time and of speed.
+// Exact on that lattice. Knows nothing of ground, tiles and other vehicles.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ struct Passing {
   // Of a step, from 1 on. Stretches taken are at least Pace::UnitsAtMost() long, so that nothing
   // jumps one within a step.
   std::function<const FreeUnits&(std::uint32_t step)> free_during;
-  // True if nobody will want the place from the end of that step on.
+  // True if the place stays free from the end of that step on.
   std::function<bool(std::uint32_t unit, std::uint32_t step)> may_stay;
 };
 

@@ -1,6 +1,6 @@
-// Drives the bodies of a world by other means than our vehicles' brains, to measure ours against:
-// same bodies, caps, accelerations, starts and goals. An idealised pilot: it sees everyone's true
-// pose and speed every tick and its commands are never lost.
+// Drives the bodies of a world by other means than our vehicles' brains, for comparison: same
+// bodies, caps, accelerations, starts and goals. An idealised pilot: it sees every true pose and
+// speed every tick, and its commands are never lost.
 #pragma once
 
 #include <cstdint>
@@ -26,12 +26,12 @@ class Pilot {
                      std::span<WheelSpeeds> wheels) = 0;
 };
 
-// What a run came to, whoever drove.
+// The result of a run with any pilot.
 struct Crossed {
   std::uint32_t vehicles = 0;
   std::uint32_t contacts = 0;
   std::uint32_t arrived = 0;
-  // Beyond the time alone, of everyone; one that never arrives counts until the run's end. To
+  // Beyond the time alone, per vehicle; one that never arrives counts until the run's end. To
   // arrive is to come within the goal's radius, as for a pilot that passes it at cruise speed.
   std::vector<double> delays_s;
   double took_s = 0;                   // until the last arrival, or the run's end

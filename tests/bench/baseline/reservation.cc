@@ -123,8 +123,8 @@ void Reservation::ServeEveryone() {
   }
 }
 
-// Who is behind another in a lane comes to the crossing no sooner than that one has gone on by a
-// body's length.
+// A vehicle behind another in a lane reaches the crossing no sooner than the other has moved on by
+// a body's length.
 void Reservation::HoldBackThoseBehind(std::size_t ahead) {
   const Member& first = members_[ahead];
   const double gone_m = first.arrival.comes_m + 2 * Radius(first);
@@ -178,7 +178,7 @@ bool Reservation::Serve(Member* member) {
   const Way alone = WayAlone(member->options);
   constexpr double kSame_m = 1e-6;
   if (!round || round->Length_m() > alone.Length_m() + kSame_m) {
-    // Past whoever stands in the way for a time only, where that is sooner.
+    // Straight past vehicles that block the path only for a time, if that is sooner.
     Try(alone, member->passage ? member->passage->arrival_step - 1 : last_step_, member);
   }
   if (member->passage) {

@@ -1,9 +1,9 @@
 // A reservation scheme in order of arrival, after Dresner and Stone, "A Multiagent Approach to
 // Autonomous Intersection Management" (JAIR 31, 2008): vehicles call ahead, one manager books the
-// tiles of ground that a body covers, step by step in time, and who comes first is served first. A
-// baseline for measuring. Better off than theirs: everyone calls at the start, plans are driven
-// as booked, and instead of asking again after a refusal each is given the soonest passage there
-// is, be it straight or round those who stand.
+// tiles of ground that a body covers, step by step in time, first come, first served. A baseline
+// for measuring. Better off than theirs: all vehicles call at the start, plans are driven as
+// booked, and instead of asking again after a refusal each is given the soonest passage there is,
+// straight or round standing vehicles.
 #pragma once
 
 #include <optional>
@@ -47,7 +47,7 @@ class Reservation : public Pilot {
   bool MayAsk(const Member& member) const;
   // False: it stays where it stands.
   bool Serve(Member* member);
-  // True if it comes along the way by last_step at the latest; it takes the way then.
+  // True if it arrives along the path by last_step at the latest; it takes the path then.
   bool Try(const Way& way, Step last_step, Member* member) const;
   std::vector<Standing> StandingBeside(const Member& member) const;
   void Book(const Member& member);

@@ -12,7 +12,8 @@ Vec2 Unit(Vec2 v) {
   return length > 0 ? 1 / length * v : Vec2{1, 0};
 }
 
-// From the relative velocity to the nearest on the rim of the obstacle, and the way out there.
+// From the relative velocity to the nearest point on the rim of the obstacle, and the direction
+// outwards there.
 struct WayOut {
   Vec2 change;
   Vec2 outward;  // of length 1

@@ -2,7 +2,7 @@
 // Collision Avoidance" (ISRR 2009): each vehicle takes half of the change of velocity that keeps it
 // clear of each neighbour for a time. A differential drive is steered by a point ahead of its axle,
 // which can move in any direction, and is given a disc that holds the body round that point (Snape,
-// van den Berg, Guy, Manocha, IROS 2010). A baseline for measuring: everyone knows the true
+// van den Berg, Guy, Manocha, IROS 2010). A baseline for measuring: each knows the true
 // positions and velocities of its neighbours.
 #pragma once
 

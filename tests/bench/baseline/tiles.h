@@ -1,5 +1,5 @@
-// Who may be where and when: the ground in square tiles, time in steps, each tile booked for one
-// vehicle at a time (Dresner and Stone, JAIR 31, 2008). Keeps the book; decides nothing.
+// Which vehicle may be where and when: the ground in square tiles, time in steps, each tile booked
+// for one vehicle at a time (Dresner and Stone, JAIR 31, 2008). Keeps the book; decides nothing.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ class TileBook {
  public:
   explicit TileBook(const Ground& ground);
 
-  // The tiles a disc touches, in order. What lies outside the ground is nobody's.
+  // The tiles a disc touches, in order. Outside the ground there are none.
   void TilesUnder(Vec2 centre_world, double radius_m, std::vector<Tile>* tiles) const;
 
   bool IsTaken(Tile tile, Step step) const {
@@ -40,9 +40,9 @@ class TileBook {
   // For someone who stands there from a step on, permanently. False, and none is, if one is taken
   // then or later.
   bool BookFrom(std::span<const Tile> tiles, Step step);
-  // Who stood there gets a plan, and is there no longer than that says.
+  // The vehicle that stood there gets a plan, and is there no longer than that says.
   void GiveBack(std::span<const Tile> tiles);
-  // Nobody will be there from the step on.
+  // No vehicle will be there from the step on.
   bool IsFreeFrom(Tile tile, Step step) const;
 
  private:
@@ -53,7 +53,7 @@ class TileBook {
   std::int32_t columns_;
   std::int32_t rows_;
   std::vector<std::vector<std::uint64_t>> taken_;  // [step][tile / 64]
-  std::vector<Step> stood_from_;                   // by tile; kNever: nobody stands there
+  std::vector<Step> stood_from_;                   // by tile; kNever: none stands there
   std::vector<Step> free_from_;                    // by tile: after the last step booked
 };
 

@@ -1,4 +1,4 @@
-// A way along the ground, of straight pieces and arcs, given by the distance driven. No speeds.
+// A path along the ground, of straight pieces and arcs, given by the distance driven. No speeds.
 #pragma once
 
 #include <vector>
@@ -15,12 +15,12 @@ struct WayPiece {
 
 class Way {
  public:
-  // On from where the way ends so far, or from where it starts.
+  // Each Add continues from the end so far, the first one from the start.
   explicit Way(const Pose& world_from_start) : end_(world_from_start) {}
   void Add(double length_m, double bend_per_m);
 
   double Length_m() const { return length_m_; }
-  // Before the beginning and beyond the end: the nearest.
+  // Before the start and beyond the end: the nearest.
   Pose PoseAt(double driven_m) const;
   double BendAt(double driven_m) const;
 

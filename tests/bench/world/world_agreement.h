@@ -31,7 +31,7 @@ namespace giveway::bench {
 inline constexpr double kGraze_rad = 5e-5;
 // What single precision costs along a ray, with coordinates up to 64 m (one bit: 4e-6 m).
 inline constexpr double kRounding_m = 2e-5;
-// Below this range single precision cannot tell on which side of a surface a transducer is.
+// Below this range single precision does not resolve on which side of a surface a transducer is.
 inline constexpr double kOnSurface_m = 1e-3;
 
 struct Agreement {

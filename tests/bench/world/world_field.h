@@ -1,6 +1,6 @@
 // The field every benchmark of the world drives in: one P3-DX per 4 m^2 with all 16 ultrasonics
-// on, walls round it, a square pillar of 1 m for every 16 vehicles, and drivers that keep everyone
-// turning, braking and bumping. The drivers see the truth; they are no brains.
+// on, walls round it, a square pillar of 1 m for every 16 vehicles, and drivers that keep all of
+// them turning, braking and bumping. The drivers see the truth; they are not brains.
 #pragma once
 
 #include <cstddef>
