@@ -1,4 +1,4 @@
-// One vehicle's body as the world keeps it, and what happens to bodies.
+// One vehicle's body in the world, and the contacts of bodies.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace giveway::sim {
 
-// What every tick reads stands together, before what few ask for.
+// Fields that every tick reads come first, next to each other.
 struct Body {
   VehicleId vehicle = kNobody;
   bool joined = false;
@@ -23,7 +23,7 @@ struct Body {
   WheelSpeeds encoders;  // counted over the whole tick; without encoder noise and slip, the
                          // constant speeds that explain its motion exactly
   WheelAngles counted;   // by the encoders, since it was put on its start pose
-  WheelSpeeds ground;    // the constant speeds that do explain it: what slip made of the wheels
+  WheelSpeeds ground;    // the constant speeds that do explain it, slip included
   MotorCommand command;  // the last one taken; tick kNoTick before the first
   VehicleProfile profile;
   SonarState sonar;
@@ -35,7 +35,7 @@ struct Body {
 
 enum class Touched : std::uint8_t { kVehicle, kWall, kObstacle, kDoor };
 
-// Two shells, or a shell and something that is no vehicle, that started to touch in this tick.
+// Two shells, or a shell and something that is not a vehicle, that started to touch in this tick.
 struct Contact {
   VehicleId vehicle = kNobody;
   VehicleId other = kNobody;  // kNobody: no vehicle

@@ -1,5 +1,5 @@
-// All of a world that a restarted one needs to continue from where it was. A value; who keeps it
-// and in which form is not said here.
+// The state of a world from which a restarted one continues. A value; how it is stored is up to the
+// caller.
 #pragma once
 
 #include <cstdint>

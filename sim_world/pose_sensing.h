@@ -1,5 +1,5 @@
-// Fixes of pose, of every vehicle that has such a sensor, once a tick. They read the world as it
-// stands at the tick's end and change nothing in it.
+// Pose fixes of every vehicle that has such a sensor, once a tick. They read the state of the world
+// at the tick's end and change nothing in it.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@ class PoseSensing {
  public:
   explicit PoseSensing(const Scenario& scenario);
 
-  // The tick that was just made, by its number since the start signal, from 1; 0: no driving one.
+  // The tick that was just made, numbered from 1 since the start signal; 0: not a driving tick.
   // Then nothing moved, and there are no fixes.
   void Sense(WorldEpoch epoch, Tick tick, std::uint32_t driven_tick, std::span<const Body> bodies);
 
   // Of the last Sense, by vehicle.
   std::span<PoseFix> Fixes() { return fixes_; }
   std::span<const PoseFix> Fixes() const { return fixes_; }
-  // Takes away those that `is_lost` is true of.
+  // Removes those for which `is_lost` returns true.
   template <typename IsLost>
   void Lose(IsLost is_lost) {
     std::erase_if(fixes_, is_lost);

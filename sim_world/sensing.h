@@ -1,5 +1,5 @@
-// What the world lets its vehicles sense: fills the scene with everything as it stood at a moment
-// of the tick, and has the ultrasonics read in it.
+// What the vehicles of a world sense: fills the scene with everything as it was at a moment of the
+// tick, and reads the ultrasonics in it.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ class Sensing {
  public:
   explicit Sensing(const Scenario& scenario);
 
-  // A body took its place at `index` in the list: a new one, or another vehicle in an old place.
+  // A body was inserted at `index`: a new one, or another vehicle in an old place.
   void Insert(std::size_t index, const VehicleProfile& profile);
   void Replace(std::size_t index, const VehicleProfile& profile);
   // The body at `index` left the list.

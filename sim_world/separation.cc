@@ -24,8 +24,8 @@ ClosestMoment ClosestOf(const Motion& a, const Motion& b, double dt_s) {
 }
 
 // Two discs that drive all of the tick come no nearer than this: their offset goes from the one at
-// its start to the one at its end, but for what the arcs leave their chords by, |v w| dt^2 / 8.
-// Below any gap where that is not so simple.
+// its start to the one at its end, except for the deviation of the arcs from their chords, |v w|
+// dt^2 / 8. Below any gap if it is not that simple.
 double LeastGap(const Motion& a, const Motion& b, Vec2 offset_at_end, double dt_s) {
   constexpr double kNobodyKnows_m = -1;
   constexpr double kRounding_m = 1e-9;
@@ -55,8 +55,8 @@ void Separation::Observe(std::span<const Body> bodies, const Things& things,
                          std::span<const NearPair> pairs, double dt_s) {
   if (every_pair_) ObserveEveryPair(bodies, things, dt_s);
   if (closest_ && closest_->gap_m == 0) return;
-  // Of equally near pairs the first in this order, however they were found; none beats a record
-  // from an earlier tick by being as near.
+  // Of equally near pairs the first in this order, independent of the search; an equal gap does not
+  // replace a record from an earlier tick.
   using Rank = std::tuple<double, std::uint32_t, std::uint32_t>;
   Rank best = {closest_ ? closest_->gap_m : std::numeric_limits<double>::infinity(), 0, 0};
   for (const NearPair& pair : pairs) {
@@ -88,7 +88,7 @@ void Separation::ObserveEveryPair(std::span<const Body> bodies, const Things& th
                            .try_emplace({bodies[a].vehicle, bodies[b].vehicle},
                                         std::numeric_limits<double>::infinity())
                            .first->second;
-      // Most pairs are nowhere near their record: what both can drive in a tick rules it out.
+      // Most pairs are far from their record: the travel of both in a tick rules it out.
       const double reach_m = pair_m + of_a.radius_m + of_b.radius_m + TravelBound(of_a, dt_s) +
                              TravelBound(of_b, dt_s);
       const Vec2 offset = of_b.start_world.position_world - of_a.start_world.position_world;

@@ -1,5 +1,5 @@
-// How near any two vehicles ever came, shell to shell, between ticks included. Walls, obstacles and
-// doors do not count.
+// The smallest gap between any two vehicles so far, shell to shell, between ticks included. Walls,
+// obstacles and doors do not count.
 #pragma once
 
 #include <map>
@@ -22,7 +22,7 @@ struct ClosestApproach {
   Vec2 other_position_world;
 };
 
-// All that a Separation remembers.
+// The state of a Separation.
 struct SeparationRecord {
   std::optional<ClosestApproach> closest;
   std::map<std::pair<VehicleId, VehicleId>, double> closest_of_pair_m;  // lower id first
@@ -37,7 +37,7 @@ class Separation {
   // Only pairs at most this far apart can come nearer than any two did before; none before two
   // bodies were observed together.
   std::optional<double> Reach() const;
-  // Takes in one tick of dt_s, in which bodies moved as `things` says to where they now are.
+  // Processes one tick of dt_s, in which bodies moved as `things` says to where they now are.
   // `pairs` names at least those within Reach(); before there is a reach, at least the nearest.
   void Observe(std::span<const Body> bodies, const Things& things, std::span<const NearPair> pairs,
                double dt_s);

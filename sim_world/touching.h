@@ -1,5 +1,5 @@
-// Who touches what, from the tick a contact starts until shells have parted: so that a pair sliding
-// along each other is one contact, not hundreds.
+// The contacts in progress, from the tick a contact starts until the shells have parted: a pair
+// sliding along each other is one contact, not hundreds.
 #pragma once
 
 #include <algorithm>

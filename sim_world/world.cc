@@ -13,7 +13,7 @@ bool IsFinite(WheelSpeeds wheels) {
   return std::isfinite(wheels.left_rad_s) && std::isfinite(wheels.right_rad_s);
 }
 
-// Null where no body has that id.
+// Null if no body has that id.
 template <typename Bodies>
 auto* FindIn(Bodies& bodies, VehicleId vehicle) {
   const auto found = std::ranges::lower_bound(bodies, vehicle, {}, &Body::vehicle);
@@ -120,7 +120,7 @@ void World::Remove(VehicleId vehicle) {
   });
 }
 
-// The lists that go by a body's place in bodies_ all close up.
+// Erases the body's index from every list that is indexed like bodies_.
 void World::Forget(VehicleId vehicle) {
   const Body* body = Find(vehicle);
   GIVEWAY_CHECK(body != nullptr && !body->present, Number(vehicle));

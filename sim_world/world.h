@@ -44,16 +44,16 @@ class World {
   void Join(VehicleId vehicle);
   // The same for any vehicle, by options of its own; also during a run.
   void Join(const VehicleOptions& options);
-  // Takes the body away: it is no obstacle any more.
+  // Removes the body: it is no longer an obstacle.
   void Remove(VehicleId vehicle);
-  // Nothing is known of the vehicle any more. It is not present.
+  // Forgets the vehicle, which is not present.
   void Forget(VehicleId vehicle);
   // Whether a vehicle could join by these options now: nothing else touches its start pose.
   bool IsFree(const VehicleOptions& options) const;
-  // Holds the command until a newer one comes. False: refused, and counted.
+  // Keeps the command until a newer one arrives. False: refused, and counted.
   bool Take(const MotorCommand& command);
 
-  // What is wrong with drives in the next tick, by vehicle; until this is called again.
+  // The drive faults of the next ticks, by vehicle, until this is called again.
   void SetDriveFaults(std::span<const DriveFault> faults) {
     drive_faults_.assign(faults.begin(), faults.end());
   }

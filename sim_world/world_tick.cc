@@ -1,4 +1,4 @@
-// World::Advance: how a tick is made. world.cc has the rest.
+// World::Advance: one tick. The rest is in world.cc.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -120,8 +120,8 @@ void World::FindPairs(bool driving) {
   neighbours_.Find(balls_, std::max(kTouch_m, record_m), parallel_);
 }
 
-// Without a record to come nearer than: the nearest two, looked for in ever wider circles. However
-// they move, what is nearest in this tick is no further than they are now.
+// Without a record to come nearer than: the nearest two, searched in ever wider circles. However
+// they move, the nearest in this tick is no further than they are now.
 void World::FindFirstPairs() {
   double nearest_m = std::numeric_limits<double>::infinity();
   double searched_m = 0;

@@ -32,7 +32,7 @@ Outline OutlineOf(const Things& things, std::size_t thing, double t_s) {
   return outline;
 }
 
-// Whether a, whose hit with b this is, would close in on b if that stood still.
+// Whether a, at its hit with b, would close in on b if b stood still.
 bool ClosesIn(const Things& things, std::size_t a, std::size_t b, double t_s) {
   const Outline of_a = OutlineOf(things, a, t_s);
   Outline of_b = OutlineOf(things, b, t_s);
@@ -86,12 +86,12 @@ void Contacts::Gather(std::span<const NearPair> pairs, const Things& things, dou
   });
   candidates_.assign(by_walls_.All().begin(), by_walls_.All().end());
   for (const NearPair& pair : pairs) {
-    if (pair.apart_m > kTouch_m || things.IsLeaf(pair.b)) continue;  // leaves meet leaves in peace
+    if (pair.apart_m > kTouch_m || things.IsLeaf(pair.b)) continue;  // leaves do not stop each other
     candidates_.push_back({{kNever, pair.a, false, pair.b}, kNone, kNone});
   }
 }
 
-// Hangs the candidates of each thing on one chain.
+// Links the candidates of each thing into a chain.
 void Contacts::Chain(std::size_t things) {
   first_of_.assign(things, kNone);
   for (std::uint32_t i = 0; i < candidates_.size(); ++i) {
@@ -137,7 +137,7 @@ void Contacts::Stop(const Hit& hit, Things* things) {
   const bool vehicles = things->IsBody(hit.a) && things->IsBody(hit.b);
   const bool stop_a = vehicles || ClosesIn(*things, hit.a, hit.b, hit.t_s);
   const bool stop_b = vehicles || ClosesIn(*things, hit.b, hit.a, hit.t_s);
-  // Rounding may deny both: then both stop, or the hit would come again for ever.
+  // Rounding may deny both: then both stop, or the hit would repeat forever.
   if (stop_a || !stop_b) StopThing(things, hit.a, hit.t_s);
   if (stop_b || !stop_a) StopThing(things, hit.b, hit.t_s);
 }
@@ -172,7 +172,7 @@ std::span<const Hit> Contacts::StopAll(std::span<const NearPair> pairs, double d
     const Entry earliest = queue_.back();
     queue_.pop_back();
     if (candidates_[earliest.candidate].hit.t_s != earliest.hit.t_s) continue;
-    // Every hit stops something that moved, so this ends.
+    // Every hit stops something that moved, so this terminates.
     candidates_[earliest.candidate].hit.t_s = kNever;
     Stop(earliest.hit, things);
     hits_.push_back(earliest.hit);

@@ -18,7 +18,7 @@ namespace giveway::sim {
 
 struct Hit {
   double t_s = 0;
-  std::uint32_t a = 0;  // a thing; of two the higher number
+  std::uint32_t a = 0;  // a thing; if both are things, the higher number
   bool wall = false;
   std::uint32_t b = 0;  // the other thing, or the wall
 };

@@ -34,7 +34,7 @@ WheelSpeeds WithinCaps(const VehicleProfile& profile, WheelSpeeds wheels) {
   const Twist capped = {
       std::clamp(asked.forward_m_s, -profile.max_speed_m_s, profile.max_speed_m_s),
       std::clamp(asked.turn_rad_s, -profile.max_turn_rad_s, profile.max_turn_rad_s)};
-  // There and back through the twist would change the last bits of speeds that need no cap.
+  // A conversion to a twist and back would change the last bits of speeds that need no cap.
   if (capped.forward_m_s == asked.forward_m_s && capped.turn_rad_s == asked.turn_rad_s) {
     return wheels;
   }

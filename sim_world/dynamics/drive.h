@@ -20,22 +20,22 @@ WheelSpeeds WithinCaps(const VehicleProfile& profile, WheelSpeeds wheels);
 WheelSpeeds MoveWheels(const VehicleProfile& profile, WheelSpeeds current, WheelSpeeds target,
                        double dt_s);
 
-// One tick's wheels as others see them.
+// The effect of one tick's wheel speeds.
 struct Rolled {
   WheelSpeeds ground;  // the speeds of wheels that roll without slip and move the body as it moves
   WheelSpeeds encoders;  // what the encoders count
 };
 
-// Wheels that are not what the drive says move the body otherwise than they turn. Draws the tick's
-// slip and encoder noise from `random`, the same draws whichever of them is on. Neither takes the
-// body beyond the profile's caps. Without any of it both are `wheels`.
+// Wheels with errors move the body differently from how they turn. Draws the tick's slip and
+// encoder noise from `random`, with the same draws whichever of them is on. Neither takes the body
+// beyond the profile's caps. Without errors both results are `wheels`.
 Rolled Roll(const VehicleProfile& profile, WheelSpeeds wheels, Random random);
 
 // What is wrong with one body's drive in one tick.
 struct DriveFault {
   VehicleId vehicle = kNobody;
   double reaches = 1;                // of what was commanded
-  std::optional<WheelSpeeds> stuck;  // wheels turn so, whatever is commanded
+  std::optional<WheelSpeeds> stuck;  // wheels turn like this, whatever is commanded
   double counts = 1;                 // of what the encoders would count
 };
 

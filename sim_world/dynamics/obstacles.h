@@ -15,9 +15,9 @@ class Course {
   explicit Course(const Obstacle& obstacle);
 
   bool IsEmpty() const { return period_m_ <= 0; }
-  // Where one is after that many metres on it.
+  // The position that many metres along it.
   Vec2 At(double progress_m) const;
-  // The same place, less than once round.
+  // The same position as a distance of less than one round.
   double Folded(double progress_m) const;
 
  private:
@@ -26,7 +26,7 @@ class Course {
   double period_m_ = 0;          // after which it repeats
 };
 
-// What of an obstacle changes.
+// The variable state of an obstacle.
 struct ObstacleState {
   Vec2 position_world;
   double progress_m = 0;  // how far along its course it heads; after a stop in a bend it may be

@@ -10,7 +10,7 @@
 namespace giveway::sim {
 
 struct Things {
-  std::size_t bodies = 0;       // so many of the motions are vehicles'
+  std::size_t bodies = 0;       // the first motions are those of vehicles, this many
   std::vector<Motion> motions;  // of bodies and obstacles
   std::vector<Leaf> leaves;
   std::vector<std::uint8_t> present;  // by number; what is absent cannot be hit

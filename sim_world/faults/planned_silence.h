@@ -1,5 +1,6 @@
-// Which vehicles a schedule of faults silences, as the world must know: a process that is killed or
-// stopped on purpose says nothing of the run, and one that comes back is taken back. Pure.
+// Which vehicles a fault schedule silences, as far as the world needs to know: it does not count a
+// process that is killed or stopped on purpose against the run, and takes back one that returns.
+// Pure.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +15,16 @@ class PlannedSilence {
  public:
   explicit PlannedSilence(const faults::Schedule& schedule);
 
-  // Whether anything but a kill is done to processes of vehicles: any of it may silence one for a
-  // while. Then a closed run too continues without a vehicle that has fallen silent, and takes it
-  // back when it speaks again.
+  // Whether processes of vehicles have any fault other than a kill: each may silence a vehicle for
+  // a while. Then a closed run too continues without a vehicle that has fallen silent, and takes it
+  // back when it is heard again.
   bool VehiclesReturn() const { return vehicles_return_; }
-  // Whether the vehicle has been killed, never to come back, time_s after the start signal.
+  // Whether the vehicle was killed permanently by time_s after the start signal.
   bool IsKilled(VehicleId vehicle, double time_s) const;
 
  private:
   struct Kill {
-    VehicleId vehicle = kNobody;  // kNobody: every one
+    VehicleId vehicle = kNobody;  // kNobody: every vehicle
     double at_s = 0;
   };
 

@@ -67,14 +67,14 @@ void SonarFault::Hold(RangeScan* scan) {
   scan->readings = kept_.front();
 }
 
-// The place that is read is that of the oldest, and is written over.
+// A ring buffer: the oldest entry is read and overwritten.
 void SonarFault::Delay(RangeScan* scan) {
   if (behind_ticks_ == 0) return;
   if (kept_.empty()) kept_.assign(behind_ticks_, scan->readings);
   std::swap(scan->readings, kept_[scans_ % behind_ticks_]);
 }
 
-// A stuck transducer fires on, and nothing in the scan says that it heard that long ago.
+// A stuck transducer keeps firing, and nothing in the scan shows that its reading is old.
 void SonarFault::Freeze(RangeScan* scan) {
   if (kept_.empty()) kept_.assign(1, scan->readings);
   for (std::size_t i = 0; i < kSensorCount; ++i) {
@@ -85,7 +85,7 @@ void SonarFault::Freeze(RangeScan* scan) {
   }
 }
 
-// By the firing: a reading stays what it is until its transducer fires again.
+// Drawn per firing: a reading stays the same until its transducer fires again.
 void SonarFault::Scramble(const VehicleProfile& profile, std::uint32_t driven_tick,
                           RangeScan* scan) const {
   for (std::size_t i = 0; i < kSensorCount; ++i) {

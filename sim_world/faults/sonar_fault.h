@@ -1,16 +1,15 @@
-// What one fault of a vehicle's ultrasonics makes of its scans, tick by tick, from the fault's
-// start to its end. What it keeps is bounded: of kSonarDelayed 10 s of scans, of others one scan at
-// most. Knows one body; which bodies a fault is about, and when, is said by world_faults.h.
+// The effect of one fault of a vehicle's ultrasonics on its scans, tick by tick, from the fault's
+// start to its end. Its memory is bounded: for kSonarDelayed 10 s of scans, for others at most one
+// scan. Knows one body; world_faults.h decides which bodies a fault affects, and when.
 //
 //   kSonarOff           a transducer that fired heard nothing: clear
-//   kSonarStuck         what each said when it started, under the times of the firings since
-//   kSonarGarbage       clear with probability 1/4, else any range it could have, drawn again for
-//                       each firing
-//   kSonarWrong         ranges times `factor`; clear where that is beyond its reach
-//   kSonarSlow          the readings change each period_s only, and say when they were fired
-//   kSonarDelayed       the readings of delay_s ago, and say when they were fired; until the first
-//                       of them comes, those of when it started
-//   kSonarIntermittent  a scan is as of kSonarOff with `probability`, drawn again for each
+//   kSonarStuck         the readings from the fault's start, with the times of the firings since
+//   kSonarGarbage       clear with probability 1/4, else any possible range, drawn for each firing
+//   kSonarWrong         ranges times `factor`; clear if that is beyond max_range_m
+//   kSonarSlow          readings change only once per period_s, and state when they were fired
+//   kSonarDelayed       readings of delay_s ago, and state when they were fired; until the first
+//                       of them arrives, those from the fault's start
+//   kSonarIntermittent  a scan is as for kSonarOff with `probability`, drawn for each
 #pragma once
 
 #include <cstdint>

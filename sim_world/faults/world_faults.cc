@@ -11,7 +11,7 @@
 namespace giveway::sim {
 namespace {
 
-// What a kind does to a body. A kind that is not named here does not compile.
+// The effect of a kind on a body. A kind that is not listed here does not compile.
 enum class Effect : std::uint8_t { kNone, kOnSonar, kOnFix, kWeakens, kSticks, kMiscounts };
 
 Effect EffectOf(faults::Kind kind) {
@@ -65,7 +65,7 @@ Effect EffectOf(faults::Kind kind) {
     case kReplayed:
     case kFlooded:
     case kMalformed:
-      return Effect::kNone;  // not made by the world
+      return Effect::kNone;  // not injected by the world
   }
   return Effect::kNone;
 }
@@ -85,7 +85,7 @@ std::uint64_t DrawsOf(const faults::Fault& fault, std::uint64_t seed) {
   return hash.Value();
 }
 
-// Those of one body at one time: each does its part.
+// Applies one of several faults on one body at one time; their effects combine.
 void Combine(const faults::Fault& fault, WheelSpeeds held, DriveFault* drive) {
   switch (EffectOf(fault.kind)) {
     case Effect::kWeakens:
@@ -192,14 +192,14 @@ void WorldFaults::Follow(const Body& body) {
   if (drives_wrongly) drives_.push_back(drive);
 }
 
-// A body that is seen for the first time since the fault started: its wheels turn as they do now.
+// A body that is seen for the first time since the fault started: its wheels keep their speeds.
 WorldFaults::Memory* WorldFaults::Remember(Active* active, const Body& body) {
   const auto at = std::ranges::lower_bound(active->memories, body.vehicle, {}, &Memory::vehicle);
   if (at != active->memories.end() && at->vehicle == body.vehicle) return &*at;
   Memory memory{.vehicle = body.vehicle, .wheels = body.wheels};
   const Planned& planned = planned_[active->planned];
   if (planned.of_sonar) {
-    // Of a fault of all vehicles each draws for itself.
+    // A fault of all vehicles draws separately for each of them.
     StateHash draws;
     draws.Add(planned.draws);
     draws.Add(body.vehicle);

@@ -21,13 +21,13 @@
 
 namespace giveway::sim {
 
-// What is planned to go wrong in a run, and the seed of all that is drawn for it.
+// The planned faults of a run, and the seed of all their draws.
 struct FaultSchedule {
   faults::Schedule faults;
   std::uint64_t seed = 0;
 };
 
-// "sonar_stuck 3 of RULE": what an event of the run says of a fault. The number counts from 0.
+// "sonar_stuck 3 of RULE": how an event of the run names a fault. The number counts from 0.
 std::string EventText(const faults::Fault& fault);
 
 class WorldFaults {
@@ -40,17 +40,17 @@ class WorldFaults {
   // active ones.
   void Rest();
 
-  // What goes wrong with wheels in this tick, by vehicle.
+  // The drive faults in this tick, by vehicle.
   std::span<const DriveFault> OfDrives() const { return drives_; }
   bool AlterScans() const { return !resting_ && sonars_ > 0; }
-  // What this tick's faults make of the scan of a body that is present.
+  // Applies this tick's faults to the scan of a body that is present.
   void Alter(const VehicleProfile& profile, RangeScan* scan);
   bool AlterFixes() const { return !resting_ && fixes_ > 0; }
-  // What they make of a fix. False: it does not come.
+  // Applies them to a fix. False: the fix is lost.
   bool Alter(PoseFix* fix) const;
 
-  // A fault has started in the first tick of its time in which a body it is about was there; only
-  // such a fault ends. Of this tick.
+  // Faults that started or ended in this tick. A fault starts in the first tick of its time in
+  // which a body it concerns was present; only such a fault ends.
   std::span<const faults::Fault* const> Begun() const { return begun_; }
   std::span<const faults::Fault* const> Ended() const { return ended_; }
 
@@ -72,7 +72,7 @@ class WorldFaults {
   bool Restore(std::span<const State> states, std::uint32_t driven_tick);
 
  private:
-  // What a fault remembers of one body.
+  // The state of a fault for one body.
   struct Memory {
     VehicleId vehicle = kNobody;
     WheelSpeeds wheels;               // of kMotorStuck, as it started

@@ -11,7 +11,7 @@ namespace giveway::sim {
 // Below this closing speed touching shells are taken as sliding: rounding must not lock a body that
 // drives along a wall.
 inline constexpr double kSliding_m_s = 1e-9;
-// What a touching, not closing body may sink in before its motion is looked at again.
+// How far a touching body that does not close in may sink in before its motion is checked again.
 inline constexpr double kSink_m = 1e-8;
 
 // Over a step d the gap stays above gap + rate d - bend d^2 / 2; this is the d at which that bound

@@ -51,7 +51,7 @@ void Grid::Rebuild(std::span<const Vec2> centres, double cell_m) {
     ++starts_[cell + 1];
   }
   for (std::size_t cell = 0; cell + 1 < starts_.size(); ++cell) starts_[cell + 1] += starts_[cell];
-  // Counted from the back, so that starts_ ends as the start of each cell again.
+  // Filled from the back, so that starts_ ends up as the start of each cell again.
   for (std::size_t i = centres.size(); i-- > 0;) {
     order_[--starts_[cells_[i] + 1]] = static_cast<std::uint32_t>(i);
   }

@@ -1,5 +1,5 @@
-// A uniform grid over discs, rebuilt from nothing by counting sort: where to look for what is near.
-// Knows centres and indices, no bodies. Rebuilding allocates nothing once the grid has grown.
+// A uniform grid over discs, rebuilt each time by counting sort, to find what is near. Knows
+// centres and indices, no bodies. Rebuilding allocates nothing once the grid has grown.
 #pragma once
 
 #include <cstddef>

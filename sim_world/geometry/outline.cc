@@ -43,7 +43,7 @@ struct Separating {
   }
 };
 
-// The best of the directions that stand on the sides of `a`; a segment has two sides and two ends.
+// The best of the directions normal to the sides of `a`; a segment has two sides and two ends.
 Separating OnSidesOf(const Outline& a, const Outline& b) {
   Separating best;
   if (a.count == 1) return best;

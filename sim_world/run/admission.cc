@@ -57,7 +57,7 @@ void Admission::FollowRun() {
     gone_.push_back(event.vehicle);
     const auto told = told_.find(event.vehicle);
     if (told == told_.end()) continue;
-    // Should it still be there, deaf until now, it may ask again.
+    // If it is still there and was deaf until now, it may ask again.
     RosterEntry gone = told->second;
     gone.accepted = false;
     gone.waiting = true;
@@ -99,7 +99,7 @@ Admission::Result Admission::Try(Waiting* waiting) {
     LetIn(std::move(entry));
     return {.waits = false, .tell = {}};
   }
-  // In an open fleet a place may come free at any time; an id of one's own is worth no such wait.
+  // In an open fleet a place may become free at any time; a particular id is not worth that wait.
   const bool forever = open_ && request.wanted == kNobody;
   const bool forgotten = TicksBetween(waiting->asked, run_.Now()) >= patience_ticks_;
   if (forever && forgotten) return {.waits = false, .tell = {}};
@@ -129,7 +129,7 @@ bool Admission::MayTakeOver(VehicleId vehicle) const {
   return run_.IsAbandoned(vehicle) && (body == nullptr || NoWheelTurns(*body));
 }
 
-// Where its own body still stands, nothing is put on the start pose.
+// If its own body still stands, nothing is put on the start pose.
 bool Admission::IsFree(const VehicleOptions& options) const {
   return run_.BodyOf(options.id) != nullptr || run_.IsFree(options);
 }

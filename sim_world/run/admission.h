@@ -17,19 +17,19 @@ namespace giveway::sim {
 
 class Admission {
  public:
-  // Sessions that wait at one time; what more ask is passed over until they ask again. A tick's
-  // work is bounded by it.
+  // Most sessions that wait at a time; further requests are ignored until repeated. Bounds the work
+  // of a tick.
   static constexpr std::size_t kMostWaiting = 64;
 
   // `run` outlives this object.
   Admission(const Scenario& scenario, WorldEpoch epoch, Run* run);
 
-  // Asks, or leaves. Who waits asks again and again: one that does not is forgotten.
+  // Joins, or leaves. A waiting session repeats its request: one that does not is forgotten.
   void Take(const JoinRequest& request);
-  // Once a tick, after the run's Advance: seats of bodies that were taken away are free again.
+  // Once a tick, after the run's Advance: frees the seats of bodies that were removed.
   void FollowRun();
-  // Whose bodies were taken away since the last call: they are sent nothing else any more than what
-  // Answer says after it.
+  // Vehicles whose bodies were removed since the last call: nothing else is sent to them any more,
+  // except what Answer returns after it.
   std::vector<VehicleId> TakeGone();
   // What there is to send since the last call, in this order. Before the run's Advance.
   std::vector<RosterEntry> Answer();
@@ -44,7 +44,7 @@ class Admission {
   std::vector<VehicleId> Expected() const;
 
   FleetCheckpoint Save(std::uint64_t scenario) const;
-  // False, and neither this nor its run is of use any more, if it is not of this scenario.
+  // False if it is not of this scenario; then neither this nor its run can be used any more.
   bool Restore(const FleetCheckpoint& checkpoint);
 
  private:
@@ -55,7 +55,7 @@ class Admission {
     Tick asked = kNoTick;  // last
     std::string told;      // the last reason it was sent
   };
-  // What became of a request in this tick; nothing if there is nothing to send.
+  // The result of a request in this tick; nothing if there is nothing to send.
   struct Result {
     bool waits = false;
     std::optional<RosterEntry> tell;

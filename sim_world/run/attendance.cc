@@ -9,9 +9,9 @@ namespace giveway::sim {
 namespace {
 
 constexpr Nanoseconds kSilence{1'000'000'000};
-// From joining to the first command: its endpoints must be made and found first.
+// From joining to the first command: its endpoints must be created and discovered first.
 constexpr Nanoseconds kFirstWords{5'000'000'000};
-// From then to the end of its body, at most: it was not driven, and its place is wanted.
+// From then to the removal of its body, at most: it was not driven, and its place is needed.
 constexpr Nanoseconds kNeverSpoke{5'000'000'000};
 
 }  // namespace

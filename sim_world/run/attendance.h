@@ -1,5 +1,5 @@
-// Who still speaks: notes when each vehicle was last heard, names those that fall silent, and says
-// when the body of a silent vehicle is to be taken away.
+// The liveness of vehicles: notes when each was last heard, names those that fall silent, and says
+// when the body of a silent vehicle is to be removed.
 #pragma once
 
 #include <cstdint>
@@ -23,20 +23,21 @@ class Attendance {
 
   explicit Attendance(const Scenario& scenario);
 
-  // Joins, or joins again: what it was before is forgotten.
+  // The vehicle joins, or joins again: its earlier state is forgotten.
   void Join(VehicleId vehicle, Tick tick);
   void Leave(VehicleId vehicle);
   // From `tick` on silence counts; every vehicle that joined counts as heard then.
   void Start(Tick tick);
   void Heard(VehicleId vehicle, Tick tick);
   bool IsSilent(VehicleId vehicle) const;
-  // True if no process seems to speak for the vehicle at `tick`, before the start too: unheard for
-  // a second; for five if it has joined and not yet spoken, for its endpoints must be found first.
+  // True if no process seems to run the vehicle at `tick`, also before the start: unheard for a
+  // second; for five if it has joined and not yet been heard, because its endpoints must be
+  // discovered first.
   bool IsAbandoned(VehicleId vehicle, Tick tick) const;
 
   // The next vehicle that has been unheard for so long at `tick`, now silent; kNobody when none.
   VehicleId TakeNewlySilent(Tick tick);
-  // The next silent vehicle whose body's time is over at `tick`, each once; kNobody when none.
+  // The next silent vehicle whose body is to be removed at `tick`, each once; kNobody when none.
   VehicleId TakeOverdueBody(Tick tick);
 
   std::span<const Entry> Entries() const { return entries_; }

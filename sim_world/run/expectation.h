@@ -1,4 +1,4 @@
-// Compares what a run came to with what its scenario expects.
+// Compares the result of a run with what its scenario expects.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace giveway::sim {
 
-// What a run came to, in the terms of Expectation. Sets are sorted.
+// The result of a run, in the terms of Expectation. Sets are sorted.
 struct Outcome {
   std::uint32_t contacts = 0;
   std::vector<VehicleId> halted;
@@ -18,7 +18,7 @@ struct Outcome {
   std::vector<VehicleId> arrived;
   bool parted = false;
   std::optional<double> min_separation_m;  // none if no two bodies shared the world
-  std::optional<double> time_to_clear_s;   // none if a living vehicle did not reach its goal
+  std::optional<double> time_to_clear_s;   // none if a live vehicle did not reach its goal
 };
 
 // Empty if every expectation is met, else each that is not, joined by "; ", for example

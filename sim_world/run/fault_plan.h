@@ -16,14 +16,14 @@ class FaultPlan {
  public:
   explicit FaultPlan(const Scenario& scenario);
 
-  // Logs each fault once, in the first tick in which all its conditions hold. The vehicle's true
-  // pose decides; a fault of a vehicle that is not present waits. Valid until the next call: those
-  // that are due now.
+  // Logs each fault once, in the first tick in which all its conditions hold, by the vehicle's true
+  // pose; a fault of a vehicle that is not present waits. Returns those that are due now, valid
+  // until the next call.
   std::span<const PlannedFault> Observe(double time_s, std::span<const Body> bodies, EventLog* log);
 
   // True once a kill of the vehicle was due, until it is back: its silence is planned.
   bool IsKilled(VehicleId vehicle) const;
-  // The vehicle speaks again: its next silence is not planned.
+  // The vehicle is heard again: its next silence is not planned.
   void Return(VehicleId vehicle);
 
   // Of each fault of the scenario.
@@ -31,7 +31,7 @@ class FaultPlan {
   std::span<const State> States() const { return states_; }
   // Those that are due again after a restart: lamps that are out stay out.
   std::vector<PlannedFault> Lasting() const;
-  // False, and nothing is done, where there is not one for each fault.
+  // Returns false, and changes nothing, unless there is one state for each fault.
   bool Restore(std::span<const State> states);
 
  private:

@@ -40,7 +40,7 @@ void Judge::Observe(double time_s, std::span<const Body> bodies, std::span<const
   }
 }
 
-// As a rule the body's own place: bodies come among those that are known, and some are forgotten.
+// Usually at the body's own index: bodies join among the known ones, and some are forgotten.
 Judge::Track& Judge::TrackOf(std::size_t body, VehicleId vehicle) {
   if (body < tracks_.size() && tracks_[body].vehicle == vehicle) return tracks_[body];
   const auto place = std::ranges::lower_bound(tracks_, vehicle, {}, &Track::vehicle);
@@ -80,7 +80,7 @@ void Judge::WatchGoal(double time_s, const Body& body, Track* track, EventLog* l
             .value = time_s});
 }
 
-// A vehicle that the world itself brakes stands for want of a command, whatever its last one said.
+// A vehicle that the world itself brakes stands for lack of a command, whatever its last one said.
 void Judge::WatchHalt(const Body& body, Track* track, EventLog* log) const {
   const Vec2 position = body.world_from_body.position_world;
   const bool stands = Stands(body);

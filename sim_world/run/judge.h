@@ -24,7 +24,7 @@ class Judge {
  public:
   explicit Judge(const Scenario& scenario);
 
-  // Takes in one tick of the run, time_s after its start.
+  // Processes one tick of the run, time_s after its start.
   void Observe(double time_s, std::span<const Body> bodies, std::span<const Contact> contacts,
                EventLog* log);
 
@@ -41,8 +41,8 @@ class Judge {
   // counts among Halted and Arrived.
   void BeginAnew(VehicleId vehicle);
 
-  // The vehicle is gone, permanently as it seems. What it did that counts in the verdict is kept,
-  // of so many at most.
+  // The vehicle is gone, as it seems permanently. What counts in the verdict is kept, for a limited
+  // number of vehicles.
   void Forget(VehicleId vehicle);
 
   // What is remembered of one vehicle.

@@ -32,26 +32,26 @@ struct SeatQuestions {
 
 class Roster {
  public:
-  // Of an open fleet at any one time.
+  // The most of an open fleet at any one time.
   static constexpr std::size_t kMaxSeats = 1024;
 
   Roster(const Scenario& scenario, WorldEpoch epoch);
 
-  // Accepted with id and start pose; or `waiting` with the reason, where a seat may still come
-  // free; or refused permanently with a reason. A session that has a seat gets the same answer
-  // however often and for whatever id it asks again. run_state is the caller's to set.
+  // Accepted with id and start pose; or `waiting` with the reason, if a seat may still become free;
+  // or refused permanently with a reason. A session that has a seat always gets the same answer,
+  // whatever id it asks for. run_state is set by the caller.
   RosterEntry Admit(const JoinRequest& request, const SeatQuestions& ask = {});
-  // Gives the vehicle's seat back.
+  // Frees the vehicle's seat.
   void Free(VehicleId vehicle);
 
   // The seat of the session; null if it has none.
   const Seat* SeatOf(const SessionId& session) const;
-  // By what the vehicle of a seat drives.
+  // The options with which the vehicle of a seat drives.
   VehicleOptions OptionsOf(const Seat& seat) const;
 
-  // By id: those of the scenario's vehicles, taken or not, and those of others that are taken.
+  // By id: the scenario's vehicles, taken or not, and those of other vehicles that are taken.
   std::span<const Seat> Seats() const { return seats_; }
-  // False, and nothing is done, where a seat is not of this scenario.
+  // Returns false, and changes nothing, if a seat is not of this scenario.
   bool Restore(std::span<const Seat> seats);
 
  private:

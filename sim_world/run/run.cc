@@ -179,7 +179,7 @@ void Run::AsksAgain(VehicleId vehicle) {
   if (!attendance_.IsSilent(vehicle)) attendance_.Join(vehicle, world_.Now());
 }
 
-// In a closed run silence is permanently unless it is planned. In an open one the network may have
+// In a closed run silence is permanent unless it is planned. In an open one the network may have
 // been away for a while.
 bool Run::MayReturn(VehicleId vehicle) const {
   return (open_ || silence_.VehiclesReturn()) && BodyOf(vehicle) != nullptr;
@@ -189,7 +189,7 @@ bool Run::IsKilled(VehicleId vehicle) const {
   return faults_.IsKilled(vehicle) || silence_.IsKilled(vehicle, TimeSeconds());
 }
 
-// Whether the vehicle speaks, or will again as far as is known.
+// Whether the vehicle is heard, or will be again as far as is known.
 bool Run::IsWaitedFor(VehicleId vehicle) const {
   return !attendance_.IsSilent(vehicle) || (silence_.VehiclesReturn() && !IsKilled(vehicle));
 }

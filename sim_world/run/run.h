@@ -55,13 +55,13 @@ class Run {
   bool EveryoneJoined() const;
   // The start signal: from the next tick on bodies move and time counts.
   void Start();
-  // Ends the run before its time, with the next Advance: that one brings the closing events. A run
-  // ended so has not passed. Without effect once the run has ended.
+  // Ends the run early, with the next Advance, which brings the closing events. Such a run has not
+  // passed. No effect once the run has ended.
   void End(std::string reason);
 
   // Advances one tick: applies the commands, moves, finds contacts, senses, judges. Ends by itself
-  // when the duration is over; a closed run also when every living vehicle has arrived, when a
-  // vehicle fell silent unplanned, and when none lives any more. After the end bodies brake, scans
+  // when the duration is over; a closed run also when every live vehicle has arrived, when a
+  // vehicle fell silent unplanned, and when no vehicle is live. After the end bodies brake, scans
   // continue, and nothing is judged any more.
   void Advance(std::span<const MotorCommand> commands);
 
@@ -78,10 +78,10 @@ class Run {
   std::span<const SignalState> Signals() const { return signals_.States(); }
   std::span<const Truth> Truths() const { return truths_; }
   std::span<const WorldEvent> Events() const { return log_.Events(); }
-  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or what End
-  // was given; empty while it runs.
+  // "all_arrived", "duration_over", "process_died", "no_vehicle_lives", "vehicle_left" or the
+  // reason given to End; empty while it runs.
   const std::string& EndReason() const { return end_reason_; }
-  // Verdict and figures; complete once State() is kEnded. Reaction times are the caller's.
+  // Verdict and figures; complete once State() is kEnded. The caller adds reaction times.
   RunFigures Figures() const { return figures_; }
   std::uint32_t Contacts() const { return world_.Contacts(); }
   const CommandCounters& Commands() const { return world_.Commands(); }
@@ -102,14 +102,14 @@ class Run {
   std::span<const MovingObstacle> Obstacles() const { return world_.Obstacles(); }
   std::span<const SlidingDoor> Doors() const { return world_.Doors(); }
   bool IsFree(const VehicleOptions& options) const { return world_.IsFree(options); }
-  // True if no process speaks for the vehicle any more, or yet.
+  // True if no process runs the vehicle any more, or not yet.
   bool IsAbandoned(VehicleId vehicle) const { return attendance_.IsAbandoned(vehicle, Now()); }
 
-  // All that a run of the same scenario in a new epoch needs to continue from here.
+  // Everything that a run of the same scenario in a new epoch needs to continue from here.
   RunCheckpoint Save() const;
   // Continues from there, paused: bodies brake and time stands still until Start. `joined` are the
-  // vehicles the checkpoint names that are not the scenario's. False, and this run is of no use any
-  // more, if the checkpoint is not of this scenario.
+  // vehicles in the checkpoint that are not the scenario's. False if the checkpoint is not of this
+  // scenario; then this run cannot be used any more.
   bool Restore(const RunCheckpoint& checkpoint, std::span<const VehicleOptions> joined);
 
  private:

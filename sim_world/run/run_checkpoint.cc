@@ -20,8 +20,8 @@ constexpr std::string_view kMagic = "giveway-world-5\n";  // the number counts f
 template <typename T>
 concept Plain = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-// The two sides of one format: both are led over the same fields in the same order by Visit, so
-// they cannot disagree.
+// Both directions of one format: Visit passes both over the same fields in the same order, so they
+// cannot disagree.
 class Writer {
  public:
   template <typename... Fields>

@@ -30,7 +30,7 @@ struct RunCheckpoint {
 };
 
 struct FleetCheckpoint {
-  std::uint64_t scenario = 0;  // the caller's mark of the scenario: another one's is of no use
+  std::uint64_t scenario = 0;  // the caller's mark of the scenario; that of another is refused
   RunCheckpoint run;
   std::vector<Seat> seats;
 };

@@ -1,5 +1,5 @@
-// The scenario's signal heads: what each shows at a tick, and which of them speak in it. Follows
-// the plans and the faults it is given; knows no vehicles and obeys none.
+// The scenario's signal heads: what each shows at a tick, and which of them publish in it. Follows
+// the plans and the faults; knows no vehicles.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace giveway::sim {
 
-// A head speaks when what it shows changes, and at least this often.
+// A head publishes when its phase changes, and at least this often.
 inline constexpr Nanoseconds kSignalPeriod{100'000'000};
 
 class SignalHeads {
@@ -21,11 +21,11 @@ class SignalHeads {
   // `time_s` since the start signal; negative before it: then every head is red and does not know
   // for how long (to_change_s is 0). One call a tick.
   void Advance(double time_s, WorldEpoch epoch, Tick tick);
-  // Who speaks in this tick, by id; valid until the next Advance.
+  // The heads that publish in this tick, by id; valid until the next Advance.
   std::span<const SignalState> States() const { return states_; }
 
-  // From the next Advance on: kSignalDark continues talking with its lamps out, kSignalSilent says
-  // nothing any more. Other faults and unknown heads are none of ours: false.
+  // From the next Advance on: kSignalDark keeps publishing with its lamps out, kSignalSilent stops
+  // publishing. False for other faults and unknown heads.
   bool Fail(SignalId signal, FaultKind fault);
 
  private:
@@ -34,7 +34,7 @@ class SignalHeads {
     bool dark = false;
     bool silent = false;
     Tick spoke = kNoTick;
-    SignalPhase said = SignalPhase::kDark;  // if it has ever spoken
+    SignalPhase said = SignalPhase::kDark;  // if it has ever published
   };
   static SignalState Now(const Head& head, double time_s);
 

@@ -1,4 +1,4 @@
-// The 16 cones of a vehicle's transducers as the kernel of sonar_kernel.h wants them: side by side,
+// The 16 cones of a vehicle's transducers in the layout that sonar_kernel.h needs: side by side,
 // and cut into sectors of four neighbours with lines that bound what each can hear.
 #pragma once
 
@@ -19,7 +19,7 @@ struct alignas(64) Lanes {
   friend bool operator==(const Lanes&, const Lanes&) = default;
 };
 
-// What a transducer hears that nothing answers.
+// The range of a transducer that hears no echo.
 inline constexpr double kSilence_m = std::numeric_limits<double>::infinity();
 
 // Four transducers to a sector: as many numbers as a 256-bit register holds.

@@ -1,6 +1,6 @@
-// A sensor that says where its vehicle is, as a landmark system or ultra-wideband radio does: every
-// so often, with errors that are Gaussian and independent of each other, and now and then not at
-// all. One body, one tick; numbers drawn hang on seed, vehicle and tick alone.
+// A sensor that reports its vehicle's pose, as a landmark system or ultra-wideband radio does:
+// periodically, with independent Gaussian errors, and sometimes not at all. One body, one tick;
+// random numbers depend on seed, vehicle and tick alone.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct PoseFixMoment {
   Pose world_from_body;  // the truth at the end of the tick
 };
 
-// Pose and deviations; whose and when is for the caller to say. Vehicles take turns: not all of a
-// fleet have their fixes in the same tick.
+// Pose and deviations; the caller adds vehicle and time. Vehicles take turns: not all of a fleet
+// have their fixes in the same tick.
 std::optional<PoseFix> SensePose(const PoseFixModel& model, const PoseFixMoment& moment);
 
 }  // namespace giveway::sim

@@ -1,6 +1,6 @@
-// Radar: a long and a short beam, one detection a body and a wall, at its nearest point in either
+// Radar: a long and a short beam, one detection per body and wall, at its nearest point in either
 // beam. Simple on purpose: a body is seen or hidden as a whole, by whether the straight line to
-// that one point is free; a body whose nearest point is hidden is not looked for at another one.
+// that one point is free; no other point of a hidden body is tried.
 #include <algorithm>
 #include <optional>
 #include <tuple>

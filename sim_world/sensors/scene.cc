@@ -9,7 +9,7 @@ namespace {
 
 // Cells for what moves: about the distance between vehicles in a dense fleet.
 constexpr double kSceneCell_m = 1.5;
-// Entries behind the last disc; SceneDiscs says why.
+// Entries after the last disc; see SceneDiscs.
 constexpr std::size_t kBehind = 3;
 
 }  // namespace
@@ -100,7 +100,7 @@ SceneDiscs Scene::Discs() const {
 Owner Scene::BoxAround(Vec2 point_world, Owner self) const {
   Owner around = kNoOwner;
   BoxesNear(point_world, 0, [&](const SceneBox& box) {
-    // Of several the lowest number, so that the order of adding does not show.
+    // Of several the lowest number, so that the order of adding has no effect.
     if (box.owner != self && box.Holds(point_world)) around = std::min(around, box.owner);
   });
   return around;

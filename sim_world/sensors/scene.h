@@ -55,13 +55,13 @@ class Scene {
  public:
   explicit Scene(std::span<const Wall> walls);
 
-  // Forgets everything but the walls.
+  // Removes everything but the walls.
   void Clear();
   void AddDisc(Vec2 centre_world, double radius_m, Owner owner);
   // Four segments; a point inside is at distance 0 from the box.
   void AddBox(const Pose& world_from_box, Vec2 half_m, Owner owner);
   void AddSegment(Vec2 from_world, Vec2 to_world, Owner owner);
-  // To be called after the last Add and before the first question.
+  // Call after the last Add and before the first query.
   void Index();
 
   SceneDiscs Discs() const;
@@ -81,8 +81,8 @@ class Scene {
   // Owner of the box other than `self` that holds the point; kNoOwner if none does.
   Owner BoxAround(Vec2 point_world, Owner self) const;
 
-  // SegmentsNear in its parts, for those who must not meet a wall twice: indices into Walls(), one
-  // perhaps more than once, and everything that is not a wall, each once.
+  // The parts of SegmentsNear, for callers that must not get a wall twice: indices into Walls(),
+  // one perhaps more than once, and everything that is not a wall, each once.
   template <typename Visit>
   void WallsNear(Vec2 centre_world, double reach_m, Visit&& visit) const {
     wall_grid_.Near(centre_world, reach_m, visit);
@@ -90,7 +90,7 @@ class Scene {
   std::span<const SceneSegment> Walls() const { return walls_; }
   // Of the walls alone.
   const SceneCorners& Corners() const { return corners_; }
-  // WallsNear for a reach of up to kListedReach_m, found at once, each wall once.
+  // WallsNear for a reach of up to kListedReach_m, looked up directly, each wall once.
   static constexpr double kListedReach_m = 5.5;  // the ultrasonics of a P3-DX and more
   std::span<const std::uint32_t> WallsListedAt(Vec2 centre_world) const {
     return listed_walls_.At(centre_world);

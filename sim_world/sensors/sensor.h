@@ -22,7 +22,7 @@ struct OwnerFacts {
 
 struct SensorView {
   const Scene& scene;
-  std::span<const OwnerFacts> facts;  // by owner number; who is not in it stands, and is unknown
+  std::span<const OwnerFacts> facts;  // by owner number; an owner not in it stands still and is unknown
   Owner self = kNoOwner;              // whose shapes the sensor does not see
   Pose world_from_body;
   Vec2 velocity_world;  // of the axle centre
@@ -40,7 +40,7 @@ RadarScan SenseRadar(const SensorView& view);
 LidarScan SenseLidar(const SensorView& view);
 CameraScan SenseCamera(const SensorView& view);
 
-// Points of the world as the sensor has them: x forward, y left, itself at the origin.
+// Points of the world in the sensor's frame: x forward, y left, itself at the origin.
 class BodyFrame {
  public:
   explicit BodyFrame(const Pose& world_from_body)

@@ -26,8 +26,8 @@ inline double EdgeReachOff(double edge_reach_m, double off) {
   return edge_reach_m * (1 - 0.6 * off);
 }
 
-// Lowers the ranges of the transducers given by bits to those of the nearest corners they hear.
-// What stands between hides a corner; those of `self` are not heard.
+// Lowers the ranges of the given transducers, one bit each, to those of the nearest corners they
+// hear. Occluded corners and those of `self` are not heard.
 void HearCorners(const Scene& scene, const SonarRing& ring, const Pose& world_from_body, Owner self,
                  double edge_reach_m, std::uint32_t transducers, Lanes* range_m);
 

@@ -30,8 +30,8 @@ Pulses PulsesOf(const SonarRing& ring, const Pose& world_from_body,
                 const std::array<std::size_t, kArrayCount>& transducers);
 
 // What `listener` reads of `talker`'s pulse: half the distance if each lies in the directions of
-// the other's cone and the reading in the listener's range; kSilence_m otherwise. What stands
-// between is not looked at.
+// the other's cone and the reading in the listener's range; kSilence_m otherwise. Occlusion is
+// ignored.
 double CrosstalkRange(const Pulse& listener, const Pulse& talker);
 
 // All pulses of one slot.
@@ -39,7 +39,7 @@ class Crosstalk {
  public:
   void Clear();
   void Add(Owner owner, Vec2 position_world, const Pulses& pulses);
-  // To be called after the last Add and before the first question.
+  // Call after the last Add and before the first query.
   void Index();
 
   // The nearest reading that comes from another vehicle's pulse; kSilence_m without one. `i` counts

@@ -5,7 +5,7 @@
 namespace giveway::sim {
 namespace {
 
-// Sets the ultrasonics' numbers apart from those others draw from the same seed.
+// Separates the ultrasonics' random stream from others of the same seed.
 constexpr std::uint64_t kSonarNumbers = 0x736f6e6172ULL << 24;
 
 }  // namespace

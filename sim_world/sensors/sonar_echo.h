@@ -1,5 +1,5 @@
-// What a transducer makes of the nearest thing that answers: the faults of the typical tier. And
-// where its random numbers come from: each from what it is for, so that no draw moves another.
+// How a transducer measures the nearest thing that echoes: the faults of the typical tier. And its
+// random numbers: each is derived from its purpose, so that no draw shifts another.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ Random FiringRandom(std::uint32_t seed, VehicleId vehicle, std::uint64_t when,
 // when it came; the rest is noisy but stays between that rim and max_range_m.
 double Measured(double range_m, const SonarModel& model, double max_range_m, Random random);
 
-// What one firing says: an echo at `range_m`, or clear if that is kSilence_m.
+// The reading of one firing: an echo at `range_m`, or clear if that is kSilence_m.
 inline RangeReading ReadingOf(double range_m, Tick tick, double fired_before_s = 0) {
   const bool silent = range_m == kSilence_m;
   return {.kind = silent ? Echo::kClear : Echo::kEcho,

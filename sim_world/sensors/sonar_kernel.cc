@@ -17,7 +17,7 @@ namespace {
 
 constexpr long long kAllButTheSign = std::numeric_limits<long long>::max();
 
-// By four bits: the places of those set, 16 bits each, the first lowest.
+// By four bits: the indices of the set bits, 16 bits each, the first lowest.
 constexpr std::array<std::uint64_t, 16> kPlaces = [] {
   std::array<std::uint64_t, 16> places{};
   for (std::uint32_t bits = 0; bits < places.size(); ++bits) {

@@ -2,8 +2,8 @@
 // four transducers at a time in vector registers. The same bits come out of every width, because
 // each lane does the reference's operations in the reference's order.
 //
-// Most that is near is behind most transducers. So the ring is cut into sectors of four neighbours,
-// and an object is heard only by the sectors it reaches into: about a third of all.
+// Most nearby objects are behind most transducers. So the ring is cut into sectors of four
+// neighbours, and only the sectors that an object reaches into hear it: about a third of all.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace giveway::sim {
 
-// Who listens, from where, and to what.
+// The listening vehicle, its pose, and what it listens to.
 struct Ear {
   Vec2 position_world;
   Vec2 x_axis_world;  // of the body: one sine and cosine for all that is near
@@ -79,7 +79,7 @@ struct SonarKernel {
 
 enum class SimdWidth { kPlain, kAvx2, kAvx512 };
 
-// Whether this CPU has what the width needs. What is hidden from the C library is not hidden here.
+// Whether this CPU supports the width. What is hidden from the C library is not hidden here.
 bool HasSimd(SimdWidth width);
 const SonarKernel& KernelOf(SimdWidth width);
 // The widest this CPU has.

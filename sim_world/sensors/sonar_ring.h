@@ -41,7 +41,7 @@ class SonarRing {
   bool Enabled(std::size_t i) const { return enabled_[i]; }
   const Cone& ConeBody(std::size_t i) const { return cones_body_[i]; }
   double MaxRange() const { return max_range_m_; }
-  // Of the transducer that sits farthest from the axle centre, m.
+  // Distance of the outermost transducer from the axle centre, m.
   double ApexReach() const { return apex_reach_m_; }
   // Those that are switched on: bit i for transducer i.
   std::uint32_t EnabledBits() const { return enabled_bits_; }
@@ -69,7 +69,7 @@ class SonarRings {
   // The width changes the speed and not a bit of the result.
   explicit SonarRings(SimdWidth width = FastestSimd()) : width_(width) {}
 
-  // Stays where it is as long as this object lives.
+  // Its address is stable as long as this object lives.
   const SonarRing& Of(const VehicleProfile& profile);
 
  private:

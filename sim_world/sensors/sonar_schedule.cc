@@ -6,7 +6,7 @@
 namespace giveway::sim {
 namespace {
 
-// Sets the choice of places apart from what others draw from the same seed.
+// Separates the choice of places from other random streams of the same seed.
 constexpr std::uint64_t kPlaceStream = 0x736c6f74ULL << 32;
 
 }  // namespace

@@ -64,7 +64,7 @@ bool Claims::IsInside(Tick tick, const Beacon& said, const Observed& now,
          Holds(claim, said.body_radius_m, slack_m, stands_world);
 }
 
-// Asked in a tick to stop, it brakes from the next on; others go by its beacon of the tick before.
+// Asked to stop in a tick, it brakes from the next on; peers use its beacon of the tick before.
 bool Claims::StaysWhileBraking(Tick tick, const Observed& now, Track* track) const {
   if (!now.stops || !now.lives) {
     track->braking.reset();
@@ -88,7 +88,8 @@ std::span<const std::uint32_t> Claims::Observe(Tick tick, std::span<const Observ
     Track& track = tracks_[i];
     if (now.beacon == nullptr) continue;
     bool inside = !now.present || StaysWhileBraking(tick, now, &track);
-    // Heard a tick after it is said, a beacon stands for what is done in the tick after that.
+    // A beacon is received a tick after it is sent, and applies to the motion in the tick after
+    // that.
     for (std::uint32_t ago = 2; ago <= oldest_ticks_ && now.present && inside; ++ago) {
       const Beacon* said = SaidBefore(tick, ago, track);
       inside = said == nullptr || IsInside(tick, *said, now, track);

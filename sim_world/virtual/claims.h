@@ -1,7 +1,7 @@
-// Whether claims hold (vehicle/situation/claim.h): a vehicle that was last heard some ticks ago is,
-// by the truth, where its beacon of then claims that it can be, and so is the place where it would
-// stand if it braked now, straight on. Of every beacon that a peer may still go by, for others
-// may have been lost. And one that brakes as hard as it can stays, until it stands, in what it
+// Whether claims hold (vehicle/situation/claim.h): a vehicle last heard some ticks ago is, by the
+// truth, where its beacon of then claims that it can be, and so is the place where it would stand
+// if it braked now, straight on. Checks every beacon that a peer may still use, because others may
+// have been lost. And a vehicle that brakes as hard as it can stays, until it stands, in what it
 // claimed when it started, turning or not.
 #pragma once
 
@@ -21,8 +21,9 @@ class Claims {
  public:
   explicit Claims(const Scenario& scenario);
 
-  // Takes in one tick. Vehicles in order of their ids, each with its beacon; without one nothing is
-  // judged. Those that leave a claim of theirs from this tick on, by index; valid until the next.
+  // Processes one tick. Vehicles in order of their ids, each with its beacon; without one nothing
+  // is judged. Returns those that leave a claim of theirs from this tick on, by index; valid until
+  // the next.
   std::span<const std::uint32_t> Observe(Tick tick, std::span<const Observed> vehicles);
 
  private:
@@ -40,7 +41,7 @@ class Claims {
   };
 
   Claim ClaimOfBeacon(const Beacon& said, double unknown_s, const Track& track) const;
-  // Of the beacon said so many ticks ago; null if none was.
+  // The beacon sent that many ticks ago; null if none was.
   static const Beacon* SaidBefore(Tick tick, std::uint32_t ago, const Track& track);
   bool StaysWhileBraking(Tick tick, const Observed& now, Track* track) const;
   bool IsInside(Tick tick, const Beacon& said, const Observed& now, const Track& track) const;

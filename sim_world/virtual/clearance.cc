@@ -7,7 +7,7 @@
 namespace giveway::sim {
 namespace {
 
-// Slower towards it is along it.
+// A slower approach counts as driving past.
 constexpr double kTowards_m_s = 0.005;
 
 }  // namespace

@@ -32,11 +32,11 @@ class Clearance {
  public:
   Clearance(const Scenario& scenario, double margin_m);
 
-  // Another vehicle, that the scenario does not name; one of the same id is forgotten.
+  // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
 
-  // Takes in one tick. Vehicles in order of their ids, the admitted ones among them. Each that
-  // comes too near from this tick on; valid until the next.
+  // Processes one tick. Vehicles in order of their ids, the admitted ones among them. Returns those
+  // that come too near from this tick on; valid until the next.
   std::span<const TooNear> Observe(std::span<const Observed> vehicles, const Surroundings& around);
 
  private:

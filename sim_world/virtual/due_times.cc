@@ -8,7 +8,7 @@ namespace giveway::sim {
 namespace {
 
 constexpr double kAnyway_s = 20;  // steering is not a straight line
-// No vehicle is blamed for turning less than its body could.
+// A vehicle is not blamed for turning less than its body could.
 constexpr double kShareOfTurnRate = 0.5;
 
 // Through the place from standstill before it.

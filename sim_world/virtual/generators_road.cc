@@ -25,8 +25,8 @@ struct Passage {
   double lane_m = 0;
 };
 
-// Vehicles from both ends through the passage: who waits stands in two rows on its right before it,
-// who is through parks on both sides of a lane beyond it, on its right again.
+// Vehicles from both ends through the passage: they wait in two rows on their right before it, and
+// park on both sides of a lane beyond it, on their right again.
 void SendThrough(const Passage& passage, std::uint32_t vehicles, Layout* layout) {
   constexpr double kRow_m = 1.1;       // of the first waiting row, from the middle
   constexpr double kExitLane_m = 3.4;  // between the two rows of bays

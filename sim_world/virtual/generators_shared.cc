@@ -33,8 +33,8 @@ Scenario MakeAntipodal(const Size& size) {
   return layout.Take();
 }
 
-// Cells as of the swarm; two share a goal, and the last three where their number is odd. Which of
-// them arrives is not said; the others can only stand near.
+// Cells as in the swarm; two vehicles share a goal, and the last three if their number is odd.
+// Which of them arrives is open; the others can only stand near.
 Scenario MakeSharedGoal(const Size& size) {
   Layout layout("shared_goal", size);
   constexpr double kMoved_m = 0.19;

@@ -1,9 +1,9 @@
 // The warehouse:
 //
-//   s s s G | | |  rack ..........  | | | G     s  those who will fetch something, waiting in rows
-//   . . . . | | |  o  o  o  o  <--  | | | G     G  goals of those who bring something out
-//   s s s s | | |             -->   | | | G     o  those who bring something out
-//         G | | |  g  g  g  g       | | | G     g  goals of those who fetch something
+//   s s s G | | |  rack ..........  | | | G     s  vehicles to fetch something, waiting in rows
+//   . . . . | | |  o  o  o  o  <--  | | | G     G  goals of vehicles that bring something out
+//   s s s s | | |             -->   | | | G     o  vehicles that bring something out
+//         G | | |  g  g  g  g       | | | G     g  goals of vehicles that fetch something
 //         G | | |  rack ..........  | | | G
 //
 // Roads run along both sides, an aisle between any two racks; each has two lanes, and traffic keeps
@@ -20,7 +20,7 @@ namespace giveway::sim {
 namespace {
 
 constexpr double kAisleLane_m = 0.42;  // from an aisle's middle to its lanes'
-constexpr double kStrip_m = 1.35;      // from an aisle's middle to those who stand in it
+constexpr double kStrip_m = 1.35;      // from an aisle's middle to vehicles that stand in it
 constexpr double kRack_m = 1.9;        // from an aisle's middle to its racks
 constexpr double kPitch_m = 4.8;       // from aisle to aisle
 constexpr std::uint32_t kSlots = 4;

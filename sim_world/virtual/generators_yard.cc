@@ -12,7 +12,7 @@ namespace giveway::sim {
 namespace {
 
 constexpr double kParkLane_m = 0.6;  // of the car park, from its middle to either lane's
-constexpr double kStand_m = 3.0;     // from its middle to those who stand in bays
+constexpr double kStand_m = 3.0;     // from its middle to vehicles in bays
 constexpr double kBackWall_m = 3.9;
 constexpr double kStubs_m = 2.2;  // from its middle to where the walls between bays start
 constexpr double kFirstBay_m = 1.5;
@@ -53,7 +53,7 @@ double ShellToWays(const Scenario& scenario, Vec2 from, Vec2 to) {
   return least_m;
 }
 
-// Something that stands, drawn where it is: a segment, and how far its shell is round it.
+// A static object: a segment, and the distance of its shell round it.
 struct Thing {
   Vec2 from;
   Vec2 to;

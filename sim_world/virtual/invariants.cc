@@ -18,7 +18,7 @@ constexpr double kOnePlace_m = 0.1;
 
 bool Stands(const Observed& vehicle) { return Magnitude(vehicle.forward_m_s) < kStandstill_m_s; }
 
-// Halts to give way, by its own word and by the truth.
+// Halts to give way, by its decision and by the truth.
 bool Waits(const Observed& vehicle) {
   return vehicle.present && vehicle.lives && !vehicle.arrived && Stands(vehicle) &&
          IsGiveWay(vehicle.decision.rule);
@@ -153,16 +153,18 @@ VehicleId Invariants::MoreAtFault(const WorldEvent& contact) const {
   return second ? contact.other : contact.vehicle;
 }
 
-// A body that turns on the spot touches nothing, so every contact has someone who drove into it.
+// A body that turns on the spot touches nothing, so in every contact a vehicle drove into the
+// other.
 void Invariants::JudgeContact(const WorldEvent& event) {
   const VehicleId at_fault = MoreAtFault(event);
   Tell(Invariant::kContact, event.tick, at_fault,
        at_fault == event.vehicle ? event.other : event.vehicle);
 }
 
-// Data is stale where the vehicle says so, or where its last command is older than the world's
-// watchdog allows. From then on it must brake: one tick for the command to arrive, then down by the
-// deceleration every tick. Seen from outside it may be seen too early, and braking starts later.
+// Data is stale if the vehicle reports so, or if its last command is older than the world's
+// watchdog allows. From then on it must brake: one tick for the command to arrive, then by the
+// deceleration every tick. An outside observer may see the stale data too early, and braking starts
+// later.
 void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
   const bool says_so = now.decision.rule == Rule::kRangesStale;
   const bool is_so =
@@ -186,7 +188,7 @@ void Invariants::JudgeStaleness(Tick tick, const Observed& now, Track* track) {
   track->stale_limit_m_s = std::max(0.0, track->stale_limit_m_s - track->deceleration_m_s2 * dt_s_);
 }
 
-// By its place, which a name of a rule does not change, nor a little turning about.
+// By its position, which neither a rule's name nor a little turning changes.
 void Invariants::JudgeStanding(Tick tick, std::span<const Observed> vehicles) {
   for (std::size_t i = 0; i < vehicles.size(); ++i) {
     const Observed& now = vehicles[i];
@@ -206,8 +208,8 @@ void Invariants::JudgeStanding(Tick tick, std::span<const Observed> vehicles) {
   }
 }
 
-// It went by the peer's key of a while ago and by its own, of now or as it was published before:
-// one such pair of keys must put the peer first.
+// It may have used an earlier key of the peer, and its own current key or an earlier published one:
+// one such pair of keys must give the peer priority.
 void Invariants::JudgeOrder(Tick tick, const Observed& now, Track* track) {
   const bool claims =
       Waits(now) && now.decision.rule == Rule::kGiveWay && Number(tick) >= keys_known_at_;
@@ -232,7 +234,7 @@ void Invariants::JudgeOrder(Tick tick, const Observed& now, Track* track) {
   track->order_told = true;
 }
 
-// Judged by the truth of the tick it speaks of; of one too long ago nothing is known.
+// Judged by the truth of the tick it refers to; of one too long ago nothing is known.
 void Invariants::JudgePose(Tick tick, const Observed& now, Track* track) {
   const Place& place = track->places[Number(now.stated) % kRememberedKeys];
   if (now.stated == kNoTick || place.tick != now.stated) return;
@@ -322,7 +324,7 @@ bool Invariants::MustArrive(const Track& track) const {
   return !limits_.arriving || std::ranges::binary_search(*limits_.arriving, track.vehicle);
 }
 
-// Lives, or stands in its goal.
+// Is live, or stands in its goal.
 bool Invariants::IsAnyOf(const std::vector<VehicleId>& group, std::span<const Observed> vehicles,
                          bool arrived) const {
   return std::ranges::any_of(vehicles, [&](const Observed& vehicle) {

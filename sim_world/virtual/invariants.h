@@ -33,7 +33,7 @@ enum class Invariant : std::uint8_t {
   kPose,       // a vehicle was where its beacon says, within the uncertainty it states
   kRedLight,   // no vehicle drives past a red light: red_lights.h
   kProgress,   // no vehicle is stuck: progress.h
-  // Counted and reported in virtual runs, and held to where that is asked for: RequiredInvariants.
+  // Counted and reported in virtual runs, and enforced only on request: RequiredInvariants.
   kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h
   kDelay,      // every vehicle arrives when it is due
@@ -43,7 +43,7 @@ std::string_view Name(Invariant invariant);
 
 // By number of the invariant.
 using InvariantSet = std::bitset<kInvariantCount>;
-// What a run has to hold to pass; all but the last three.
+// The invariants that a run must keep to pass; all but the last three.
 InvariantSet RequiredInvariants();
 
 struct Violation {
@@ -51,7 +51,7 @@ struct Violation {
   Tick tick = kNoTick;
   VehicleId vehicle = kNobody;    // at fault, or the first concerned
   VehicleId other = kNobody;      // the other one, where there is one
-  Rule rule = Rule::kNotRunning;  // by which the vehicle drove or stood, by its own word
+  Rule rule = Rule::kNotRunning;  // by which the vehicle drove or stood, as it reported
 };
 
 // By when a vehicle must have arrived, since the start signal.
@@ -63,19 +63,19 @@ struct DueTime {
 struct InvariantLimits {
   double wait_s = 120;             // kWaitBound
   std::uint32_t halted_ticks = 2;  // kAllHalted; lost and late beacons need more
-  // kWaitCycle: how long a circle may last. A decision rests on keys a tick old.
+  // kWaitCycle: how long a cycle may last. A decision rests on keys a tick old.
   std::uint32_t cycle_ticks = 1;
-  // kOrder: how old a published key may be that a vehicle goes by; at most kRememberedKeys - 1.
+  // kOrder: how old a published key may be that a vehicle uses; at most kRememberedKeys - 1.
   std::uint32_t key_age_ticks = 6;
-  // kStaleMotion: how much later than it is seen the braking may start.
+  // kStaleMotion: how much later than it is observed the braking may start.
   std::uint32_t stale_ticks = 0;
-  double wedge_s = 60;  // kProgress: how long a crowd may come no further
+  double wedge_s = 60;  // kProgress: how long a crowd may make no progress
   // kArrival: only of these, ascending; absent: of all that have a goal.
   std::optional<std::vector<VehicleId>> arriving;
-  // kArrival: of each of these groups, ascending, one that lives; all of them may stand for ever.
+  // kArrival: of each of these groups, ascending, one live vehicle; all of them may stand forever.
   std::vector<std::vector<VehicleId>> one_of;
   double clearance_m = 0.05;  // kClearance: what vehicles keep from claims (vehicle/situation)
-  std::vector<DueTime> due;   // kDelay, ascending; who is not named may take as long as it likes
+  std::vector<DueTime> due;   // kDelay, ascending; a vehicle not in it may take any time
   InvariantSet required = RequiredInvariants();
 };
 
@@ -86,15 +86,15 @@ class Invariants {
 
   Invariants(const Scenario& scenario, const InvariantLimits& limits);
 
-  // Another vehicle, that the scenario does not name; one of the same id is forgotten.
+  // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
 
-  // Takes in one tick, time_s after the start signal. Vehicles in order of their ids; events are
-  // those since the last one. Ticks may be missing: what must last from tick to tick to be wrong
-  // then starts again.
+  // Processes one tick, time_s after the start signal. Vehicles in order of their ids; events are
+  // those since the last one. Ticks may be missing: a condition that must last for some ticks then
+  // starts again.
   void Observe(Tick tick, double time_s, std::span<const Observed> vehicles,
                std::span<const WorldEvent> events, const Surroundings& around = {});
-  // At the end of the run: who has not arrived? In a closed one, does none live?
+  // At the end of the run: which vehicles have not arrived? In a closed one, is any live?
   void Finish(Tick tick, std::span<const Observed> vehicles);
 
   // Each is counted when it starts, not once a tick.
@@ -124,7 +124,7 @@ class Invariants {
     Vec2 last_position_world;
     bool stale = false;
     std::uint32_t stale_ticks = 0;
-    double stale_limit_m_s = 0;  // what the faster wheel may still be rolling at
+    double stale_limit_m_s = 0;  // how fast the faster wheel may still roll
     bool stale_told = false;
     bool on_route = false;  // for ever
     bool shares_goal =

@@ -1,4 +1,4 @@
-// What the generators share: a scenario under construction, with vehicles put in one by one.
+// What the generators share: a scenario under construction, to which vehicles are added one by one.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace giveway::sim {
 
-// No starts and no goals are nearer to each other than this, centre to centre.
+// The smallest distance between two starts and between two goals, centre to centre.
 inline constexpr double kRoom_m = 2.0;
 
 // The edge of a cell of Layout::AddCellToCell.
@@ -37,15 +37,15 @@ class Layout {
   // Adds the next vehicle: it stands at `start`, faces the first point of its route, passes
   // `waypoints` and ends at `goal`. Its cruise speed is drawn, and further properties by Size::draw.
   void Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal);
-  // So many vehicles, each from a cell of a square grid to another, both its own; the places are
-  // moved a little within their cells. columns * columns is at least twice the vehicles.
+  // Adds that many vehicles, each from a cell of a square grid to another, both its own; the places
+  // are moved a little within their cells. columns * columns is at least twice the vehicles.
   void AddCellToCell(std::uint32_t vehicles, std::uint32_t columns);
   void AddObstacle(const Obstacle& obstacle) { scenario_.obstacles.push_back(obstacle); }
   void AddWall(Vec2 from, Vec2 to) { scenario_.walls.push_back({from, to}); }
   // Four walls round a rectangle along the axes.
   void AddBlock(Vec2 low, Vec2 high);
 
-  // Sets what follows from the whole: duration and expectation. `tightest_m` is the length of the
+  // Sets what depends on all vehicles: duration and expectation. `tightest_m` is the length of the
   // tightest place, which in the worst case they pass one by one.
   Scenario Take(double tightest_m = 0);
 

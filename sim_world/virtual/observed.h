@@ -1,6 +1,5 @@
-// What the judges of a fleet see of one vehicle at one tick: by the truth, and by what it
-// published. Virtual runs fill it in from their brains, real ones from world/truth, beacons and
-// status.
+// What the judges of a fleet know of one vehicle at one tick: the truth, and what it published.
+// Virtual runs fill it in from their brains, real ones from world/truth, beacons and status.
 #pragma once
 
 #include "services/types/beacon.h"
@@ -19,18 +18,18 @@ struct Observed {
   Vec2 position_world;
   double heading_rad = 0;
   double forward_m_s = 0;
-  double rim_m_s = 0;       // of the faster wheel: what brakes is a wheel, not the middle
+  double rim_m_s = 0;       // of the faster wheel: brakes act on wheels, not on the body's centre
   Tick answered = kNoTick;  // the scan its last command answers
   Decision decision;        // as last published, like what follows
   VehicleId gives_way_to = kNobody;
   OrderKey order;
-  Tick stated = kNoTick;  // what its last beacon says of where it was at that tick
+  Tick stated = kNoTick;  // the tick of the pose in its last beacon
   Vec2 stated_position_world;
   PoseCovariance stated_covariance;
-  // The whole of it, valid until the next tick; null where it is not known: what needs it is not
+  // The whole beacon, valid until the next tick; null if it is not known: what needs it is not
   // judged.
   const Beacon* beacon = nullptr;
-  bool stops = false;  // its last command is for wheels that stand; known where the beacon is
+  bool stops = false;  // its last command stops the wheels; known if the beacon is
 };
 
 // Of the faster wheel.

@@ -9,12 +9,12 @@
 namespace giveway::sim {
 namespace {
 
-constexpr double kNearer_m = 0.1;  // less may be the turning about of one that is wedged
+constexpr double kNearer_m = 0.1;  // less may be the turning of a stuck vehicle
 constexpr double kNearerTime_s =
     10;  // and a slow one needs no more of it than it drives in so long
 // A vehicle on a detour skips a waypoint that it cannot reach within 1.2 m (services/vehicle).
 constexpr double kPassed_m = 1.3;
-// Centre to centre: from a door or a dead vehicle, of which no vehicle says that it waits for them.
+// Centre to centre: from a door or a dead vehicle, which no vehicle reports to wait for.
 constexpr double kNear_m = 1.7;
 constexpr std::uint32_t kNoTrack = 0xffffffff;
 
@@ -60,7 +60,7 @@ std::uint32_t Progress::IndexOf(VehicleId vehicle) const {
   return static_cast<std::uint32_t>(found - tracks_.begin());
 }
 
-// One that wants to go nowhere in particular drives straight on: it makes progress while it moves.
+// A vehicle without a destination drives straight on: it makes progress while it moves.
 bool Progress::MakesProgress(const Observed& now, Track* track) const {
   const Route& route = track->route;
   bool passed = !track->under_way;
@@ -83,7 +83,7 @@ bool Progress::MakesProgress(const Observed& now, Track* track) const {
 
 bool Progress::IsExcused(const Observed& now, double time_s, bool red) const {
   if (!now.lives || now.decision.rule == Rule::kNotRunning) return true;
-  if (now.decision.rule == Rule::kLost) return true;  // it says so, and waits for a fix
+  if (now.decision.rule == Rule::kLost) return true;  // it reports this, and waits for a fix
   if (red && now.decision.rule == Rule::kSignal) return true;
   return std::ranges::any_of(doors_, [&](const Door& door) {
     return SlidingDoor(door).PlannedOpening(time_s) < 1 &&
@@ -144,7 +144,7 @@ std::span<const std::uint32_t> Progress::Observe(Tick tick, double time_s, bool 
   FindCrowds(vehicles);
   for (std::uint32_t i = 0; i < vehicles.size(); ++i) {
     Track& track = tracks_[i];
-    // Handed on, so that who is left behind by a crowd has its time.
+    // Passed on, so that a vehicle left behind by a crowd has its time.
     track.progress = std::max(track.progress, crowd_progress_[CrowdOf(i)]);
     const bool late = TicksBetween(track.progress, tick) > limit_ticks_;
     const bool wants = track.goal.set || track.route.count > 0;

@@ -27,16 +27,16 @@ class Progress {
  public:
   Progress(const Scenario& scenario, double limit_s);
 
-  // Another vehicle, that the scenario does not name; one of the same id is forgotten.
+  // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
 
-  // Takes in one tick, time_s after the start signal. Vehicles in order of their ids, the admitted
-  // ones among them; `red` says whether any light is red or yellow. Those that break the invariant
-  // from this tick on, by index; valid until the next.
+  // Processes one tick, time_s after the start signal. Vehicles in order of their ids, the admitted
+  // ones among them; `red` says whether any light is red or yellow. Returns those that break the
+  // invariant from this tick on, by index; valid until the next.
   std::span<const std::uint32_t> Observe(Tick tick, double time_s, bool red,
                                          std::span<const Observed> vehicles);
 
-  // By the last tick: the vehicle need not come further, whatever the reason of the others.
+  // By the last tick: the vehicle need not make progress, whatever stops the others.
   bool Excused(std::size_t index) const { return tracks_[index].excused; }
 
  private:

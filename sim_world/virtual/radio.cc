@@ -10,8 +10,8 @@
 namespace giveway::sim {
 namespace {
 
-// Beyond the radius in which beacons are listened to they still come: so a brain learns that a peer
-// drove out of it. One stated from well outside shows it; the rest would only be counted.
+// Beacons still arrive from beyond the listening radius, so that a brain learns that a peer left
+// it. One stated from well outside shows that; more would only be counted.
 constexpr double kFringe_m = 1.5;
 constexpr double kWellOutside_m = 0.5;
 constexpr std::uint32_t kHeldBackTicks = 2;
@@ -174,19 +174,19 @@ bool Radio::IsLost(std::size_t receiver, std::size_t sender, std::uint64_t draw,
   return Part(draw, 0) < loss;
 }
 
-// When a beacon is heard, in ticks after it was said, and whether a second time a tick later.
+// When a beacon is received, in ticks after it was sent, and whether again a tick later.
 Radio::Fate Radio::FateOf(std::uint64_t draw) const {
   if (!varies_) return {shortest_ticks_, false};
   const Nanoseconds jitter{
       static_cast<std::int64_t>(Part(draw, 1) * static_cast<double>(settings_.jitter.count()))};
-  // What is left of the draw decides on the rarer fates: they exclude each other.
+  // The rest of the draw decides on the rarer fates: they exclude each other.
   const double fate = Part(draw, 2);
   const bool held_back = fate < settings_.reorder;
   return {TicksUnderWay(settings_.delay + jitter, period_) + (held_back ? kHeldBackTicks : 0),
           !held_back && fate < settings_.reorder + settings_.duplicate};
 }
 
-// Makes its fate that under the rules that were on as it was said; false: it is lost by one.
+// Determines its fate by the rules that were active when it was sent; false: one of them loses it.
 bool Radio::SurvivesRules(std::size_t receiver, std::size_t sender, std::uint32_t ticks,
                           Fate* fate) const {
   const RadioRules::Effect effect = rules_.Of(receiver, sender, ticks, Number(now_) - ticks);
@@ -233,8 +233,8 @@ void Radio::MarkHeard(std::size_t receiver, std::size_t sender, Pair* pair) {
   expected_[receiver * count_ + expected_count_[receiver]++] = static_cast<std::uint32_t>(sender);
 }
 
-// The edges come once each. Who drove out of the radius is not missed: the middleware hears it
-// still, only it is not received. Who is lost permanently is expected no more.
+// Each edge is reported once. A peer that left the radius is not missed: the middleware still
+// receives it. One that is lost permanently is no longer expected.
 void Radio::Notice(std::size_t receiver, std::vector<QosEvent>* events) {
   std::uint32_t* const expected = expected_.data() + receiver * count_;
   std::uint32_t kept = 0;

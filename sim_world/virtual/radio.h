@@ -1,6 +1,6 @@
-// The radio of the virtual fleet, with the link's reader behind it: who hears which beacon when,
-// and what the middleware would say of who fell silent. Every draw is a hash of seed, pair and
-// tick, so that it depends on nothing else that was drawn. Knows true positions, no brains.
+// The radio of the virtual fleet, with the link's reader behind it: which vehicle receives which
+// beacon when, and which events the middleware would report of silent peers. Every draw is a hash
+// of seed, pair and tick, so that it depends on no other draw. Knows true positions, no brains.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ inline constexpr Nanoseconds kLivelinessLease{250'000'000};
 // A vehicle's place at the tick of reception.
 struct RadioPlace {
   Vec2 position_world;
-  bool on_air = false;  // its process lives and its body is there
+  bool on_air = false;  // its process runs and its body is there
 };
 
 class Radio {
@@ -32,13 +32,13 @@ class Radio {
   // Vehicles are numbered as in the scenario.
   Radio(const Scenario& scenario, const RadioSettings& settings, std::uint64_t seed);
 
-  // What a vehicle said in answer to `tick`. At most one beacon a vehicle and tick.
+  // What a vehicle sent in answer to `tick`. At most one beacon per vehicle and tick.
   void Say(std::size_t sender, Tick tick, const Beacon& beacon);
-  // Each vehicle's place at the tick now being heard, time_s after the start signal.
+  // Each vehicle's place at the tick now being received, time_s after the start signal.
   void BeginTick(Tick now, double time_s, std::span<const RadioPlace> places);
-  // Appends what the vehicle hears at this tick: of one sender in order of arrival.
+  // Appends what the vehicle receives in this tick: of one sender in order of arrival.
   void Hear(std::size_t receiver, std::vector<ReceivedBeacon>* heard);
-  // Appends what the middleware says at this tick of those it heard before; call after Hear.
+  // Appends what the middleware reports in this tick of peers it heard before; call after Hear.
   void Notice(std::size_t receiver, std::vector<QosEvent>* events);
 
  private:
@@ -57,7 +57,7 @@ class Radio {
   };
 
   struct Fate {
-    std::uint32_t due = 1;  // ticks after it was said
+    std::uint32_t due = 1;  // ticks after it was sent
     bool twice = false;
   };
 
@@ -81,13 +81,13 @@ class Radio {
   std::uint64_t seed_;
   Nanoseconds period_;
   std::size_t count_;
-  std::uint32_t shortest_ticks_;  // from said to heard
+  std::uint32_t shortest_ticks_;  // from sent to received
   std::uint32_t longest_ticks_;
   RadioRules rules_;
   std::uint32_t most_ticks_;  // longest_ticks_, and what rules add
   std::uint32_t kept_ticks_;  // of history
-  bool varies_;               // beacons differ in when they are heard
-  bool draws_;                // anything is left to chance
+  bool varies_;               // beacons differ in transit time
+  bool draws_;                // anything is random
   std::uint32_t deadline_ticks_;
   std::uint32_t lease_ticks_;
   std::vector<VehicleId> ids_;

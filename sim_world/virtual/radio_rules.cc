@@ -61,7 +61,7 @@ void RadioRules::Follow(std::int64_t tick, std::int64_t lasting, Rules* rules) {
   }
 }
 
-// What was said under a rule may be heard long after it.
+// What was sent under a rule may be received long after it.
 void RadioRules::BeginTick(double time_s) {
   now_ = std::llround(time_s / Seconds(tick_period_));
   Follow(now_, 0, &cuts_);

@@ -23,12 +23,12 @@ class RadioRules {
   RadioRules(std::span<const RadioRule> rules, std::span<const VehicleId> ids, std::uint64_t seed,
              Nanoseconds tick_period);
 
-  // By how many ticks all of them together may make a beacon later, at most kLongestTicks.
+  // The most ticks by which all of them together may delay a beacon, at most kLongestTicks.
   std::uint32_t MostLate() const { return most_late_; }
 
-  // The tick now being heard, by its time since the start signal; that never goes back.
+  // The tick now being received, by its time since the start signal, which never decreases.
   void BeginTick(double time_s);
-  // Whether any rule has a say in what is heard now.
+  // Whether any rule affects what is received now.
   bool Any() const { return !cuts_.live.empty() || !changes_.live.empty(); }
 
   bool IsCut(std::size_t hearer, std::size_t speaker) const;
@@ -38,7 +38,7 @@ class RadioRules {
     bool twice = false;
     std::uint32_t late_ticks = 0;
   };
-  // Of a beacon that was said so many ticks ago, in the tick of that number.
+  // Of a beacon that was sent that many ticks ago, in the tick of that number.
   Effect Of(std::size_t hearer, std::size_t speaker, std::uint32_t ticks_ago,
             std::uint32_t said_tick) const;
 

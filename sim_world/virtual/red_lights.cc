@@ -79,7 +79,7 @@ void RedLights::Follow(double time_s) {
 }
 
 bool RedLights::PassesRed(const Observed& now, Track* track) const {
-  // Two ticks as always, and the light's word may be lost once.
+  // Two ticks as always, and the light's sample may be lost once.
   const double reaction_s = Seconds(2 * tick_period_ + 2 * kSignalPeriod);
   const double speed = Magnitude(now.forward_m_s);
   const double stopping_m = speed * reaction_s + speed * speed / (2 * track->deceleration_m_s2);

@@ -1,7 +1,7 @@
-// Who drives past a red light, by the truth: the axle centre comes over the stop line, within 45
-// degrees of the direction that the light is for, while it shows red. Excused is who could not have
-// stopped when it turned red: its shell was nearer to the line than it drives until it stands. A
-// light that a fault has put out or silenced is none.
+// Which vehicles drive past a red light, by the truth: the axle centre crosses the stop line,
+// within 45 degrees of the direction that the light is for, while it shows red. A vehicle that
+// could not have stopped when it turned red is excused: its shell was nearer to the line than its
+// stopping distance. A light that a fault has put out or silenced does not count.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ class RedLights {
  public:
   explicit RedLights(const Scenario& scenario);
 
-  // Another vehicle, that the scenario does not name; one of the same id is forgotten.
+  // Adds a vehicle that the scenario does not name; one of the same id is forgotten.
   void Admit(const VehicleOptions& options);
 
-  // Takes in one tick, time_s after the start signal. Vehicles in order of their ids, the admitted
-  // ones among them. Those that passed a red light since the last tick, by index; valid until the
-  // next.
+  // Processes one tick, time_s after the start signal. Vehicles in order of their ids, the admitted
+  // ones among them. Returns those that passed a red light since the last tick, by index; valid
+  // until the next.
   std::span<const std::uint32_t> Observe(double time_s, std::span<const Observed> vehicles);
   // True if any light was red or yellow in it.
   bool AnyStops() const { return any_stops_; }

@@ -19,7 +19,7 @@ std::optional<ProcessFaultKind> ProcessKindOf(Kind kind) {
     case Kind::kRestart:
       return ProcessFaultKind::kRestart;
     case Kind::kPause:
-    case Kind::kHang:  // whatever of a process continues, its vehicle hears and says nothing
+    case Kind::kHang:  // whatever of the process still runs, its vehicle receives and sends nothing
       return ProcessFaultKind::kPause;
     case Kind::kSlow:
       return ProcessFaultKind::kSlow;

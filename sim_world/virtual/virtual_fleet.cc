@@ -14,7 +14,7 @@ namespace {
 constexpr WorldEpoch kVirtualEpoch{1};
 constexpr std::ptrdiff_t kReaderDepth = 4;  // beacons a paused reader keeps of one peer
 
-// To the world a crash is what a planned kill is.
+// To the world a crash is the same as a planned kill.
 Scenario WithCrashes(Scenario scenario, const VirtualPlan& plan) {
   for (const ProcessFault& fault : plan.faults) {
     if (fault.kind != ProcessFaultKind::kCrash) continue;
@@ -106,7 +106,7 @@ void VirtualFleet::Break(const ProcessFault& fault, Member* member) {
                                                                          scenario_.tick_period));
 }
 
-// Of n ticks it answers the share, one after the other as evenly as whole ticks allow.
+// Answers this share of n ticks, spread as evenly as whole ticks allow.
 bool VirtualFleet::Skips(const Member& member) const {
   const std::uint32_t now = Number(run_.Now());
   if (now >= member.slow_until_tick) return false;
@@ -117,8 +117,8 @@ bool VirtualFleet::Skips(const Member& member) const {
   return answered(n + 1) == answered(n);
 }
 
-// Whether the vehicle has a body: whose was taken away while it was silent gets another on its
-// start pose as soon as nothing stands there.
+// Whether the vehicle has a body: one whose body was removed while it was silent gets another on
+// its start pose as soon as that is free.
 bool VirtualFleet::IsThere(const VehicleOptions& options) {
   if (run_.BodyOf(options.id) != nullptr) return true;
   if (!run_.IsFree(options)) return false;
@@ -126,8 +126,8 @@ bool VirtualFleet::IsThere(const VehicleOptions& options) {
   return true;
 }
 
-// A new process is sent where its body stands and how far its task is, as by the world's roster; so
-// is one that had slept until its body was taken away.
+// A new process is sent the pose of its body and the progress of its task, as by the world's
+// roster; so is one that was paused until its body was removed.
 void VirtualFleet::BringBack(std::size_t index) {
   Member& member = members_[index];
   member.begins_anew = member.begins_anew || run_.BodyOf(member.id) == nullptr;
@@ -202,7 +202,7 @@ void VirtualFleet::Step(const RangeScan& scan, std::size_t index) {
   commands_hash_ = Stir(commands_hash_, member.said.command.target.right_rad_s);
 }
 
-// A paused process takes nothing: the newest few of each peer wait in its reader.
+// A paused process takes nothing: the newest few beacons of each peer wait in its reader.
 void VirtualFleet::Queue(std::size_t index) {
   std::vector<ReceivedBeacon>& queued = members_[index].queued;
   heard_.clear();

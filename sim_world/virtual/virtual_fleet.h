@@ -1,6 +1,6 @@
 // World and brains in one thread and in virtual time: the same Run and the same Vehicle::Step as in
-// the real fleet, with a radio in memory between them. A beacon of tick k is heard at tick k + 1 at
-// the earliest, as in a real run. Knows no clock and no middleware.
+// the real fleet, with a radio in memory between them. A beacon of tick k is received at tick k + 1
+// at the earliest, as in a real run. Knows no clock and no middleware.
 #pragma once
 
 #include <memory>
@@ -18,7 +18,7 @@ namespace giveway::sim {
 class VirtualFleet {
  public:
   // Every vehicle joins and the run starts at once. Without a plan nothing is lost and no process
-  // fails but by the scenario.
+  // fails except as the scenario plans.
   explicit VirtualFleet(const Scenario& scenario, const VirtualPlan& plan = {});
 
   // One tick for world and brains. False once the run has ended.
@@ -30,13 +30,13 @@ class VirtualFleet {
   const Scenario& TheScenario() const { return scenario_; }
   std::size_t Size() const { return members_.size(); }
   const Vehicle& Brain(std::size_t index) const { return *members_[index].brain; }
-  // What the vehicle said last.
+  // The vehicle's last outputs.
   const Outputs& Said(std::size_t index) const { return members_[index].said; }
-  // True if the vehicle's process answered this tick: it lives and is not paused.
+  // True if the vehicle's process answered this tick: it runs and is not paused.
   bool Answered(std::size_t index) const { return members_[index].answered; }
   // Every event of the run so far.
   const std::vector<WorldEvent>& History() const { return history_; }
-  // Of every command given so far, in order: two fleets that ever differed have different ones.
+  // Of every command given so far, in order: fleets that ever differed have different hashes.
   std::uint64_t CommandsHash() const { return commands_hash_; }
 
  private:

@@ -12,7 +12,7 @@
 namespace giveway::sim {
 
 // Loss in bursts (Gilbert 1960, Elliott 1963): each ordered pair has a link that is good or bad and
-// changes its mind from tick to tick. Bad links lose `loss` of the beacons, good ones the radio's.
+// changes state from tick to tick. Bad links lose `loss` of the beacons, good ones the radio's.
 struct BurstLoss {
   double enter = 0;    // probability a tick that a good link turns bad; 0: no bursts
   double leave = 0.2;  // probability a tick that a bad link recovers; the mean burst is 1 / leave
@@ -34,16 +34,16 @@ struct RadioRule {
   double to_s = 0;                // not any more
   VehicleId hearer = kNobody;     // kNobody: every vehicle
   VehicleId speaker = kNobody;    // kNobody: every vehicle
-  bool cut = false;               // nothing of the speaker is heard
-  bool both_ways = false;         // of a cut: and the speaker does not hear the hearer
+  bool cut = false;               // nothing of the speaker is received
+  bool both_ways = false;         // of a cut: and the speaker does not receive the hearer
   double period_s = 0;            // of a cut: on for the first half of each period; 0: all the time
   double loss = 0;                // share lost, each by itself
-  double burst_loss = 0;          // share lost in rows
-  std::uint32_t burst_ticks = 1;  // beacons of one row
-  Nanoseconds delay{0};           // comes so much later
-  double reorder = 0;             // share that comes reorder_by later still, and is overtaken
+  double burst_loss = 0;          // share lost in bursts
+  std::uint32_t burst_ticks = 1;  // beacons of one burst
+  Nanoseconds delay{0};           // arrives so much later
+  double reorder = 0;             // share that arrives reorder_by later still, and is overtaken
   Nanoseconds reorder_by{0};
-  double duplicate = 0;     // share heard a second time, a tick after the first
+  double duplicate = 0;     // share received a second time, a tick after the first
   std::uint64_t draws = 0;  // the rule's own
 };
 
@@ -55,7 +55,7 @@ struct RadioSettings {
   Nanoseconds delay{0};
   Nanoseconds jitter{0};
   double reorder = 0;       // share held back for two ticks more, so that later ones overtake them
-  double duplicate = 0;     // share heard a second time, a tick after the first
+  double duplicate = 0;     // share received a second time, a tick after the first
   bool loops_back = false;  // every vehicle receives its own beacons too
   std::vector<Blackout> blackouts;
   std::vector<RadioRule> rules;
@@ -66,10 +66,10 @@ struct RadioSettings {
 };
 
 enum class ProcessFaultKind : std::uint8_t {
-  kCrash,    // silent for ever; the body stays as long as the scenario says
+  kCrash,    // silent forever; the body stays as long as the scenario says
   kPause,    // stands still for a time, then continues with everything queued
-  kRestart,  // is gone for a time; then a new one continues as the world says: where and
-             // whereto
+  kRestart,  // is gone for a time; then a new one continues from the pose and the progress
+             // that the world sends
   kSlow,     // answers only a share of the ticks for a time, and finds the rest queued
 };
 
@@ -77,17 +77,17 @@ struct ProcessFault {
   ProcessFaultKind kind = ProcessFaultKind::kCrash;
   VehicleId vehicle = kNobody;
   double at_s = 0;     // since the start signal
-  double for_s = 0.5;  // of all but a crash; the world takes a second's silence for a death
+  double for_s = 0.5;  // not of a crash; the world treats a second of silence as a death
   double share = 1;    // of kSlow
 };
 
 struct VirtualPlan {
-  std::uint64_t seed = 0;  // of all that is drawn here
+  std::uint64_t seed = 0;  // of all draws here
   RadioSettings radio;
   std::vector<ProcessFault> faults;
-  // On top of these, as real runs have it; virtual_faults.h says which of it is carried out.
+  // In addition to these, as real runs have it; virtual_faults.h says which of it is injected.
   faults::Schedule schedule;
-  // Of the invariants that are else only counted: bit i for invariant i.
+  // Of the invariants that are otherwise only counted: bit i for invariant i.
   std::uint32_t also_required = 0;
 };
 

@@ -12,8 +12,8 @@
 namespace giveway::sim {
 namespace {
 
-// It stands where by dead reckoning its goal may be, and says that it has arrived, or did so when
-// the run ended: from then on it says no more than that.
+// It stands where its goal may be by dead reckoning, and reports that it has arrived, or did so
+// when the run ended: from then on it reports only that.
 bool BelievesArrived(const Observed& now, bool before, const GoalTolerance& tolerance) {
   const Rule rule = now.decision.rule;
   const bool says_so = rule == Rule::kArrived || (before && rule == Rule::kNotRunning);
@@ -96,8 +96,8 @@ void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed) {
 
 InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses) {
   InvariantLimits limits;
-  // A beacon lost is made up for by the next; a peer silent for the age limit is lost, not waited
-  // for.
+  // The next beacon makes up for a lost one; a peer that is silent for the age limit counts as lost
+  // and is not waited for.
   constexpr Nanoseconds kAgeLimit{200'000'000};
   const std::uint32_t lost = loses ? TicksCovering(kAgeLimit, scenario.tick_period) : 0;
   limits.halted_ticks += 2 * (late_ticks + lost);
@@ -121,7 +121,7 @@ InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan) {
     late = std::max(late, radio.delay + radio.jitter + rule.delay);
   }
   InvariantLimits limits = LimitsFor(scenario, TicksCovering(late, scenario.tick_period), loses);
-  // A file says itself what it expects; a generator knows who can arrive, and how long it may take.
+  // A file states what it expects; a generator knows which vehicles can arrive, and in what time.
   if (const Generator* generator = FindGenerator(scenario.name)) {
     limits.one_of = WhoCanArrive(scenario).one_of;
     limits.due = DueTimes(scenario, generator->through_m);

@@ -1,5 +1,5 @@
-// One virtual run from start to verdict: the fleet advanced to its end under the invariants, and
-// what it came to as one small value. Thousands of these make a batch.
+// One virtual run from start to verdict: advances the fleet to its end under the invariants, and
+// returns the result as one small value. Thousands of these make a batch.
 #pragma once
 
 #include <array>
@@ -29,20 +29,20 @@ struct VirtualOutcome {
   std::string unmet;                   // of the scenario's own expectations; empty: none
   std::vector<Violation> first;        // violations, in order of time
   std::vector<Violation> noted;        // of invariants that are not required, the same
-  std::vector<double> delays_s;        // of those who arrived: beyond the free-flow time
-  std::optional<double> clear_s;       // the last arrival, if every living vehicle arrived
+  std::vector<double> delays_s;        // of those that arrived: beyond the free-flow time
+  std::optional<double> clear_s;       // the last arrival, if every live vehicle arrived
   std::optional<double> separation_m;  // the closest two shells ever came
   TrustCounters trust;                 // of all brains, as they ended
   std::uint64_t hash = 0;              // of every command and the last state
 };
 
-// The limits under which a run with this plan can be held to its invariants: what is lost or late
-// on the radio is known later, and long queues wait longer.
+// The limits for the invariants of a run with this plan: what is lost or late on the radio is known
+// later, and long queues wait longer.
 InvariantLimits LimitsFor(const Scenario& scenario, const VirtualPlan& plan);
-// The same for news that come up to so many ticks late, or not at all.
+// The same if news may be up to so many ticks late, or lost.
 InvariantLimits LimitsFor(const Scenario& scenario, std::uint32_t late_ticks, bool loses);
 
-// What the fleet shows after a tick; `observed` has one for each vehicle of the scenario, in its
+// The state of the fleet after a tick; `observed` has one for each vehicle of the scenario, in its
 // order.
 void ObserveFleet(const VirtualFleet& fleet, std::vector<Observed>* observed);
 
