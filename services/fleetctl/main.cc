@@ -15,7 +15,7 @@
 
 namespace {
 
-// Whatever no table has shown.
+// Shows what no table has shown.
 struct LibraryLinesAtEnd {
   LibraryLinesAtEnd() = default;
   ~LibraryLinesAtEnd() {
@@ -40,7 +40,7 @@ Exit code of every verb: 0 passed or shown, 1 failed or interrupted, 2 could not
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A file that may not grow is an error of the write that met it, not the end of the program.
+  // Reaching the file size limit is an error of that write, not the end of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App fleetctl("Runs and judges fleets of vehicles that talk over DDS.", "fleetctl");
   fleetctl.require_subcommand(1);

@@ -34,7 +34,7 @@ struct TimeRange {
 };
 constexpr TimeRange kDurations{true, kLongestDuration_s,
                                "of 0 to 30 days, such as 90s, 30m, 8h or 2d"};
-// Eleven days; beyond 2^33 the clock's arithmetic ends.
+// Eleven days; the clock's arithmetic overflows beyond 2^33.
 constexpr TimeRange kTimes{false, 1e6, "above 0 and up to 1000000 s, such as 5, 90s or 30m"};
 
 CLI::Option* AddFlag(CLI::App* verb, const std::string& name, std::function<void(double)> take_s,

@@ -11,14 +11,14 @@ namespace giveway::fleetctl {
 
 inline constexpr double kLongestDuration_s = 30 * 86400.0;
 
-// In seconds, 0 to kLongestDuration_s; nothing for any other text.
+// In seconds, 0 to kLongestDuration_s; nullopt for any other text.
 std::optional<double> ParseDuration_s(std::string_view text);
 
-// A flag that sets `duration_s`, and leaves it where it is not given.
+// A flag that sets `duration_s`, and leaves it unchanged if it is not given.
 CLI::Option* AddDurationFlag(CLI::App* verb, const std::string& name, double* duration_s,
                              const std::string& description);
 
-// Such a flag whose time must be above 0, up to 1 000 000 s.
+// The same for a time that must be above 0, up to 1 000 000 s.
 CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name,
                          std::function<void(double)> take_s, const std::string& description);
 CLI::Option* AddTimeFlag(CLI::App* verb, const std::string& name, double* duration_s,

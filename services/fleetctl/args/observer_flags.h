@@ -1,4 +1,4 @@
-// The flags of the verbs that listen to a fleet which was started elsewhere.
+// The flags of verbs that listen to a fleet started elsewhere.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 
 void AddObserverFlags(CLI::App* verb, ObserverOptions* options);
-// Of the verbs that give orders.
+// Of verbs that give orders.
 void AddAdminKeyFlag(CLI::App* verb, std::string* file);
 
 }  // namespace giveway::fleetctl

@@ -1,4 +1,4 @@
-// How many vehicles a scenario has places for, held against what a command line asks for.
+// Compares how many vehicles a scenario has places for with what a command line asks for.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace giveway::fleetctl {
 
-// Nothing happens where `vehicles` was not given. Throws InputError where the scenario names all of
-// its vehicles, or has fewer places. `file` is for the message.
+// Does nothing if `vehicles` was not given. Throws InputError if the scenario names all of its
+// vehicles, or has fewer places. `file` is for the message.
 void RefuseVehiclesWithoutPlace(const std::string& file, std::optional<std::uint32_t> vehicles,
                                 const Scenario& scenario);
 

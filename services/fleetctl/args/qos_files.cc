@@ -29,7 +29,7 @@ qos::Finding Unreadable(const std::string& path, std::string why) {
           "check the path and its permissions"};
 }
 
-// "; did you mean 'lossy_radio'?" of what may be the name of a shipped set.
+// "; did you mean 'lossy_radio'?" for a name similar to that of a shipped set.
 std::string NearestSet(const std::string& argument) {
   if (argument.find('/') != std::string::npos) return "";
   return DidYouMean(fs::path(argument).stem().string(), ShippedNames("qos"));

@@ -12,25 +12,25 @@
 
 namespace giveway::fleetctl {
 
-// A path, or the shipped set of that name: "lossy_radio". Empty: the shipped default. What is
-// neither comes back as it is, for the code that opens it to refuse.
+// A path, or the shipped set of that name: "lossy_radio". Empty: the shipped default. Anything else
+// is returned unchanged, and refused by the code that opens it.
 std::string ResolveQosFile(const std::string& argument);
 
 // The file, or the finding that says why it cannot be read. A file over the limit is not read
-// whole.
+// completely.
 std::variant<qos::ProfileFile, qos::Finding> ReadQosFile(const std::string& path);
 
-// The fleet of a verb that was started elsewhere: how large it is and how fast it ticks is not
-// known, and no rule about that speaks.
+// A fleet that was started elsewhere: its size and tick are not known, so no rule about them
+// applies.
 inline qos::Deployment UnknownFleet() { return {.vehicles = 1, .tick_ns = 0}; }
-// The set in the file. Throws LinkError with that finding where it cannot be read.
+// The set in the file. Throws LinkError with that finding if it cannot be read.
 QosProfiles ReadQosOrThrow(const std::string& path);
-// And if the rules of `qos check` find an error in it, before the library hangs on it.
+// Also throws if the rules of `qos check` find an error in it, before the library hangs on it.
 QosProfiles ReadSoundQos(const std::string& path, const qos::Deployment& fleet = UnknownFleet());
 
 qos::Deployment DeploymentOf(const Scenario& scenario);
 
-// What the library finds by itself: NAME=value of this shell, and the names of files in a folder.
+// What the library finds by itself: NAME=value of this shell, and the file names of a folder.
 std::vector<std::string> OwnEnvironment();
 std::vector<std::string> NamesIn(const std::filesystem::path& folder);
 

@@ -13,7 +13,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Sets the depth of the event history alone: up to this many, announcements keep their rate.
+// Sets only the depth of the event history: up to this many, announcements keep their rate.
 constexpr std::uint32_t kFleetSize = 32;
 
 }  // namespace

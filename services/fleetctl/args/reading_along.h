@@ -1,4 +1,4 @@
-// What `fleetctl top` and `fleetctl listen` share: they join a fleet that was started elsewhere as
+// What `fleetctl top` and `fleetctl listen` share: they join a fleet started elsewhere as
 // observers, start and stop nothing, and write what they receive to stdout.
 #pragma once
 
@@ -20,22 +20,22 @@ struct ObserverOptions {
   std::string admin_key;  // of verbs that give orders; a file, see process/run_key.h
 };
 
-// Throws LinkError where the profile set is unsound.
+// Throws LinkError if the profile set is invalid.
 link::LinkOptions LinkOptionsOf(const ObserverOptions& options);
 
 enum class OutputResult : std::uint8_t {
   kYes,
-  kNobodyReads,  // the reader has gone, as `| head -3` does: no reason to complain
+  kNobodyReads,  // the reader has exited, as `| head -3` does: not an error
   kFailed,       // a full disk: errno says why
 };
 
 // Writes to stdout at once.
 OutputResult Tell(const std::string& text);
-// Whether stdout was given at all. To be asked before any socket is opened: a socket that takes the
-// free descriptor's place would be written to.
+// Whether stdout is open. Check it before any socket is opened: a socket that gets the free
+// descriptor would be written to.
 bool HasStdout();
 
-// The exit code for it; says on stderr why, where it failed. 0 for no process reads.
+// The exit code for it; reports a failure on stderr. 0 if the reader has exited.
 int ExitCodeOf(OutputResult result);
 
 }  // namespace giveway::fleetctl

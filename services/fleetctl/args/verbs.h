@@ -1,6 +1,6 @@
 // The verbs of the command line, one file each. A verb adds itself, and sets the exit code when it
-// has been run. What it cannot do it throws (LinkError, InputError, OutputError, DomainError): main
-// says it and ends with kCouldNotRun.
+// has run. It throws what it cannot do (LinkError, InputError, OutputError, DomainError): main
+// reports it and exits with kCouldNotRun.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -65,8 +65,8 @@ std::string FileOf(const std::string& folder, const CampaignPlan& plan, const Sh
       .string();
 }
 
-// What the file holds, if that is just this shard of this plan by this program; what else is there
-// is said, and will be replaced.
+// The file's content, if it is exactly this shard of this plan by this program; any other content
+// is reported, and will be replaced.
 std::optional<ShardResult> ThereAlready(const std::string& file, const CampaignPlan& plan,
                                         const ShardOf& shard) {
   std::error_code error;

@@ -1,6 +1,5 @@
-// The verb `fleetctl campaign`: runs a shard of a campaign, and merges the results of all. It
-// starts no other process and speaks to no other machine: that is for the engine that runs the
-// shards.
+// The verb `fleetctl campaign`: runs a shard of a campaign, and merges the results of all. Starts
+// no other process and contacts no other machine: that is up to the engine that runs the shards.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +9,7 @@
 
 namespace giveway::fleetctl {
 
-// A shard that was asked to stop has no verdict, and is to be run again: as a shell says of
-// SIGTERM.
+// A shard that was stopped has no verdict and must be run again: the code of a shell for SIGTERM.
 inline constexpr int kShardInterrupted = 143;
 
 struct CampaignShardOptions {
@@ -27,7 +25,7 @@ struct CampaignMergeOptions {
   bool json = false;
 };
 
-// 0 all held, 1 something did not, kShardInterrupted. Throw InputError and OutputError.
+// 0 all passed, 1 some run failed, kShardInterrupted. Throw InputError and OutputError.
 int RunCampaignShard(const CampaignShardOptions& options);
 int RunCampaignMerge(const CampaignMergeOptions& options);
 

@@ -13,7 +13,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// FNV-1a, as of every other hash that is printed.
+// FNV-1a, as for every other printed hash.
 std::string HashOf(std::string_view text) {
   StateHash hash;
   for (const char c : text) hash.Add(std::uint64_t{static_cast<unsigned char>(c)});
@@ -49,7 +49,7 @@ std::string BuildIdIn(const char* notes, std::size_t size) {
   return id;
 }
 
-// Called with the program first, then with each library: 1 ends that.
+// Called for the program first, then for each library: 1 stops the iteration.
 int ReadBuildId(dl_phdr_info* object, std::size_t /*size*/, void* found) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];
@@ -87,7 +87,7 @@ std::string CanonicalText(const CampaignPlan& plan) {
                   plan.jitter_ms, plan.reorder_percent, plan.duplicate_percent, plan.loops_back);
   text += fmt::format("crashes {}\npauses {}\nrestarts {}\nskip_unsupported {:d}\n", plan.crashes,
                       plan.pauses, plan.restarts, plan.skip_unsupported);
-  // With its length a text cannot be taken for a part of the next.
+  // With its length, so that a text cannot be taken for a part of the next.
   text += fmt::format("scenario {}\n{}\n", plan.scenario_text.size(), plan.scenario_text);
   return text + fmt::format("faults {}\n{}", plan.fault_file, plan.fault_text);
 }

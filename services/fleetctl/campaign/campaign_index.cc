@@ -13,7 +13,7 @@ namespace {
 
 struct EngineVariable {
   const char* name;
-  std::uint32_t first;  // what it is for the first shard
+  std::uint32_t first;  // its value for the first shard
 };
 constexpr std::array<EngineVariable, 3> kEngines = {
     {{"JOB_COMPLETION_INDEX", 0}, {"SLURM_ARRAY_TASK_ID", 0}, {"PARALLEL_SEQ", 1}}};
@@ -23,7 +23,7 @@ constexpr std::array<EngineVariable, 3> kEngines = {
   throw InputError({{"campaign shard", 0, field, value, message, remedy}});
 }
 
-// The number that stands there, counted from 0.
+// The number there, counted from 0.
 std::uint32_t NumberIn(const EngineVariable& engine, const std::string& text, std::uint32_t of) {
   std::uint32_t number = 0;
   const char* end = text.data() + text.size();

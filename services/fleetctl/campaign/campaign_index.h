@@ -9,7 +9,7 @@
 
 namespace giveway::fleetctl {
 
-// What stands under a name; nothing where it is unset.
+// The value of a variable; nullopt if it is unset.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 
 // The shard's number from 0 to of - 1: `given` if there is one, else of JOB_COMPLETION_INDEX

@@ -36,7 +36,7 @@ void WriteSums(const CampaignSums& sums, schema::CampaignSums* message) {
   for (const std::uint32_t seed : sums.failing_seeds) message->add_failing_seeds(seed);
 }
 
-// Gathers what is wrong with a result.
+// Collects what is wrong with a result.
 class ShardComplaints {
  public:
   void Unless(bool holds, const std::string& complaint) {
@@ -176,7 +176,7 @@ ReadShard ShardFromJson(std::string_view json) {
                         result.shard.index < result.shard.of,
                     fmt::format("index {} of {} shards", result.shard.index, result.shard.of));
   complaints.Unless(message.generators_size() > 0, "it has no generators");
-  // A scenario, whose file need not be here, stands alone.
+  // A single name may be that of a scenario, whose file need not be here.
   const bool may_be_scenario = message.generators_size() == 1;
   for (const schema::CampaignSums& sums : message.generators()) {
     const std::string& name = sums.generator();

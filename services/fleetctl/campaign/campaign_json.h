@@ -8,13 +8,13 @@
 
 namespace giveway::fleetctl {
 
-// The same for the same values, byte for byte.
+// The same values give the same bytes.
 std::string ToJson(const ShardResult& result);
 
-// Either a result or, in words, all that is wrong with the text.
+// Either a result, or a message with everything that is wrong with the text.
 struct ReadShard {
   ShardResult result;
-  std::string complaint;  // empty: the result stands
+  std::string complaint;  // empty: the result is valid
 };
 ReadShard ShardFromJson(std::string_view json);
 

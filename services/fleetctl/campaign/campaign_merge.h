@@ -1,5 +1,5 @@
-// All shards of a campaign made one result, or everything that keeps them from it: a shard that
-// lacks or stands twice, results of other plans or programs. Pure.
+// Merges all shards of a campaign into one result, or reports everything that prevents it: shards
+// that are missing or duplicate, results of other plans or programs. Pure.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 namespace giveway::fleetctl {
 
 struct NamedShard {
-  std::string where;  // the file it stands in
+  std::string where;  // the file it comes from
   ShardResult result;
 };
 
 struct MergedCampaign {
-  CampaignResult result;  // meant for use only if there was no problem
+  CampaignResult result;  // valid only if there was no problem
   std::vector<Problem> problems;
 };
 
-// What differs from the first is of another campaign.
+// A result that differs from the first is of another campaign.
 MergedCampaign MergeShards(const std::vector<NamedShard>& shards);
 
 // "2, 5 to 7, 9": ascending numbers for people, at most some twenty pieces.

@@ -1,4 +1,4 @@
-// What a whole campaign came to, as JSON and for people. Pure.
+// The result of a whole campaign, as JSON and as a table. Pure.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 namespace giveway::fleetctl {
 
 bool AllHeld(const CampaignResult& result);
-// One line, idl/campaign.proto; the same whatever the shards were.
+// One line, idl/campaign.proto; independent of how the campaign was split.
 std::string ReportJson(const CampaignResult& result);
-// A table, and a line to run each failing run again.
+// A table, and a command line that reproduces each failing run.
 std::string ReportText(const CampaignResult& result);
 
 }  // namespace giveway::fleetctl

@@ -1,4 +1,4 @@
-// What a shard came to, as values. idl/campaign.proto documents each field.
+// The result of a shard as values. idl/campaign.proto documents each field.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ShardResult {
   std::vector<CampaignSums> generators;  // in the plan's order
 };
 
-// All shards together. `generators` as of a single shard that held all runs.
+// All shards together. `generators` is as of a single shard with all runs.
 struct CampaignResult {
   std::string campaign;
   std::string plan;

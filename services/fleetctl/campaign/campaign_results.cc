@@ -32,7 +32,7 @@ std::string WhyNoResults(const std::string& file) {
 
 enum class LineKind { kOther, kResult, kTooLong };
 
-// Moves on to the start of the next line. `line` gets a result's text, and is left empty otherwise.
+// Advances to the start of the next line. `line` gets the text of a result, else is left empty.
 LineKind TakeLine(std::streambuf* text, std::string* line) {
   constexpr int kEnd = std::char_traits<char>::eof();
   line->clear();

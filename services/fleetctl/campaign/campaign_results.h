@@ -10,8 +10,8 @@
 
 namespace giveway::fleetctl {
 
-// Adds what stands in the file, each line that starts with { being a result, or why it cannot be
-// had.
+// Adds what is in the file: each line that starts with { is a result, or an error that says why it
+// cannot be read.
 void ReadResults(const std::string& file, std::vector<NamedShard>* shards, ProblemList* problems);
 
 }  // namespace giveway::fleetctl

@@ -38,7 +38,7 @@ BatchTotals RunOne(const CaseMaker& maker, std::uint32_t seed) {
   return totals;
 }
 
-// What the flag is to `fleetctl virtual` is a field here.
+// Each flag of `fleetctl virtual` is a field here.
 CaseMaker MakerOf(const CampaignPlan& plan, const std::string& generator) {
   try {
     return CaseMaker(OptionsOf(plan, generator));

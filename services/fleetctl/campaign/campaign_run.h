@@ -14,7 +14,7 @@ namespace giveway::fleetctl {
 using CampaignProgress = std::function<bool(std::uint32_t done, std::uint32_t of)>;
 
 // Throws InputError for a fault file that asks for what a virtual run cannot do. `remark` gets what
-// is not carried out, a line each.
+// is left out, a line each.
 class CampaignMaker {
  public:
   explicit CampaignMaker(const CampaignPlan& plan);
@@ -28,7 +28,7 @@ class CampaignMaker {
   std::string remark_;
 };
 
-// Nothing if it was stopped: half a shard is none.
+// nullopt if it was stopped: half a shard has no result.
 std::optional<ShardResult> RunShard(const CampaignMaker& maker, const ShardOf& shard,
                                     std::uint32_t jobs, const CampaignProgress& progress);
 

@@ -1,6 +1,6 @@
-// Which runs of a campaign belong to which shard: every run to exactly one, whatever the number of
-// shards. Seeds go round the shards one by one, so that each has as many of every generator and of
-// early and late seeds, and all take about as long. Pure.
+// Which runs of a campaign belong to which shard: every run to exactly one, for any number of
+// shards. Seeds are dealt to the shards one by one, so that each has as many of every generator and
+// of early and late seeds, and all take about the same time. Pure.
 #pragma once
 
 #include <cstdint>
@@ -31,8 +31,8 @@ class ShardRuns {
   CampaignRun At(std::uint32_t place) const;  // place: below Count()
 
  private:
-  // Of a generator's seeds the first one here, counted from the plan's first. Where seeds are left
-  // over, those of the next generator go to the next shards.
+  // The first of a generator's seeds here, counted from the plan's first. Left-over seeds go
+  // to the shards after those that got the previous generator's.
   std::uint32_t FirstOf(std::uint32_t generator) const;
 
   std::uint32_t first_seed_;

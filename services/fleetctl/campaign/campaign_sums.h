@@ -1,5 +1,5 @@
-// What runs of one generator came to, in whole numbers, so that sums are the same in whatever order
-// and by however many machines they were added up. Pure.
+// The result of the runs of one generator, in whole numbers, so that sums do not depend on the
+// order of addition or the number of machines. Pure.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ struct CampaignSums {
   std::array<std::uint32_t, sim::kInvariantCount> violations{};
   std::uint32_t unmet = 0;  // runs that missed what the scenario expects
   std::int64_t vehicle_ms = 0;
-  std::int64_t delays_us = 0;                     // of all who arrived
+  std::int64_t delays_us = 0;                     // of all that arrived
   std::map<std::uint32_t, std::uint32_t> delays;  // by tenths of a second
   std::optional<double> separation_m;             // to a micrometre
   TrustCounters trust;
@@ -39,7 +39,7 @@ struct CampaignSums {
 // Of all generators; its name and failing seeds are left empty.
 CampaignSums SumOf(const std::vector<CampaignSums>& generators);
 
-// By nearest rank, in seconds; nothing where there is none.
+// By nearest rank, in seconds; nullopt if there is none.
 std::optional<double> DelayQuantile(const CampaignSums& sums, double share);
 std::optional<double> MeanDelay(const CampaignSums& sums);
 

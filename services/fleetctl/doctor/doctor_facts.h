@@ -1,6 +1,6 @@
-// What `fleetctl doctor` looks at: the facts of one host, as values. Read at the edge by
-// doctor_read.h and memory_read.h, judged by doctor_rules.h. What could not be read is absent, or
-// said in `not_known`.
+// What `fleetctl doctor` examines: the facts of one host, as values. Read by doctor_read.h and
+// memory_read.h, judged by doctor_rules.h. Facts that could not be read are absent, or named in
+// `not_known`.
 #pragma once
 
 #include <cstdint>

@@ -90,7 +90,7 @@ std::uint64_t BytesEach(const ProcessSituation& planned) {
   return 0;
 }
 
-// Calls `check` for every two processes that stand differently: one of each kind stands for all.
+// Calls `check` for every two processes of different kinds: one of each kind stands for all.
 template <typename Check>
 void ForPairs(const HostFacts& host, Check&& check) {
   using Kind = std::tuple<std::uint32_t, std::optional<std::uint64_t>, std::uint64_t, std::uint64_t,
@@ -174,7 +174,7 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
         "The segment of one more participant does not fit: it dies of SIGBUS on its first write "
         "there.");
   } else {
-    // The world and an observer come to the vehicles; those that run have theirs.
+    // The vehicles need a world and an observer; a running fleet has them.
     const std::uint64_t all = host.vehicles + std::uint64_t{qos::kOtherParticipants};
     const std::uint64_t others = all - std::min<std::uint64_t>(all, host.processes.size());
     if (memory.free_bytes >= others * each) return;

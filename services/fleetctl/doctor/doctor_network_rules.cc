@@ -39,7 +39,7 @@ struct DomainPorts {
   std::int64_t gain, first, each, discovery, data;
 };
 
-// Participants that are to run and do not yet: the vehicles, the world and an observer.
+// Participants that will run but do not yet: the vehicles, the world and an observer.
 std::int64_t ToCome(const HostFacts& host, std::uint32_t domain) {
   const auto running = std::ranges::count(
       host.processes, domain, [](const ProcessSituation& process) { return process.told.domain; });
@@ -121,7 +121,7 @@ bool IsReserved(const HostFacts& host, std::int64_t port) {
 
 std::string Shown(const HostInterface& one) { return one.name + " (" + one.address + ")"; }
 
-// What is wrong with discovery by multicast on one interface of those that are meant.
+// What is wrong with discovery by multicast on one of the selected interfaces.
 void CheckCarries(const HostFacts& host, const HostInterface& one, qos::Findings* findings) {
   const bool refuses = one.echoes_multicast == false;
   if (!refuses && (one.says_multicast || one.loopback)) return;
@@ -173,7 +173,7 @@ void CheckReceiveBuffer(const HostFacts& host, qos::Findings* findings) {
     const std::int64_t granted = std::min(wanted->second.number, *host.receive_buffer_max);
     const std::int64_t needed = host.vehicles * qos::kDatagramBytes;
     if (granted >= needed || granted == wanted->second.number)
-      continue;  // else `qos check` says it
+      continue;  // else `qos check` reports it
     Add(Severity::kWarning, "receive_buffer_small",
         fmt::format("the set asks for {} bytes, net.core.rmem_max grants {}; {} vehicles need {}",
                     wanted->second.number, granted, host.vehicles, needed),

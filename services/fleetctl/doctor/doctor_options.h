@@ -1,4 +1,4 @@
-// What the operator asked of `fleetctl doctor`.
+// The operator's options for `fleetctl doctor`.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace giveway::fleetctl {
 
 struct DoctorOptions {
   std::optional<std::uint32_t> domain;  // its processes alone; without it all, else the first
-  std::uint32_t vehicles = 2;           // that are to run
+  std::uint32_t vehicles = 2;           // that will run
   std::string qos;                      // a file, or a shipped set; empty: the default
   std::string interface = "127.0.0.1";
   bool fix = false;  // remove files in shared memory that no process uses

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 constexpr int kClockLooks = 20;
 constexpr auto kBetweenLooks = std::chrono::milliseconds(10);
-// Two looks at the monotonic clock so far apart say that something came between.
+// A longer time between two readings of the monotonic clock means an interruption.
 constexpr std::int64_t kLookNs = 50'000;
 
 // A vehicle as it would be started now.
@@ -112,8 +112,8 @@ void ReadProcesses(const fs::path& proc, std::optional<std::uint32_t> domain, Ho
   }
 }
 
-// The processes, and the ports that are taken: those before and after, for a process that starts or
-// ends meanwhile must not seem to be a stranger's.
+// The processes, and the ports that are taken: processes from before and after, because one that
+// starts or ends meanwhile must not be mistaken for another program.
 void ReadProcessesAndPorts(const fs::path& proc, std::optional<std::uint32_t> domain,
                            HostFacts* host) {
   const auto before = ReadPorts(proc, host);
@@ -124,7 +124,7 @@ void ReadProcessesAndPorts(const fs::path& proc, std::optional<std::uint32_t> do
                                 std::back_inserter(*host->ports));
 }
 
-// Where each runs, the processes of one folder with one environment once.
+// Where each runs; processes of one folder with the same environment once.
 void ReadSurroundings(const fs::path& proc, HostFacts* host) {
   std::error_code error;
   host->surroundings.push_back(

@@ -1,4 +1,4 @@
-// Reads the facts of this host. The folders may be others of the same shape, for tests.
+// Reads the facts of this host. Tests pass other folders of the same layout.
 #pragma once
 
 #include <filesystem>
@@ -16,9 +16,9 @@ struct HostFolders {
 // All but interfaces and clock. Throws InputError if the planned set cannot be read.
 HostFacts ReadHost(const DoctorOptions& options, const HostFolders& folders);
 
-// With an echo of multicast tried on those that are meant. Throws LinkError.
+// Also tests for a multicast echo on the selected interfaces. Throws LinkError.
 std::vector<HostInterface> ReadInterfaces(const std::string& interface);
-// Looks at both clocks for a fifth of a second.
+// Compares both clocks for a fifth of a second.
 ClockFacts ReadClock();
 
 }  // namespace giveway::fleetctl

@@ -43,7 +43,7 @@ void Add(Severity severity, const char* rule, std::string subject, std::string v
 }  // namespace
 
 void CheckSurroundings(const HostFacts& host, qos::Findings* findings) {
-  // Of a fleet all were mostly started alike: what holds for many is said once.
+  // The processes of a fleet are mostly started alike: what is true of many is reported once.
   std::set<std::tuple<std::string, std::string, std::string>> said;
   for (const Surroundings& at : host.surroundings) {
     qos::Deployment deployment;

@@ -11,7 +11,7 @@ namespace giveway::fleetctl {
 void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings);
 void CheckForeignFiles(const HostFacts& host, qos::Findings* findings);
 void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings);
-// Of pairs of living processes: one host and two memories, one memory and two hosts.
+// Of pairs of live processes: one host and two memories, one memory and two hosts.
 void CheckMemoryShared(const HostFacts& host, qos::Findings* findings);
 void CheckHostIds(const HostFacts& host, qos::Findings* findings);
 

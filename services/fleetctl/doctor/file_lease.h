@@ -1,7 +1,7 @@
-// Asks the kernel whether any process has a file open or mapped: a lease for writing is granted to
-// none but the only one (fcntl(2), F_SETLEASE). Unlike a look at /proc this sees processes of other
-// users and of other namespaces, and holds: a process that opens the file meanwhile waits until the
-// lease ends.
+// Asks the kernel whether any process has a file open or mapped: a write lease is granted only to
+// the sole user of a file (fcntl(2), F_SETLEASE). Unlike /proc this covers processes of other users
+// and of other namespaces, and it stays true: a process that opens the file meanwhile waits until
+// the lease ends.
 #pragma once
 
 #include <cstdint>

@@ -83,7 +83,7 @@ class Look {
 bool IsLocked(const fs::path& file) {
   const FileDescriptor lock(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
   if (!lock.IsOpen()) return errno != ENOENT;
-  // Exclusively: those who listen to a shared port hold a shared lock.
+  // Exclusively: the listeners of a shared port hold a shared lock.
   return ::flock(lock.Get(), LOCK_EX | LOCK_NB) != 0;
 }
 
@@ -97,7 +97,7 @@ void AskKernel(const fs::path& folder, MemoryFile* file) {
   }
 }
 
-// What can be seen of the file itself; nothing if it is no regular one.
+// What can be read of the file itself; nullopt if it is not a regular file.
 std::optional<MemoryFile> ReadMemoryFile(const fs::path& file) {
   struct stat found {};
   if (::lstat(file.c_str(), &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
@@ -111,7 +111,7 @@ std::optional<MemoryFile> ReadMemoryFile(const fs::path& file) {
   return read;
 }
 
-// Fills in `users`, and returns who may not be looked into. Our own process does not count.
+// Fills in `users`, and returns the processes that may not be inspected. Ignores our own process.
 std::vector<UnseenProcess> ReadUsers(const fs::path& proc, std::vector<MemoryFile>* files) {
   std::vector<UnseenProcess> unseen;
   const auto by_key = ByKey(files);
@@ -122,7 +122,7 @@ std::vector<UnseenProcess> ReadUsers(const fs::path& proc, std::vector<MemoryFil
     const bool maps = look.Maps();
     const bool holds = look.Holds();
     if (maps && holds) continue;
-    // Kernel threads and those that have ended have no words.
+    // Kernel threads and ended processes have no command line.
     struct stat owner {};
     if (ReadText(process / "cmdline").value_or("").empty()) continue;
     if (::stat(process.c_str(), &owner) != 0) continue;

@@ -1,6 +1,6 @@
-// Reads the files of Fast DDS in a shared memory folder, and who uses them. The folders may be
-// others of the same shape, for tests. Where no process is seen to use a file it is asked for
-// alone, for a moment, which the kernel refuses if another process does.
+// Reads the files of Fast DDS in a shared memory folder, and which processes use them. Tests pass
+// other folders of the same layout. If no user of a file is found, requests exclusive access to it
+// for a moment, which the kernel refuses if another process uses it.
 #pragma once
 
 #include <filesystem>

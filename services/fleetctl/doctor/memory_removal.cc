@@ -19,8 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The semaphore a participant holds while it opens a port, taken if it is free: who opens the port
-// meanwhile waits for us. If its owner died it is not free either, and then no process waits.
+// The semaphore a participant holds while it opens a port, taken if it is free: a participant that
+// opens the port meanwhile waits for us. If its owner died it is not free either, but then no
+// process waits for it.
 class PortMutex {
  public:
   explicit PortMutex(const fs::path& file) {
@@ -47,7 +48,7 @@ class PortMutex {
   bool taken_ = false;
 };
 
-// Takes the file for us alone; else why it must stay.
+// Takes the file for exclusive use; else says why it must stay.
 std::string Take(const fs::path& folder, const MemoryFile& was, std::vector<FileLease>* leases) {
   FileLease lease(folder / was.name);
   struct stat now {};

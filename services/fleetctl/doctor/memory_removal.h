@@ -1,6 +1,6 @@
-// Removes the files of segments and ports that no process uses any more. What was examined may have
-// changed since: nothing is removed that the kernel does not grant us alone, and a port only behind
-// the lock that participants take to open it.
+// Removes the files of segments and ports that no process uses any more. They may have changed
+// since they were examined: only files that the kernel grants us exclusively are removed, and a
+// port only under the lock that participants take to open it.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ struct Removal {
   friend bool operator==(const Removal&, const Removal&) = default;
 };
 
-// `memory` as read from `memory.folder`. Only what IsGone(), and of those only what `user` owns,
-// unless `user` is 0. Those left for another reason than being in use are reported, too.
+// `memory` as read from `memory.folder`. Only those with IsGone(), and of those only what `user`
+// owns, unless `user` is 0. Those left for another reason than being in use are reported, too.
 std::vector<Removal> RemoveGone(const SharedMemory& memory, std::uint32_t user);
 
 }  // namespace giveway::fleetctl

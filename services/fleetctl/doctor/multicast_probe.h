@@ -1,4 +1,4 @@
-// Sends one datagram to the group Fast DDS announces itself to, and listens for it on this host.
+// Sends one datagram to the multicast group of Fast DDS discovery, and listens for it on this host.
 #pragma once
 
 #include <optional>
@@ -6,7 +6,7 @@
 
 namespace giveway::fleetctl {
 
-// Whether it came back through the interface with this IPv4 address; nothing if that could not be
+// Whether it came back through the interface with this IPv4 address; nullopt if that could not be
 // tried. The datagram does not leave the host, and goes to no port of DDS.
 std::optional<bool> EchoesMulticast(const std::string& address);
 

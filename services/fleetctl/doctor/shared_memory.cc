@@ -82,7 +82,7 @@ std::vector<MemoryGroup> GroupsOf(const SharedMemory& memory) {
 }
 
 bool MayUse(std::uint32_t user, const MemoryFile& file) {
-  // Of groups nothing is known here: any process that may be in the file's counts.
+  // Group membership is not known here: any process that may be in the file's group counts.
   return user == 0 || user == file.user || (file.mode & (S_IWGRP | S_IWOTH)) != 0;
 }
 

@@ -6,9 +6,9 @@
 //   sem.fastrtps_port<N>_mutex held while a port is opened
 //   fast_datasharing_...       a writer's samples; without a lock
 //
-// Fast DDS 3 says fastdds_ where 2 says fastrtps_.
+// Fast DDS 3 uses fastdds_ where 2 uses fastrtps_.
 // A lock is an flock, so it ends with its process, however that ends. A port is also mapped by
-// those who send to it; they lock their own segment.
+// its senders; they lock their own segment.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ enum class MemoryPart : std::uint8_t { kBody, kLock, kMutex };
 struct MemoryFile {
   std::string name;
   FileIdentity identity;
-  std::uint64_t bytes = 0;   // taken, not merely promised
+  std::uint64_t bytes = 0;   // allocated, not only the file size
   std::uint32_t user = 0;    // who owns it
   std::uint32_t mode = 0;    // permission bits
   std::int64_t age_s = 0;    // since it was last written to or made
@@ -36,7 +36,7 @@ struct MemoryFile {
   std::vector<int> users;    // those seen to have it open or mapped
 };
 
-// A process that may not be looked into, and may have open what it likes.
+// A process that may not be inspected, and may have any file open.
 struct UnseenProcess {
   int pid = 0;
   std::uint32_t user = 0;
@@ -57,7 +57,7 @@ MemoryPart PartOf(std::string_view name);
 
 enum class MemoryState : std::uint8_t {
   kInUse,     // locked, mapped or held open
-  kNotKnown,  // the kernel does not say, and a process that may not be looked into could use it
+  kNotKnown,  // the kernel does not say, and a process that may not be inspected could use it
   kStale,     // its owner is gone: its lock is free
   kOrphaned,  // unused, and a part is missing: a body without lock, a lock without body
 };

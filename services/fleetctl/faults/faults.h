@@ -1,5 +1,5 @@
-// The verb `fleetctl faults`: shows the kinds of faults, and which faults a file makes. Carries
-// nothing out.
+// The verb `fleetctl faults`: shows the kinds of faults, and the faults that a file produces.
+// Injects none.
 #pragma once
 
 #include <cstdint>

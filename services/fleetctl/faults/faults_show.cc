@@ -15,7 +15,7 @@ using faults::Fault;
 using faults::KindRow;
 using faults::QuantityRow;
 
-// A line a rule of which faults were left out.
+// One line per rule with faults that were left out.
 std::string LeftOutLines(const faults::Expansion& expansion, std::string_view before) {
   std::string text;
   for (const faults::LeftOut& left : expansion.left_out) {

@@ -10,11 +10,11 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Where what an argument names is shipped; empty: nowhere.
+// The folder with the shipped files that an argument may name; empty: none.
 std::string FolderOf(const CLI::App& verb, const std::string& argument) {
   struct Row {
     const char* argument;
-    const char* verb;  // empty: every one
+    const char* verb;  // empty: every verb
     const char* folder;
   };
   constexpr std::array kRows = {
@@ -51,7 +51,7 @@ std::vector<std::string> ValuesOf(const CLI::App& verb, const CLI::Option& optio
   return folder.empty() ? Members(option.get_type_name()) : ShippedNames(folder);
 }
 
-// The flag whose value the word is; null if it is none.
+// The flag whose value the word is; null if it is not a value.
 const CLI::Option* Awaiting(const CLI::App& verb, const std::string& before) {
   if (!before.starts_with("--")) return nullptr;
   const CLI::Option* option = verb.get_option_no_throw(before);

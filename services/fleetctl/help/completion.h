@@ -1,4 +1,4 @@
-// What may stand where a user is typing: verbs, flags, values, and the names of what is shipped.
+// Completes what a user is typing: verbs, flags, values, and the names of shipped files.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,8 +7,8 @@
 
 namespace giveway::fleetctl {
 
-// `words` are those behind the program's name; the last is the one that is being typed, and may be
-// empty. Words that start with it, sorted; none where a file is meant, or anything.
+// `words` are those after the program's name; the last is the one being typed, and may be empty.
+// Returns the words that start with it, sorted; none where a file or free text is expected.
 std::vector<std::string> Completions(const CLI::App& fleetctl,
                                      const std::vector<std::string>& words);
 

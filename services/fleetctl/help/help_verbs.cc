@@ -77,7 +77,7 @@ void AddCompletion(CLI::App* fleetctl, int* exit_code) {
     std::fputs(kBashScript, stdout);
     *exit_code = 0;
   });
-  // Not for people: prints the words that may stand where the last one does.
+  // Used by the shell: prints the words that may replace the last one.
   CLI::App* words = fleetctl->add_subcommand("complete", "")->group("")->prefix_command();
   words->set_help_flag();
   words->callback([=] {

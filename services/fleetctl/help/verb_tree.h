@@ -7,7 +7,7 @@
 
 namespace giveway::fleetctl {
 
-// The verbs a user may name; those without a group are for programs.
+// The verbs for users; those without a group are for programs.
 inline std::vector<const CLI::App*> ShownVerbs(const CLI::App& app) {
   return app.get_subcommands([](const CLI::App* verb) { return !verb->get_group().empty(); });
 }

@@ -74,7 +74,7 @@ class Listening {
   const ListenOptions& options_;
   link::ObserverLink observer_;
   ListeningPost post_;
-  HeardFleet fleet_;  // only to say better what is wrong
+  HeardFleet fleet_;  // only for better error messages
   std::uint64_t heard_ = 0;
   bool hinted_ = false;
 };

@@ -1,4 +1,4 @@
-// The verb `fleetctl listen`: prints what travels on one topic. Values in; the exit code out.
+// The verb `fleetctl listen`: prints the samples of one topic. Values in; the exit code out.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace giveway::fleetctl {
 struct ListenOptions {
   ObserverOptions where;
   ListenFilter filter;
-  std::optional<std::uint64_t> count;  // end after so many samples; absent: never
-  std::optional<double> duration_s;    // end after so long; absent: never
+  std::optional<std::uint64_t> count;  // stop after that many samples; absent: never
+  std::optional<double> duration_s;    // stop after that time; absent: never
 };
 
-// 0 heard something, or was ended by Ctrl-C or by the reader of stdout; 1 nothing within the
+// 0 received something, or was ended by Ctrl-C or by the reader of stdout; 1 nothing within the
 // duration; 2 could not run.
 int RunListen(const ListenOptions& options);
 

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kNobodyThere = 1;
 constexpr Nanoseconds kTableTurn = std::chrono::milliseconds(10);
-constexpr Nanoseconds kFirstWords = std::chrono::seconds(1);  // for discovery to bring a vehicle
-// Where no terminal is: nothing is cut.
+constexpr Nanoseconds kFirstWords = std::chrono::seconds(1);  // for discovery to find a vehicle
+// Without a terminal nothing is cut.
 constexpr TerminalSize kEndless{std::numeric_limits<int>::max(), std::numeric_limits<int>::max()};
 
 class Top {

@@ -1,5 +1,4 @@
-// The verb `fleetctl top`: a table of a fleet that was started elsewhere. Values in; the exit code
-// out.
+// The verb `fleetctl top`: a table of a fleet started elsewhere. Values in; the exit code out.
 #pragma once
 
 #include "services/fleetctl/args/reading_along.h"
@@ -9,7 +8,7 @@ namespace giveway::fleetctl {
 struct TopOptions {
   ObserverOptions where;
   bool once = false;
-  double wait_s = 5;  // with `once`: how long a vehicle may take to be heard
+  double wait_s = 5;  // with `once`: longest wait for a vehicle
   bool json = false;
 };
 

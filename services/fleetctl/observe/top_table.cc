@@ -22,7 +22,7 @@ std::string EventsOf(const HeardVehicle& vehicle) {
   return vehicle.status ? EventsText(*vehicle.status) : "-";
 }
 
-// One that speaks no more: its last state is history, its counts are not.
+// A vehicle that has fallen silent: its last state is history, its counts are not.
 std::string PastRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
   const Hearing hearing = vehicle.HearingAt(now);
   const auto heard_at = vehicle.HeardAt();
@@ -42,7 +42,7 @@ std::string StatusRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now)
                      AgeText(vehicle.beacon_at, now), status.peers_heard, EventsOf(vehicle));
 }
 
-// A foreign peer, or one whose statuses do not come: only its beacons are known.
+// A foreign peer, or one whose statuses do not arrive: only its beacons are known.
 std::string BeaconRow(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
   const Beacon& beacon = *vehicle.beacon;
   const Decision said{.mode = beacon.mode, .rule = beacon.rule, .peer = beacon.gives_way_to};

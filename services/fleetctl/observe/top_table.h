@@ -1,5 +1,5 @@
-// A fleet that was started elsewhere as a table, and as a JSON object. Pure: what was heard, the
-// time and the size of the terminal go in.
+// A fleet started elsewhere as a table, and as a JSON object. Pure: takes what was received, the
+// time and the size of the terminal.
 #pragma once
 
 #include <string>
@@ -22,7 +22,7 @@ struct ListeningPost {
 std::vector<std::string> TopLines(const HeardFleet& fleet, const ListeningPost& post,
                                   SteadyTime now, TerminalSize size);
 std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTime now);
-// What to look at where nothing is received.
+// What to check if nothing is received.
 std::string NobodyHeard(const ListeningPost& post, SteadyTime now);
 
 }  // namespace giveway::fleetctl

@@ -1,5 +1,5 @@
-// Decisions as lines of tab-separated values, a vehicle and tick each, for virtual runs and
-// replays alike.
+// Decisions as lines of tab-separated values, one per vehicle and tick, for both virtual runs and
+// replays.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct TraceLine {
   Tick tick = kNoTick;
   double time_s = 0;
   VehicleId vehicle = kNobody;
-  Pose world_from_body;  // the truth, or what the vehicle believes where there is none
+  Pose world_from_body;  // the truth, or the vehicle's estimate where there is none
   double forward_m_s = 0;
   bool arrived = false;
 };

@@ -1,4 +1,4 @@
-// A finding for people and as JSON.
+// A finding as text and as JSON.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace giveway::fleetctl {
 
-// Text from a file or from the wire, which must not command the terminal it is shown on.
+// Text from a file or from the wire, without control sequences for the terminal that shows it.
 std::string Shown(std::string text);
 
-// Three lines: where, which values and how bad; what comes of it; the remedy. `nowhere` stands
-// where a finding is about no file.
+// Three lines: where, with severity and values; the effect; the remedy. `nowhere` is used if a
+// finding is not about a file.
 std::string ToText(const qos::Finding& finding, const std::string& nowhere = "environment");
 // One JSON object.
 std::string ToJson(const qos::Finding& finding);

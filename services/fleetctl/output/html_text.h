@@ -6,7 +6,7 @@
 
 namespace giveway::fleetctl {
 
-// With the marks of HTML escaped, for elements and for attributes in either quotes.
+// Escapes HTML special characters, for elements and for attributes in either quotes.
 std::string HtmlEscaped(std::string_view text);
 
 }  // namespace giveway::fleetctl

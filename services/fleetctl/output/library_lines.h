@@ -1,5 +1,5 @@
-// What Fast DDS complains of while a table is drawn on the terminal: a line in the middle of it
-// would tear it, so lines are kept for the next drawing.
+// Messages of Fast DDS while a table is drawn on the terminal: a line in the middle would corrupt
+// the table, so lines are kept for the next drawing.
 #pragma once
 
 #include <string>
@@ -7,9 +7,9 @@
 
 namespace giveway::fleetctl {
 
-// From now on, where stdout is a terminal. Else they go to stderr as they come.
+// Starts to keep lines if stdout is a terminal. Else they go to stderr as they come.
 void KeepLibraryLines();
-// Those since the last call, the oldest left out where there were too many.
+// The lines since the last call, without the oldest if there were too many.
 std::vector<std::string> TakeLibraryLines();
 
 }  // namespace giveway::fleetctl

@@ -19,11 +19,11 @@ class LiveScreen {
   LiveScreen(const LiveScreen&) = delete;
   LiveScreen& operator=(const LiveScreen&) = delete;
 
-  // Draws if it is time to.
+  // Draws if it is due.
   void Show(const TableView& view, SteadyTime now);
-  // True if it is time to draw; then not again before a period has passed.
+  // True if drawing is due; then not again until a period has passed.
   bool IsDue(SteadyTime now);
-  // Draws these lines in place of those drawn before, on stdout.
+  // Draws these lines over the previous ones, on stdout.
   void Draw(const std::vector<std::string>& lines);
   // Leaves what is drawn and continues below it.
   void Finish();

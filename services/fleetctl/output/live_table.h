@@ -1,5 +1,5 @@
-// The one-screen table of a running fleet as lines of text. Pure: what is known and the size of the
-// terminal go in, lines that fit it come out.
+// The one-screen table of a running fleet as lines of text. Pure: takes what is known and the size
+// of the terminal, returns lines that fit it.
 #pragma once
 
 #include <map>
@@ -18,7 +18,7 @@ struct TableView {
   std::string state;                // "waiting", "running", "stopping"
   double time_s = 0;                // since the start signal
   double duration_s = 0;            // 0: until stopped
-  std::vector<VehicleId> vehicles;  // every one the scenario names, heard of or not
+  std::vector<VehicleId> vehicles;  // all that the scenario names, heard or not
   std::map<VehicleId, VehicleStatus> statuses;
   std::set<VehicleId> silent;  // their last status is history, not state
 };
@@ -29,7 +29,7 @@ std::vector<std::string> FitTerminal(std::vector<std::string> head,
                                      const std::vector<std::string>& rows, TerminalSize size);
 // The table, ASCII, so fitted.
 std::vector<std::string> TableLines(const TableView& view, TerminalSize size);
-// The same in one line, for a log: time, vehicles heard of, who gives way.
+// The same in one line, for a log: time, vehicles heard, which of them give way.
 std::string ProgressLine(const TableView& view);
 
 }  // namespace giveway::fleetctl

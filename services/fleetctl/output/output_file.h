@@ -1,5 +1,5 @@
-// A file the run will write at its end. Whether it can be written is found out before anything
-// starts: that must not be learnt after a minute's run.
+// A file that the run will write at its end. Whether it can be written is checked before anything
+// starts, so that a run does not fail at its end.
 #pragma once
 
 #include <functional>
@@ -16,12 +16,12 @@ class OutputError : public std::runtime_error {
 
 // Throws OutputError unless `path` can be written. Leaves no file behind.
 void CheckWritable(const std::string& path);
-// Makes the folder if it is missing; throws OutputError unless files can be made in it.
+// Creates the folder if it is missing; throws OutputError unless files can be created in it.
 void CheckFolder(const std::string& folder);
-// Whole or not at all. Throws OutputError.
+// Atomically: the complete file or none. Throws OutputError.
 void WriteFile(const std::string& path, const std::string& text);
-// For files that come after the verdict, which is printed and stands: what cannot be written is
-// said on stderr. Returns the exit code: `code`, but at least 1 where a file is missing.
+// For files that are written after the verdict has been printed: reports on stderr what cannot be
+// written. Returns the exit code: `code`, but at least 1 if a file is missing.
 int WriteAfterVerdict(int code, const std::function<void()>& write);
 
 }  // namespace giveway::fleetctl

@@ -23,7 +23,7 @@ struct Verdict {
   const char* colour;
 };
 
-// Legible on a light and on a dark ground.
+// Legible on a light and on a dark background.
 constexpr std::array kVerdicts = {
     Verdict{"passed", kGreen},      Verdict{"It fits.", kGreen},
     Verdict{"Verified", kGreen},    Verdict{"failed", kRed},
@@ -35,12 +35,12 @@ constexpr std::array kVerdicts = {
 
 bool IsLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-// "failed 0" is a count, and no verdict.
+// "failed 0" is a count, not a verdict.
 bool IsCount(std::string_view line, std::size_t end) {
   return end + 1 < line.size() && line[end] == ' ' && line[end + 1] >= '0' && line[end + 1] <= '9';
 }
 
-// Where the word stands by itself; npos if it does not.
+// Where it is a separate word; npos if it is none.
 std::size_t FindWord(std::string_view line, std::string_view word) {
   for (std::size_t at = line.find(word); at != std::string_view::npos;
        at = line.find(word, at + 1)) {
@@ -72,8 +72,8 @@ std::size_t Width(std::string_view text) {
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
-// Where to break so that at most `columns` characters stay in front: at the last space within, else
-// at the first behind; npos if there is none. Spaces at the start do not count.
+// Where to break so that at most `columns` characters stay on the line: at the last space within
+// them, else at the first after them; npos if there is none. Spaces at the start do not count.
 std::size_t BreakOf(std::string_view line, std::size_t columns) {
   std::size_t best = std::string_view::npos;
   const std::size_t text = line.find_first_not_of(' ');

@@ -12,8 +12,8 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Above these shares of what there is, the plan warns and refuses. A fleet that took 97 % of two
-// cores had beacons four times as old as one that took 25 %.
+// Above these shares of what is available, the plan warns and refuses. A fleet that took 97 % of
+// two cores had beacons four times as old as one that took 25 %.
 constexpr double kBusy = 0.5;
 constexpr double kFull = 0.9;
 
@@ -24,7 +24,7 @@ std::uint32_t CeilShare(std::uint32_t whole, std::uint32_t parts) {
 double AnnouncementSeconds(const PlanRequest& request) {
   if (request.vehicles > qos::kLargeFleet) return qos::kLargeFleetAnnouncementNs / 1e9;
   const qos::XmlRead read = qos::ReadXml(request.set.bytes, request.set.name);
-  if (!read.root) return 1;  // the findings say that it is no set
+  if (!read.root) return 1;  // the findings say that it is not a set
   const qos::ProfileSet set = qos::ReadProfiles(*read.root, request.set.name);
   const qos::Profile* profile = set.Find(qos::Owner::kParticipant, "giveway_participant");
   return profile == nullptr
@@ -32,7 +32,7 @@ double AnnouncementSeconds(const PlanRequest& request) {
              : static_cast<double>(profile->Number(qos::Policy::kAnnouncement)) / 1e9;
 }
 
-// The fleet's numbers, of which rows and findings are made.
+// The fleet's numbers, from which rows and findings are made.
 class Reckoning {
  public:
   explicit Reckoning(const PlanRequest& request)
@@ -63,7 +63,7 @@ class Reckoning {
   double SamplesHeard() const { return rate_ * (peers_ + 1); }  // beacons, and its ranges
   double DiscoveryPackets() const { return costs_.discovery_packets_a_pair * n_ * peers_; }
   double VehiclePackets() const { return rate_ * peers_ + pace_ * costs_.packets_a_vehicle; }
-  // What one host sends to others: a beacon goes to each peer by itself, wherever it is.
+  // What one host sends to others: a beacon goes to each peer separately, wherever it is.
   double LinkMbit() const {
     if (request_.hosts < 2) return 0;
     const double elsewhere = n_ - OnHost();
@@ -119,7 +119,7 @@ std::vector<PlanRow> Reckoning::Rows(double announcement_s) const {
   };
 }
 
-// A finding where `used` comes near to what there is, or beyond it.
+// A finding if `used` comes near to what is available, or exceeds it.
 void Hold(const char* rule, const std::string& values, double used, double there,
           const char* consequence, const char* remedy, qos::Findings* findings) {
   if (there <= 0 || used <= kBusy * there) return;
@@ -170,7 +170,8 @@ bool WouldFit(const PlanRequest& request) {
   return !HasError(FindingsOf(request, Reckoning(request)));
 }
 
-// More vehicles never fit where fewer do not; nor, from two on, fewer hosts where more do not.
+// If a number of vehicles does not fit, no larger one does; and from two hosts on, if a number of
+// hosts does not suffice, no smaller one does.
 void SeekWhatFits(const PlanRequest& request, PlanReport* report) {
   const auto fit = [&](std::uint32_t vehicles) {
     PlanRequest changed = request;

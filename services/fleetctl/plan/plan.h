@@ -1,7 +1,7 @@
-// What a fleet of N vehicles takes from its hosts, computed before one is started. Pure: from the
-// costs that tests/bench/fleet_costs.sh measured, the request and the set of QoS profiles.
-// Hosts are alike; one of them also runs the world and its observers. All hear all, whatever
-// the scenario's emission radius: the samples come, and the brain leaves aside what is too far.
+// What a fleet of N vehicles takes from its hosts, computed before it is started. Pure: from the
+// costs measured by tests/bench/fleet_costs.sh, the request and the QoS profile set. Hosts are
+// alike; one of them also runs the world and its observers. All receive all, whatever the
+// scenario's emission radius: the samples arrive, and the brain ignores those from too far.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@ struct PlanRequest {
   double memory_mib = 0;      // a host
   double link_mbit_s = 1000;  // between two hosts
   std::int64_t tick_ns = 50'000'000;
-  qos::ProfileFile set;   // that all are given
-  int library_major = 2;  // of the Fast DDS that all are linked with
+  qos::ProfileFile set;   // of every process
+  int library_major = 2;  // of the Fast DDS of every process
 };
 
-// One line: of a vehicle, of the busiest host, of the fleet; what the host has. Not all have all.
+// One row: of a vehicle, of the busiest host, of the fleet; and what the host has. Some are absent.
 struct PlanRow {
   std::string name;  // with its unit
   std::optional<double> vehicle;
@@ -37,7 +37,7 @@ struct PlanRow {
 struct PlanReport {
   std::vector<PlanRow> rows;
   qos::Findings findings;  // errors refuse the fleet
-  // What would fit, where this does not; nothing where no change of that one value does.
+  // What would fit, if this does not; absent if no change of that one value does.
   std::optional<std::uint32_t> fewer_vehicles;
   std::optional<std::uint32_t> more_hosts;
 

@@ -11,7 +11,7 @@ namespace giveway::fleetctl {
 struct Costs {
   double ticks_per_s = 20;
 
-  // Processor time, ms a second: of a process that receives no peer, and for each it hears.
+  // Processor time, ms a second: of a process without peers, and for each peer it receives.
   double vehicle_cpu = 9.6;
   double vehicle_cpu_a_peer = 0.45;
   double world_cpu = 9.5;
@@ -19,7 +19,7 @@ struct Costs {
   double observer_cpu = 12;
   double observer_cpu_a_vehicle = 0.95;
 
-  // MiB that a process shares with no other.
+  // MiB of private memory.
   double vehicle_mib = 19.15;
   double vehicle_mib_a_peer = 0.043;
   double world_mib = 6.0;

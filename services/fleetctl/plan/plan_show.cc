@@ -7,7 +7,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Three digits are as sure as a plan is.
+// A plan is accurate to three digits at most.
 std::string Cell(const std::optional<double>& value) {
   if (!value) return "-";
   return *value >= 100 ? fmt::format("{:.0f}", *value) : fmt::format("{:.3g}", *value);

@@ -1,5 +1,5 @@
 // What `fleetctl replay` and `report` do with an MCAP recording: show the run on the page, with
-// seek, pause and speed, or write that page to a file, for a report with its report open. Values
+// seek, pause and speed, or write that page to a file, for a report with the report open. Values
 // in; the exit code out.
 #pragma once
 
@@ -17,7 +17,7 @@ struct PlaybackOptions {
   std::uint16_t port = 8080;
 };
 
-// Whether the file is one that playback is for, by its name.
+// Whether playback can show the file, by its name.
 bool IsMcapFile(const std::string& file);
 
 // 0 shown until Ctrl-C, or written; 1 nothing in the file can be shown; 2 could not run.
