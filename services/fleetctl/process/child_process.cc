@@ -16,7 +16,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr int kKeptFd = 3;
-constexpr int kCannotExec = 127;  // what a shell says of a program it cannot start
+constexpr int kCannotExec = 127;  // the code of a shell for a program it cannot start
 constexpr std::size_t kLongestLine = 2000;
 
 std::string ErrnoText() { return std::strerror(errno); }
@@ -36,13 +36,13 @@ Pipe MakePipe() {
 
 // The folder of the configuration is no flag's twin.
 constexpr std::string_view kNoTwin = "GIVEWAY_CONFIG_DIR=";
-// What a service may be given by the environment of fleetctl. Everything else it is given by flags:
-// a twin such as GIVEWAY_HEALTH_PORT or GIVEWAY_ID means fleetctl itself, or one service, and would
-// be wrong for all of them at once.
+// What a service may get from fleetctl's environment. Everything else is passed by flags: a
+// variable such as GIVEWAY_HEALTH_PORT or GIVEWAY_ID is meant for fleetctl itself, or for one
+// service, and would be wrong for all of them at once.
 constexpr std::array<std::string_view, 3> kHandedOn{
     "GIVEWAY_LOG_FORMAT=", "GIVEWAY_THREADS=", "GIVEWAY_PARTITION_FREE="};
 
-// Of texts that `command` and this process's environment keep.
+// Points to texts that `command` and this process's environment keep.
 std::vector<char*> EnvironmentOf(ChildCommand* command) {
   const auto is_handed_on = [&](std::string_view text) {
     const auto names = [text](std::string_view name) { return text.starts_with(name); };
@@ -68,11 +68,11 @@ void ResetSignals() {
   }
 }
 
-// Between fork and exec, in a process whose other threads are gone: system calls only.
+// Runs between fork and exec, in a process whose other threads are gone: system calls only.
 [[noreturn]] void BecomeChild(char* const* words, char* const* environment, pid_t parent,
                               int output, int kept_fd) {
   ResetSignals();
-  // An own process group: Ctrl-C reaches fleetctl alone, which stops the fleet in good order.
+  // A process group of its own: Ctrl-C reaches fleetctl alone, which stops the fleet gracefully.
   ::setpgid(0, 0);
   DieWith(parent);
   const int nothing = ::open("/dev/null", O_RDONLY);
@@ -84,7 +84,7 @@ void ResetSignals() {
   } else if (kept_fd >= 0) {
     ::dup2(kept_fd, kKeptFd);
   }
-  // The library's sockets are not close-on-exec, and must not live on in the children.
+  // The library's sockets are not close-on-exec, and must not stay open in the children.
   ::close_range(kept_fd >= 0 ? kKeptFd + 1 : kKeptFd, UINT_MAX, 0);
   ::execve(words[0], words, environment);
   const char* reason = ::strerrordesc_np(errno);  // allocates nothing, takes no lock
@@ -144,7 +144,7 @@ void ChildProcess::Poll() {
   int status = 0;
   const bool ended = ::waitpid(pid_, &status, WNOHANG) == pid_;
   if (hears_ || ended)
-    ReadOutput();  // after waitpid: nothing the child said before it ended is missed
+    ReadOutput();  // after waitpid: no output before the end is missed
   if (!ended) return;
   end_ = WIFSIGNALED(status) ? ProcessEnd{true, WTERMSIG(status)}
                              : ProcessEnd{false, WEXITSTATUS(status)};

@@ -19,14 +19,14 @@
 
 namespace giveway::fleetctl {
 
-// The operating system refused to make the process or its pipe. Main exits with 2.
+// The operating system could not create the process or its pipe. Main exits with 2.
 class StartError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 // For a process that was just forked: it is killed when its parent dies, whatever it is doing then,
-// and ends at once if the parent has died already.
+// and exits at once if the parent has died already.
 void DieWith(pid_t parent);
 
 // How a process ended.
@@ -44,15 +44,15 @@ std::string Describe(ProcessEnd end);
 std::filesystem::path ProgramFolder();
 
 struct ChildCommand {
-  std::string name;                // for people: "vehicle 2"
+  std::string name;                // for messages: "vehicle 2"
   std::vector<std::string> words;  // the program's path, then its arguments
-  std::string log_file;            // everything the child says is copied here; empty: nowhere
+  std::string log_file;            // the child's output is copied here; empty: nowhere
   int kept_fd = -1;                // stays open in the child as descriptor 3; -1: none
   bool hands_on_lines = false;     // every line is kept for TakeLines
-  // No GIVEWAY_ variable of this shell is a flag of the child. Without this the log's format, the
-  // world's threads and free partitions may be given so; no other flag ever is.
+  // No GIVEWAY_ variable of this shell is passed on as a flag. Without this the log's format, the
+  // world's threads and free partitions may be set this way; no other flag ever is.
   bool flags_only = false;
-  // In addition to what it is given of this process's environment: NAME=value each.
+  // NAME=value each, in addition to what is passed on from this process's environment.
   std::vector<std::string> environment = {};
 };
 
@@ -67,23 +67,22 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Reads what the child has said and asks whether it has ended. Never blocks.
+  // Reads the child's output and checks whether it has ended. Never blocks.
   void Poll();
   const std::optional<ProcessEnd>& End() const { return end_; }
   bool IsRunning() const { return !end_.has_value(); }
-  // While not heard, what it says stays in the pipe, which gets full. An end is noticed all the
-  // same.
+  // While this is off, its output stays in the pipe, which fills up. An exit is still noticed.
   void HearOutput(bool hear) { hears_ = hear; }
-  // Nothing happens to a child that has ended: its id may be another process by now.
+  // Has no effect on a child that has ended: its id may belong to another process.
   void Signal(int signal_number);
-  // SIGTERM, once: a second one would end a service before it has left in good order.
+  // SIGTERM, once: a second one would end a service before it has left gracefully.
   void AskToStop();
 
   const std::string& Name() const { return name_; }
   pid_t Pid() const { return pid_; }
-  // The whole lines it said since the last call, where the command asked for that.
+  // The complete output lines since the last call, if the command asked for them.
   std::vector<std::string> TakeLines() { return std::exchange(lines_, {}); }
-  // The last lines the child said, oldest first.
+  // The last output lines of the child, oldest first.
   const std::deque<std::string>& LastLines() const { return last_lines_; }
 
  private:

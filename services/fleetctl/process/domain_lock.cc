@@ -31,7 +31,7 @@ FileDescriptor OpenLockFile(const std::string& path) {
   return {};
 }
 
-// True if no other holds this UDP port on any address.
+// True if no other process has this UDP port on any address.
 bool IsPortFree(std::uint32_t port) {
   const FileDescriptor socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   sockaddr_in any{};
@@ -44,8 +44,8 @@ bool IsPortFree(std::uint32_t port) {
 }  // namespace
 
 bool IsSpokenIn(std::uint32_t domain) {
-  // RTPS 9.6.2: participant p of domain d hears discovery at 7400 + 250 d + 10 + 2 p. A process
-  // that is alone has a low number; the first ten are enough.
+  // RTPS 9.6.2: participant p of domain d receives discovery at 7400 + 250 d + 10 + 2 p. A single
+  // process has a low number; the first ten are enough.
   for (std::uint32_t participant = 0; participant < 10; ++participant) {
     if (!IsPortFree(7410 + 250 * domain + 2 * participant)) return true;
   }

@@ -17,7 +17,7 @@ namespace giveway::fleetctl {
 inline constexpr std::uint32_t kFirstDomain = 1;
 inline constexpr std::uint32_t kLastDomain = 99;  // above 101 ports collide with ephemeral ones
 
-// No domain could be taken; what() says what to do. Main exits with 2.
+// No domain could be taken; what() gives the remedy. Main exits with 2.
 class DomainError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -26,14 +26,14 @@ class DomainError : public std::runtime_error {
 // True if a participant in this network namespace listens on the domain's ports.
 bool IsSpokenIn(std::uint32_t domain);
 
-// True if a run of this machine has the domain.
+// True if a run on this machine has the domain.
 bool IsTaken(std::uint32_t domain);
 
 class DomainLock {
  public:
   // Takes `wanted`, or the first free domain. Throws DomainError.
   explicit DomainLock(std::optional<std::uint32_t> wanted);
-  // The same in another folder and with another look at the ports, for tests.
+  // The same in another folder and with another check of the ports, for tests.
   DomainLock(std::optional<std::uint32_t> wanted, const std::filesystem::path& folder,
              bool (*is_spoken_in)(std::uint32_t domain));
 

@@ -3,7 +3,7 @@
 
 namespace giveway::fleetctl {
 
-// Wrong arguments, bad input, or nothing that could be run. Nothing was judged.
+// Wrong arguments, bad input, or nothing could be run. There is no verdict.
 inline constexpr int kCouldNotRun = 2;
 
 }  // namespace giveway::fleetctl

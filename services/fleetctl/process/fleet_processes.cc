@@ -11,9 +11,9 @@
 namespace giveway::fleetctl {
 namespace {
 
-// "vehicle-2.log", "vehicle-2+.log", "vehicle-2++.log": no process writes over another's log.
+// "vehicle-2.log", "vehicle-2+.log", "vehicle-2++.log": no process overwrites another's log.
 std::string LogFile(const std::string& file, unsigned restarts) {
-  constexpr unsigned kMostPluses = 20;  // then a number: a file's name has its limit
+  constexpr unsigned kMostPluses = 20;  // then a number: file names are limited in length
   if (file.empty() || restarts == 0) return file;
   const std::string mark =
       restarts > kMostPluses ? "+" + std::to_string(restarts) : std::string(restarts, '+');
@@ -81,7 +81,7 @@ void FleetProcesses::SignalAll(int signal_number) {
   for (Member& member : members_) member.Signal(signal_number);
 }
 
-// One that is gone already ended otherwise: that stays unplanned.
+// A process that is gone already ended otherwise: that end stays unplanned.
 void FleetProcesses::Plan(MemberId member, ProcessEnd how) {
   At(member).Poll();
   At(member).plan = how;

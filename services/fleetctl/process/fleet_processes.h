@@ -18,7 +18,7 @@ namespace giveway::fleetctl {
 struct MemberEnd {
   MemberId member;
   ProcessEnd how;
-  bool planned = false;  // as Kill or Plan had it
+  bool planned = false;  // as by Kill or Plan
 };
 
 struct MemberLine {
@@ -26,32 +26,32 @@ struct MemberLine {
   std::string text;
 };
 
-// A member that is not of the fleet is our bug.
+// An unknown member is a bug of the caller.
 class FleetProcesses {
  public:
-  // Starts those that are due at once; Poll starts the others. Everything on one thread, which must
-  // outlive this: see ChildProcess. Throws StartError, as Poll and Restart do.
+  // Starts the processes that are due at once; Poll starts the others. Use on one thread, which
+  // must outlive this: see ChildProcess. Throws StartError, as Poll and Restart do.
   explicit FleetProcesses(std::vector<MemberCommand> commands);
 
   // Never blocks.
   void Poll();
 
-  // Nothing happens to what is not running.
+  // No effect on processes that do not run.
   void Signal(MemberId member, int signal_number);
   void SignalAll(int signal_number);
-  // From now on an end of just this kind is planned. Not one that has come already.
+  // From now on an end of exactly this kind is planned, but not one that has already happened.
   void Plan(MemberId member, ProcessEnd how);
-  // SIGKILL, as planned.
+  // SIGKILL, as a planned end.
   void Kill(MemberId member);
-  // Another process for one that has ended, which is forgotten: with the same words, or others. It
-  // has a log of its own.
+  // Another process for one that has ended, which is forgotten: with the same command line, or
+  // another. It has a log of its own.
   void Restart(MemberId member);
   void Restart(MemberCommand command);
-  // Whether the output of its process is read. As it starts, it is.
+  // Whether the output of its process is read; on at the start.
   void HearLog(MemberId member, bool hear);
-  // SIGTERM, once a process, and SIGCONT for those that were paused by Signal.
+  // SIGTERM, once per process, and SIGCONT for processes that were paused by Signal.
   void AskToStop(MemberId member);
-  // That, or SIGKILL, for all. Nothing more is started then.
+  // The same, or SIGKILL, for all. Nothing more is started afterwards.
   void AskToStop();
   void ForceEnd();
   // Calls `turn`, which polls, until all have ended; at most for `grace`, and no longer once the
@@ -62,19 +62,19 @@ class FleetProcesses {
 
   bool IsRunning(MemberId member) const { return At(member).IsRunning(); }
   bool AnyRunning(const std::function<bool(MemberId)>& of) const;
-  bool AllEnded() const;  // and none is still to be started
-  // Its process's, once it is known to have ended.
+  bool AllEnded() const;  // and no start is pending
+  // The end of its process, once it is known.
   const std::optional<MemberEnd>& EndOf(MemberId member) const { return At(member).end; }
-  // Of those that have ended, the first in the order of the commands that may not.
+  // The first disallowed end, in the order of the commands.
   std::optional<MemberEnd> FirstEndNotAllowed(
       const std::function<bool(const MemberEnd&)>& may_end) const;
   // Since the last call.
   std::vector<MemberEnd> TakeEnds();
-  // Said since the last call, where the commands ask for that.
+  // Output lines since the last call, if the commands ask for them.
   std::vector<MemberLine> TakeLines();
   // Of its process, oldest first.
   const std::deque<std::string>& LastLines(MemberId member) const;
-  // For prlimit and the like. Nothing unless it is running: the id may be another's by now.
+  // For prlimit and the like. nullopt unless it is running: the id may have been reused.
   std::optional<pid_t> PidOf(MemberId member) const;
   std::optional<ProcessResources> ResourcesOf(MemberId member) const;
 

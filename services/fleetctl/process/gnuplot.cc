@@ -7,7 +7,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kDrawLimit = std::chrono::seconds(20);
-constexpr int kNotFound = 127;  // what env(1) says of a program that is not there
+constexpr int kNotFound = 127;  // the code of env(1) for a missing program
 
 }  // namespace
 
@@ -26,7 +26,7 @@ std::string RunGnuplot(const std::string& program_file) {
 }
 
 std::string GnuplotQuoted(const std::string& text) {
-  std::string quoted = "'";  // in single quotes a quote is said by two
+  std::string quoted = "'";  // within single quotes a quote is doubled
   for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
   return quoted + "'";
 }

@@ -6,8 +6,8 @@
 namespace giveway::fleetctl {
 
 inline constexpr const char* kGnuplotIsMissing = "gnuplot is not installed (Debian: gnuplot-nox)";
-// Empty if it has carried out the program in that file within 20 s, else why not:
-// kGnuplotIsMissing, or what gnuplot said last.
+// Empty if it has executed the program in that file within 20 s, else the reason:
+// kGnuplotIsMissing, or gnuplot's last message.
 std::string RunGnuplot(const std::string& program_file);
 
 // A text in gnuplot's single quotes, quotes included.

@@ -7,11 +7,11 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr int kInterruptedCode = 1;  // as the verbs give it themselves
+constexpr int kInterruptedCode = 1;  // the same as that of the verbs
 constexpr int kMostInterrupts = 2;
 constexpr unsigned kLongestSilence_s = 1;
 
-// Read by the verb's threads, written on whichever thread is given the signal.
+// Read by the verb's threads, written by whichever thread gets the signal.
 std::atomic<int> interrupt_count{0};
 std::atomic<bool> is_watched{false};
 static_assert(std::atomic<int>::is_always_lock_free);

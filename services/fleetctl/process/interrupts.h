@@ -1,13 +1,13 @@
 // Counts Ctrl-C and SIGTERM: the first asks for a clean stop, the second for an immediate one, the
-// third ends the process whatever it is doing. So does a verb that has been interrupted and then
-// does not ask for the count for a second: it hangs, in the library or elsewhere. Exit code 1.
+// third ends the process whatever it is doing. The process is also ended if an interrupted verb
+// does not query the count for a second: it hangs, in the library or elsewhere. Exit code 1.
 #pragma once
 
 #include <csignal>
 
 namespace giveway::fleetctl {
 
-// What becomes of an interrupted verb that stays silent.
+// What happens to an interrupted verb that does not respond.
 enum class Silence {
   kHangs,    // it is ended after a second
   kComputes  // it never enters the library, and one step of it may take long
@@ -21,9 +21,9 @@ class Interrupts {
   Interrupts(const Interrupts&) = delete;
   Interrupts& operator=(const Interrupts&) = delete;
 
-  // Asking shows that the verb is alive: its second starts again.
+  // A query shows that the verb is alive: it restarts the second.
   static int Count();
-  // Where a verb that was interrupted has something to do that takes longer.
+  // For an interrupted verb with something to do that takes longer.
   static void AllowSeconds(unsigned seconds);
 
  private:

@@ -12,7 +12,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// The value of "\nKEY:   1234 kB"; 0 where there is none, as of a process that has just ended.
+// The value of "\nKEY:   1234 kB"; 0 if there is none, as for a process that has just ended.
 std::uint64_t NumberOf(std::string_view status, std::string_view key) {
   const std::size_t at = status.find("\n" + std::string(key) + ":");
   if (at == std::string_view::npos) return 0;
@@ -26,8 +26,8 @@ std::string ReadAll(const std::filesystem::path& file) {
 
 }  // namespace
 
-// utime and stime are fields 14 and 15; the name, field 2, may hold anything but ends with the last
-// ')'.
+// utime and stime are fields 14 and 15; the name, field 2, may contain anything and ends with the
+// last ')'.
 std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view status,
                                                double ticks_per_second) {
   const std::size_t name_end = stat.rfind(')');

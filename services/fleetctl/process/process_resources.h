@@ -1,4 +1,4 @@
-// What a process uses of the machine, by /proc; see proc(5).
+// The resources a process uses, from /proc; see proc(5).
 #pragma once
 
 #include <sys/types.h>
@@ -17,10 +17,11 @@ struct ProcessResources {
   std::uint32_t descriptors = 0;
 };
 
-// All but the descriptors, from the text of stat and of status. Nothing if stat is not whole. Pure.
+// All but the descriptors, from the text of stat and of status. nullopt if stat is incomplete.
+// Pure.
 std::optional<ProcessResources> ParseResources(std::string_view stat, std::string_view status,
                                                double ticks_per_second);
-// Nothing if the process is gone.
+// nullopt if the process is gone.
 std::optional<ProcessResources> ReadResources(pid_t pid);
 
 }  // namespace giveway::fleetctl

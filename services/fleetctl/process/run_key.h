@@ -8,10 +8,10 @@
 
 namespace giveway::fleetctl {
 
-// Makes the key of the fleet on a domain, and removes it at the end.
+// Creates the key of the fleet on a domain, and removes it at the end.
 class RunKey {
  public:
-  // `given`: the operator's own file, which is then used and left alone. Throws auth::KeyError.
+  // `given`: the operator's own file, which is used and not changed. Throws auth::KeyError.
   RunKey(const std::string& given, std::uint32_t domain);
   ~RunKey();
   RunKey(const RunKey&) = delete;
@@ -24,8 +24,8 @@ class RunKey {
   bool is_own_ = false;
 };
 
-// The key to give orders with: of the file `given`, else of the fleet that was started on the
-// domain here, else empty. Throws auth::KeyError.
+// The key for orders: from the file `given`, else of the fleet that was started on the domain here,
+// else empty. Throws auth::KeyError.
 std::string KeyToOrderWith(const std::string& given, std::uint32_t domain);
 
 }  // namespace giveway::fleetctl

@@ -1,4 +1,4 @@
-// A text that is a whole number and nothing else, as a value.
+// Parses a text that is a whole number and nothing else.
 #pragma once
 
 #include <charconv>
@@ -7,7 +7,7 @@
 
 namespace giveway::fleetctl {
 
-// Nothing for any other text: empty, with spaces, out of the type's range.
+// nullopt for any other text: empty, with spaces, out of the type's range.
 template <typename Number>
 std::optional<Number> WholeNumber(std::string_view text, int base = 10) {
   Number number{};

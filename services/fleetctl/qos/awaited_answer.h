@@ -16,22 +16,22 @@ class AwaitedAnswer {
   // intruder replayed the order, and the answer to the operator is still in transit.
   static constexpr Nanoseconds kUnsealedPatience = std::chrono::seconds(1);
 
-  // `has_key`: answers are sealed, but for refusals.
+  // `has_key`: answers are sealed, except refusals.
   AwaitedAnswer(VehicleId vehicle, std::uint64_t order, bool has_key)
       : vehicle_(vehicle), order_(order), has_key_(has_key) {}
 
   void Take(const AdminAnswer& answer, SteadyTime now);
-  // Nothing more needs to be waited for.
+  // No further answer needs to be awaited.
   bool IsThere(SteadyTime now) const;
-  // What counts at the end of the waiting. One that has sealed an answer has the key: a refusal
-  // without a seal is not its own.
+  // The answer that counts when waiting ends. A service that has sealed an answer has the key: an
+  // unsealed refusal does not come from it.
   std::optional<AdminAnswer> Get() const;
 
  private:
   VehicleId vehicle_;
   std::uint64_t order_;
   bool has_key_;
-  bool restarts_ = false;  // it said, with its seal, that it does
+  bool restarts_ = false;  // a sealed answer says that it restarts
   std::optional<AdminAnswer> last_;
   std::optional<AdminAnswer> unsealed_;
   SteadyTime unsealed_counts_{0};

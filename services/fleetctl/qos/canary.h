@@ -1,5 +1,5 @@
-// Whether one vehicle with new QoS serves worse than the rest of its fleet with the old: counts of
-// the same span of time, held against each other. Pure.
+// Whether one vehicle with new QoS performs worse than the rest of its fleet with the old: compares
+// counts of the same time span. Pure.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,12 @@ struct ServiceFigures {
   double TakenPerSecond() const;  // of one vehicle
 };
 
-// Of one vehicle from one report to a later one of the same process.
+// Of one vehicle, from one report to a later one of the same process.
 ServiceFigures Between(const VehicleStatus& before, const VehicleStatus& after, double seconds);
 
-// Why `canary` serves worse than `rest`, or cannot be judged; empty if it does not. Worse is what
-// chance does not explain: the counts are taken for Poisson's, and the difference of two rates must
-// be over three standard deviations and over a fifth of the rest's.
+// Why `canary` performs worse than `rest`, or cannot be judged; empty if it does not. Worse means
+// more than chance: the counts are assumed to be Poisson, and the difference of two rates must
+// exceed three standard deviations and a fifth of the rest's rate.
 std::string WhyWorse(const ServiceFigures& canary, const ServiceFigures& rest);
 
 }  // namespace giveway::fleetctl

@@ -17,7 +17,7 @@ void CanaryWatch::Take() {
   for (const VehicleStatus& status : observer_.Take().statuses) {
     const auto [entry, is_new] = seen_.try_emplace(status.vehicle);
     Seen& seen = entry->second;
-    // A process that started again counts from nothing.
+    // A restarted process counts from zero.
     const bool began_anew = !is_new && status.beacons.sent < seen.last.beacons.sent;
     seen.began_anew |= began_anew;
     if (is_new || began_anew) {

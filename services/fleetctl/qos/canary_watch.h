@@ -1,4 +1,4 @@
-// Watches a fleet for a span of time and gathers what one vehicle counted and what the rest did.
+// Observes a fleet for a time span and collects the counts of one vehicle and of the rest.
 #pragma once
 
 #include <chrono>

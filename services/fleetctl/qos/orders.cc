@@ -15,8 +15,7 @@ namespace {
 
 constexpr auto kPoll = std::chrono::milliseconds(10);
 
-// Calls done() again and again. Whether it was true before `patience` was over, or the operator's
-// after so many Ctrl-C.
+// Polls done() until it is true; false after `patience`, or after that many Ctrl-C.
 template <typename Done>
 bool WaitUntil(std::chrono::milliseconds patience, int interrupts, Done&& done) {
   const SteadyTime end = SteadyNow() + patience;

@@ -1,5 +1,5 @@
-// Orders to running vehicles, and their answers: finds the vehicles, sends, waits with a deadline.
-// What is ordered and what the answers mean, is the caller's.
+// Sends orders to running vehicles and receives their answers: finds the vehicles, sends, waits
+// with a deadline. What is ordered and what the answers mean is up to the caller.
 #pragma once
 
 #include <chrono>
@@ -19,22 +19,22 @@ namespace giveway::fleetctl {
 // kNobody stands for the world.
 class Orders {
  public:
-  // `key`: orders are sealed with it, and only answers sealed with it believed; empty: without.
+  // `key`: seals orders, and only answers sealed with it are accepted; empty: without seals.
   Orders(const link::LinkOptions& options, const std::string& key)
       : link_(options, key), has_key_(!key.empty()) {}
 
-  // Waits until each is reached; those that are not within `patience` come back.
+  // Waits until each is reached; returns those that are not within `patience`.
   std::vector<VehicleId> Seek(const std::vector<VehicleId>& vehicles,
                               std::chrono::milliseconds patience);
   std::vector<VehicleId> Announced() { return link_.Announced(); }
-  // Sends it to a vehicle that is reached, and waits for the answer in which it says that it is in
-  // effect, or refused. Nothing if it does not come within `patience`.
-  // Ctrl-C ends the waiting; `insist`: only the second one does.
+  // Sends it to a vehicle that is reached, and waits for the answer that it is in effect, or
+  // refused. nullopt if none arrives within `patience`. Ctrl-C ends the wait; with `insist` only
+  // the second one does.
   std::optional<AdminAnswer> Give(AdminOrder order, std::chrono::milliseconds patience,
                                   bool insist = false);
 
  private:
-  // On stderr, answers that are not believed, each writer's once.
+  // Reports on stderr the answers that are not accepted, once per writer.
   void SayRefusals();
 
   link::OperatorLink link_;
@@ -43,11 +43,11 @@ class Orders {
   RefusalLog refusal_log_;
 };
 
-// Say on stderr why there is no answer of the vehicle: it is not reached or does not speak, or the
-// operator did not wait. The exit code.
+// Report on stderr why there is no answer of the vehicle: it is not reached or does not answer, or
+// the operator did not wait. The exit code.
 int SayNotReached(VehicleId vehicle, std::uint32_t domain);
 int SayNoAnswer(VehicleId vehicle);
-// That it does not even say what it runs with, and why: most often the key is another.
+// Reports that it refuses even to answer what it runs with, and why: mostly another key.
 int SayRefused(const AdminAnswer& answer);
 int SayNobodyReached(std::uint32_t domain);
 

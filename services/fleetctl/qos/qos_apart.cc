@@ -11,7 +11,7 @@ namespace {
 constexpr Nanoseconds kResolvePatience = std::chrono::seconds(10);  // it takes a tenth of one
 constexpr char kComplaint = '!';  // starts the message of an error
 
-// One line a value, tab between its parts; names have neither.
+// One value per line, with tabs between its parts; names contain neither.
 std::string ResolvedText(const link::LinkOptions& options) {
   try {
     std::ostringstream text;

@@ -1,6 +1,6 @@
-// What the library makes of a profile file, asked in a child process: a process keeps the first set
-// it loads, and a file that crashes the library shall not end fleetctl. Called before this process
-// touches the library, which starts threads.
+// How the library resolves a profile file, in a child process: a process keeps the first set it
+// loads, and a file that crashes the library must not end fleetctl. Call it before this process
+// uses the library, which starts threads.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace giveway::fleetctl {
 
-// Throws LinkError with the child's words.
+// Throws LinkError with the child's message.
 std::vector<link::ResolvedEntity> ResolveQosApart(const link::LinkOptions& options);
 
 }  // namespace giveway::fleetctl

@@ -62,7 +62,7 @@ qos::XmlElement RootOf(const QosProfiles& profiles) {
   return std::move(*read.root);
 }
 
-// What the canary, or a set that a vehicle refuses, leaves to be undone.
+// What must be undone after a failed canary, or a set that a vehicle refuses.
 struct Undo {
   VehicleId process = kNobody;
   QosProfiles profiles;
@@ -89,7 +89,7 @@ class Applying {
   bool ApplyTo(AppliedTo* applied, const QosProfiles& profiles, bool between);
   std::optional<ApplyVerdict> Take(const qos::RolloutStep& step);
   std::optional<ApplyVerdict> Try(AppliedTo* canary);
-  // Whether each says that it runs with what it had before.
+  // Whether each reports that it runs with its previous set.
   bool RollBack();
   qos::Role RoleOf(VehicleId process) const {
     return process == kNobody ? qos::Role::kWorld : qos::Role::kVehicle;
@@ -130,7 +130,7 @@ int Applying::Ask() {
   return 0;
 }
 
-// At each moment each must hear the peers it heard, whether it moves or keeps what it has.
+// At every moment each must receive the peers it received before, whether it has changed or not.
 void Applying::Plan() {
   std::vector<qos::RolloutProcess> processes;
   const auto add = [&](VehicleId process, bool moves) {
@@ -153,7 +153,7 @@ void Applying::Plan() {
   for (std::size_t i = 0; i < report_.vehicles.size(); ++i) rollout_.steps.push_back({i, false});
 }
 
-// The processes would refuse it, and this says it before any has changed.
+// The processes would refuse it; this reports it before any has changed.
 void Applying::CheckAsOrder() {
   const qos::XmlElement wanted = RootOf(wanted_);
   std::vector<std::string> seen;
@@ -198,7 +198,7 @@ std::optional<ApplyVerdict> Applying::WhyNot() {
   return {};
 }
 
-// Whether the endpoints run with what was changed.
+// Whether the endpoints run with the changed values.
 void Hold(const AdminAnswer& answer, AppliedTo* applied) {
   for (const qos::Change& change : applied->changes) {
     for (const LiveValue& live : answer.live) {
@@ -241,7 +241,7 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   CanaryTrial trial;
   trial.vehicle = canary->vehicle;
   if (!ApplyTo(canary, wanted_, false)) {
-    // Refused: nothing was changed. Without an answer it is not known.
+    // Refused: nothing was changed. Without an answer it is unknown.
     if (canary->answered) {
       RollBack();
       return ApplyVerdict::kRefused;
@@ -257,7 +257,7 @@ std::optional<ApplyVerdict> Applying::Try(AppliedTo* canary) {
   } else {
     trial.worse = "it hears no beacon";
   }
-  // An operator who stops the trial has not seen that it is good.
+  // An operator who stops the trial has not confirmed that it is good.
   if (Interrupts::Count() > 0) trial.worse = "interrupted";
   report_.trial = trial;
   Say(LineOf(trial));
@@ -303,10 +303,10 @@ int RunQosApply(const QosApplyOptions& options) {
   if (!HasStdout()) return kCouldNotRun;
   QosProfiles wanted = ReadProfilesToApply(options.profile);
   link::LinkOptions link = LinkOptionsOf(options.where);
-  // The library's own word, before this process touches it and before any vehicle depends on it.
+  // The library's own resolution, before this process uses it and before any vehicle depends on it.
   link::LinkOptions tried = link;
   tried.qos = {ResolveQosFile(options.profile), wanted.text};
-  // Where the rules find errors the report lists them, and the library is not asked.
+  // If the rules find errors the report lists them, and the library is not asked.
   if (qos::WhyRefused({wanted.name, wanted.text}, UnknownFleet()).empty()) ResolveQosApart(tried);
   const Interrupts interrupts;
   const std::string key = KeyToOrderWith(options.where.admin_key, options.where.domain);

@@ -1,5 +1,5 @@
-// The verb `fleetctl qos apply`: gives running vehicles other QoS, one after the other; one first
-// and on trial if asked. Values in; the exit code out.
+// The verb `fleetctl qos apply`: gives running vehicles other QoS, one after the other, and on
+// request one canary first. Values in; the exit code out.
 #pragma once
 
 #include "services/fleetctl/qos/qos_apply_options.h"

@@ -18,8 +18,8 @@ constexpr auto kQuiet = milliseconds(1500);          // announcements come every
 constexpr auto kQuietOfTheRest = milliseconds(400);  // heard since the targets were sought
 constexpr auto kAskTurn = milliseconds(20);
 
-// All vehicles, and the world if there is one, once none has come for `patience`; `insist`: and one
-// is there.
+// All vehicles, and the world if there is one, when no new one has appeared for `patience`;
+// `insist`: and there is at least one.
 std::vector<VehicleId> Everyone(Orders* orders, milliseconds patience, bool insist,
                                 FleetAnswers* fleet) {
   const SteadyTime end = SteadyNow() + kFindPatience;
@@ -70,7 +70,7 @@ int AskFleet(const QosApplyOptions& options, Orders* orders, FleetAnswers* fleet
     if (answer->state == AnswerState::kRefused) return SayRefused(*answer);
     fleet->told.emplace(process, std::move(*answer));
   }
-  // A process that keeps what it has must continue hearing the others. Who does not answer is left
+  // A process that keeps its QoS must still receive the others. Those that do not answer are left
   // out.
   for (const VehicleId process : Everyone(orders, kQuietOfTheRest, false, fleet)) {
     if (fleet->told.contains(process)) continue;

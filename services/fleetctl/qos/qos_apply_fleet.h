@@ -1,4 +1,4 @@
-// Who of a running fleet takes orders, and what each of them runs with.
+// Which processes of a running fleet take orders, and what each of them runs with.
 #pragma once
 
 #include <map>
@@ -12,11 +12,12 @@ namespace giveway::fleetctl {
 
 struct FleetAnswers {
   std::vector<VehicleId> targets;         // the targets of the request; the canary first
-  std::vector<VehicleId> deaf;            // vehicles that are heard and take no orders
+  std::vector<VehicleId> deaf;            // vehicles that are received and take no orders
   std::map<VehicleId, AdminAnswer> told;  // by every vehicle that does, targets or not
 };
 
-// Asks every process. 0, or the exit code after a word on stderr where a target does not answer.
+// Asks every process. Returns 0, or the exit code after a message on stderr if a target does not
+// answer.
 int AskFleet(const QosApplyOptions& options, Orders* orders, FleetAnswers* fleet);
 
 }  // namespace giveway::fleetctl

@@ -111,7 +111,7 @@ int ExitCode(ApplyVerdict verdict) {
 }
 
 std::string PlanText(const ApplyReport& report) {
-  std::vector<std::pair<std::string, std::string>> groups;  // changes, and whose they are
+  std::vector<std::pair<std::string, std::string>> groups;  // changes, and the vehicles that have them
   for (const AppliedTo& applied : report.vehicles) {
     const std::string changes = fmt::format(": {} -> {}\n", Shown(applied.before), report.profile) +
                                 ChangesText(applied.changes);
@@ -122,7 +122,7 @@ std::string PlanText(const ApplyReport& report) {
   }
   std::string text;
   for (const auto& [changes, whose] : groups) text += whose + changes;
-  // Where no set between is needed, the order is that of the command line.
+  // If no intermediate set is needed, the order is that of the command line.
   const auto is_between = [](const std::string& step) { return step.ends_with(")"); };
   if (std::ranges::any_of(report.order, is_between)) {
     text += fmt::format("in this order: {}\n", fmt::join(report.order, ", "));

@@ -1,4 +1,4 @@
-// What `fleetctl qos apply` did, as values, and how people and programs read it. Pure.
+// The result of `fleetctl qos apply` as values, and its text and JSON. Pure.
 #pragma once
 
 #include <optional>
@@ -18,10 +18,10 @@ struct AppliedTo {
   std::vector<qos::Change> changes;
   bool answered = false;
   bool in_effect = false;
-  std::string refusal;        // in its own words; or that it did not answer
+  std::string refusal;        // the vehicle's message; or that it did not answer
   double seconds = 0;         // from the order to its answer
   std::uint32_t checked = 0;  // values of its endpoints that were to change
-  std::uint32_t seen = 0;     // those that have
+  std::uint32_t seen = 0;     // those that have changed
 };
 
 struct CanaryTrial {
@@ -37,9 +37,9 @@ enum class ApplyVerdict : std::uint8_t {
   kNothingToDo,
   kDryRun,
   kRefused,        // by our checks or by a vehicle
-  kRolledBack,     // the canary served worse, and runs with its old profiles again
-  kNotRolledBack,  // the canary served worse, and did not say that it went back
-  kNotSeen,        // a vehicle says it is in effect, and its endpoints say otherwise
+  kRolledBack,     // the canary performed worse, and runs with its old profiles again
+  kNotRolledBack,  // the canary performed worse, and did not confirm the rollback
+  kNotSeen,        // a vehicle reports it in effect, but its endpoints differ
 };
 
 struct ApplyReport {
@@ -48,17 +48,17 @@ struct ApplyReport {
   std::vector<std::string> order;  // in which they take it
   std::optional<CanaryTrial> trial;
   qos::Findings findings;  // why it was refused
-  std::string remedy;      // of a refusal that is no finding
+  std::string remedy;      // of a refusal that is not a finding
   ApplyVerdict verdict = ApplyVerdict::kApplied;
 };
 
-// "vehicle 3"; of kNobody "the world".
+// "vehicle 3"; for kNobody "the world".
 std::string NameOf(VehicleId process);
 int ExitCode(ApplyVerdict verdict);
-// Which changes, for which vehicles; vehicles with the same ones together.
+// The changes and their vehicles; vehicles with the same changes together.
 std::string PlanText(const ApplyReport& report);
 std::string LineOf(const AppliedTo& applied);
-// Of a step that leads to a set between the old and the new.
+// Of a step that leads to an intermediate set.
 std::string BetweenLine(const AppliedTo& applied);
 std::string LineOf(const CanaryTrial& trial);
 std::string LineOf(const ApplyReport& report);  // the verdict

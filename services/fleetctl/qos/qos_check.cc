@@ -44,14 +44,14 @@ qos::Deployment DeploymentOf(const QosCheckOptions& options) {
   return deployment;
 }
 
-// What is checked together, and what could not be read.
+// What is checked together, and the files that could not be read.
 struct Checked {
   std::vector<qos::ProfileFile> files;
   std::vector<qos::ComposeSet> given;
   qos::Findings findings;
   std::size_t named = 0;  // files, read or not
 
-  // The place of the file among `files`; nothing if it cannot be read.
+  // The index of the file among `files`; nullopt if it cannot be read.
   std::optional<std::size_t> Add(const std::string& path);
 };
 
@@ -68,7 +68,7 @@ std::optional<std::size_t> Checked::Add(const std::string& path) {
   return files.size() - 1;
 }
 
-// Where the set is that a service names inside its container: mounted from here, or a shipped one.
+// The set that a service names inside its container: mounted from here, or a shipped one.
 std::optional<std::string> SetOf(const qos::ComposeService& service, const fs::path& folder) {
   const std::string mounted = qos::HostPath(service, service.qos);
   if (!mounted.empty()) return (folder / mounted).lexically_normal().string();
@@ -93,7 +93,7 @@ void AddServices(const std::vector<qos::ComposeService>& services, const fs::pat
   }
 }
 
-// The services of the compose file, with their sets; how many vehicles they are in `deployment`.
+// The services of the compose file, with their sets; the number of vehicles goes to `deployment`.
 void AddCompose(const QosCheckOptions& options, qos::Deployment* deployment, Checked* checked) {
   auto read = ReadQosFile(options.compose);
   ++checked->named;

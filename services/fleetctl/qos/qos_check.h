@@ -1,5 +1,5 @@
-// The verb `fleetctl qos check`: profile files read from the disk, held against a fleet, and what
-// was found printed. Values in; the exit code out.
+// The verb `fleetctl qos check`: checks profile files against a fleet, and prints the findings.
+// Values in; the exit code out.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace giveway::fleetctl {
 
 struct QosCheckOptions {
   std::vector<std::string> files;  // paths, or names of shipped sets; none: the shipped default
-  std::string compose;             // a compose file: its services' sets, and how many they are
+  std::string compose;             // a compose file: the sets and number of its services
   std::string scenario;            // file or name; empty: two vehicles at 20 Hz
   std::optional<std::int64_t> vehicles;  // instead of the scenario's
   bool partial = false;                  // files need not be complete sets

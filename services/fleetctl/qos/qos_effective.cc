@@ -34,7 +34,7 @@ QosRow PartitionRow(const qos::Topic& topic, qos::Owner owner) {
           QosOrigin::kCode};
 }
 
-// Empty where it is no XML: the library will refuse it in its own words.
+// Empty if it is not XML: the library will refuse it with its own message.
 qos::ProfileSet SetOf(const QosProfiles& profiles) {
   const qos::XmlRead xml = qos::ReadXml(profiles.text, profiles.name);
   return xml.root ? qos::ReadProfiles(*xml.root, profiles.name) : qos::ProfileSet{};

@@ -1,5 +1,5 @@
-// The QoS that holds, value by value, with where each comes from: what the library made of the
-// profiles, joined with what the file says at which line.
+// The effective QoS, value by value, and where each comes from: what the library made of the
+// profiles, joined with the file's lines.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,18 @@
 namespace giveway::fleetctl {
 
 enum class QosOrigin : std::uint8_t {
-  kProfile,      // the file says it
-  kDefault,      // none: the library's
+  kProfile,      // set by the file
+  kDefault,      // not set: the library's
   kCode,         // follows from fleet size, area or id
   kEnvironment,  // a GIVEWAY_ variable
   kFlag,         // of this command line
-  kDiscovered,   // of a foreign vehicle: as discovery reports it
+  kDiscovered,   // of a foreign vehicle: as reported by discovery
 };
 std::string Name(QosOrigin origin);
 
 struct QosRow {
   std::string policy;
-  std::string value;  // as a person writes it
+  std::string value;  // in readable form
   QosOrigin origin = QosOrigin::kDefault;
   int line = 0;  // of kProfile
 };

@@ -1,5 +1,5 @@
-// The QoS of a vehicle that is none of ours: it answers no order, but discovery reports what its
-// endpoints offer and request.
+// The QoS of a vehicle with another vendor's DDS: it takes no orders, but discovery reports what
+// its endpoints offer and request.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct ForeignVehicle {
   std::vector<EffectiveEndpoint> endpoints;
 };
 
-// Looks for one whose writers name the vehicle and whose DDS is another vendor's, for some seconds.
+// Waits some seconds for one whose writers name the vehicle and whose DDS is another vendor's.
 std::optional<ForeignVehicle> SeekForeign(const link::LinkOptions& options, VehicleId vehicle);
 
 // Its endpoints on topics of the fleet, under the names of their profiles.

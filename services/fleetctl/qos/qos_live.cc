@@ -25,11 +25,10 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr auto kAnswerPatience = std::chrono::seconds(10);
-// One of ours is reached in a second; after this it is looked for among the foreign.
+// Our vehicles are reached in a second; after that foreign ones are considered.
 constexpr auto kOwnPatience = std::chrono::seconds(3);
 
-// One live value, and what the file it should run with makes of it; nothing where it has no such
-// endpoint or value.
+// One live value, and what the file gives for it; nullopt if it has no such endpoint or value.
 struct LiveRow {
   std::string profile;
   QosRow live;
@@ -38,10 +37,10 @@ struct LiveRow {
   bool AsExpected() const { return !expected || expected->value == live.value; }
 };
 
-// What is known of a vehicle: its own answer, or of a foreign one what discovery reports.
+// What is known of a vehicle: its own answer, or for a foreign one what discovery reports.
 struct LiveQos {
-  std::string runs_with;  // the name of its set; of a foreign one empty
-  std::string foreign;    // whose DDS, if it is another vendor's
+  std::string runs_with;  // the name of its set; empty for a foreign one
+  std::string foreign;    // the vendor of its DDS, if it is not ours
   std::vector<EffectiveEndpoint> endpoints;
 };
 
@@ -69,7 +68,7 @@ std::vector<EffectiveEndpoint> LiveEndpoints(const AdminAnswer& answer) {
                                           : qos::ProfileSet{});
 }
 
-// Nothing if there is none: then it is said why, and *exit_code set.
+// nullopt if there is none: then the reason has been printed, and *exit_code set.
 std::optional<LiveQos> LiveQosOf(const QosLiveOptions& options, const std::string& file,
                                  int* exit_code) {
   const link::LinkOptions link_options = LinkOptionsOf(options, file);
@@ -108,7 +107,7 @@ std::optional<QosRow> Expected(const EffectiveSet& set, const std::string& profi
   return row == endpoint->rows.end() ? std::nullopt : std::optional(*row);
 }
 
-// The partition of a foreign one is not what the set says of partitions in general.
+// The partition of a foreign vehicle is not what the set gives for partitions in general.
 std::vector<LiveRow> HoldAgainst(const EffectiveSet& set, const LiveQos& live,
                                  const std::vector<std::string>& wanted) {
   std::vector<LiveRow> all;

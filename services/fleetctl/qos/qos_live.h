@@ -10,13 +10,13 @@
 namespace giveway::fleetctl {
 
 struct QosLiveOptions {
-  QosShowOptions set;  // the file it should run with
+  QosShowOptions set;  // the file to compare with
   std::uint32_t vehicle = 0;
   std::uint32_t domain = 0;
   std::string admin_key;  // a file; empty: that of a fleet started here, if there is one
 };
 
-// 0 as in the file, 1 otherwise, 2 not heard or could not run.
+// 0 as in the file, 1 otherwise, 2 not received or could not run.
 int RunQosLive(const QosLiveOptions& options);
 
 }  // namespace giveway::fleetctl

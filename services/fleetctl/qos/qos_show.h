@@ -1,5 +1,5 @@
-// The verb `fleetctl qos show`: the QoS every endpoint would run with, and where each value comes
-// from; or what differs between two files. Values in; the exit code out.
+// The verb `fleetctl qos show`: the QoS every endpoint would run with, and the origin of each
+// value; or the differences between two files. Values in; the exit code out.
 #pragma once
 
 #include <cstdint>

@@ -37,7 +37,7 @@ class Exporting {
     const mcap::ReadResult result = Read(&file, [this](const JsonObject& sample) {
       ++written_;
       output_ = Tell(options_.csv ? columns_.Row(Flattened(sample.Text())) : sample.Text() + "\n");
-      // A file that grows may have further columns by now.
+      // A growing file may have further columns by now.
       return output_ == OutputResult::kYes && written_ != samples_;
     });
     if (output_ != OutputResult::kYes) return ExitCodeOf(output_);
@@ -47,7 +47,8 @@ class Exporting {
  private:
   using Use = std::function<bool(const JsonObject& sample)>;  // false: enough
 
-  // Optional fields come and go: every sample is looked at for names before the head is written.
+  // Optional fields come and go: the names of all samples are collected before the header is
+  // written.
   bool ReadColumns(std::ifstream* file) {
     Read(file, [this](const JsonObject& sample) {
       ++samples_;

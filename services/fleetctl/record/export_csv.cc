@@ -5,7 +5,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Walks over text that JsonObject wrote: no white space, no surprises.
+// Parses only text that JsonObject wrote: no white space.
 class Walker {
  public:
   explicit Walker(std::string_view json) : rest_(json) {}

@@ -1,4 +1,4 @@
-// A sample as a line of CSV: the fields of its JSON, those within others with dots. Pure.
+// A sample as a line of CSV: the fields of its JSON, nested ones with dots. Pure.
 #pragma once
 
 #include <string>
@@ -13,13 +13,13 @@ using FlatFields = std::vector<std::pair<std::string, std::string>>;  // name, v
 // Of one of our own JSON objects. Arrays stay as they are written.
 FlatFields Flattened(std::string_view json);
 
-// The columns of a table whose rows do not all have the same fields: all of them, each after those
-// that came earlier. To be collected over all rows before the first is written.
+// The columns of a table whose rows do not all have the same fields: all of them, in order of first
+// appearance. Collect over all rows before writing the first.
 class CsvColumns {
  public:
   void Add(const FlatFields& fields);
   std::string Head() const;
-  // A field that the row lacks is empty.
+  // A field that is missing in the row is empty.
   std::string Row(const FlatFields& fields) const;
 
  private:

@@ -1,4 +1,4 @@
-// The last samples in memory, by time and in bounded bytes. Pure.
+// The last samples in memory, by time and limited in bytes. Pure.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class SampleRing {
 
   void Add(link::RawSample sample);
   const std::deque<link::RawSample>& Samples() const { return samples_; }
-  // Samples younger than asked for that had to go for want of memory.
+  // Samples within the requested time that were dropped for lack of memory.
   std::uint64_t Dropped() const { return dropped_; }
 
  private:

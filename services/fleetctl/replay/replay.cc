@@ -40,8 +40,8 @@ ReplayedFile ReplayFile(const std::string& path, const ReplayWatcher& watch, Rep
   return stream.bad() ? Unreadable(std::strerror(errno)) : outcome;
 }
 
-// Which recording a file is of, and which part of it; a pipe, which is read only once, and what
-// cannot be read is one of its own.
+// Identifies a file's recording and its part of it; a pipe, which is read only once, and a file
+// that cannot be read count as a recording of their own.
 struct Place {
   std::uint32_t boot_epoch = 0;
   std::uint32_t vehicle = 0;
@@ -67,7 +67,7 @@ auto RecordingOf(const Place& place) {
   return std::tuple(place.boot_epoch, place.vehicle, place.own);
 }
 
-// The numbers of the files, the parts of a recording behind each other.
+// The numbers of the files, with the parts of a recording in sequence.
 class ReplayOrder {
  public:
   explicit ReplayOrder(const std::vector<std::string>& files) {
@@ -89,7 +89,7 @@ class ReplayOrder {
   std::vector<std::size_t> order_;
 };
 
-// Where the vehicle believed it was: its truth is not in its recording.
+// The vehicle's own estimate: its recording does not have the truth.
 class Tracer {
  public:
   ReplayWatcher Watcher() {

@@ -1,5 +1,5 @@
-// The verb `fleetctl replay`: recordings of vehicles led through a fresh brain. Values in; the exit
-// code out.
+// The verb `fleetctl replay`: replays recordings of vehicles through a new brain. Values in; the
+// exit code out.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct ReplayOptions {
   bool json = false;
 };
 
-// 0 every step came out the same, 1 one did not, 2 a file could not be replayed to its end.
+// 0 every step gave the same result, 1 one did not, 2 a file could not be replayed to its end.
 int RunReplay(const ReplayOptions& options);
 
 }  // namespace giveway::fleetctl

@@ -1,5 +1,5 @@
-// Leads a fresh brain through a recording and compares, step by step and bit by bit. Pure but for
-// the streams it reads.
+// Replays a recording through a new brain and compares, step by step and bit by bit. Pure except
+// for the streams it reads.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ using ReplayWatcher = std::function<void(const RecordedStep& recorded, const Veh
 // Replays the parts of one recording, in their order.
 class Replayer {
  public:
-  // Stops at the first difference: what a brain does after it says nothing more. The file's name is
-  // left to the caller.
+  // Stops at the first difference: what a brain does after it shows nothing more. The caller adds
+  // the file's name.
   ReplayedFile Replay(std::istream* part, const ReplayWatcher& watch = {});
 
  private:
@@ -30,7 +30,7 @@ class Replayer {
   std::string TakeImage(const RecordedImage& image, ReplayedFile* outcome);
   void Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFile* outcome);
 
-  std::optional<Vehicle> brain_;  // none where the parts so far did not replay to their end
+  std::optional<Vehicle> brain_;  // absent if the parts so far did not replay to their end
   RecordedContinuation next_;     // how the next part must start
 };
 

@@ -16,10 +16,10 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr double kLeastChange = 0.05;                     // of a time, below it does not matter
+constexpr double kLeastChange = 0.05;                     // of a time; less does not matter
 constexpr double kIntervalWidth = 2 * 1.959963984540054;  // of 95 %, in standard deviations
 
-// A figure with the chance of both directions, before all tests are taken together.
+// A figure with the p values of both directions, before correction for multiple tests.
 struct TestedFigure {
   ComparedFigure figure;
   double p_worse = 1;
@@ -104,7 +104,7 @@ void CompareHistograms(const SoakResult& before, const SoakResult& after, Figure
 
 using SlopeKey = std::tuple<std::string, ResourceKind>;
 
-// Of each process the longest life.
+// The longest life of each process.
 std::map<SlopeKey, const ResourceSlope*> LongestLives(const SoakResult& result) {
   std::map<SlopeKey, const ResourceSlope*> longest;
   for (const ResourceSlope& row : result.slopes) {

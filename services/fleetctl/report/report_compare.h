@@ -1,20 +1,20 @@
-// What got worse from one soak to another, and whether chance explains it. Pure.
+// What became worse from one soak to another, and whether chance explains it. Pure.
 //
-//   figures    histograms: on the whole (Mann-Whitney) and in the tail (the share above the 99 %
+//   figures    histograms: as a whole (Mann-Whitney) and in the tail (the share above the 99 %
 //              quantile of both, Fisher). Worse only if that quantile or the median grew by 5 %.
 //   slopes     each resource of each process by its longest life: the difference against the
-//              widths of both intervals. Worse only from what counts as a leak on.
-//   faults     by kind: how long until noticed, until recovered (Mann-Whitney), from 5 % on; how
+//              widths of both intervals. Worse only from the size of a leak on.
+//   faults     by kind: time until noticed, until recovered (Mann-Whitney), from 5 % on; how
 //              many were noticed late, how many had no effect (Fisher).
 //   counts     violations by invariant, near misses, reactions that left less than a fifth of
 //              their free distance, unplanned restarts over vehicle-hours (conditional
 //              binomial).
-//   verdict    one that passed and no longer does, samples that are not accounted for, leaks that
-//              are new: no test is asked about these.
+//   verdict    one that no longer passes, samples that are not accounted for, new leaks: not
+//              tested statistically.
 //
-// All tests together say worse of two equal soaks with a chance of at most 0.5 % (Holm at 1 %, both
-// directions); a soak by itself names a leak that is none with a chance of 1 %. The values of a
-// histogram are not independent: no more than one a vehicle and second is counted as evidence.
+// All tests together report two equal soaks as worse with a probability of at most 0.5 % (Holm at 1
+// %, both directions); a single soak reports a false leak with a probability of 1 %. The values of
+// a histogram are not independent: at most one per vehicle and second counts as evidence.
 #pragma once
 
 #include <optional>
@@ -43,7 +43,7 @@ struct SoakComparison {
   bool AnyWorse() const;
 };
 
-// Empty if the two can be compared, else why not, all at once: another scenario, other faults or
+// Empty if the two can be compared, else all reasons why not: another scenario, other faults or
 // numbers of vehicles, or one that was not run.
 std::string WhyNotComparable(const SoakResult& before, const SoakResult& after);
 

@@ -18,7 +18,7 @@ std::string ChanceWords(const std::optional<double>& p) {
   return *p < 0.0001 ? "<0.0001" : fmt::format("{:.4f}", *p);
 }
 
-// A name too long for its column stands in a line of its own.
+// A name too long for its column gets a line of its own.
 std::string FigureLine(const std::string& change, const std::string& what,
                        const std::string& before, const std::string& after,
                        const std::string& chance) {

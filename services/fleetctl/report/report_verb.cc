@@ -69,7 +69,7 @@ int ReportRecording(const ReportOptions& options) {
   return code;
 }
 
-// Says on stderr what is wrong with any of them.
+// Reports on stderr what is wrong with any of them.
 bool ReadAllReports(const ReportOptions& options, std::vector<SoakResult>* results) {
   bool complete = true;
   for (const std::string& path : options.reports) {

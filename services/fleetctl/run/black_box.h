@@ -1,7 +1,7 @@
-// The last of a fleet as a page, written where a soak's promise was broken: what it did just
-// before, with ranges and with which vehicle waits for which. Keeps frames in memory, of bounded
-// time; files are written on a thread of their own, for they may be large and the caller's loop
-// must not stand still.
+// The last seconds of a fleet as a page, written when a soak's promise is broken: what the vehicles
+// did just before, with ranges and with which vehicle waits for which. Keeps a limited time of
+// frames in memory; a thread of its own writes the files, because they may be large and must not
+// stall the caller's loop.
 #pragma once
 
 #include <cstddef>
@@ -24,12 +24,11 @@ class BlackBox {
   BlackBox(const Scenario& scenario, std::filesystem::path folder, Nanoseconds last);
 
   void Fold(const link::Observed& observed, SteadyTime now);
-  // Starts writing a page of what is in memory now.
+  // Starts to write a page of what is in memory now.
   void Write();
   // Waits for the pages that are being written.
   void Finish();
-  // The file of the page started as the n-th, from 0, by its folder's name; empty until it is
-  // there.
+  // The file of the n-th page, from 0, by its folder's name; empty until it is complete.
   std::string Written(std::size_t page) const;
 
  private:

@@ -74,7 +74,7 @@ void FleetWatch::FoldEvent(const WorldEvent& event) {
   }
 }
 
-// The last words of a vehicle that left may come after the world's word of it.
+// The last samples of a vehicle that left may arrive after the world's event.
 void FleetWatch::FoldStatus(const VehicleStatus& status) {
   statuses_[status.vehicle] = status;
   if (open_ && !status.final) vehicles_.insert(status.vehicle);
@@ -91,7 +91,7 @@ void FleetWatch::FoldTruth(const Truth& truth) {
 void FleetWatch::Keep(const Truth& truth, KeptTrack* kept) {
   std::vector<Truth>& points = kept->track.truths;
   kept->track.vehicle = truth.vehicle;
-  if (kept->since > 0) points.pop_back();  // it was there only as the newest
+  if (kept->since > 0) points.pop_back();  // it was kept only as the newest
   points.push_back(truth);
   kept->since = (kept->since + 1) % kept->stride;
   if (kept->since > 0 || points.size() < kMostPoints) return;
@@ -133,7 +133,7 @@ std::vector<VehicleId> FleetWatch::VehiclesOf(EventKind kind) const {
 }
 
 // Vehicles that stand in their goals, or did before they were put on a start pose again. In its
-// goal a vehicle does not halt, so that kWentOn without a halt before says that it left the goal.
+// goal a vehicle does not halt, so kWentOn without a halt before means that it left the goal.
 std::vector<VehicleId> FleetWatch::Arrived() const {
   std::set<VehicleId> arrived;
   std::set<VehicleId> in_goal;

@@ -17,7 +17,7 @@
 
 namespace giveway::fleetctl {
 
-// A verdict the world had no say in: an interrupt, a death, a start that failed.
+// A verdict that is not the world's: an interrupt, a death, a start that failed.
 struct Overruled {
   Verdict verdict = Verdict::kFailed;
   std::string reason;
@@ -38,9 +38,9 @@ class FleetWatch {
   // Seconds since the start signal; 0 before it.
   double TimeSeconds() const { return time_s_; }
   const std::map<VehicleId, VehicleStatus>& Statuses() const { return statuses_; }
-  // Every vehicle the scenario names, and in an open fleet who is in it now.
+  // Every vehicle the scenario names, or in an open fleet the present ones.
   const std::set<VehicleId>& Vehicles() const { return vehicles_; }
-  // Vehicles killed as planned, or that the world hears no more.
+  // Vehicles killed as planned, or no longer heard by the world.
   const std::set<VehicleId>& Silent() const { return silent_; }
   // True once every vehicle but those killed as planned has sent its last status; in an open fleet
   // those that fell silent are not waited for either.
@@ -63,7 +63,7 @@ class FleetWatch {
   // One vehicle's track. Its last point is always the newest.
   struct KeptTrack {
     Track track;
-    std::uint32_t stride = 1;  // of so many points one is kept
+    std::uint32_t stride = 1;  // one of so many points is kept
     std::uint32_t since = 0;   // the last one that was kept permanently
   };
 

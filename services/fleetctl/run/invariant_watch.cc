@@ -69,7 +69,7 @@ void InvariantWatch::FoldTruth(const Truth& truth) {
 void InvariantWatch::FoldEvent(const WorldEvent& event) {
   if (!IsOfThisWorld(event.epoch)) return;
   if (event.kind == EventKind::kEnded) last_ = event.tick;
-  // Contacts that a scenario expects are its judge's to count.
+  // The scenario's judge counts contacts that the scenario expects.
   if (event.kind != EventKind::kContact || scenario_.expect.contacts == 0) {
     events_.push_back(event);
   }
@@ -107,7 +107,7 @@ void InvariantWatch::NoteComingsAndGoings(Tick tick) {
   }
 }
 
-// False if something is not known of one.
+// False if something about one of them is not known.
 bool InvariantWatch::Look(Tick tick) {
   seen_.clear();
   bool whole = true;
@@ -132,7 +132,7 @@ void InvariantWatch::AddTo(Report* report) const {
   if (ticks_judged_ == 0) return;
   std::string broken;
   for (std::size_t i = 0; i < sim::kInvariantCount; ++i) {
-    if (!sim::RequiredInvariants().test(i)) continue;  // seen in virtual runs alone
+    if (!sim::RequiredInvariants().test(i)) continue;  // counted in virtual runs only
     const auto invariant = static_cast<sim::Invariant>(i);
     const std::uint32_t count = invariants_.Count(invariant);
     report->violations.push_back({std::string(sim::Name(invariant)), count});

@@ -30,13 +30,14 @@ class InvariantWatch {
   explicit InvariantWatch(const Scenario& scenario);
 
   void Fold(const link::Observed& observed);
-  // Judges what is still held back, and who has not arrived if the run came to its own end.
+  // Judges the ticks still held back, and which vehicles have not arrived if the run ended by
+  // itself.
   void Finish(bool came_to_its_end);
 
   const sim::Invariants& Judged() const { return invariants_; }
   std::uint32_t TicksJudged() const { return ticks_judged_; }
   std::uint32_t TicksUnseen() const { return ticks_unseen_; }
-  // Counts, and the verdict of a run that had passed but for them.
+  // The counts, and the verdict of a run that otherwise passed.
   void AddTo(Report* report) const;
 
  private:
@@ -61,7 +62,7 @@ class InvariantWatch {
   double first_time_s_ = 0;                    // its time since the start signal
   Tick last_ = kNoTick;                        // the run's, once it has ended
   std::vector<WorldEvent> events_;             // not given to the invariants yet
-  std::size_t noted_ = 0;                      // of them: who lives was learnt from them
+  std::size_t noted_ = 0;                      // of them: used to learn which vehicles are live
   std::vector<sim::Observed> seen_;
   std::uint32_t ticks_judged_ = 0;
   std::uint32_t ticks_unseen_ = 0;

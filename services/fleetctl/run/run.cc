@@ -30,7 +30,7 @@ namespace {
 
 constexpr unsigned kDrawing_s = 30;
 
-// False if stdout did not take it: then the verdict is lost.
+// False if it could not be written to stdout: then the verdict is lost.
 bool Print(const RunOptions& options, const Report& report) {
   const std::string text =
       options.json ? ToJson(report) : ForTerminal(ToTable(report, SizeOfTerminal().columns));
@@ -73,7 +73,7 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-// In lockstep the world waits for every command, and a vehicle answers scans alone.
+// In lockstep the world waits for every command, and a vehicle answers only scans.
 void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario) {
   const Impairment impairment = options.fleet.impair.empty()
                                     ? scenario.impairment
@@ -84,7 +84,7 @@ void RefuseImpairedLockstep(const RunOptions& options, const Scenario& scenario)
                      "leave --lockstep out, or give --impair none"}});
 }
 
-// The world of a closed fleet ends the run when one of it dies.
+// The world of a closed fleet ends the run when one of its vehicles dies.
 void RefuseRestartOfClosed(const RunOptions& options, const Scenario& scenario) {
   if (!options.restart || !scenario.spawns.empty()) return;
   throw InputError({{options.scenario, 0, "--restart", "",
@@ -116,7 +116,7 @@ int StartAndWatch(const RunOptions& options) {
                  .qos_file = qos_file,
                  .lock_fd = lock.Fd(),
                  .hands_on_lines = true,
-                 .names_newcomers = options.restart,  // who is one of them comes back as itself
+                 .names_newcomers = options.restart,  // a restarted newcomer keeps its identity
                  .options = options.fleet};
   if (options.restart) spec.extra_words[kTheWorld] = {"--checkpoint", scratch.File("checkpoint")};
   spec.options.admin_key = key.File();

@@ -1,5 +1,5 @@
-// The verb `fleetctl run`: starts a world and one process a vehicle here, watches them, and prints
-// the verdict. Values in; the exit code out.
+// The verb `fleetctl run`: starts a world and one process per vehicle on this host, supervises
+// them, and prints the verdict. Values in; the exit code out.
 #pragma once
 
 #include "services/fleetctl/run/run_options.h"

@@ -18,7 +18,7 @@ bool IsToComeBack(const MemberEnd& end, unsigned restarts) {
   constexpr int kNoSuchProgram = 127;
   if (end.planned || restarts >= kMostRestarts) return false;
   if (end.how.by_signal) return true;
-  // The world's 1 is its verdict.
+  // The world's exit code 1 is its verdict.
   if (end.member == kTheWorld && end.how.number == 1) return false;
   return end.how.number != kDone && end.how.number != kCannotStart &&
          end.how.number != kNoSuchProgram;

@@ -1,4 +1,4 @@
-// Which processes of a run may end when, and what in their logs is an error. Pure.
+// Which processes of a run may end when, and which of their log lines are errors. Pure.
 #pragma once
 
 #include <string_view>
@@ -11,17 +11,17 @@ namespace giveway::fleetctl {
 // without any vehicle, as long as `any_vehicle` runs.
 bool MayEndEarly(const MemberEnd& end, bool open, bool any_vehicle);
 
-// Bad is a signal that was not planned, or an exit code other than 0 of a vehicle of a closed
-// fleet: the world's code carries the verdict.
+// Bad is an unplanned signal, or an exit code other than 0 of a vehicle of a closed fleet: the
+// world's code is the verdict.
 bool IsGoodEnd(const MemberEnd& end, bool open);
 
-// Whether a process that ended so is started again where the operator wants that: one that was
-// ended by a signal, or that ended itself to come back. Not one that is done, or could not start,
-// and at most kMostRestarts times.
+// Whether a process with this end is restarted if the operator wants that: one that was ended by a
+// signal, or that ended itself to be restarted. Not one that is done, or could not start, and at
+// most kMostRestarts times.
 inline constexpr unsigned kMostRestarts = 10;
 bool IsToComeBack(const MemberEnd& end, unsigned restarts);
 
-// A line of a log that reports an error.
+// Whether a log line reports an error.
 bool IsErrorLine(std::string_view line);
 
 }  // namespace giveway::fleetctl

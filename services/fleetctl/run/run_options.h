@@ -1,4 +1,4 @@
-// What the operator asked of `fleetctl run`.
+// The operator's options for `fleetctl run`.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct RunOptions {
   bool restart = false;      // processes that die are started again
   std::string picture_file;  // empty: none is drawn
   std::string html_file;     // empty: no page of the run is written
-  std::string topics_file;   // empty: what travels is not recorded
+  std::string topics_file;   // empty: samples are not recorded
   bool json = false;         // one JSON object on stdout and nothing else
 };
 

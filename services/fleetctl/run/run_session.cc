@@ -28,7 +28,7 @@ constexpr Nanoseconds kLastWords = milliseconds(500);
 constexpr double kSpareSeconds = 10;
 constexpr Nanoseconds kNoLimit = std::chrono::hours(24 * 365 * 100);
 constexpr double kLockstepSlowdown =
-    10;  // lockstep waits for slow brains: no real time is promised
+    10;  // lockstep waits for slow brains: it makes no promise about real time
 
 constexpr std::size_t kMostErrorsShown = 20;
 
@@ -93,7 +93,7 @@ bool RunSession::FinishTopics(const std::vector<std::string>& attachments) {
 Report RunSession::Run() {
   std::optional<Overruled> overruled = Supervise();
   stopping_ = true;
-  // The world first, so that it announces the end and the vehicles leave in good order.
+  // The world first, so that it announces the end and the vehicles leave gracefully.
   if (overruled) processes_.AskToStop(kTheWorld);
   const bool announces = processes_.IsRunning(kTheWorld);
   const Nanoseconds grace = !overruled ? kLeaveGrace : announces ? kAnnounceGrace : Nanoseconds{0};

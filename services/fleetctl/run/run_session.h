@@ -30,13 +30,13 @@ class RunSession {
   // Returns when the last process is gone.
   Report Run();
   std::string DrawPicture() const { return watch_.DrawPicture(); }
-  // With what was observed of the run inside, see RunOptions::html_file.
+  // With the observations of the run embedded, see RunOptions::html_file.
   std::string DrawPage() const;
-  // Ends the recording of what travelled, if there is one. False where it is not whole.
+  // Ends the recording of samples, if there is one. False if it is incomplete.
   bool FinishTopics(const std::vector<std::string>& attachments);
 
  private:
-  // Waits for the run's end. A value where the verdict is not the world's to give.
+  // Waits for the run's end. A value if the verdict is not the world's.
   std::optional<Overruled> Supervise();
   // Restarts processes that died, if the operator asked for it.
   void BringBack();
@@ -48,11 +48,12 @@ class RunSession {
   void DrainLast();
   // Exit statuses show what the world cannot know.
   std::optional<Overruled> JudgeExits();
-  // Takes in what has come.
+  // Takes the samples that have arrived.
   void Drain();
-  // One turn of the loop: sleep, drain, carry out faults, poll, show.
+  // One cycle of the loop: sleep, drain, carry out faults, poll, show.
   void Turn();
-  // What a child continues after, such as a full disk: nothing else would inform the operator.
+  // Reports errors that a child survives, such as a full disk: the operator would not see them
+  // otherwise.
   void ShowErrors();
   void ShowTrouble(const MemberEnd& gone, const std::string& what);
 
@@ -65,7 +66,7 @@ class RunSession {
   FleetWatch watch_;
   InvariantWatch invariants_;
   const bool has_page_;
-  FleetView view_;  // kept for the page alone, as the frames are
+  FleetView view_;  // kept only for the page, like the frames
   RunFrames frames_;
   link::ObserverLink observer_;
   std::optional<TopicRecorder> topics_;

@@ -1,5 +1,5 @@
-// What travels in a run, recorded by fleetctl: every topic as it came, into one MCAP file. The run
-// does not depend on it: a disk that is full ends the recording and is said.
+// Records all samples of a run in fleetctl: every topic as received, into one MCAP file. The run
+// does not depend on it: a full disk ends the recording and is reported.
 #pragma once
 
 #include <filesystem>
@@ -14,13 +14,13 @@ namespace giveway::fleetctl {
 
 class TopicRecorder {
  public:
-  // Makes the file, and joins the domain. Throws OutputError, LinkError.
+  // Creates the file, and joins the domain. Throws OutputError, LinkError.
   TopicRecorder(const link::LinkOptions& options, const std::string& file);
 
-  // Takes in what has come; writes it to the disk once a second.
+  // Takes the samples that have arrived; writes them to the disk once a second.
   void Turn(SteadyTime now);
-  // Ends the file, with these files within it. False where something could not be written; stderr
-  // says what.
+  // Ends the file, with these files embedded. Returns false and reports on stderr if something
+  // could not be written.
   bool Finish(const std::vector<std::string>& attachments);
 
  private:

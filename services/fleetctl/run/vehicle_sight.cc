@@ -7,7 +7,7 @@ namespace {
 
 Tick Before(Tick tick) { return Tick{Number(tick) - 1}; }
 
-// The last element that is not after `tick`, and the one behind it; null where there is none.
+// The last element that is not after `tick`, and the next one; null if there is none.
 template <typename T>
 struct Around {
   const T* last = nullptr;
@@ -20,7 +20,7 @@ Around<T> AroundOf(const std::deque<T>& list, Tick tick, Tick T::*when) {
   return {after == list.begin() ? nullptr : &*(after - 1), after == list.end() ? nullptr : &*after};
 }
 
-// All but the last of what is not after `tick`.
+// Removes all elements up to `tick` except the last of them.
 template <typename T>
 void ForgetBefore(std::deque<T>* list, Tick tick, Tick T::*when) {
   while (list->size() > 1 && (*list)[1].*when <= tick) list->pop_front();
@@ -42,7 +42,7 @@ void VehicleSight::Take(const Beacon& beacon, Tick now) {
     if (said.answers <= last.answers) {
       said.at = std::max(now, last.at);
     } else {
-      // Whatever it said without a new scan it said before this.
+      // What it published without a new scan, it published before this.
       for (auto it = said_.rbegin(); it != said_.rend() && it->at >= said.at; ++it) {
         it->at = Before(said.at);
       }
@@ -56,7 +56,7 @@ void VehicleSight::Take(const VehicleStatus& status) {
 }
 
 bool VehicleSight::AddBody(Tick tick, sim::Observed* seen) const {
-  if (truths_.empty() || truths_.front().tick > tick) return true;  // it is still to come
+  if (truths_.empty() || truths_.front().tick > tick) return true;  // it has not arrived yet
   const Truth* const truth = AroundOf(truths_, tick, &Truth::tick).last;
   if (truth->tick != tick) return false;
   seen->present = truth->present;
@@ -67,14 +67,14 @@ bool VehicleSight::AddBody(Tick tick, sim::Observed* seen) const {
   return true;
 }
 
-// The scan its last command answers. As new as can be where the watcher cannot know.
+// The scan its last command answers; the newest possible if the observer cannot know.
 Tick VehicleSight::Answered(const Said& last, const Said* next, Tick tick) const {
   if (next != nullptr && next->follows) return last.answers;
   return std::min(tick, lives_ ? tick : After(last.answers, kHeldTicks));
 }
 
-// Every change of decision has a status of its own, so the newest one knows the peer; unless it is
-// of another rule than the beacon, as one that was overtaken.
+// Every change of decision has a status, so the newest one knows the peer; unless its rule differs
+// from the beacon's, as when it was overtaken.
 Decision VehicleSight::DecisionOf(const Beacon& beacon) const {
   Decision decision{.mode = beacon.mode, .rule = beacon.rule};
   const VehicleStatus* const status = AroundOf(status_, beacon.tick, &VehicleStatus::tick).last;
@@ -87,7 +87,7 @@ Decision VehicleSight::DecisionOf(const Beacon& beacon) const {
 
 bool VehicleSight::AddWords(Tick tick, sim::Observed* seen) const {
   const auto [last, next] = AroundOf(said_, tick, &Said::at);
-  if (last == nullptr) return true;  // nothing yet: it stands and says nothing
+  if (last == nullptr) return true;  // nothing yet: it stands and publishes nothing
   const bool missed = next == nullptr || !next->follows;
   if (lives_ && missed && TicksBetween(last->at, tick) > kHeldTicks) return false;
   seen->answered = Answered(*last, next, tick);
@@ -109,7 +109,7 @@ void VehicleSight::Forget(Tick before) {
 std::optional<sim::Observed> VehicleSight::At(Tick tick) {
   sim::Observed seen{.vehicle = vehicle_, .lives = lives_};
   const bool known = AddBody(tick, &seen) && (!seen.present || AddWords(tick, &seen));
-  // A beacon said at this tick may answer an older scan, and is looked for in the statuses by that.
+  // A beacon of this tick may answer an older scan, and is looked up in the statuses by that.
   constexpr std::uint32_t kKept = 64;
   if (Number(tick) > kKept) Forget(Tick{Number(tick) - kKept});
   return known ? std::optional(seen) : std::nullopt;

@@ -23,7 +23,7 @@ namespace giveway::fleetctl {
 
 class VehicleSight {
  public:
-  // For how long what was last heard still stands where more was missed.
+  // How long the last sample remains valid if newer ones were missed.
   static constexpr std::uint32_t kHeldTicks = 4;
 
   explicit VehicleSight(const VehicleOptions& options)
@@ -33,16 +33,16 @@ class VehicleSight {
   // `now` is the newest tick of any truth so far.
   void Take(const Beacon& beacon, Tick now);
   void Take(const VehicleStatus& status);
-  // What the world's events say: the process is gone, or back.
+  // From the world's events: the process is gone, or back.
   void SetLives(bool lives) { lives_ = lives; }
 
-  // Nothing where it is not known. Ticks must be asked for in order: what is older is forgotten.
+  // nullopt if it is not known. Query ticks in order: older data is dropped.
   std::optional<sim::Observed> At(Tick tick);
 
  private:
   struct Said {
     Beacon beacon;
-    Tick at = kNoTick;       // when it was said
+    Tick at = kNoTick;       // when it was published
     Tick answers = kNoTick;  // the scan
     bool follows = false;    // directly on the one before it
   };
@@ -57,7 +57,7 @@ class VehicleSight {
   DriveGeometry drive_;
   bool lives_ = true;
   std::deque<Truth> truths_;          // ascending by tick
-  std::deque<Said> said_;             // ascending by tick said
+  std::deque<Said> said_;             // ascending by tick of publication
   std::deque<VehicleStatus> status_;  // ascending by tick
 };
 
