@@ -24,14 +24,14 @@ class FaultClock {
   // `schedule` outlives this.
   explicit FaultClock(std::span<const faults::Fault> schedule);
 
-  // Those that are due at `now_s` and were not given out before, in order of time. Of two at one
-  // time the end comes first.
+  // The edges that are due at `now_s` and were not returned before, in order of time. At equal
+  // times ends come first.
   std::span<const FaultEdge> TakeDue(double now_s);
   // Ends every active fault now; no further one starts.
   std::span<const FaultEdge> EndAll(double now_s);
   // Indices of the active faults, ascending.
   std::vector<std::size_t> UnderWay() const;
-  // When the last one ends; 0 where there is none.
+  // When the last one ends; 0 if there is none.
   double LastEnd_s() const { return last_end_s_; }
 
  private:

@@ -31,7 +31,7 @@ void FleetCourse::SeekHealing(const SoakWatch& watch, SteadyTime now, SoakSeen* 
     const SteadyTime status_at = std::max(watch.StatusAt(vehicle), *healed_from_);
     double& silent_s = seen->silent_s[vehicle];
     silent_s = std::max(silent_s, Seconds(now - status_at));
-    // What it reported before does not count: it may be deaf, or unheard, since.
+    // Its earlier reports do not count: it may have been deaf, or unheard, since.
     auto& healed = seen->healing[vehicle];
     if (!healed && status_at > *healed_from_ && watch.IsWell(vehicle, now)) {
       healed = Seconds(now - *healed_from_);

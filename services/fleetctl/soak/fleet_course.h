@@ -1,5 +1,5 @@
-// How a fleet's modes change in a soak, and how soon all drive again when nothing is broken any
-// more. Bounded. Pure.
+// How the modes of a fleet change in a soak, and how soon all vehicles drive again once the faults
+// are over. Bounded. Pure.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ class FleetCourse {
  public:
   using Asked = std::function<bool(VehicleId)>;
 
-  // `is_away`: the process is meant to be gone; `is_gone`: and does not come back.
+  // `is_away`: the process is meant to be gone; `is_gone`: permanently.
   FleetCourse(std::vector<VehicleId> fleet, Asked is_away, Asked is_gone)
       : fleet_(std::move(fleet)), is_away_(std::move(is_away)), is_gone_(std::move(is_gone)) {}
 

@@ -1,5 +1,5 @@
-// How timely a whole fleet was, from what its vehicles report of themselves: every value of every
-// life that was reported, added up. Bounded. Pure.
+// How timely a whole fleet was, from its vehicles' own reports: the sum over all reported values of
+// all lives. Bounded. Pure.
 #pragma once
 
 #include <array>
@@ -15,27 +15,27 @@
 
 namespace giveway::fleetctl {
 
-// A vehicle decided by beacons older than it may.
+// A vehicle decided on beacons that were too old.
 struct StaleDecisions {
-  double first_s = 0;  // heard of, since the start signal
+  double first_s = 0;  // first reported, since the start signal
   Nanoseconds oldest{0};
   std::uint64_t count = 0;
 };
 
 class FleetTiming {
  public:
-  // No beacon older than this, since its tick, may be decided by.
+  // The oldest beacon, since its tick, that may be used for a decision.
   explicit FleetTiming(Nanoseconds most_age) : most_age_(most_age) {}
 
-  // `time_s` since the start signal. Lives of a vehicle follow each other: one whose counts fall
-  // has started again.
+  // `time_s` since the start signal. Lives of a vehicle follow each other: if its counts fall, it
+  // has restarted.
   void Fold(const VehicleStatus& status, double time_s);
 
-  // Those that hold something, with their budgets, in the order of DriveFigure.
+  // The figures with values, with their budgets, in the order of DriveFigure.
   std::vector<SoakHistogram> Histograms() const;
   std::optional<NarrowestMargin> Narrowest() const { return narrowest_; }
   std::uint64_t BudgetSpent() const { return budget_spent_; }
-  // Values that are in no report: reports were lost, or a process died before its next one.
+  // Values that no report has: reports were lost, or a process died before its next one.
   std::uint64_t Missed() const { return missed_; }
   const std::map<VehicleId, StaleDecisions>& Stale() const { return stale_; }
 

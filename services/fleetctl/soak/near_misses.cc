@@ -6,7 +6,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// The other's truth may be this much older: the two of one tick do not come at once.
+// The other's truth may be this much older: the two of one tick do not arrive together.
 constexpr double kSameTime_s = 0.2;
 
 bool ByTime(const NearMiss& a, const NearMiss& b) { return a.time_s < b.time_s; }

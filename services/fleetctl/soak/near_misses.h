@@ -1,6 +1,6 @@
 // Which vehicles came near each other, how near and where, by the truth. Bodies are taken as discs
-// round their axle centres, as large as they are anywhere: a box may have been further away than it
-// says, never nearer. Each encounter counts once, at its narrowest. Bounded. Pure.
+// round their axle centres with their largest radius: a box may have been further away than
+// reported, never nearer. Each encounter counts once, at its smallest gap. Bounded. Pure.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,19 @@ namespace giveway::fleetctl {
 
 class NearMisses {
  public:
-  // Shell to shell; an encounter starts nearer than kNear_m and is over further than kApart_m.
+  // Shell to shell; an encounter starts nearer than kNear_m and ends further than kApart_m.
   static constexpr double kNear_m = 0.15;
   static constexpr double kApart_m = 0.30;
-  // The narrowest ones are kept.
+  // The ones with the smallest gaps are kept.
   static constexpr std::size_t kMostKept = 256;
 
   explicit NearMisses(std::map<VehicleId, double> radius_m) : radius_m_(std::move(radius_m)) {}
 
   void Fold(std::span<const Truth> truths);
-  // Encounters that are over or continue, by time.
+  // Encounters that are over or in progress, by time.
   std::vector<NearMiss> Narrowest() const;
   std::uint64_t Count() const { return count_; }
-  // Of any two, encounter or not; nothing while there are not two.
+  // Of any two, with or without an encounter; nullopt while there are fewer than two.
   std::optional<NearMiss> Nearest() const { return nearest_; }
 
  private:

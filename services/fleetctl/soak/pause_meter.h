@@ -1,5 +1,5 @@
-// How long and how often the machine did not let the supervisor run: what it does to the supervisor
-// it does to the fleet. Pure: the time comes in.
+// How long and how often the machine did not let the supervisor run: a pause of the supervisor is a
+// pause of the fleet. Pure: takes times as arguments.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace giveway::fleetctl {
 
 class PauseMeter {
  public:
-  // A turn that was to last `meant` lasted from `from` to `to`.
+  // A cycle that should have lasted `meant` lasted from `from` to `to`.
   void Note(SteadyTime from, SteadyTime to, Nanoseconds meant) {
     total_ += to - from;
     const Nanoseconds late = to - from - meant;
@@ -22,7 +22,7 @@ class PauseMeter {
   std::uint64_t Count() const { return count_; }
   Nanoseconds Paused() const { return paused_; }
   Nanoseconds Longest() const { return longest_; }
-  // Of all the time that was observed; 0 to 1.
+  // Share of all observed time; 0 to 1.
   double Share() const { return total_.count() > 0 ? Seconds(paused_) / Seconds(total_) : 0; }
 
  private:

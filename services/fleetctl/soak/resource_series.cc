@@ -20,7 +20,7 @@ constexpr std::size_t kMostNames = 10'000;
 constexpr std::size_t kCurvePoints = 60;
 constexpr std::string_view kSharedMemoryFolder = "/dev/shm/";
 
-// Processor time is what faults make of it: it need not grow in every part of a life.
+// Faults change processor time: it need not grow in every part of a life.
 bool GrowsLikeALeak(ResourceKind kind, std::span<const statistics::Sample> points) {
   return kind == ResourceKind::kProcessors || statistics::GrowsThroughout(points);
 }
@@ -45,7 +45,7 @@ std::string ReadWhole(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// inode -> bytes, of one process; a segment may be mapped in pieces.
+// inode -> bytes, of one process; a segment may be mapped in several parts.
 std::map<std::string, std::uint64_t> SegmentsIn(const std::string& maps) {
   std::map<std::string, std::uint64_t> segments;
   std::istringstream lines(maps);
@@ -86,7 +86,7 @@ void BoundedSeries::Add(double time_s, double value) {
 ResourceSeries::Life& ResourceSeries::LifeOf(const std::string& process, double time_s) {
   const auto [entry, is_new] = living_.try_emplace(process);
   if (is_new) {
-    // Of more names than that the life is not kept.
+    // Lives beyond that number of names are not kept.
     if (next_life_.size() >= kMostNames) next_life_.clear();
     entry->second.number = next_life_[process]++;
     entry->second.began_s = time_s;

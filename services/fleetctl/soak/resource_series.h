@@ -22,14 +22,14 @@
 
 namespace giveway::fleetctl {
 
-// One figure over time in bounded memory.
+// One figure over time, in bounded memory.
 class BoundedSeries {
  public:
   static constexpr std::size_t kMostPoints = 1024;
 
   // `time_s` ascending.
   void Add(double time_s, double value);
-  // Each the mean of Stride() samples, the last ones still being gathered left out.
+  // Each is the mean of Stride() samples, without the last ones, which are still being averaged.
   const std::vector<statistics::Sample>& Points() const { return points_; }
   std::size_t Stride() const { return stride_; }
 
@@ -40,8 +40,8 @@ class BoundedSeries {
   std::size_t summed_ = 0;
 };
 
-// Pools and histories fill up in the first minutes of a life: of a shorter one no growth is called
-// a leak.
+// Pools and histories fill up in the first minutes of a life: growth in a shorter life is not
+// called a leak.
 inline constexpr double kLeastLeakSpan_s = 120;
 
 class ResourceSeries {
@@ -49,20 +49,20 @@ class ResourceSeries {
   // The first `warm_up_s` of each life are not judged.
   explicit ResourceSeries(double warm_up_s) : warm_up_s_(warm_up_s) {}
 
-  // To be called at 1 Hz with what ReadResources gave, `time_s` since the start signal. The first
-  // call for a process starts its first life.
+  // Call at 1 Hz with the result of ReadResources, `time_s` since the start signal. The first call
+  // for a process starts its first life.
   void Add(const std::string& process, double time_s, const ProcessResources& resources);
-  // What the fleet has in /dev/shm.
+  // The bytes of the fleet in /dev/shm.
   void AddSharedMemory(double time_s, std::uint64_t bytes);
-  // The process has ended: what comes next under its name is another life.
+  // The process has ended: further samples under its name belong to another life.
   void EndLife(const std::string& process);
 
-  // Of all lives, those that last still included, by process, life and kind, with MarkLeaks. Costs
-  // up to 10 ms a living process and resource: not for every second.
+  // Of all lives, the current ones included, by process, life and kind, with MarkLeaks. Costs up to
+  // 10 ms per live process and resource: not for every second.
   std::vector<ResourceSlope> Slopes() const;
-  // Of lives that have ended alone, without MarkLeaks. Costs nothing.
+  // Of ended lives alone, without MarkLeaks. Costs nothing.
   const std::vector<ResourceSlope>& EndedSlopes() const { return ended_; }
-  // Lives that ended before they could be judged.
+  // Lives that ended too early to be judged.
   std::uint64_t LivesTooShort() const { return lives_too_short_; }
 
  private:
@@ -74,7 +74,7 @@ class ResourceSeries {
     bool has_last = false;
     std::array<BoundedSeries, kResourceKinds> series;
   };
-  // Of ended lives the leaks are kept first.
+  // Of ended lives leaks are kept in preference.
   void Keep(std::vector<ResourceSlope> slopes);
   std::vector<ResourceSlope> SlopesOf(const std::string& process, const Life& life) const;
   Life& LifeOf(const std::string& process, double time_s);
@@ -87,16 +87,16 @@ class ResourceSeries {
   std::size_t rows_dropped_ = 0;
 };
 
-// A leak is a row whose slope is one by itself (statistics::IsLeak) and remains one when the
-// chances of all rows, and of `more` that are not among them, are taken together (Holm at
-// kMostLeakChance): a fleet of twenty has a hundred slopes, and of those that do not grow every
-// fortieth seems to.
+// A row is a leak if its slope is one by itself (statistics::IsLeak) and remains one after
+// correction for all rows, and `more` that are not among them (Holm at kMostLeakChance): a fleet of
+// twenty has a hundred slopes, and every fortieth of those without growth would seem to grow.
 inline constexpr double kMostLeakChance = 0.01;
 void MarkLeaks(std::vector<ResourceSlope>* rows, std::size_t more);
 
-// The bytes of /dev/shm that the texts of /proc/PID/maps show mapped, each segment once. Pure.
+// The bytes of /dev/shm that are mapped according to the texts of /proc/PID/maps, each segment
+// once. Pure.
 std::uint64_t SharedMemoryIn(const std::vector<std::string>& maps);
-// The same of living processes; one that is gone has none.
+// The same of live processes; one that is gone has none.
 std::uint64_t ReadSharedMemory(const std::vector<pid_t>& processes);
 
 }  // namespace giveway::fleetctl

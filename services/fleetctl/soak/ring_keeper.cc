@@ -87,7 +87,7 @@ void RingKeeper::Turn(SteadyTime now) {
   Prune();
 }
 
-// A file that is kept may be followed by others that the vehicle is still to keep.
+// A kept file may be followed by others that the vehicle has yet to keep.
 void RingKeeper::Prune() {
   for (const auto& [vehicle, files] : FilesIn(folder_)) {
     std::size_t unkept = 0;

@@ -1,6 +1,6 @@
-// Has every vehicle keep its ring of a recording when a promise was broken, by an order on
-// fleet/admin, and removes rings of lives that are over and that were not kept: a soak of weeks has
-// thousands of lives. At the edge.
+// Makes every vehicle keep its recording ring when a promise was broken, by an order on
+// fleet/admin, and removes unkept rings of ended lives: a soak of weeks has thousands of lives.
+// Does I/O.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +20,16 @@
 
 namespace giveway::fleetctl {
 
-// Orders to keep a ring that are not answered yet, and which answers count. Pure.
+// Unanswered orders to keep a ring, and which answers count. Pure.
 class RingOrders {
  public:
-  // `has_key`: answers are sealed, but for refusals.
+  // `has_key`: answers are sealed, except refusals.
   explicit RingOrders(bool has_key) : has_key_(has_key) {}
 
-  // `keep`: what the order is part of.
+  // `keep`: the incident that the order belongs to.
   void Add(std::uint64_t number, VehicleId vehicle, std::size_t keep);
-  // The `keep` of an order that the vehicle says it carried out. A refusal without a seal may be of
-  // an intruder: the order stays, and may still be answered.
+  // The `keep` of an order that the vehicle reports as carried out. An unsealed refusal may come
+  // from an intruder: the order remains, and may still be answered.
   std::optional<std::size_t> Take(const AdminAnswer& answer);
 
  private:
@@ -44,18 +44,18 @@ class RingOrders {
 class RingKeeper {
  public:
   static constexpr std::size_t kMostOrders = 3;
-  // Of the files of one vehicle that are not kept; two are of the life it has.
+  // Of the unkept files of one vehicle; two belong to its current life.
   static constexpr std::size_t kMostUnkept = 6;
 
-  // `folder`: where they record, `ring`: how much of it each keeps. Throws LinkError.
-  // `key`: orders are sealed with it.
+  // `folder`: where vehicles record, `ring`: how much of it each keeps, `key`: seals orders. Throws
+  // LinkError.
   RingKeeper(const link::LinkOptions& options, const std::string& key,
              std::span<const VehicleId> fleet, std::filesystem::path folder, Nanoseconds ring);
 
-  // Orders it from all that are reached. Not again within a ring's length, which is in the files
-  // anyhow, and kMostOrders times at most.
+  // Sends the order to all that are reached. Not again within a ring's length, which the files
+  // cover anyhow, and kMostOrders times at most.
   void Keep(SteadyTime now, double time_s);
-  // Takes the answers; removes what is too much.
+  // Takes the answers; removes surplus files.
   void Turn(SteadyTime now);
   const std::vector<KeptRings>& Kept() const { return kept_; }
 

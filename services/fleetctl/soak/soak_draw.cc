@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Gone when it is left, whatever happens.
+// Removed at scope exit, whatever happens.
 class PassingFile {
  public:
   explicit PassingFile(fs::path path) : path_(std::move(path)) {}
@@ -32,7 +32,7 @@ class PassingFile {
   fs::path path_;
 };
 
-// Empty if it is drawn, else why not.
+// Empty if it was drawn, else the reason.
 std::string DrawOne(const SoakPlot& plot, const fs::path& folder,
                     std::vector<DrawnSoakPlot>* drawn) {
   const PassingFile program(folder / (plot.name + ".gnuplot"));

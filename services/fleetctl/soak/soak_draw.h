@@ -1,4 +1,4 @@
-// Has gnuplot draw a soak's pictures, and writes the report's files.
+// Draws a soak's plots with gnuplot, and writes the report's files.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace giveway::fleetctl {
 
-// Those that gnuplot draws: where there is none, or it refuses or takes too long, stderr says so.
-// Programs and pictures stand in `folder` meanwhile, and are removed. Call from the main thread
-// (ChildProcess).
+// Those that gnuplot draws: if it is missing, refuses or takes too long, this is reported on
+// stderr. Programs and pictures are in `folder` meanwhile, and are removed. Call from the main
+// thread (ChildProcess).
 std::vector<DrawnSoakPlot> Draw(const std::vector<SoakPlot>& plots, const std::string& folder);
 
 // The page alone. Throws OutputError.
 void WriteSoakPage(const SoakResult& result, const std::string& file);
-// report.json first, then report.html, each whole or not at all. Throws OutputError.
+// report.json first, then report.html, each atomically. Throws OutputError.
 void WriteSoakReport(const SoakResult& result, const std::string& folder);
 
 }  // namespace giveway::fleetctl

@@ -19,7 +19,7 @@ constexpr std::size_t kRowsUnfolded = 20;
 // A table that grows row by row. Cells are escaped here.
 class HtmlTable {
  public:
-  // A head that starts with '<' stands at the left, over text.
+  // A heading that starts with '<' is left-aligned, for text.
   explicit HtmlTable(std::vector<std::string> heads) : heads_(std::move(heads)) {}
 
   void Row() { rows_.emplace_back(); }
@@ -28,7 +28,7 @@ class HtmlTable {
         "<td{}>{}</td>", style.empty() ? "" : fmt::format(" class=\"{}\"", style), HtmlText(text));
   }
   void Count(std::uint64_t count) { Cell(fmt::format("{}", count)); }
-  // `all` rows there are; those behind the first ones are folded.
+  // There are `all` rows; those after the first ones are collapsed.
   std::string Html(std::size_t all) const {
     const std::size_t open = std::min(rows_.size(), kRowsUnfolded);
     std::string html = Part(0, open);
@@ -65,7 +65,7 @@ std::string WhoWords(VehicleId vehicle, VehicleId other) {
   return fmt::format("{} and {}", Number(vehicle), Number(other));
 }
 
-// Pointers to the items by `key`, as many as are shown.
+// Pointers to the items by `key`, at most as many as are shown.
 template <typename Item, typename Key>
 std::vector<const Item*> Ordered(const std::vector<Item>& items, Key&& key) {
   std::vector<const Item*> ordered;

@@ -28,7 +28,7 @@ const char* VerdictClass(SoakVerdict verdict) {
   return verdict == SoakVerdict::kFailed ? "bad" : "other";
 }
 
-// gnuplot's black becomes the colour of the page's text.
+// gnuplot's black becomes the text colour of the page.
 std::string Inlined(const std::string& svg) {
   std::string inlined = svg.substr(std::min(svg.find("<svg"), svg.size()));
   for (const char* black : {"\"black\"", "'black'"}) {

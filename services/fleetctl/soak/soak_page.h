@@ -1,5 +1,5 @@
-// A soak's result as one self-contained HTML page. The page is pure text; its pictures are drawn by
-// gnuplot (soak_draw.h), and where there is none tables alone say it.
+// A soak's result as one self-contained HTML page. The page is pure text; gnuplot draws its plots
+// (soak_draw.h), and without it there are only the tables.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace giveway::fleetctl {
 
-// A picture's name, unique in the page, and the gnuplot program that draws it, data included.
+// The name of a plot, unique in the page, and its gnuplot program, data included.
 struct SoakPlot {
   std::string name;
   std::string title;
   std::string program;
 };
-// In the order of the page; those that would be empty are left out.
+// In the order of the page; empty ones are left out.
 std::vector<SoakPlot> PlotsOf(const SoakResult& result);
 
 // By name.

@@ -19,7 +19,7 @@ constexpr std::array<const char*, 7> kColours = {"#0090d0", "#d55e00", "#009e73"
                                                  "#e69f00", "#8f6fe0", "#7f7f7f"};
 constexpr const char* kGood = "#009e73";
 constexpr const char* kBad = "#d55e00";
-constexpr std::size_t kMostRows = 48;     // that a timeline shows, then the rest is left out
+constexpr std::size_t kMostRows = 48;     // of a timeline; the rest is left out
 constexpr std::size_t kMostCurves = 14;   // of processes in one picture
 constexpr std::size_t kLabelLength = 24;  // letters of a name
 
@@ -42,7 +42,7 @@ std::string PlotSettings(const std::string& name, int height) {
       height, name);
 }
 
-// Minutes are read more easily than seconds from a certain length on.
+// Long times are easier to read in minutes than in seconds.
 struct TimeAxis {
   double unit_s = 1;
   const char* label = "s";
@@ -55,7 +55,7 @@ TimeAxis AxisOf(const SoakResult& result) {
   return {};
 }
 
-// Rows from top to bottom, each with its name at the left.
+// Rows from top to bottom, each with its name on the left.
 class PlotRows {
  public:
   // The row's height on the axis; 0 if no more fit.
@@ -80,14 +80,14 @@ class PlotRows {
   std::vector<std::string> names_;
 };
 
-// A row a kind of fault, in the order of the page's table.
+// One row per kind of fault, in the order of the page's table.
 PlotRows KindRows(const SoakResult& result) {
   PlotRows rows;
   for (const FaultSummary& summary : SummariesOf(result.faults)) rows.Of(summary.kind);
   return rows;
 }
 
-// "$data << EOD ..." and how it is drawn, one after the other.
+// "$data << EOD ..." and the plot commands, one after the other.
 class PlotParts {
  public:
   void Add(const std::string& data, const std::string& how) {
@@ -112,7 +112,7 @@ std::string Bars(const char* colour, const std::string& title) {
 
 SoakPlot FaultPlot(const SoakResult& result) {
   const TimeAxis axis = AxisOf(result);
-  const double least_s = std::max(result.ran_s, 1.0) / 300;  // or it is not visible
+  const double least_s = std::max(result.ran_s, 1.0) / 300;  // else it is not visible
   PlotRows rows = KindRows(result);
   std::string seen;
   std::string unseen;
@@ -197,7 +197,7 @@ std::string NinesTics(double most) {
                      std::max(most, 1.0));
 }
 
-// Nines to the right: 90, 99, 99.9 % are 1, 2, 3, as HdrHistogram's own plots have it.
+// Nines on the x axis: 90, 99, 99.9 % are 1, 2, 3, as in HdrHistogram's own plots.
 SoakPlot QuantilePlot(const SoakResult& result, HistogramUnit unit) {
   const bool is_time = unit == HistogramUnit::kNanoseconds;
   PlotParts parts;

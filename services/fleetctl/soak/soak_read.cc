@@ -1,4 +1,4 @@
-// The message of idl/soak.proto as a soak's result: what does not fit is said, all at once.
+// Converts the message of idl/soak.proto to a soak's result; reports all mismatches at once.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -15,16 +15,16 @@
 
 namespace giveway::fleetctl {
 
-// Of each list of a result, so that weeks fit into a page.
+// Limit for each list of a result, so that weeks fit into a page.
 inline constexpr std::size_t kMostListed = 5000;
-// More of the time spent in pauses of the machine, and nothing is judged.
+// With a larger share of pauses of the machine nothing is judged.
 inline constexpr double kMostPausedShare = 0.02;
 
 enum class SoakVerdict : std::uint8_t {
   kPassed,
   kFailed,
-  kNotRun,       // "machine_too_busy" or what else the reasons say
-  kInterrupted,  // ended early, on order; all up to there held
+  kNotRun,       // "machine_too_busy" or another of the reasons
+  kInterrupted,  // ended early, on request; no promise was broken before
 };
 
 struct SoakVersions {
@@ -36,10 +36,10 @@ struct SoakVersions {
 
 // Times count from the start signal. What has not happened is absent.
 struct SoakFault {
-  std::string rule;  // that planned it, and its how-manieth, from 0
+  std::string rule;  // that planned it, and its index among the rule's faults, from 0
   std::uint32_t nth = 0;
   double at_s = 0;
-  double for_s = 0;          // 0: takes no time
+  double for_s = 0;          // 0: instantaneous
   std::string kind;          // "pause"; see services/faults/fault.h
   std::string target;        // "vehicle 3", "world"
   bool observed = false;     // by its effect, not by the order given
@@ -58,8 +58,8 @@ struct SoakViolation {
   VehicleId vehicle = kNobody;  // at fault, or first concerned
   VehicleId other = kNobody;
   std::string invariant;  // "contact", or the promise: "detection", "recovery"
-  std::string words;      // what was seen, for people
-  std::string fault;      // NameOf the one it follows; empty: none
+  std::string words;      // what was observed, as text
+  std::string fault;      // NameOf the preceding fault; empty: none
 };
 
 // Two bodies, shell to shell, that came near each other, where the nearer one was.
@@ -119,7 +119,7 @@ struct ResourceSlope {
   ResourceKind kind = ResourceKind::kPrivateBytes;
   statistics::Slope slope;  // without warm-up
   double last = 0;          // the figure at the life's end
-  bool lasting = true;      // long enough to judge, and grew in each part: what fills up does not
+  bool lasting = true;      // long enough to judge, and grew in each part: filling up does not count
   bool leak = false;
   std::vector<statistics::Sample>
       curve;  // of private bytes: at most 60 points to draw; time of soak
@@ -130,7 +130,7 @@ struct AccountingRow {
   std::string writer;  // "vehicle 2"
   std::string reader;
   std::string topic;       // "fleet/beacon"
-  std::uint64_t sent = 0;  // by the writer's own numbers, from the first heard to the last counted
+  std::uint64_t sent = 0;  // by the writer's own numbers, from the first received to the last counted
   std::uint64_t accepted = 0;
   std::uint64_t not_heard = 0;   // stated from beyond the emission radius
   std::uint64_t refused = 0;     // arrived, and refused by a check
@@ -143,7 +143,7 @@ struct AccountingRow {
   }
 };
 
-// Times at which the machine ran nothing of ours, so that lateness says nothing.
+// Times at which the machine did not run our processes, so that lateness means nothing.
 struct MachinePauses {
   std::uint64_t count = 0;
   double total_s = 0;
@@ -164,8 +164,8 @@ struct NarrowestMargin {
 struct KeptRings {
   double time_s = 0;
   std::uint32_t ordered = 0;  // vehicles that were reached
-  std::uint32_t kept = 0;     // of those, who said that they did
-  std::string page;  // what the fleet did until then, a file of the report's folder; empty: none
+  std::uint32_t kept = 0;     // of those, the ones that confirmed it
+  std::string page;  // what the fleet did until then, a file in the report's folder; empty: none
 };
 
 struct SoakResult {
@@ -183,12 +183,12 @@ struct SoakResult {
   std::string qos_set;      // name or file
   std::string qos_hash;     // 16 hex digits
   SoakVersions versions;
-  std::string command;  // that runs the same again
+  std::string command;  // that reproduces it
 
   std::vector<SoakFault> faults;            // by at_s
-  std::vector<std::string> skipped_faults;  // what the host cannot do, with the reason
+  std::vector<std::string> skipped_faults;  // that the host cannot inject, with the reason
   std::vector<SoakViolation> violations;    // by time_s
-  std::uint64_t violations_counted = 0;     // with those not listed
+  std::uint64_t violations_counted = 0;     // including those not listed
   std::vector<NearMiss> near_misses;
   std::uint64_t near_misses_counted = 0;
   std::vector<ModeChange> modes;
@@ -203,9 +203,9 @@ struct SoakResult {
   std::uint64_t budget_spent = 0;        // reactions that left less than a fifth
   std::uint64_t timing_values_lost = 0;  // missing from every received report
   std::vector<KeptRings> kept_rings;
-  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet continued
+  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet continued the soak
   std::uint32_t restarts_planned = 0;
-  std::uint32_t restarts_unplanned = 0;        // a process ended and no fault says why
+  std::uint32_t restarts_unplanned = 0;        // a process ended without a fault that explains it
   std::optional<double> supervisor_cpu_share;  // of the fleet's processor time
 };
 

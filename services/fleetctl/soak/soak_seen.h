@@ -1,4 +1,4 @@
-// All that a soak saw, as values: what its verdict is made of.
+// All observations of a soak, as values: the input of its verdict.
 #pragma once
 
 #include <array>
@@ -20,17 +20,17 @@
 
 namespace giveway::fleetctl {
 
-// One fault as it went.
+// The course of one fault.
 struct FaultCourse {
   std::optional<SteadyTime> began;
-  std::optional<SteadyTime> ended;  // or, of one that takes no time, the moment it started
-  std::string effect;               // that was seen; empty: none yet
-  // By the first peer, by each mechanism that reported it.
+  std::optional<SteadyTime> ended;  // or, for an instantaneous one, when it started
+  std::string effect;               // the observed effect; empty: none yet
+  // By the first peer, for each mechanism that reported it.
   std::array<std::optional<SteadyTime>, kMechanisms> noticed;
-  std::optional<SteadyTime> recovered;  // after its end all that it faulted were well again
+  std::optional<SteadyTime> recovered;  // after its end all that it affected recovered
 };
 
-// A process ended that was not to.
+// A process ended unexpectedly.
 struct UnplannedEnd {
   double time_s = 0;  // since the start signal
   MemberId member;
@@ -51,9 +51,9 @@ struct SoakSeen {
   std::vector<FaultCourse> courses;  // of each fault of the schedule
   std::vector<UnplannedEnd> ends;
   std::uint32_t restarts = 0;  // after those
-  // When each vehicle that lives was well again after the last fault's end, seconds; absent: never.
+  // When each live vehicle had recovered after the last fault's end, seconds; absent: never.
   std::map<VehicleId, std::optional<double>> healing;
-  // Of each that lives: the longest time without a status of it since the last fault ended.
+  // For each live vehicle: the longest time without a status of it since the last fault ended.
   std::map<VehicleId, double> silent_s;
   std::vector<BrokenInvariant> broken;  // the first ones
   std::uint64_t broken_counted = 0;
@@ -67,7 +67,7 @@ struct SoakSeen {
   FleetAccounting accounting;
   std::vector<KeptRings> kept_rings;
   MachinePauses pauses;
-  std::map<VehicleId, double> step_p99_us;  // the highest that each said of itself
+  std::map<VehicleId, double> step_p99_us;  // the highest that each reported of itself
 };
 
 }  // namespace giveway::fleetctl

@@ -1,5 +1,6 @@
-// One soak from the first process to the last: starts the fleet, breaks it by the schedule, watches
-// it, heals it, stops it, and hands on what was seen. Judged elsewhere: soak_verdict.h.
+// One soak from the first process to the last: starts the fleet, injects the scheduled faults,
+// observes it, heals it, stops it, and passes the observations on. Judged elsewhere:
+// soak_verdict.h.
 #pragma once
 
 #include <functional>
@@ -38,13 +39,13 @@ class SoakSession {
   SoakSession(const FleetSpec& spec, const Scenario& scenario, const faults::Schedule& schedule,
               const SoakPhases& phases, FaultTools tools);
 
-  // What was seen so far, without the slopes of lives that last: they take their time.
+  // The observations so far, without the slopes of current lives, which take time.
   using Saved = std::function<void(const SoakSeen& so_far)>;
 
   // Returns when the last process is gone. Calls `save` every ten seconds.
   SoakSeen Run(const Saved& save = {});
 
-  // How long the machine stood still at most, in some time of the run.
+  // The longest pause of the machine in a time span of the run.
   const StallMonitor& Stalls() const { return stalls_; }
 
  private:
@@ -83,8 +84,8 @@ class SoakSession {
   FleetTiming timing_;
   FleetAccounting accounting_;
   std::optional<RingKeeper> rings_;
-  std::optional<BlackBox> black_box_;  // as rings_: nothing without them
-  std::uint64_t broken_before_ = 0;    // when rings were kept last
+  std::optional<BlackBox> black_box_;  // like rings_: absent without them
+  std::uint64_t broken_before_ = 0;    // when rings were last kept
   double tick_period_s_;
   std::optional<Truth> any_truth_;
   SoakSeen seen_;
@@ -97,15 +98,15 @@ class SoakSession {
   bool stopping_ = false;
 };
 
-// Ids of the vehicles of a soak: those of a closed fleet's scenario, or the first of an open one.
+// Ids of the vehicles of a soak: the scenario's in a closed fleet, the first ones in an open one.
 std::vector<VehicleId> SoakFleet(const Scenario& scenario, std::uint32_t newcomers);
 
-// The body radius of each vehicle, metres. In an open fleet the place each one takes is not known
-// in advance: the largest body counts for all.
+// The body radius of each vehicle, metres. In an open fleet a vehicle's place is not known in
+// advance: the largest body counts for all.
 std::map<VehicleId, double> RadiiOf(const Scenario& scenario, const std::vector<VehicleId>& fleet);
 
-// The oldest beacon that any decision may use: the highest limit of any vehicle, and a tick, which
-// every decision lags behind.
+// The oldest beacon that any decision may use: the highest limit of any vehicle, plus the one tick
+// by which every decision lags.
 Nanoseconds MostBeaconAge(const Scenario& scenario);
 
 }  // namespace giveway::fleetctl

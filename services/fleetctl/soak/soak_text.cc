@@ -16,8 +16,7 @@ namespace {
 constexpr std::size_t kTextColumns = 78;
 constexpr std::size_t kMostListedLines = 10;
 
-// One line after the other, each at most `columns` bytes, broken at spaces; a longer word is cut
-// between code points.
+// Breaks lines at spaces to at most `columns` bytes; a longer word is cut between code points.
 std::vector<std::string> Folded(std::string_view text, std::size_t columns) {
   std::vector<std::string> lines;
   while (text.size() > columns) {

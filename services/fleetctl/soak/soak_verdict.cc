@@ -20,12 +20,12 @@ using std::chrono::milliseconds;
 
 constexpr double kHealP99_s = 2;
 constexpr Nanoseconds kLingers = std::chrono::seconds(10);
-// Of a step of the brain, which takes a thousandth of that: a fifth of the usual tick.
+// Of a step of the brain, which normally takes a thousandth of that: a fifth of the usual tick.
 constexpr double kMostStep_us = 10'000;
 // Added to the promised time: writing and reading the log line.
 constexpr Nanoseconds kNoticing = milliseconds(200);
 
-// The stopwatch's name for a silence.
+// The stopwatch's fault for a silence.
 std::optional<fleetctl::Fault> AsOfStopwatch(Kind kind) {
   switch (kind) {
     case Kind::kKill:
@@ -40,8 +40,8 @@ std::optional<fleetctl::Fault> AsOfStopwatch(Kind kind) {
   }
 }
 
-// The fault that may have to do with what befell the vehicle: the last that started before and had
-// not been over for ten seconds, of those that faulted it or all if there is one.
+// The fault that may have caused what happened to the vehicle: the last that started before and had
+// not been over for ten seconds, preferably of those that affect it or all vehicles.
 std::optional<std::size_t> FaultBehind(std::span<const faults::Fault> schedule,
                                        std::span<const FaultCourse> courses, VehicleId vehicle,
                                        SteadyTime at) {
@@ -130,7 +130,7 @@ class Judging {
                    .target = faults::ToString(fault.target),
                    .observed = !course.effect.empty(),
                    .observed_how = course.effect};
-    // Of other faults peers may hear less of the target too: not each time, and nothing is
+    // Other faults may also make peers hear less of the target, but not each time: nothing is
     // promised.
     for (const std::optional<SteadyTime>& noticed : course.noticed) {
       if (!noticed || !AsOfStopwatch(fault.kind)) continue;
@@ -147,7 +147,7 @@ class Judging {
     return told;
   }
 
-  // One that the run ended before is no news.
+  // A fault that was cut off by the end of the run is not reported.
   void JudgeFault(const faults::Fault& fault, const FaultCourse& course, const SoakFault& told) {
     if (!course.began) return;
     if (!told.observed) {
@@ -182,11 +182,11 @@ class Judging {
       Tell(broken.time_s, broken.what.vehicle, std::string(sim::Name(broken.what.invariant)),
            fmt::format("tick {}", Number(broken.what.tick)), broken.what.other);
     }
-    // Of those that were not kept the number is what is known.
+    // Of those that were not listed only the number is known.
     result_.violations_counted += from_.seen.broken_counted - from_.seen.broken.size();
   }
 
-  // A process may end of a limit it was given.
+  // A lowered limit may end a process.
   void TellEnds() {
     for (const UnplannedEnd& end : from_.seen.ends) {
       const VehicleId vehicle{end.member.number};
@@ -270,7 +270,7 @@ class Judging {
     }
   }
 
-  // A row holds only what is settled: nothing needs to be excused.
+  // A row contains only final counts: no excuse is needed.
   void TellAccounting() {
     for (const PairAccount& pair : from_.seen.accounting.Pairs()) {
       result_.accounting.push_back({.writer = fmt::format("vehicle {}", Number(pair.writer)),

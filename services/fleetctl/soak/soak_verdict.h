@@ -1,5 +1,5 @@
-// From what a soak saw to its result: which promise was broken when, by which vehicle and after
-// which fault, and the verdict. Starts and measures nothing. Pure.
+// From the observations of a soak to its result: which promise was broken when, by which vehicle
+// and after which fault, and the verdict. Starts and measures nothing. Pure.
 #pragma once
 
 #include <functional>
@@ -16,14 +16,14 @@ namespace giveway::fleetctl {
 struct SoakEvidence {
   const SoakSeen& seen;
   const faults::Schedule& schedule;
-  Limits limits;  // what the profile set promises
-  // The longest time that the machine stood still between two moments of the run.
+  Limits limits;  // the promises of the profile set
+  // The longest pause of the machine between two times of the run.
   std::function<Nanoseconds(SteadyTime, SteadyTime)> longest_pause;
-  bool by_processes = true;  // else nothing is known of what the middleware reported
+  bool by_processes = true;  // else nothing is known of events of the middleware
 };
 
 // What must report a fault to peers, and within what time: its target falls silent for longer. Not
-// the age of beacons, which is of those that are near, and not the lease, which outlasts most
+// the age of beacons, which applies only to near peers, and not the lease, which outlasts most
 // faults.
 struct Expected {
   Mechanism mechanism = Mechanism::kDeadline;
@@ -31,8 +31,8 @@ struct Expected {
 };
 std::vector<Expected> ExpectedOf(const faults::Fault& fault, const Limits& limits);
 
-// Fills in faults, violations, near misses, histograms, slopes, pauses, verdict and reasons; what
-// was run is in `result` already.
+// Fills in faults, violations, near misses, histograms, slopes, pauses, verdict and reasons;
+// `result` already has what was run.
 void Judge(const SoakEvidence& evidence, SoakResult* result);
 
 }  // namespace giveway::fleetctl

@@ -1,6 +1,6 @@
-// What an observer learns of a fleet under faults: who drives, which fault had which effect, how
-// soon the peers noticed it, and how soon all was well again. Folds what the link and the logs
-// bring; bounded by the fleet and the schedule, however long it lasts. Pure.
+// What an observer learns of a fleet under faults: which vehicles drive, which fault had which
+// effect, how soon the peers noticed it, and how soon all recovered. Folds the samples and the
+// logs; bounded by the fleet and the schedule, for any duration. Pure.
 #pragma once
 
 #include <cstdint>
@@ -18,26 +18,25 @@
 
 namespace giveway::fleetctl {
 
-// Drives, or stands for a reason that traffic has: ranges are fresh, and no peer it must hear is
-// missing.
+// Drives, or stands for a traffic reason: ranges are fresh, and no peer it must hear is missing.
 bool IsWell(const VehicleStatus& status);
 
 class SoakWatch {
  public:
-  // What was heard last of a vehicle counts for so long.
+  // The last sample of a vehicle is valid for this time.
   static constexpr Nanoseconds kFresh = std::chrono::seconds(1);
 
   // `schedule` outlives this.
   SoakWatch(std::vector<VehicleId> fleet, std::span<const faults::Fault> schedule);
 
   void Fold(const link::Observed& observed, SteadyTime now);
-  // A word of a vehicle's log.
+  // A line of a vehicle's log.
   void Fold(VehicleId by, const Word& word);
   void NoteBegin(std::size_t fault, SteadyTime now);
   void NoteEnd(std::size_t fault, SteadyTime now);
-  // The supervisor saw it happen. The first words stay.
+  // The supervisor observed it. The first message stays.
   void NoteEffect(std::size_t fault, std::string effect);
-  // Of a process that is meant to be gone nothing is expected; a new one has everything to report
+  // Nothing is expected of a process that is meant to be gone; a new one has to report everything
   // again.
   void SetAway(VehicleId vehicle, bool away);
 
@@ -45,14 +44,14 @@ class SoakWatch {
   // Seconds since the start signal; 0 before it.
   double TimeSeconds(SteadyTime now) const;
   bool IsWell(VehicleId vehicle, SteadyTime now) const;
-  // Every vehicle that is not away. False where none is left.
+  // Every vehicle that is not away. False if none is left.
   bool AreAllWell(SteadyTime now) const;
   // Who is not, and not away.
   std::vector<VehicleId> Unwell(SteadyTime now) const;
   std::uint32_t Living() const;
   std::span<const FaultCourse> Courses() const { return courses_; }
-  // Those that have started and of which something may still be learnt, in the order they started.
-  // All that is done every turn is done for these: a schedule of weeks has half a million faults.
+  // The faults that have started and of which more may be learnt, in the order they started. All
+  // work of a cycle is done for these only: a schedule of weeks has half a million faults.
   std::span<const std::size_t> Open() const { return open_; }
   double HighestStepP99_us(VehicleId vehicle) const;
   const VehicleStatus* StatusOf(VehicleId vehicle) const;
@@ -80,7 +79,8 @@ class SoakWatch {
   std::span<const faults::Fault> schedule_;
   std::map<VehicleId, View> views_;
   std::vector<FaultCourse> courses_;
-  // As the fault started, by vehicle: what its effect is measured from. Of open ones alone.
+  // The counts at the start of the fault, by vehicle, from which its effect is measured. Only of
+  // open ones.
   std::vector<std::map<VehicleId, VehicleStatus>> before_;
   std::vector<std::size_t> open_;
   std::optional<SteadyTime> started_;

@@ -1,4 +1,4 @@
-// The figures of a soak as people read them, for page, terminal and comparison alike.
+// The figures of a soak as text, for page, terminal and comparison.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ std::string SecondsWords(const std::optional<double>& seconds);  // "0.350 s", "
 std::string ValueWords(HistogramUnit unit, std::int64_t value);
 // "99 % at most 40 ms: kept", by budget.
 std::vector<std::string> BudgetWords(const SoakHistogram& measured);
-// What a resource is, or by how much it grows: "12.5 MiB", "+64 KiB", "3", "0.120".
+// A resource, or its growth: "12.5 MiB", "+64 KiB", "3", "0.120".
 std::string ResourceWords(ResourceKind kind, double value);
 
-// One kind of fault, over all that happened.
+// One kind of fault, over all occurrences.
 struct FaultSummary {
   std::string kind;
   std::size_t planned = 0;
@@ -31,7 +31,7 @@ struct FaultSummary {
 };
 // By kind, in alphabetical order.
 std::vector<FaultSummary> SummariesOf(const std::vector<SoakFault>& faults);
-// The value in the middle, or above it; nothing if there is none. Ascending.
+// The median, or the value above it; nullopt if there is none. Ascending.
 std::optional<double> MedianOf(const std::vector<double>& ascending);
 std::optional<double> GreatestOf(const std::vector<double>& ascending);
 
@@ -42,11 +42,11 @@ struct AccountingSums {
 };
 AccountingSums SumsOf(const std::vector<AccountingRow>& rows);
 
-// What belongs to the whole run, as label and text: the summary's and the page's first table.
+// The values of the whole run, as label and text: the first table of the summary and of the page.
 struct SummaryRow {
   std::string label;
   std::string text;
-  std::string link = {};  // a file of the report's folder that `text` leads to; empty: none
+  std::string link = {};  // a file in the report's folder that `text` links to; empty: none
 };
 std::vector<SummaryRow> SummaryOf(const SoakResult& result);
 

@@ -19,7 +19,7 @@ namespace {
 
 using faults::Kind;
 
-// The fault's end ends it; by itself it ends if that never comes.
+// The fault's end ends it; this is its own limit if that never comes.
 constexpr double kLonger_s = 5;
 constexpr std::string_view kProgress = "sent ";
 
@@ -43,7 +43,7 @@ bool IsAddress(const std::string& interface) {
   return ::inet_pton(AF_INET, interface.c_str(), &address) == 1;
 }
 
-// What the program counts, of a line of its progress.
+// The program's own count, from a line of its progress.
 std::uint64_t SentBy(std::string_view line) {
   std::uint64_t sent = 0;
   if (!line.starts_with(kProgress)) return 0;

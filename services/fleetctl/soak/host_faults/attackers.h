@@ -1,7 +1,7 @@
-// Carries out a soak's faults of an intruder: while one lasts, the program `attacker` of the tests
+// Injects a soak's faults of an intruder: during a fault the program `attacker` of the tests
 // (tests/attack) runs as a child, and ends with the fault, or with the soak. Sends nothing itself,
-// and knows nothing of packets; what became of them is found out elsewhere, by the counters of
-// those who got them. Single-threaded.
+// and knows nothing of packets; their effect is measured elsewhere, by the counters of their
+// receivers. Single-threaded.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 namespace giveway::fleetctl {
 
 struct AttackerTools {
-  std::string program;  // empty: there is none
+  std::string program;  // empty: not available
   std::uint32_t domain = 0;
   std::string interface;  // of the fleet: name, address or "any"
 };
 
-// Whether this process may listen to packets of others: the program hears before it speaks.
+// Whether this process may capture packets of others: the program listens before it sends.
 bool MayOpenPacketSocket();
-// Empty: faults of an intruder can be carried out. Otherwise why not.
+// Empty if faults of an intruder can be injected, else the reason.
 std::string WhyNoAttacker(const std::string& program, bool may_open_packet_socket);
-// The command line that carries out one of those.
+// The command line that injects one of them.
 std::vector<std::string> AttackWords(const AttackerTools& tools, const faults::Fault& fault);
 
 class Attackers {
@@ -33,15 +33,14 @@ class Attackers {
   // On the thread that made it.
   explicit Attackers(AttackerTools tools) : tools_(std::move(tools)) {}
 
-  // Faults of other actors are none of ours: nothing happens. `fault` outlives its end. Throws
-  // StartError.
+  // Ignores faults of other actors. `fault` outlives its end. Throws StartError.
   void Begin(const faults::Fault& fault);
   void End(const faults::Fault& fault) { running_.erase(&fault); }
-  // Often. Complains on stderr of one that ended before its fault did.
+  // Call often. Reports on stderr an attacker that ended before its fault.
   void Turn();
 
-  // Of a fault that lasts, and that no counter of a vehicle shows: how many packets the program
-  // says it sent. Empty: none, or it shows elsewhere.
+  // For an active fault that no counter of a vehicle shows: how many packets the program reports to
+  // have sent. Empty: none, or it is visible elsewhere.
   std::string EffectOf(const faults::Fault& fault) const;
 
  private:

@@ -1,7 +1,7 @@
 // The library that a soak preloads into processes whose system clock it steps: readings of
-// CLOCK_REALTIME are moved by the offset in a file that the soak maps too. Monotonic clocks are
-// left alone, as by a real step. libfaketime does the same for whole programs, but with Fast
-// DDS 2.9.1 a vehicle hangs in it: it takes every wait with a time for one on the system clock.
+// CLOCK_REALTIME are shifted by the offset in a file that the soak maps too. Monotonic clocks are
+// unchanged, as in a real step. libfaketime does the same for whole programs, but makes a vehicle
+// with Fast DDS 2.9.1 hang: it takes every timed wait for one on the system clock.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
@@ -17,7 +17,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// A time of a wait beyond this is one of the system clock: no machine has been up for so long.
+// A wait until a later time than this is on the system clock: no machine has been up that long.
 constexpr std::time_t kOfSystemClock_s = 1'000'000'000;
 
 ClockShift* MapShift() {
@@ -78,7 +78,7 @@ std::time_t time(std::time_t* now) noexcept {
   return read_s;
 }
 
-// The kernel's clock is not moved: the time that is waited for is moved back.
+// The kernel's clock is not shifted: the time to wait for is shifted back.
 int pthread_cond_timedwait(pthread_cond_t* condition, pthread_mutex_t* mutex,
                            const timespec* until) {
   static auto* const original =

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Enough for the segments of fifty participants, little enough to be filled at once.
+// Enough for the segments of fifty participants, small enough to be filled at once.
 constexpr const char* kMountOptions = "size=256m,mode=1777";
 constexpr const char* kFiller = "filler";
 constexpr std::size_t kBlock = 1 << 20;
@@ -27,7 +27,7 @@ constexpr std::size_t kBlock = 1 << 20;
 constexpr std::string_view kSegment = "fastrtps_";
 constexpr std::string_view kPort = "fastrtps_port";
 
-// fastrtps_0123456789abcdef, without the lock file of the same name with _el behind it.
+// fastrtps_0123456789abcdef, without the lock file of the same name with _el appended.
 bool IsSegment(const std::string& name) {
   return name.starts_with(kSegment) && !name.starts_with(kPort) && !name.ends_with("_el");
 }
@@ -48,7 +48,7 @@ std::uint64_t FreeBytes(const fs::path& folder) {
 }  // namespace
 
 const char* WhyNoPrivateShm() {
-  // A thread has mounts of its own without its process having any.
+  // A thread may have mounts of its own although its process has none.
   bool may = false;
   std::thread([&may] { may = ::unshare(CLONE_NEWNS) == 0; }).join();
   return may ? nullptr

@@ -1,6 +1,6 @@
-// A /dev/shm for one soak and its processes alone, in a mount namespace of its own, and what may
-// happen to it: its files are deleted, segments of dead processes lie there, it is full. Needs
-// root. Touches nothing in the machine's own /dev/shm. Single-threaded.
+// A /dev/shm for one soak and its processes alone, in a mount namespace of its own, and the faults
+// that it can have: its files are deleted, it holds segments of dead processes, it is full. Needs
+// root. Changes nothing in the machine's own /dev/shm. Single-threaded.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,24 @@
 
 namespace giveway::fleetctl {
 
-// Null: this process may have mounts of its own. Otherwise why not.
+// Null if this process may have mounts of its own, else the reason.
 const char* WhyNoPrivateShm();
 
 class PrivateShm {
  public:
-  // From now on this thread, and the threads and processes that it starts, have a /dev/shm of their
-  // own. Before any other thread that is to share it. Throws StartError.
+  // From now on this thread, and the threads and processes that it starts, have a private /dev/shm.
+  // Call it before starting any other thread that is to share it. Throws StartError.
   PrivateShm();
   // For tests: as if `folder` were /dev/shm. Mounts nothing.
   explicit PrivateShm(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  // Every file, also of who still maps it. How many there were.
+  // Deletes every file, also those still mapped. Returns their number.
   std::size_t DeleteAll();
-  // Copies of segments that are there, under names no process uses: what one that was killed
-  // leaves. How many were made: none where nothing is there to be copied.
+  // Copies existing segments under names that no process uses: what a killed process leaves.
+  // Returns the number of copies: none if there is nothing to copy.
   std::size_t LeaveOver(std::size_t count);
   void RemoveLeftOver();
-  // Leaves no byte free. False where that did not succeed.
+  // Leaves no byte free. Returns false on failure.
   bool Fill();
   void Empty();
 

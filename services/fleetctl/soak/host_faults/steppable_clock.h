@@ -1,4 +1,4 @@
-// The system clock of one process, as a soak steps it: a file that the library preloaded into that
+// The system clock of one process, stepped by a soak: a file that the library preloaded into that
 // process reads. Steps no clock of the machine, and no monotonic one. Single-threaded.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace giveway::fleetctl {
 
-// The library to be preloaded, by its place next to the programs; empty where it is missing.
+// The library to be preloaded, found next to the programs; empty if it is missing.
 std::filesystem::path ClockStepLibrary();
 
 class SteppableClock {
@@ -22,10 +22,10 @@ class SteppableClock {
   SteppableClock(SteppableClock&& other) noexcept;
   SteppableClock& operator=(SteppableClock&&) = delete;
 
-  // What the process is started with, NAME=value each.
+  // The environment of the process, NAME=value each.
   std::vector<std::string> Environment() const;
   void Step(std::int64_t offset_s) { shift_->offset_s = offset_s; }
-  // Readings of the clock that were moved since it was made.
+  // Readings of the clock that were shifted since its creation.
   std::uint64_t Shifted() const { return shift_->shifted; }
 
  private:

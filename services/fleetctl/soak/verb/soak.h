@@ -1,5 +1,5 @@
-// The verb `fleetctl soak`: drives a fleet under a seeded schedule of faults, watches every
-// promise, and ends in a verdict with a report. Values in; the exit code out.
+// The verb `fleetctl soak`: drives a fleet under a seeded schedule of faults, checks every promise,
+// and ends with a verdict and a report. Values in; the exit code out.
 #pragma once
 
 #include "services/fleetctl/soak/verb/soak_options.h"

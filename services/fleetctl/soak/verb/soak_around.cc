@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLookOn_s = 20;  // a shrunk run continues for so long
+constexpr double kLookOn_s = 20;  // a shrunk run continues for this long
 
 SoakResult ReadResult(const std::string& folder) {
   ReadSoak read = ReadSoakReport(folder);

@@ -1,5 +1,4 @@
-// What went wrong around a broken promise, as a fault file of its own: what `fleetctl shrink` makes
-// smaller.
+// The faults around a broken promise, as a fault file of its own: the input of `fleetctl shrink`.
 #pragma once
 
 #include <string>
@@ -9,15 +8,15 @@
 
 namespace giveway::fleetctl {
 
-// From as long before a violation as a ring holds, to a little after it.
+// From one ring's length before a violation to a little after it.
 inline constexpr double kAroundBefore_s = 60;
 inline constexpr double kAroundAfter_s = 5;
 
-// Those that were on, or started, around `time_s`; with the times they had. Pure.
+// Those that were active, or started, around `time_s`; with their original times. Pure.
 faults::Schedule Around(const faults::Schedule& schedule, double time_s);
 
 // Reads a report folder, writes FOLDER/around.textproto around its first violation, and prints the
-// line that shrinks it. The exit code: 0, or 2 where there is no violation. Throws InputError.
+// command that shrinks it. The exit code: 0, or 2 if there is no violation. Throws InputError.
 int WriteAround(const std::string& folder);
 
 }  // namespace giveway::fleetctl

@@ -22,7 +22,7 @@ void Append(const std::vector<Item>& more, std::vector<Item>* items) {
   items->insert(items->end(), more.begin(), more.end());
 }
 
-// Of lists of things that have a time.
+// For lists of elements with a time.
 template <typename Item>
 void AppendLater(const std::vector<Item>& more, double by_s, std::vector<Item>* items) {
   for (Item item : more) {
@@ -72,7 +72,7 @@ void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   if (narrower) joined->narrowest_margin = margin;
 }
 
-// The rest ends as it ends; a promise that was broken before stays broken.
+// The rest has its own verdict; a promise that was broken before stays broken.
 void JoinVerdicts(const SoakResult& rest, SoakResult* joined) {
   joined->verdict = rest.verdict;
   std::map<std::string, std::uint64_t> by_kind;

@@ -10,19 +10,19 @@
 
 namespace giveway::fleetctl {
 
-// Replaces what was saved before. Why it could not, as on a full disk; empty: it could.
+// Replaces what was saved before. Returns the reason of a failure, as on a full disk; empty: none.
 std::string SaveSoFar(const SoakResult& so_far, const std::string& folder);
-// It has come to its verdict: there is nothing to continue with.
+// It has reached its verdict: there is nothing to continue.
 void ForgetSoFar(const std::string& folder);
-// Throws InputError where the folder holds no soak that could be resumed.
+// Throws InputError if the folder has no soak that can be resumed.
 SoakResult LoadSoFar(const std::string& folder);
 
-// Of the whole list what is left after `from_s`, by the clock of a new fleet, whose own warm-up is
-// `warm_up_s`. What would start before that is over comes to `lost`, in words. Pure.
+// The faults left after `from_s`, in the time of a new fleet, whose own warm-up is `warm_up_s`.
+// Those that would start before the end of the warm-up are added to `lost`, as text. Pure.
 faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
                         std::vector<std::string>* lost);
 
-// Both as one, whose times are those of the whole; `rest` started at so_far.ran_s. Pure.
+// Merges both, in the times of the whole; `rest` started at so_far.ran_s. Pure.
 SoakResult Joined(const SoakResult& so_far, const SoakResult& rest);
 
 }  // namespace giveway::fleetctl

@@ -22,7 +22,7 @@ using faults::Kind;
 using faults::Target;
 using std::chrono::seconds;
 
-// A status comes every so many ticks: no value of a figure is missed between two.
+// One status every so many ticks: no value of a figure is missed between two.
 constexpr std::uint32_t kStatusTicks = 4;
 static_assert(kStatusTicks <= FigureSummary::kNewest);
 constexpr SteadyTime kBegin = seconds(1);  // 0 is no time
@@ -81,7 +81,7 @@ class VirtualSoak {
     ShowProgress();
   }
 
-  // In virtual time a step takes none: jitter and turns are those of lost ticks alone.
+  // In virtual time a step takes no time: jitter and cycle times come from lost ticks alone.
   void MeasureTurns() {
     for (std::size_t i = 0; i < fleet_.Size(); ++i) {
       if (!fleet_.Answered(i)) continue;
@@ -116,7 +116,7 @@ class VirtualSoak {
     return news;
   }
 
-  // Those of the world say by an event that they started.
+  // The world reports the start of its faults by an event.
   void CarryOut(std::span<const FaultEdge> edges) {
     for (const FaultEdge& edge : edges) {
       const faults::Fault& fault = schedule_[edge.fault];
