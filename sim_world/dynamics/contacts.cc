@@ -86,7 +86,8 @@ void Contacts::Gather(std::span<const NearPair> pairs, const Things& things, dou
   });
   candidates_.assign(by_walls_.All().begin(), by_walls_.All().end());
   for (const NearPair& pair : pairs) {
-    if (pair.apart_m > kTouch_m || things.IsLeaf(pair.b)) continue;  // leaves do not stop each other
+    if (pair.apart_m > kTouch_m || things.IsLeaf(pair.b))
+      continue;  // leaves do not stop each other
     candidates_.push_back({{kNever, pair.a, false, pair.b}, kNone, kNone});
   }
 }

@@ -22,8 +22,9 @@ struct OwnerFacts {
 
 struct SensorView {
   const Scene& scene;
-  std::span<const OwnerFacts> facts;  // by owner number; an owner not in it stands still and is unknown
-  Owner self = kNoOwner;              // whose shapes the sensor does not see
+  std::span<const OwnerFacts>
+      facts;              // by owner number; an owner not in it stands still and is unknown
+  Owner self = kNoOwner;  // whose shapes the sensor does not see
   Pose world_from_body;
   Vec2 velocity_world;  // of the axle centre
   // What the scan is stamped with.

@@ -26,13 +26,13 @@ enum class Invariant : std::uint8_t {
   kContact,      // no contact that a moving vehicle caused
   kStaleMotion,  // no motion on stale data: the vehicle is at least braking
   kWaitCycle,    // vehicles that halt to give way to each other never form a cycle
-  kWaitBound,  // no vehicle stands in one place longer than a bound, whatever reason it reports
-  kAllHalted,  // the vehicles that have not arrived never all halt to give way
-  kOrder,      // a vehicle that halts to give way has the lower priority, as both published it
-  kArrival,    // every live vehicle arrives within the duration, and at least one is live
-  kPose,       // a vehicle was where its beacon says, within the uncertainty it states
-  kRedLight,   // no vehicle drives past a red light: red_lights.h
-  kProgress,   // no vehicle is stuck: progress.h
+  kWaitBound,    // no vehicle stands in one place longer than a bound, whatever reason it reports
+  kAllHalted,    // the vehicles that have not arrived never all halt to give way
+  kOrder,        // a vehicle that halts to give way has the lower priority, as both published it
+  kArrival,      // every live vehicle arrives within the duration, and at least one is live
+  kPose,         // a vehicle was where its beacon says, within the uncertainty it states
+  kRedLight,     // no vehicle drives past a red light: red_lights.h
+  kProgress,     // no vehicle is stuck: progress.h
   // Counted and reported in virtual runs, and enforced only on request: RequiredInvariants.
   kClearance,  // no vehicle drives nearer to anything than its margin: clearance.h
   kClaim,      // every body is where its beacons claim that it can be: claims.h

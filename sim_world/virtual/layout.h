@@ -35,7 +35,8 @@ class Layout {
   Random& Dice() { return dice_; }
   const Scenario& SoFar() const { return scenario_; }
   // Adds the next vehicle: it stands at `start`, faces the first point of its route, passes
-  // `waypoints` and ends at `goal`. Its cruise speed is drawn, and further properties by Size::draw.
+  // `waypoints` and ends at `goal`. Its cruise speed is drawn, and further properties by
+  // Size::draw.
   void Add(Vec2 start, std::span<const Vec2> waypoints, Vec2 goal);
   // Adds that many vehicles, each from a cell of a square grid to another, both its own; the places
   // are moved a little within their cells. columns * columns is at least twice the vehicles.

@@ -113,15 +113,15 @@ void ForPairs(const HostFacts& host, Check&& check) {
 }  // namespace
 
 void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings) {
-  AddGroups(host, MemoryState::kStale, "memory_stale",
-            "Their owners are gone: they take memory until removed, and every killed participant adds "
-            "its segment; when /dev/shm is full, the next participant dies of SIGBUS.",
-            "fleetctl doctor --fix", findings);
   AddGroups(
-      host, MemoryState::kOrphaned, "memory_orphaned",
-      "Incomplete sets, without lock or body, that no process uses: they take memory until "
-      "removed.",
+      host, MemoryState::kStale, "memory_stale",
+      "Their owners are gone: they take memory until removed, and every killed participant adds "
+      "its segment; when /dev/shm is full, the next participant dies of SIGBUS.",
       "fleetctl doctor --fix", findings);
+  AddGroups(host, MemoryState::kOrphaned, "memory_orphaned",
+            "Incomplete sets, without lock or body, that no process uses: they take memory until "
+            "removed.",
+            "fleetctl doctor --fix", findings);
 }
 
 void CheckForeignFiles(const HostFacts& host, qos::Findings* findings) {

@@ -143,8 +143,7 @@ void ChildProcess::Poll() {
   if (!IsRunning()) return;
   int status = 0;
   const bool ended = ::waitpid(pid_, &status, WNOHANG) == pid_;
-  if (hears_ || ended)
-    ReadOutput();  // after waitpid: no output before the end is missed
+  if (hears_ || ended) ReadOutput();  // after waitpid: no output before the end is missed
   if (!ended) return;
   end_ = WIFSIGNALED(status) ? ProcessEnd{true, WTERMSIG(status)}
                              : ProcessEnd{false, WEXITSTATUS(status)};

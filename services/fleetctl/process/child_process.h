@@ -50,7 +50,7 @@ struct ChildCommand {
   int kept_fd = -1;                // stays open in the child as descriptor 3; -1: none
   bool hands_on_lines = false;     // every line is kept for TakeLines
   // No GIVEWAY_ variable of this shell is passed on as a flag. Without this the log's format, the
-  // world's threads and free partitions may be set this way; no other flag ever is.
+  // world's threads and free partitions may be set by it; no other flag ever is.
   bool flags_only = false;
   // NAME=value each, in addition to what is passed on from this process's environment.
   std::vector<std::string> environment = {};

@@ -111,7 +111,8 @@ int ExitCode(ApplyVerdict verdict) {
 }
 
 std::string PlanText(const ApplyReport& report) {
-  std::vector<std::pair<std::string, std::string>> groups;  // changes, and the vehicles that have them
+  std::vector<std::pair<std::string, std::string>>
+      groups;  // changes, and the vehicles that have them
   for (const AppliedTo& applied : report.vehicles) {
     const std::string changes = fmt::format(": {} -> {}\n", Shown(applied.before), report.profile) +
                                 ChangesText(applied.changes);

@@ -11,7 +11,8 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kDiscoveryPatience = std::chrono::seconds(3);
-constexpr Nanoseconds kSettles = std::chrono::milliseconds(500);  // its endpoints are discovered one by one
+constexpr Nanoseconds kSettles =
+    std::chrono::milliseconds(500);  // its endpoints are discovered one by one
 constexpr Nanoseconds kProbeTurn = std::chrono::milliseconds(20);
 
 }  // namespace

@@ -18,8 +18,9 @@ using faults::Kind;
 using faults::Target;
 using std::chrono::milliseconds;
 
-constexpr Nanoseconds kDuty = milliseconds(200);        // one turn of stopped and running
-constexpr Nanoseconds kChurnLife = milliseconds(1500);  // of each process that is started and killed
+constexpr Nanoseconds kDuty = milliseconds(200);  // one turn of stopped and running
+constexpr Nanoseconds kChurnLife =
+    milliseconds(1500);  // of each process that is started and killed
 constexpr std::uint32_t kFirstChurnId = 1'000'000;
 
 // A duplicate's output never overwrites the member's own.

@@ -119,7 +119,7 @@ struct ResourceSlope {
   ResourceKind kind = ResourceKind::kPrivateBytes;
   statistics::Slope slope;  // without warm-up
   double last = 0;          // the figure at the life's end
-  bool lasting = true;      // long enough to judge, and grew in each part: filling up does not count
+  bool lasting = true;  // long enough to judge, and grew in each part: filling up does not count
   bool leak = false;
   std::vector<statistics::Sample>
       curve;  // of private bytes: at most 60 points to draw; time of soak
@@ -129,8 +129,9 @@ struct ResourceSlope {
 struct AccountingRow {
   std::string writer;  // "vehicle 2"
   std::string reader;
-  std::string topic;       // "fleet/beacon"
-  std::uint64_t sent = 0;  // by the writer's own numbers, from the first received to the last counted
+  std::string topic;  // "fleet/beacon"
+  std::uint64_t sent =
+      0;  // by the writer's own numbers, from the first received to the last counted
   std::uint64_t accepted = 0;
   std::uint64_t not_heard = 0;   // stated from beyond the emission radius
   std::uint64_t refused = 0;     // arrived, and refused by a check
@@ -203,7 +204,8 @@ struct SoakResult {
   std::uint64_t budget_spent = 0;        // reactions that left less than a fifth
   std::uint64_t timing_values_lost = 0;  // missing from every received report
   std::vector<KeptRings> kept_rings;
-  std::vector<double> resumed_at_s;  // the supervisor had died, and another fleet continued the soak
+  std::vector<double>
+      resumed_at_s;  // the supervisor had died, and another fleet continued the soak
   std::uint32_t restarts_planned = 0;
   std::uint32_t restarts_unplanned = 0;        // a process ended without a fault that explains it
   std::optional<double> supervisor_cpu_share;  // of the fleet's processor time

@@ -10,11 +10,11 @@
 namespace giveway::fleetctl {
 namespace {
 
-// A timer and a waking thread need it: gaps that are longer than a period by less are not kept.
+// Overhead of a timer and a waking thread: gaps longer than a period by less are not kept.
 constexpr Nanoseconds kLate = std::chrono::microseconds(200);
 constexpr Nanoseconds kForgotten = std::chrono::minutes(10);
 
-// A pause of one CPU is not seen from another.
+// A pause of one CPU is not visible on another.
 void StayOn(int cpu) {
   cpu_set_t set;
   CPU_ZERO(&set);

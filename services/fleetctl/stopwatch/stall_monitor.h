@@ -1,6 +1,6 @@
-// How long the machine stood still: a thread a CPU wakes once a period and keeps the gaps
-// between its wakings that are longer than they should be. What the scheduler does to it, it does
-// to a vehicle. Threads at the edge; what they found is asked for by time.
+// How long the machine paused: one thread per CPU wakes once a period and records gaps between its
+// wake-ups that are too long. A scheduling delay of this thread is one of a vehicle, too. Has
+// threads; their findings are queried by time.
 #pragma once
 
 #include <deque>
@@ -20,9 +20,9 @@ class StallMonitor {
   StallMonitor(const StallMonitor&) = delete;
   StallMonitor& operator=(const StallMonitor&) = delete;
 
-  // The longest gap between two wakings that lies at least in part within [from, to]: never less
-  // than the period of the monitor, which sees nothing shorter. What is older than ten minutes is
-  // forgotten.
+  // The longest gap between two wake-ups that lies at least in part within [from, to]: never less
+  // than the period of the monitor, which is its resolution. Gaps older than ten minutes are
+  // dropped.
   Nanoseconds LongestPause(SteadyTime from, SteadyTime to) const;
 
  private:

@@ -30,11 +30,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kBroken = 1;
-// A fleet takes so many of a fault; then a fresh one continues with it.
+// A fleet has this many trials of a fault; then a new one continues with it.
 constexpr std::uint32_t kTrialsAFleet = 20;
-constexpr int kAttempts = 3;  // at cuts that came before discovery was through
+constexpr int kAttempts = 3;  // at cuts that came before discovery was complete
 
-// A folder that is gone with this object.
+// A folder that is removed with this object.
 class ScratchFolder {
  public:
   ScratchFolder() : path_(fs::temp_directory_path() / "giveway_stopwatch_XXXXXX") {
@@ -60,7 +60,7 @@ class ScratchFolder {
 
 std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {
   std::vector<StopwatchTask> tasks;
-  // Those that take longest first, so that no fleet is left with one at the end.
+  // The longest first, so that no fleet is left with one at the end.
   std::vector<Fault> faults = options.faults;
   std::ranges::stable_partition(faults, IsCut);
   for (const Fault fault : faults) {
@@ -74,7 +74,7 @@ std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {
   return tasks;
 }
 
-// Hands tasks out to threads, each with a fleet of its own, and gathers what they bring.
+// Distributes tasks to threads, each with a fleet of its own, and collects the results.
 class Session {
  public:
   Session(const StopwatchOptions& options, FleetSpec spec, const Limits& limits)
@@ -91,7 +91,7 @@ class Session {
       const std::size_t fleets = std::min<std::size_t>(options_.fleets, tasks_.size());
       for (std::size_t i = 0; i < fleets; ++i) threads.emplace_back([this] { Work(); });
     }
-    // What was measured before it is shown all the same.
+    // Earlier measurements are shown all the same.
     if (error_ && trials_.empty()) std::rethrow_exception(error_);
     if (next_ < tasks_.size() && report_.problems.empty()) report_.problems = {"interrupted"};
     report_.vehicles = options_.vehicles;
@@ -144,7 +144,7 @@ class Session {
     report_.problems.push_back(fmt::format("{}: {}", Name(task.fault), result.problem));
   }
 
-  // On stderr, with what is left at the pace so far.
+  // On stderr, with the remaining time at the pace so far.
   void Tell(std::size_t trials) {
     const std::scoped_lock lock(mutex_);
     done_ += trials;
@@ -162,7 +162,7 @@ class Session {
   const std::size_t wanted_;
   const SteadyTime begin_;
   StallMonitor monitor_;
-  std::mutex mutex_;  // guards all that follows
+  std::mutex mutex_;  // guards all members below
   std::size_t next_ = 0;
   std::size_t done_ = 0;
   std::vector<Trial> trials_;

@@ -1,5 +1,5 @@
-// The verb `fleetctl stopwatch`: how long until peers notice? Several fleets at a time, real
-// processes, each fault as often as asked for. Values in; the exit code out.
+// The verb `fleetctl stopwatch`: how long until peers notice? Several fleets in parallel, real
+// processes, each fault as often as requested. Values in; the exit code out.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct StopwatchOptions {
   std::uint32_t seed = 1;
   std::string logs_folder;  // empty: no logs are kept
   bool json = false;        // one JSON object on stdout and nothing else
-  bool table = false;       // only print what must see what
+  bool table = false;       // only print which mechanism must see which fault
 };
 
 // 0 every promise was kept; 1 one was broken, or it was interrupted; 2 could not run.

@@ -1,4 +1,4 @@
-// What the trials of a stopwatch came to: for each fault and mechanism how soon it was seen, and
+// The results of a stopwatch's trials: for each fault and mechanism how soon it was seen, and
 // whether that is what the profile promises. Pure.
 #pragma once
 
@@ -12,18 +12,17 @@
 
 namespace giveway::fleetctl {
 
-// One peer saw one fault by one mechanism.
+// One peer saw one fault through one mechanism.
 struct Sighting {
   Mechanism mechanism = Mechanism::kBeaconAge;
   Nanoseconds after{0};  // the fault
-  Nanoseconds pause{
-      0};  // the longest of the machine from a beacon period before the fault until then
+  Nanoseconds pause{0};  // the machine's longest, from a beacon period before the fault until then
 };
 
 // One fault of one vehicle.
 struct Trial {
   Fault fault = Fault::kKill;
-  std::uint32_t watchers = 0;       // peers that were well all the while
+  std::uint32_t watchers = 0;       // peers without a problem throughout
   std::vector<Sighting> sightings;  // at most one a watcher and mechanism
 };
 
@@ -34,7 +33,7 @@ struct Distribution {
 // Percentiles by nearest rank.
 Distribution DistributionOf(std::vector<Nanoseconds> times);
 
-// What one mechanism made of one fault, in all trials.
+// How one mechanism reported one fault, in all trials.
 struct Cell {
   Fault fault = Fault::kKill;
   Mechanism mechanism = Mechanism::kBeaconAge;
@@ -47,7 +46,7 @@ struct Cell {
   std::uint32_t excused = 0;     // later than promised, by no more than the pause of that sighting
   std::uint32_t late = 0;        // later than promised and the pause of that sighting
   Nanoseconds worst_excess{0};   // of the late ones, beyond both
-  Nanoseconds longest_pause{0};  // that was granted to a sighting
+  Nanoseconds longest_pause{0};  // that excused a sighting
   std::uint32_t uncalled_for = 0;  // seen, though they must not be
 
   bool Kept() const { return unseen == 0 && late == 0 && uncalled_for == 0; }

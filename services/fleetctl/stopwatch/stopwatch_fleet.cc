@@ -8,7 +8,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// A report carries its own time: nothing is lost by reading it a little later.
+// A report has its own time: reading it a little later loses nothing.
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(10);
 constexpr Nanoseconds kGrace = std::chrono::seconds(2);
 

@@ -14,7 +14,7 @@
 
 namespace giveway::fleetctl {
 
-// One vehicle's word.
+// One report of a vehicle.
 struct Said {
   VehicleId by = kNobody;
   Word word;
@@ -22,18 +22,18 @@ struct Said {
 
 class StopwatchFleet {
  public:
-  // `spec` but for the domain; `impair` is what each hearer is given with --impair. Lives on one
-  // thread: see FleetProcesses. Throws StartError, DomainError.
+  // `spec` except the domain; `impair` is the --impair of each hearer. Use on one thread: see
+  // FleetProcesses. Throws StartError, DomainError.
   StopwatchFleet(const FleetSpec& spec, const std::map<VehicleId, std::string>& impair);
-  // Ends the processes that are left, gracefully if they do it within two seconds.
+  // Ends the remaining processes, gracefully if they manage within two seconds.
   ~StopwatchFleet();
   StopwatchFleet(const StopwatchFleet&) = delete;
   StopwatchFleet& operator=(const StopwatchFleet&) = delete;
 
-  // Sleeps for a moment and takes in what was said.
+  // Sleeps for a moment and takes the reports.
   void Turn();
   const PeersHeard& WhoHears() const { return hearing_; }
-  // Since the last ForgetSaid, vehicle by vehicle in its order.
+  // Since the last ForgetSaid, vehicle by vehicle, each in order.
   const std::vector<Said>& Heard() const { return said_; }
   void ForgetSaid() { said_.clear(); }
   // When a vehicle started to count its blackouts.

@@ -1,5 +1,5 @@
-// What a profile set and a vehicle promise about how soon a silent peer is noticed, as the library
-// resolves the set. Makes no participant.
+// How soon a profile set and a vehicle promise to notice a silent peer, as the library resolves the
+// set. Creates no participant.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Nanoseconds kFirstCut = seconds(5);  // after the start signal: discovery takes a second
-constexpr Nanoseconds kAfterward = milliseconds(1500);  // what came late is still reported
+constexpr Nanoseconds kAfterward = milliseconds(1500);  // late events are still reported
 constexpr double kCell_m = 5;                           // between two squares
 constexpr double kSquare_m = 1;
 
@@ -26,7 +26,7 @@ std::vector<Strike> PlanStrikes(std::vector<VehicleId> fleet, std::size_t victim
         dice->Uniform(static_cast<double>(i), static_cast<double>(fleet.size())));
     std::swap(fleet[i], fleet[other]);
     const Nanoseconds exact = FromSeconds(dice->Uniform(0, Seconds(kWaveSpread)));
-    // Whole milliseconds: so a blackout is given to the vehicles.
+    // Whole milliseconds, as in a vehicle's blackouts.
     strikes.push_back({fleet[i], std::chrono::floor<milliseconds>(exact)});
   }
   std::ranges::sort(strikes, {}, &Strike::after);

@@ -18,10 +18,10 @@ struct Strike {
   Nanoseconds after{0};
 };
 
-// Faults that are waited for together: most of a trial is waiting for the participant's lease. At
-// least half of the fleet is left in peace, and watches.
+// Faults whose effects are awaited together: most of a trial is the wait for the participant lease.
+// At least half of the fleet has no fault, and watches.
 struct Wave {
-  // Of cuts, since the start signal; of all else a wave starts when every vehicle is well.
+  // For cuts since the start signal; any other wave starts when every vehicle is well.
   Nanoseconds begin{0};
   Nanoseconds end{0};           // of the blackouts
   std::vector<Strike> strikes;  // in the order of time
@@ -37,18 +37,18 @@ std::vector<VehicleId> StopwatchVehicles(std::uint32_t count);
 std::vector<Wave> PlanWaves(Fault fault, std::uint32_t trials, std::span<const VehicleId> fleet,
                             const Limits& limits, std::uint64_t seed);
 
-// So many of a fleet are faulted in a wave, if there are trials left for them.
+// How many vehicles of a fleet are faulted in a wave, if there are trials left for them.
 std::uint32_t VictimsOf(std::size_t fleet);
 
-// True of the faults that are made of blackouts.
+// True of faults that are implemented as blackouts.
 constexpr bool IsCut(Fault fault) { return fault == Fault::kCut || fault == Fault::kOneWay; }
 
-// What `hearer` is given with --impair; empty for nothing.
+// The --impair of `hearer`; empty for none.
 std::string BlackoutsOf(VehicleId hearer, Fault fault, std::span<const Wave> waves,
                         std::span<const VehicleId> fleet);
 
-// Each vehicle drives round a small square of its own, far from the others and in reach of all,
-// for ever. The world keeps the bodies of vehicles that are away.
+// Each vehicle drives round a small square of its own forever, far from the others and in reach of
+// all. The world keeps the bodies of vehicles that are away.
 std::string StopwatchScenario(std::span<const VehicleId> fleet);
 
 }  // namespace giveway::fleetctl

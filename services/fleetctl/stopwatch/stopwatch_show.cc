@@ -65,7 +65,7 @@ std::string FindingOf(const Cell& cell) {
   return text;
 }
 
-// What is known of this library, where it is the likely reason.
+// Known behaviour of this library, if it is the likely reason.
 std::string MaskingHint(const StopwatchReport& report) {
   const bool masked = std::ranges::any_of(report.cells, [](const Cell& cell) {
     return cell.mechanism == Mechanism::kLiveliness && !cell.Kept();

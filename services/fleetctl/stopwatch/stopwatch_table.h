@@ -1,5 +1,5 @@
-// Which mechanism must see which fault, and what the profile promises about how soon. Values only:
-// no clock, no process. fleetctl stopwatch holds real fleets to it.
+// Which mechanism must see which fault, and how soon by the profile's promise. Values only: no
+// clock, no process. fleetctl stopwatch checks real fleets against it.
 #pragma once
 
 #include <array>
@@ -17,14 +17,14 @@ namespace giveway::fleetctl {
 enum class Fault : std::uint8_t {
   kKill,    // kill -9
   kPause,   // SIGSTOP: nothing of the process runs
-  kExit,    // SIGTERM: it leaves in good order
-  kHung,    // the control loop stands still, the library's threads continue
+  kExit,    // SIGTERM: it leaves gracefully
+  kHung,    // the control loop stops, the library's threads continue
   kCut,     // no packet between it and its peers, either way
   kOneWay,  // its packets are lost, it hears its peers
 };
 inline constexpr std::size_t kFaults = 6;
 
-// What informs a vehicle that a peer is gone.
+// How a vehicle learns that a peer is gone.
 enum class Mechanism : std::uint8_t {
   kBeaconAge,   // its own limit on the age of the newest beacon
   kDeadline,    // DEADLINE of the beacon reader
@@ -46,9 +46,9 @@ enum class Duty : std::uint8_t {
   kMay,       // may or may not
 };
 
-// A row a fault, a column a mechanism. After an exit no peer is stale, for a vehicle that sent a
-// leave notice is not missed; and the process is silent for a while before it is gone, longer than
-// deadline and liveliness if the end takes its time.
+// A row per fault, a column per mechanism. After an exit no peer is stale, because a vehicle that
+// sent a leave notice is not missed; and the process is silent for a while before it is gone,
+// longer than deadline and liveliness if its exit takes long.
 inline constexpr std::array<std::array<Duty, kMechanisms>, kFaults> kDuties = {{
     //  beacon_age    deadline       liveliness        lease        good_bye
     {Duty::kMust, Duty::kMust, Duty::kMust, Duty::kMust, Duty::kNone},      // kill
@@ -61,7 +61,7 @@ inline constexpr std::array<std::array<Duty, kMechanisms>, kFaults> kDuties = {{
 
 enum class LivelinessKind : std::uint8_t { kAutomatic, kManualByParticipant, kManualByTopic };
 
-// What the profile and the scenario say. Absent: without a limit, the mechanism is off.
+// From the profile and the scenario. Absent: no limit, the mechanism is off.
 struct Limits {
   Nanoseconds beacon_period{0};
   Nanoseconds beacon_age{0};
@@ -72,7 +72,7 @@ struct Limits {
   std::optional<Nanoseconds> lease;
 };
 
-// With the liveliness kind and what is off taken in: kNone, kMust or kMay.
+// With the liveliness kind and disabled mechanisms applied: kNone, kMust or kMay.
 Duty DutyOf(Fault fault, Mechanism mechanism, const Limits& limits);
 
 // One summand of a promise, with its reason.
@@ -80,12 +80,11 @@ struct Term {
   Nanoseconds time{0};
   std::string_view reason;
 };
-// Detection may take their sum and the longest pause of the machine. Empty where the mechanism is
-// off.
+// Detection may take their sum and the longest pause of the machine. Empty if the mechanism is off.
 std::vector<Term> Promise(Mechanism mechanism, const Limits& limits);
 Nanoseconds PromisedWithin(Mechanism mechanism, const Limits& limits);  // their sum
 
-// The matrix and the promises, for people.
+// The matrix and the promises as text.
 std::string TableText(const Limits& limits);
 
 }  // namespace giveway::fleetctl

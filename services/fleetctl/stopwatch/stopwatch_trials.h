@@ -13,7 +13,7 @@
 
 namespace giveway::fleetctl {
 
-// What one fleet is to do.
+// The task of one fleet.
 struct StopwatchTask {
   Fault fault = Fault::kKill;
   std::uint32_t trials = 0;
@@ -23,14 +23,13 @@ struct StopwatchTask {
 
 struct StopwatchResult {
   std::vector<Trial> trials;
-  // Trouble that peers reported of one another, or of a target before it was faulted: no vehicle's
-  // fault.
+  // Losses that peers reported of one another, or of a target before its fault: false alarms.
   std::uint32_t false_alarms = 0;
-  bool too_soon = false;  // the blackouts started while a vehicle was not well: nothing was tried
+  bool too_soon = false;  // the blackouts started while a vehicle was not well: no trial was made
   std::string problem;    // why it ended early; empty: it did not
 };
 
-// `note` is given for every wave how many trials it brought. Throws StartError, DomainError.
+// Calls `note` after every wave with the number of its trials. Throws StartError, DomainError.
 StopwatchResult Conduct(const StopwatchTask& task, const FleetSpec& spec, const Limits& limits,
                         const StallMonitor& monitor, const std::function<void(std::size_t)>& note);
 

@@ -27,7 +27,7 @@ Examples
 Exit code: 0 every promise was kept; 1 one was broken, or it was interrupted; 2 could not run.
 )";
 
-// Above 32 vehicles code sets another lease; one place stays free.
+// Above 32 vehicles the code sets another lease; one place stays free.
 constexpr std::uint32_t kMostVictims = 31;
 constexpr std::uint32_t kMostTrials = 100'000;
 constexpr std::uint32_t kMostFleets = 16;
@@ -41,7 +41,7 @@ Fault ParseFault(const std::string& name) {
                                  name + "'");
 }
 
-// In the order of the table, each once; all of them where none is named.
+// In the order of the table, each once; all of them if none is named.
 std::vector<Fault> ParseFaults(const std::vector<std::string>& names) {
   std::vector<Fault> faults;
   for (const std::string& name : names) faults.push_back(ParseFault(name));

@@ -25,7 +25,7 @@ constexpr std::array<Phrase, 10> kPhrases = {{
     {"impairment: blackouts are counted from here", WordKind::kBlackoutsCount, false},
 }};
 
-// What stands behind `name`, which is in the line as the log writes it; empty if it is not.
+// The text after `name`, as the log writes it; empty if it is not in the line.
 std::string_view Behind(std::string_view line, std::string_view name) {
   const std::size_t at = line.find(name);
   return at == std::string_view::npos ? std::string_view() : line.substr(at + name.size());
@@ -95,7 +95,7 @@ void PeersHeard::Fold(VehicleId hearer, const Word& word) {
       ++view.writers;
       break;
     case WordKind::kUnmatched:
-      // Of a writer that is gone nothing more is reported: the next one starts alive.
+      // Nothing more is reported of a writer that is gone: the next one starts alive.
       view.alive = true;
       if (view.writers > 0) --view.writers;
       break;

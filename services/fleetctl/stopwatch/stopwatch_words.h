@@ -1,5 +1,5 @@
-// What the vehicles of a stopwatch fleet say, and which vehicle hears which by it. Pure: lines of
-// their logs in, values out.
+// The reports of the vehicles of a stopwatch fleet, and which vehicle hears which according to
+// them. Pure: lines of their logs in, values out.
 #pragma once
 
 #include <cstdint>
@@ -25,29 +25,29 @@ enum class WordKind : std::uint8_t {
   kLivelinessBack,
   kMatched,
   kUnmatched,
-  kHangs,           // its control loop does, from now on
+  kHangs,           // its control loop hangs from now on
   kBlackoutsCount,  // from now on
 };
 
 struct Word {
   SteadyTime at{0};
   WordKind kind = WordKind::kBeaconHeard;
-  VehicleId about = kNobody;  // of those about a peer
+  VehicleId about = kNobody;  // the peer, if it is about one
 
   friend constexpr bool operator==(const Word&, const Word&) = default;
 };
 
-// Of a line of a vehicle's JSON log; nothing where it says something else.
+// From a line of a vehicle's JSON log; nullopt if it is something else.
 std::optional<Word> WordOf(std::string_view line);
 
-// What reported a peer's absence, where a message is of that.
+// The mechanism that reported a peer's absence, if the message is about that.
 std::optional<Mechanism> MechanismOf(WordKind kind);
 
-// Which vehicle hears which, by what they have said so far.
+// Which vehicle hears which, by their reports so far.
 class PeersHeard {
  public:
   void Fold(VehicleId hearer, const Word& word);
-  // A new life of the vehicle: it has heard no peer yet. What the others think of it stays.
+  // A new life of the vehicle: it has heard no peer yet. The state of the others about it stays.
   void Restart(VehicleId hearer);
   // Matched once, alive, and with a fresh beacon.
   bool Hears(VehicleId hearer, VehicleId about) const;

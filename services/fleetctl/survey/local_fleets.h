@@ -1,5 +1,5 @@
-// The fleets that run on this machine, from /proc alone: for `fleetctl ls`, and for verbs that are
-// not given --domain.
+// The fleets that run on this machine, from /proc alone: for `fleetctl ls`, and for verbs without
+// --domain.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ std::vector<LocalFleet> LocalFleets(const std::vector<FleetMember>& members);
 // Those of this machine.
 std::vector<LocalFleet> LocalFleets();
 
-// The network namespace of this process; nothing where /proc does not say.
+// The network namespace of this process; nullopt if /proc does not show it.
 std::optional<std::uint64_t> OwnNetworkNamespace();
 
 // The only fleet of the namespace, or why there is none: `why` is then a sentence for the user.
@@ -36,7 +36,7 @@ struct ChosenFleet {
 };
 ChosenFleet ChooseFleet(const std::vector<LocalFleet>& fleets, std::uint64_t network_namespace);
 
-// Without a domain: those of the only fleet here. Throws InputError where none runs, or several do.
+// Without a domain: that of the only fleet here. Throws InputError if none runs, or several do.
 void FindFleetIfNotNamed(ObserverOptions* options);
 
 }  // namespace giveway::fleetctl

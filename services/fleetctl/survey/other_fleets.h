@@ -1,5 +1,5 @@
-// Fleets of this machine that have the domain number of the one that is listened to, and another
-// network: they are not heard, and the operator should know that there is a choice.
+// Fleets on this machine with the domain number of the one that is observed, but on another
+// network: they cannot be heard, and the operator should know about them.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace giveway::fleetctl {
 
-// A line for each: every network of the domain but the one that is `interface` in the namespace.
+// A line for each: every network of the domain except the one that is `interface` in the namespace.
 std::vector<std::string> OtherFleets(const std::vector<FleetMember>& members, std::uint32_t domain,
                                      const std::string& interface, std::uint64_t network_namespace);
 
-// Says them on stderr, of the processes that can be seen from here.
+// Reports them on stderr, from the processes that are visible from here.
 void SayOtherFleets(std::uint32_t domain, const std::string& interface);
 
 }  // namespace giveway::fleetctl

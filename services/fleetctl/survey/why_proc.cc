@@ -74,9 +74,9 @@ class Reading {
   void ReadFiles();
   void ReadScenario();
   void ReadProfiles();
-  // Where a path of the process is to be read from here.
+  // Where to read a path of the process from here.
   fs::path Seen(const fs::path& path) const {
-    // What an operator's order brought is held in the process itself, see
+    // Profiles sent by an operator's order are held in the process itself, see
     // services/runtime/restart.h.
     if (IsHeld(path)) return process_ / "fd" / path.filename();
     return path.is_absolute() ? process_ / "root" / path.relative_path() : process_ / "cwd" / path;
@@ -120,8 +120,8 @@ void Reading::ReadNamespaces() {
   }
 }
 
-// The library passes over interfaces that are up and do not run, as docker0 does without a
-// container: they have an address, but no carrier. Where that cannot be read, it runs.
+// The library ignores interfaces that are up but not running, such as docker0 without a container:
+// they have an address, but no carrier. If that cannot be read, it counts as running.
 bool Reading::IsUnplugged(const NetworkAddress& address) const {
   if (address.interface.empty()) return false;
   const auto carrier = ReadText(process_ / "root/sys/class/net" / address.interface / "carrier");
@@ -163,7 +163,7 @@ void Reading::ReadFiles() {
   to_.ports.emplace(held.begin(), held.end());
 }
 
-// The folder the process finds its shipped files in, as services/config/config_dir.cc has it.
+// The folder in which the process finds its shipped files, as in services/config/config_dir.cc.
 fs::path Reading::ConfigFolder() const {
   for (const std::string& variable : started_.environment) {
     if (variable.starts_with("GIVEWAY_CONFIG_DIR=")) return variable.substr(variable.find('=') + 1);
@@ -218,7 +218,7 @@ void Reading::ReadProfiles() {
   to_.profiles = qos::ReadProfiles(*xml.root, to_.told.qos_file);
   struct stat written {};
   if (start_s_ && !held && ::stat(seen.c_str(), &written) == 0) {
-    // A second of grace: both are whole seconds.
+    // A second of tolerance: both are whole seconds.
     to_.profiles_changed = static_cast<std::uint64_t>(written.st_mtime) > *start_s_ + 1;
   }
 }

@@ -1,5 +1,5 @@
-// Finds the processes of fleets on this machine and reads where they stand, from /proc alone:
-// nothing is stopped, entered or written to. Another folder of the same shape can be read instead.
+// Finds the processes of fleets on this machine and reads their situation, from /proc alone:
+// nothing is stopped, entered or written to. Another folder of the same layout can be read instead.
 #pragma once
 
 #include <filesystem>
@@ -11,27 +11,27 @@
 
 namespace giveway::fleetctl {
 
-// What is to be seen of every process, at a glance.
+// What can be read of every process quickly.
 struct FleetMember {
   int pid = 0;
   bool is_world = false;
-  VehicleId id = kNobody;  // that the world gave, or that it asked for, or was heard to have
+  VehicleId id = kNobody;  // assigned by the world, or requested, or observed
   std::uint32_t domain = 0;
   std::string interface;
   std::optional<std::uint64_t> network_namespace;
 };
 
-// A whole file; nothing, and errno, if it cannot be opened.
+// A whole file; nullopt, and errno, if it cannot be opened.
 std::optional<std::string> ReadText(const std::filesystem::path& file);
 
 // Of all processes, ascending.
 std::vector<int> ProcessIds(const std::filesystem::path& proc);
 
-// By process id. Those of other users count too, as far as they can be seen.
+// By process id. Includes those of other users, as far as they can be read.
 std::vector<FleetMember> FindFleet(const std::filesystem::path& proc);
 
-// Everything that can be read; what cannot is in `not_known`. Nothing if there is no such process,
-// or it is none of a fleet's.
+// Everything that can be read; the rest is named in `not_known`. nullopt if there is no such
+// process, or it does not belong to a fleet.
 std::optional<ProcessSituation> ReadSituation(const std::filesystem::path& proc, int pid);
 
 }  // namespace giveway::fleetctl

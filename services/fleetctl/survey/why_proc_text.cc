@@ -27,7 +27,7 @@ std::vector<std::string> Lines(std::string_view text) {
   return lines;
 }
 
-// The words of the first line that starts with `name`, without it.
+// The words of the first line that starts with `name`, without the name.
 std::vector<std::string> WordsAfter(std::string_view text, std::string_view name) {
   for (const std::string& line : Lines(text)) {
     if (line.starts_with(name)) return Words(std::string_view(line).substr(name.size()));
@@ -54,13 +54,13 @@ struct Route {
   std::uint32_t mask = 0;
 };
 
-// /proc prints the bytes of an address as one number of this machine.
+// /proc prints the bytes of an address as one number in host byte order.
 std::uint32_t FromNetworkOrder(std::uint32_t printed) {
   if constexpr (std::endian::native == std::endian::big) return printed;
   return __builtin_bswap32(printed);
 }
 
-// Networks that are there without a gateway, the narrowest first.
+// Networks that are reached without a gateway, the narrowest first.
 std::vector<Route> ParseRoutes(std::string_view text) {
   std::vector<Route> routes;
   for (const std::string& line : Lines(text)) {
@@ -108,7 +108,7 @@ std::vector<std::string> ZeroEnded(std::string_view text) {
 }
 
 std::optional<StatFacts> ParseStat(std::string_view text) {
-  // Behind the name, which may hold anything: state is the 3rd field, the start the 22nd.
+  // After the name, which may contain anything: state is the 3rd field, the start the 22nd.
   const std::size_t name_end = text.rfind(')');
   if (name_end == std::string_view::npos) return std::nullopt;
   const auto words = Words(text.substr(name_end + 1));
@@ -175,7 +175,7 @@ std::vector<NetworkAddress> ParseAddresses(std::string_view fib_trie, std::strin
     if (words.size() == 2 && words[0] == "|--") leaf = ParseAddress(words[1]);
     if (!leaf || words.size() != 3 || words[0] != "/32" || words[2] != "LOCAL") continue;
     const NetworkAddress placed = Placed(*leaf, routes);
-    // The same table may stand there twice.
+    // The same table may be there twice.
     if (std::ranges::find(addresses, placed) == addresses.end()) addresses.push_back(placed);
   }
   const std::vector<std::string> order = ParseInterfaces(dev);

@@ -1,5 +1,5 @@
-// Where a process of a fleet stands: its launch options, and what the system gives it to
-// communicate with. Values only. What could not be read is absent, and its name is in `not_known`.
+// The situation of a process of a fleet: its launch options, and its network and memory. Values
+// only. What could not be read is absent, and named in `not_known`.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct NetworkAddress {
   friend bool operator==(const NetworkAddress&, const NetworkAddress&) = default;
 };
 
-// Two files are one if both numbers are equal.
+// Two files are the same if both numbers are equal.
 struct FileIdentity {
   std::uint64_t device = 0;
   std::uint64_t inode = 0;
@@ -29,10 +29,10 @@ struct FileIdentity {
   friend bool operator==(const FileIdentity&, const FileIdentity&) = default;
 };
 
-// What the command line, the environment and the scenario it names say.
+// Its command line, its environment and the scenario they name.
 struct Instructions {
   bool is_world = false;
-  VehicleId id = kNobody;  // of a vehicle that asked for one
+  VehicleId id = kNobody;  // of a vehicle that requested one
   std::uint32_t domain = 0;
   std::string interface = "127.0.0.1";
   std::string qos_file;  // as the process sees it; absolute
@@ -46,18 +46,18 @@ struct Instructions {
   bool camera = false;
   bool pose_fix = false;
   bool signals = false;
-  Impairment impairment;  // of what it hears
+  Impairment impairment;  // of what it receives
 };
 
 struct ProcessSituation {
   int pid = 0;
   std::string participant;  // the first twelve bytes of its GUIDs, hexadecimal; empty: not known
-  int pid_inside = 0;  // in its own namespace of process ids: what its GUID holds; 0: not known
+  int pid_inside = 0;       // in its own namespace of process ids, as in its GUID; 0: not known
   Instructions told;
   std::optional<qos::ProfileSet> profiles;  // the set as the file is now
   bool profiles_changed = false;            // the file was written to after the process started
 
-  std::optional<char> state;  // as /proc says: R, S, D, T, t, Z
+  std::optional<char> state;  // as in /proc: R, S, D, T, t, Z
   std::optional<std::uint64_t> network_namespace;
   std::optional<std::uint64_t> ipc_namespace;
   std::optional<std::uint64_t> mount_namespace;
@@ -66,7 +66,7 @@ struct ProcessSituation {
   std::optional<std::vector<std::uint16_t>> ports;  // UDP ports it holds
   std::optional<std::uint64_t> open_files;
   std::optional<std::uint64_t> open_files_limit;
-  std::vector<std::string> environment;  // NAME=value of all it was started with
+  std::vector<std::string> environment;  // NAME=value, its whole environment at start
   std::vector<std::string> not_known;    // "network namespace: Permission denied"
 };
 
@@ -74,10 +74,10 @@ struct ProcessSituation {
 std::string NameOf(const ProcessSituation& process);
 std::string AddressText(std::uint32_t address);
 
-// The addresses its whitelist allows of those there are.
+// Those of its addresses that its whitelist allows.
 std::vector<NetworkAddress> AllowedAddresses(const ProcessSituation& process);
-// Fast DDS 2.9.1: 16 bits of the MD5 of every address but the loopback's. Absent if those are not
-// known.
+// Fast DDS 2.9.1: 16 bits of the MD5 of every address but the loopback's. Absent if the addresses
+// are not known.
 std::optional<std::uint16_t> HostId(const ProcessSituation& process);
 // A policy of its participant profile; absent if the set or the profile is not known.
 std::optional<std::int64_t> ParticipantNumber(const ProcessSituation& process, qos::Policy policy);

@@ -20,7 +20,7 @@ std::uint32_t WholeOr(std::uint32_t otherwise, const std::optional<std::string>&
   return text ? WholeNumber<std::uint32_t>(*text).value_or(otherwise) : otherwise;
 }
 
-// The vehicle's own options; those of one that is not named are of a place the world chose, so any
+// The vehicle's own options; a vehicle that is not named has a place chosen by the world, so any
 // fitted sensor counts.
 void AddSensors(const Scenario& scenario, Instructions* told) {
   const bool named = std::ranges::find(scenario.vehicles, told->id, &VehicleOptions::id) !=

@@ -1,5 +1,5 @@
-// The launch options of a service: its command line, else its environment, as
-// services/config/flags.h has it. Pure, but for the scenario, which is a file.
+// The launch options of a service: its command line, else its environment, by the rules of
+// services/config/flags.h. Pure, except that the scenario is read from a file.
 #pragma once
 
 #include <filesystem>
@@ -11,22 +11,23 @@
 
 namespace giveway::fleetctl {
 
-// The words of a process, its program first, and its NAME=value.
+// The command line of a process, with its program, and its environment as NAME=value.
 struct Started {
   std::vector<std::string> words;
   std::vector<std::string> environment;
 
-  // The value of a flag, else of its twin; nothing if neither is set.
+  // The value of a flag, else of its environment variable; nullopt if neither is set.
   std::optional<std::string> Value(const std::string& flag) const;
   bool Switch(const std::string& flag) const;
-  // Whether it is a service of a fleet, and which.
+  // Whether it is a service of a fleet, and which one.
   bool IsVehicle() const;
   bool IsWorld() const;
 };
 
-// All but what the scenario and the default of --qos say. `not_known` gets what makes no sense.
+// Everything except the scenario's options and the default of --qos. `not_known` gets what is
+// invalid.
 Instructions ReadTold(const Started& started, std::vector<std::string>* not_known);
-// Adds what the scenario says, read from `file`.
+// Adds the scenario's options, read from `file`.
 void AddScenario(const std::filesystem::path& file, bool impairment_given, Instructions* told,
                  std::vector<std::string>* not_known);
 

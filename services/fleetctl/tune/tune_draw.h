@@ -1,4 +1,4 @@
-// Has gnuplot draw the pictures of a search, if it is installed.
+// Draws the plots of a search with gnuplot, if it is installed.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace giveway::fleetctl {
 
-// Writes NAME.gnuplot and NAME.svg into the folder. Empty where there is no gnuplot, or it refuses:
+// Writes NAME.gnuplot and NAME.svg into the folder. Empty if gnuplot is missing, or refuses: then
 // stderr says so.
 std::vector<DrawnPlot> Draw(const std::vector<TunePlot>& plots, const TuneStore& store);
 

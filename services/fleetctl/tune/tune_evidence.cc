@@ -17,9 +17,9 @@ double VehicleHours(const TrialEvidence& trial) {
   return trial.vehicles * trial.alive_s / kSecondsAnHour;
 }
 
-// The standard error of a mean of readings of which those of one trial hang together: its peers
-// lose the same target after the same last beacon. Liang and Zeger's, Biometrika 73 (1986), or that
-// of independent readings where it is larger: few trials may agree by chance.
+// The standard error of a mean of readings of which those of one trial are correlated: its peers
+// lose the same target after the same last beacon. By Liang and Zeger, Biometrika 73 (1986), or
+// that of independent readings if it is larger: few trials may agree by chance.
 double ErrorOfMean(const std::vector<TrialEvidence>& trials, double mean, double n) {
   double apart = 0;
   double together = 0;
@@ -40,7 +40,7 @@ double ErrorOfMean(const std::vector<TrialEvidence>& trials, double mean, double
   return std::sqrt(std::max(alone, clustered));
 }
 
-// Mean and largest of the detections, and how sure the mean is.
+// Mean and largest of the detections, and the standard error of the mean.
 void FoldDetections(const std::vector<TrialEvidence>& trials, TuneFigures* figures) {
   double sum = 0;
   double from_kill = 0;
@@ -61,7 +61,7 @@ void FoldDetections(const std::vector<TrialEvidence>& trials, TuneFigures* figur
   figures->detection_error_ms = ErrorOfMean(trials, figures->detection_ms, n);
 }
 
-// What every second of a trial weighs alike.
+// Figures to which every second of a trial contributes alike.
 void FoldShares(const std::vector<TrialEvidence>& trials, TuneFigures* figures) {
   double seconds = 0;
   double bytes = 0;

@@ -8,12 +8,12 @@
 namespace giveway::fleetctl {
 namespace {
 
-// A peer that missed a dead vehicle never noticed it.
+// A peer that missed a dead vehicle counts as never noticing it.
 double Detection(const TuneFigures& figures) {
   return figures.detections == 0 || figures.undetected > 0 ? 1e12 : figures.detection_ms;
 }
 
-// In steps of what can be distinguished: so that chance alone puts none before another.
+// In steps of what can be distinguished, so that chance alone puts none before another.
 long DetectionStep(const TuneFigures& figures) {
   return std::lround(Detection(figures) / kSameDetectionMs);
 }
@@ -31,7 +31,7 @@ auto TieBreak(const TuneFigures& figures) {
   return std::tuple(figures.alarms_per_hour, figures.heard_bytes_s.value_or(0), figures.cpu_share);
 }
 
-// Of `places` those that no other of them beats.
+// Those of `places` that no other of them dominates.
 std::vector<std::size_t> FrontOf(const std::vector<TuneFigures>& figures,
                                  const std::vector<std::size_t>& places) {
   std::vector<std::size_t> front;
@@ -74,7 +74,7 @@ std::vector<std::size_t> Ranking(const std::vector<TuneFigures>& figures) {
 
 bool HasFewerAlarms(const TuneFigures& one, const TuneFigures& than) {
   if (one.vehicle_hours <= 0 || than.vehicle_hours <= 0) return false;
-  // Of a count of none the error is that of one.
+  // The error of a zero count is that of a count of one.
   const auto variance = [](const TuneFigures& figures) {
     const double count = std::max<double>(1, figures.alarms.Total());
     return figures.dispersion * count / (figures.vehicle_hours * figures.vehicle_hours);

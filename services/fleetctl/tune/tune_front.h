@@ -1,4 +1,4 @@
-// Which candidates are worth having, and which one is recommended. Pure.
+// The Pareto front of the candidates, and the recommended one. Pure.
 //
 // The rule of the recommendation: of the candidates that have fewer false alarms than the base,
 // beyond what chance explains, and notice a dead vehicle no later than it, those that notice it
@@ -18,11 +18,11 @@ namespace giveway::fleetctl {
 // between two ticks in the second.
 inline constexpr double kSameDetectionMs = 12.5;  // a quarter of a tick of 50 ms
 
-// However few readings there are, more than this is later: a turn later is 50.
+// However few readings there are, a larger difference than this is later: a loop cycle is 50.
 inline constexpr double kMostChanceMs = 20;
 
-// Places of those that no other beats: none has fewer false alarms and notices as early, or notices
-// earlier with as few. By rising detection time.
+// Places of those that no other dominates: none has fewer false alarms and notices as early, or
+// notices earlier with as few. By rising detection time.
 std::vector<std::size_t> ParetoFront(const std::vector<TuneFigures>& figures);
 
 // All places, the most promising first: the front, the front of the rest, and so on; in each by

@@ -10,7 +10,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// A rate of none has no place on a logarithmic axis.
+// A rate of zero has no place on a logarithmic axis.
 constexpr double kLeastRate = 1;
 
 constexpr const char* kAxes =
@@ -23,7 +23,7 @@ td:first-child, th:first-child { text-align: left } tr.chosen { background: #e6f
 .differs { color: #b00020 } pre { background: #f5f5f5; padding: 1em; overflow-x: auto } svg { max-width: 100%; height: auto }
 )";
 
-// The name keeps two pictures apart in one page.
+// The name distinguishes two plots in one page.
 std::string Settings(const std::string& name) {
   return "set terminal svg size 900,560 dynamic font 'sans-serif,13' background '#ffffff' name '" +
          name + "'\n" + kAxes;
@@ -131,7 +131,7 @@ std::string ToHtml(const TuneResult& result, const std::vector<DrawnPlot>& plots
       kStyle, result.fleet.vehicles, result.fleet.tick_ms, HtmlEscaped(result.impair),
       HtmlEscaped(result.base_file), result.seed, result.alive_s, HtmlEscaped(VerdictText(result)));
   for (const DrawnPlot& plot : plots) {
-    // From the element on: what stands before it belongs to a file, not into a page.
+    // From the svg element on: what comes before it belongs to a file, not into a page.
     const std::size_t begin = std::min(plot.svg.find("<svg"), plot.svg.size());
     html += "<h2>" + plot.title + "</h2>\n" + plot.svg.substr(begin) + "\n";
   }

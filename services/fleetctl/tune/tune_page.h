@@ -1,5 +1,5 @@
-// A search's result as one self-contained HTML page, and the gnuplot programs of its pictures.
-// Pure: who runs gnuplot is tune_run.cc.
+// A search's result as one self-contained HTML page, and the gnuplot programs of its plots. Pure:
+// tune_run.cc runs gnuplot.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace giveway::fleetctl {
 
-// A picture's name and the program that draws it, data included, to stdout as SVG.
+// The name of a plot and its gnuplot program, data included, which writes SVG to stdout.
 struct TunePlot {
   std::string name;
   std::string title;
@@ -21,7 +21,7 @@ struct DrawnPlot {
   std::string title;
   std::string svg;
 };
-// `plots` may be empty: the page says that no pictures could be drawn.
+// `plots` may be empty: the page says that no plots could be drawn.
 std::string ToHtml(const TuneResult& result, const std::vector<DrawnPlot>& plots);
 
 }  // namespace giveway::fleetctl

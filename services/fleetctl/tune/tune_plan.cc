@@ -15,23 +15,24 @@ namespace {
 constexpr char kWriter[] = "fleet_beacon_writer";
 constexpr char kReader[] = "fleet_beacon_reader";
 
-// Requested deadlines in periods, the most significant first. Losses make silences of whole
-// periods, so a limit between two multiples is one kind of limit; where between matters once
+// Requested deadlines in periods, the most significant first. Losses cause silences of whole
+// periods, so all limits between two multiples are equivalent; the exact value matters only if
 // beacons are late.
 constexpr std::array<double, 9> kDeadlines = {3.8, 3.3, 2.6, 4.6, 3.5, 5.6, 2.3, 4.3, 1.6};
 constexpr std::size_t kQuickDeadlines = 4;
-// With retransmissions a limit just below a whole number of periods costs less: the turn before
-// acts.
+// With retransmissions a limit just below a whole number of periods costs less: the loop cycle
+// before acts.
 constexpr double kEarlyDeadline = 2.8;
 constexpr double kLongLease = 8;   // periods
 constexpr double kShortLease = 4;  // periods
 
 Nanoseconds Periods(double count, Nanoseconds tick) {
   const double ms = Milliseconds(tick) * count;
-  return Nanoseconds{static_cast<std::int64_t>(ms + 0.5) * 1'000'000};  // the library's timers
+  return Nanoseconds{static_cast<std::int64_t>(ms + 0.5) *
+                     1'000'000};  // the resolution of the library's timers
 }
 
-// Offered at most what is requested, or they do not match.
+// Offered must not exceed requested, or they do not match.
 BeaconQos WithDeadline(BeaconQos qos, Nanoseconds requested) {
   qos.requested = requested;
   qos.offered = std::min(qos.offered, requested);

@@ -1,5 +1,5 @@
-// Which beacon QoS `fleetctl qos tune` tries, and in what order it gives them time. Pure: the same
-// base, options and evidence give the same plan, which is what makes a search resumable.
+// Which beacon QoS `fleetctl qos tune` tries, and in what order it spends time on them. Pure: the
+// same base, options and evidence give the same plan, which makes a search resumable.
 //
 // Searched are the requested and the offered deadline, the liveliness lease, reliability and the
 // reader's depth of fleet/beacon. Not searched: the beacon period, which is the scenario's tick and
@@ -18,7 +18,7 @@
 
 namespace giveway::fleetctl {
 
-// What of the profiles fleet_beacon_writer and fleet_beacon_reader is searched. Durations are
+// The searched policies of the profiles fleet_beacon_writer and fleet_beacon_reader. Durations are
 // finite.
 struct BeaconQos {
   Nanoseconds offered{0};
@@ -35,7 +35,7 @@ struct TuneCandidate {
   BeaconQos qos;
 };
 
-// Empty if the base can be tuned, else what of it cannot.
+// Empty if the base can be tuned, else what prevents it.
 std::string WhyNotTunable(const qos::ProfileSet& base);
 BeaconQos BeaconQosOf(const qos::ProfileSet& base);
 
@@ -47,7 +47,7 @@ struct TunePlanOptions {
 
 // The base first, each QoS once.
 std::vector<TuneCandidate> MakeCandidates(const BeaconQos& base, const TunePlanOptions& options);
-// What of the base's file differs.
+// Its differences from the base's file.
 std::vector<qos::ProfileEdit> EditsOf(const BeaconQos& wanted, const BeaconQos& base);
 
 // Successive halving (Jamieson and Talwalkar 2016): all get one trial, the better half one more,
@@ -58,8 +58,8 @@ struct Rung {
 };
 std::vector<Rung> MakeRungs(std::size_t candidates, bool quick);
 
-// All trials of one number have one seed: candidates meet the same losses and the same kills, as
-// far as real time lets them.
+// All trials of the same number have one seed: candidates get the same losses and the same kills,
+// as far as real time permits.
 std::uint32_t TrialSeed(std::uint32_t seed, bool verification, std::uint32_t trial);
 
 }  // namespace giveway::fleetctl

@@ -7,9 +7,9 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr int kMostLost = 200;           // in a row; what is rarer is added as one
+constexpr int kMostLost = 200;           // in a row; rarer cases are lumped together
 constexpr double kHostJitterMs = 0.5;    // of an idle machine, half the width
-constexpr double kLoopbackMs = 0.5;      // from the sender's turn to the reader
+constexpr double kLoopbackMs = 0.5;      // from the sender's loop cycle to the reader
 constexpr double kTimerEarlyMs = 0.5;    // mean: Fast DDS 2.9.1 cuts timers to whole milliseconds
 constexpr double kDetectionSlackMs = 5;  // beyond three standard errors: the host's own pauses
 constexpr int kDelaySteps = 64;
@@ -28,7 +28,7 @@ bool HasClosedForm(const ImpairmentRule& rule) {
          rule.blackouts.empty() && !rule.from_s && !rule.to_s;
 }
 
-// The difference of two numbers drawn evenly from [-width, width] has a triangular distribution.
+// The difference of two numbers drawn uniformly from [-width, width] has a triangular distribution.
 double ChanceOfMore(double x, double width) {
   const double u = x / (2 * width);
   if (u >= 1) return 0;
@@ -47,7 +47,7 @@ class Model {
   // Of one peer, per beacon.
   double AlarmsPerBeacon() const { return BySilences() + ByOwnLostScans(); }
 
-  // From the last beacon sent, the last `lost` of which never came, to the turn that acts on it.
+  // From the last beacon sent, after which `lost` are lost, to the loop cycle that acts on it.
   double Detection() const {
     double sum = 0;
     double lost_before = 0;
@@ -58,7 +58,7 @@ class Model {
       const double share = 2 * (i + 0.5) / kDelaySteps - 1;
       sum += DetectionAfter(channel_.delay_ms + share * channel_.jitter_ms + kLoopbackMs);
     }
-    const double late = channel_.scan_loss * tick_ / 2;  // the acting turn, its scan lost
+    const double late = channel_.scan_loss * tick_ / 2;  // the acting cycle, if its scan is lost
     return sum / kDelaySteps + late - lost_before * tick_;
   }
 
@@ -87,7 +87,7 @@ class Model {
   }
 
   // A vehicle decides on beacons of ticks before its own: while its own scans are lost no newer one
-  // counts, and age decides. Its loop then turns after 1.5, 3, 4, 5 ... ticks, the n-th time with n
+  // counts, and age decides. Its loop then runs after 1.5, 3, 4, 5 ... ticks, the n-th time with n
   // scans lost; `lost` beacons before those make them older by as many ticks.
   double ByOwnLostScans() const {
     const double in_bursts = channel_.scan_burst * channel_.scan_burst_loss;
@@ -97,7 +97,7 @@ class Model {
                             .burst_loss = channel_.scan_burst_loss};
     double alarms = 0;
     for (int lost = 0; lost * tick_ < age_limit_; ++lost) {
-      double unseen = 1;  // that no turn before has noticed
+      double unseen = 1;  // that no earlier cycle has noticed
       for (int scans = 1; scans <= kMostLost; ++scans) {
         const double reached = SilenceProbability(own, scans);
         const double turn = scans == 1 ? 1.5 : scans + 1;
@@ -109,7 +109,7 @@ class Model {
     return alarms;
   }
 
-  // That a silence lasts longer than `limit`: either end of it may be half a tick late.
+  // Probability that a silence exceeds `limit`: either end of it may be half a tick late.
   double LongerThan(double limit, int lost) const {
     const double width = channel_.jitter_ms + kHostJitterMs;
     const double missing = limit - (lost + 1) * tick_;
@@ -124,11 +124,11 @@ class Model {
     return std::max(by_event, ChanceOfMore(age_limit_ - lost * tick_, kHostJitterMs));
   }
 
-  // The last beacon that came was heard after `delay` ms.
+  // The last beacon arrived `delay` ms after it was sent.
   double DetectionAfter(double delay) const {
     const double told = delay + Limit();
     const double heard = std::ceil(delay / tick_) * tick_;
-    // Of a limit of whole ticks the turn that lies on it may see it passed or not.
+    // If the limit is a whole number of ticks, the cycle exactly on it may see it exceeded or not.
     const double ticks = age_limit_ / tick_;
     const double first = heard + (std::floor(ticks) + 1) * tick_;
     const bool whole = std::abs(ticks - std::round(ticks)) < 1e-9;

@@ -20,7 +20,7 @@
 
 namespace giveway::fleetctl {
 
-// How beacons come from any vehicle to any other.
+// The channel from any vehicle to any other.
 struct BeaconChannel {
   double loss = 0;
   double burst = 0;  // Gilbert-Elliott, as ImpairmentRule
@@ -34,7 +34,7 @@ struct BeaconChannel {
   double scan_burst_loss = 1;
 };
 
-// Nothing where the impairment is not the same for all, or has no closed form: a rate limit,
+// nullopt if the impairment is not the same for all, or has no closed form: a rate limit,
 // blackouts, reordering, corruption.
 std::optional<BeaconChannel> ChannelOf(const Impairment& impairment);
 
@@ -48,16 +48,16 @@ struct TuneFleet {
 };
 
 struct Prediction {
-  double alarms_per_hour = 0;  // of a vehicle, over all of its peers
+  double alarms_per_hour = 0;  // per vehicle, over all of its peers
   double detection_ms = 0;     // mean, from the target's last beacon
   double age_mean_ms = 0;      // of beacons at a decision
 };
 
-// Nothing for reliable beacons: what a retransmission brings depends on the library's timers.
+// nullopt for reliable beacons: the gain of a retransmission depends on the library's timers.
 std::optional<Prediction> Predict(const BeaconQos& qos, const BeaconChannel& channel,
                                   const TuneFleet& fleet);
 
-// Where measured and predicted differ by more than chance: words, empty if they agree.
+// A message if measured and predicted differ by more than chance, empty if they agree.
 std::string Disagreement(const TuneFigures& measured, const Prediction& predicted);
 
 }  // namespace giveway::fleetctl

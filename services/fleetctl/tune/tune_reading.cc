@@ -22,7 +22,7 @@ class Reader {
   void See(SteadyTime now, const VehicleState& state) {
     const bool counts = now >= window_.from && now <= window_.to;
     if (counts) NoteTold(state.counters.qos);
-    // To the end: a machine that stands still while a target's silence is waited for makes it late.
+    // To the end: a machine that pauses during a target's silence delays its detection.
     if (reading_.last_step > window_.from) {
       reading_.longest_pause = std::max(reading_.longest_pause, now - reading_.last_step);
     }

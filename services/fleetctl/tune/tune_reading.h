@@ -1,6 +1,6 @@
-// What a vehicle's recording says of QoS: a fresh brain is given again what the vehicle was given,
-// and asked at each step which peers it believes (vehicle/peer_table.h, IsFresh). So an alarm is
-// what the vehicle acted on, at the time it did. Pure but for the stream it reads.
+// What a vehicle's recording shows of QoS: replays its inputs through a new brain, and checks at
+// each step which peers it trusts (vehicle/peer_table.h, IsFresh). So an alarm is what the vehicle
+// acted on, at the time it did. Pure except for the stream it reads.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@
 
 namespace giveway::fleetctl {
 
-// All times are of the one steady clock of the machine.
+// All times are on the machine's steady clock.
 struct AliveWindow {
   SteadyTime from{0};  // all receive all
   SteadyTime to{0};    // just before the first is killed
 };
 
-// Since when a peer was not believed, at the recording's end, and what reported it.
+// Since when a peer was not trusted at the recording's end, and the mechanism that reported it.
 struct Silenced {
   SteadyTime at{0};
   AlarmCause cause = AlarmCause::kDeadline;
@@ -35,9 +35,9 @@ struct VehicleReading {
   AlarmCounts alarms;       // within the window
   std::uint32_t told_deadline = 0;
   std::uint32_t told_liveliness = 0;
-  std::vector<std::uint64_t> ages;  // beacons at a decision, by how many ticks old; in the window
+  std::vector<std::uint64_t> ages;  // beacons at a decision, by age in ticks; in the window
   Nanoseconds longest_pause{0};     // between two steps, from the window on
-  std::map<VehicleId, std::optional<Silenced>> peers;  // nothing: believed to the end
+  std::map<VehicleId, std::optional<Silenced>> peers;  // nullopt: trusted to the end
 };
 
 VehicleReading ReadVehicle(std::istream* recording, const AliveWindow& window);
@@ -47,8 +47,8 @@ struct Killing {
   SteadyTime at{0};
 };
 
-// Puts the readings of all vehicles together. A peer that did not believe the target when it was
-// killed, by a false alarm, says nothing of the detection.
+// Combines the readings of all vehicles. A peer that did not trust the target when it was killed,
+// because of a false alarm, says nothing about its detection.
 void FoldReadings(const std::vector<VehicleReading>& readings, const std::vector<Killing>& killings,
                   Nanoseconds tick, TrialEvidence* evidence);
 

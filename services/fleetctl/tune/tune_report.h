@@ -1,4 +1,4 @@
-// A search's result for people, as a table, and for programs, as one JSON object.
+// A search's result as a table and as one JSON object.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace giveway::fleetctl {
 std::string ToText(const TuneResult& result);
 std::string ToJson(const TuneResult& result);
 
-// In words: what the fresh runs came to.
+// The result of the fresh runs, as text.
 std::string VerdictText(const TuneResult& result);
 // "deadline 190 ms (offered 100), lease 250 ms, best effort, depth 4"
 std::string QosText(const BeaconQos& qos);

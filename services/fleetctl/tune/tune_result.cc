@@ -14,7 +14,7 @@ void Judge(TuneResult* result) {
   }
   result->front.clear();
   result->recommended = 0;
-  if (places.empty() || places.front() != 0) return;  // nothing to hold them against
+  if (places.empty() || places.front() != 0) return;  // nothing to compare them with
   for (const std::size_t i : ParetoFront(figures)) {
     result->front.push_back(places[i]);
     result->candidates[places[i]].on_front = true;

@@ -1,4 +1,4 @@
-// What a search came to, put together from its evidence. Pure: reports only print it.
+// The result of a search, computed from its evidence. Pure: reports only print it.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ namespace giveway::fleetctl {
 
 struct TunedCandidate {
   TuneCandidate candidate;
-  std::optional<TuneFigures> figures;  // nothing if it was not measured: `trouble` says why
+  std::optional<TuneFigures> figures;  // nullopt if it was not measured: see `trouble`
   std::optional<Prediction> predicted;
   std::string disagreement;  // empty if prediction and measurement agree
   std::string trouble;
   bool on_front = false;
 };
 
-// Base and recommended once more, side by side, with seeds of their own.
+// Base and recommended measured again in parallel, with other seeds.
 struct Verification {
   TuneFigures base;
   TuneFigures recommended;

@@ -13,10 +13,10 @@
 namespace giveway::fleetctl {
 namespace {
 
-constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);  // how exactly a kill falls
+constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);  // the accuracy of kill times
 constexpr Nanoseconds kWordEvery = std::chrono::seconds(5);
-constexpr int kMostRepeats = 2;  // of one trial, before it is taken as it is
-// Start, settling, kills and the end of a trial; only for the time left.
+constexpr int kMostRepeats = 2;  // of one trial, before its result is accepted
+// Start, settling, kills and the end of a trial; only for the remaining time.
 constexpr double kAroundTrialSeconds = 5;
 
 }  // namespace
@@ -31,14 +31,14 @@ TuneSearch::TuneSearch(const TuneGround& ground, const TuneStore& store, std::si
       repeats_left_(trials_planned / 5 + 1),
       begun_(SteadyNow()) {
   for (const TrialEvidence& found : store.Found()) {
-    if (!found.trouble.empty()) continue;  // tried once more
+    if (!found.trouble.empty()) continue;  // it is repeated
     evidence_[{found.verification, found.candidate, found.trial}] = found;
   }
 }
 
 void TuneSearch::Measure(const std::vector<TuneCandidate>& candidates, bool verification,
                          std::uint32_t trials) {
-  // Number by number: candidates are measured close in time to one another.
+  // By trial number, so that all candidates are measured close together in time.
   for (std::uint32_t trial = 0; trial < trials; ++trial) {
     for (const TuneCandidate& candidate : candidates) {
       if (evidence_.contains({verification, candidate.name, trial})) continue;
@@ -53,7 +53,7 @@ void TuneSearch::Measure(const std::vector<TuneCandidate>& candidates, bool veri
   while (!waiting_.empty() || !running_.empty()) {
     if (Interrupts::Count() > 0) {
       waiting_.clear();
-      running_.clear();  // kills what runs
+      running_.clear();  // kills running trials
       throw TuneInterrupted();
     }
     StartNext();
@@ -65,7 +65,7 @@ void TuneSearch::Measure(const std::vector<TuneCandidate>& candidates, bool veri
   }
 }
 
-// One at a time, so that no fleet starts in the same instant as another.
+// One at a time, so that no two fleets start at the same instant.
 void TuneSearch::StartNext() {
   if (waiting_.empty() || running_.size() >= fleets_) return;
   running_.push_back(std::make_unique<TuneTrial>(ground_, waiting_.front()));
@@ -89,8 +89,8 @@ void TuneSearch::TakeFinished() {
   }
 }
 
-// A trial that failed, or in which the machine itself stood still for longer than a loop ever waits
-// (one and a half ticks): what that showed is not the profile's doing.
+// A trial that failed, or in which the machine itself paused for longer than a loop ever waits (one
+// and a half ticks): its result is not due to the profile.
 bool TuneSearch::MayRepeat(const Key& key, const TrialEvidence& evidence) {
   const double longest_ms = 2 * Milliseconds(ground_.scenario->tick_period);
   std::string why = evidence.trouble;
@@ -112,7 +112,7 @@ void TuneSearch::TellProgress(SteadyTime now) {
   next_word_ = now + kWordEvery;
   const std::size_t done = evidence_.size();
   const std::size_t left = std::max(planned_, done + waiting_.size() + running_.size()) - done;
-  // By what the trials took so far; before the first are over, by what they should.
+  // By the duration of the trials so far; before the first is over, by the planned one.
   const double guess_s = (ground_.alive_s + kAroundTrialSeconds) / static_cast<double>(fleets_);
   const double each_s =
       measured_ < fleets_ ? guess_s : Seconds(now - begun_) / static_cast<double>(measured_);

@@ -16,23 +16,23 @@
 
 namespace giveway::fleetctl {
 
-// Ctrl-C. What was measured is kept.
+// Ctrl-C. Results so far are kept.
 class TuneInterrupted : public std::exception {};
 
 class TuneSearch {
  public:
-  // `trials_planned` is only for the time left.
+  // `trials_planned` is only for the remaining time.
   TuneSearch(const TuneGround& ground, const TuneStore& store, std::size_t fleets,
              std::uint32_t seed, std::size_t trials_planned);
 
-  // Measures until each candidate has so many trials, those from before counted. Throws
+  // Measures until each candidate has that many trials, including earlier ones. Throws
   // TuneInterrupted.
   void Measure(const std::vector<TuneCandidate>& candidates, bool verification,
                std::uint32_t trials);
   std::vector<TrialEvidence> TrialsOf(const std::string& candidate, bool verification) const;
   // All of them, in the order of candidate and number.
   std::vector<TrialEvidence> All() const;
-  std::size_t Measured() const { return measured_; }  // by this call of the program
+  std::size_t Measured() const { return measured_; }  // by this process
 
  private:
   struct Key {
@@ -44,7 +44,7 @@ class TuneSearch {
 
   void StartNext();
   void TakeFinished();
-  // Says why, if the trial is to be run again.
+  // The reason if the trial must be repeated.
   bool MayRepeat(const Key& key, const TrialEvidence& evidence);
   void TellProgress(SteadyTime now);
 

@@ -144,7 +144,7 @@ TuneStore::TuneStore(fs::path folder, const std::string& plan) : folder_(std::mo
   }
   std::ranges::sort(files);
   for (const fs::path& file : files) {
-    // One that cannot be read is measured again.
+    // A file that cannot be read is measured again.
     if (auto evidence = EvidenceFrom(ReadAll(file))) found_.push_back(std::move(*evidence));
   }
 }

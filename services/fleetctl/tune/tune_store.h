@@ -1,5 +1,5 @@
-// The folder of a search: the evidence of every trial as a file of its own, written the moment the
-// trial is over, so that a search that was cut off continues where it stopped.
+// The folder of a search: the evidence of every trial as a file of its own, written as soon as
+// the trial is over, so that an interrupted search can be resumed.
 //
 //   FOLDER/plan.json            what is searched; another search may not continue in this folder
 //   FOLDER/profiles/NAME.xml    what was tried
@@ -15,20 +15,20 @@
 namespace giveway::fleetctl {
 
 std::string ToJson(const TrialEvidence& evidence);
-// Nothing if the text is not what ToJson writes.
+// nullopt if the text is not in the format of ToJson.
 std::optional<TrialEvidence> EvidenceFrom(const std::string& json);
 
 class TuneStore {
  public:
-  // Makes the folder. Throws OutputError if it cannot be written, or holds the evidence of another
-  // search: `plan` is one line that says all that matters of this one.
+  // Creates the folder. Throws OutputError if it cannot be written, or has the evidence of another
+  // search: `plan` is one line with everything that identifies this one.
   TuneStore(std::filesystem::path folder, const std::string& plan);
 
   const std::filesystem::path& Folder() const { return folder_; }
-  // All there is from before.
+  // All evidence from before.
   const std::vector<TrialEvidence>& Found() const { return found_; }
   void Keep(const TrialEvidence& evidence) const;
-  // Replaces the file as a whole, never half of it.
+  // Replaces the file atomically.
   void Write(const std::string& name, const std::string& text) const;
 
  private:

@@ -1,6 +1,6 @@
 // One trial: a world and a fleet of vehicles as processes, in a domain of their own, with one set
-// of QoS profiles. Waits until all hear all, watches them for a while, kills one after another,
-// ends the rest, and reads what they recorded. Several may run side by side: each turn is short.
+// of QoS profiles. Waits until all receive all, observes them for a while, kills one after another,
+// stops the rest, and reads their recordings. Several may run in parallel: each cycle is short.
 #pragma once
 
 #include <filesystem>
@@ -21,9 +21,9 @@ namespace giveway::fleetctl {
 
 // What all trials of a search share.
 struct TuneGround {
-  FleetSpec fleet;  // but for the trial's own domain, QoS, seed and recordings
+  FleetSpec fleet;  // except the trial's own domain, QoS, seed and recordings
   const Scenario* scenario = nullptr;
-  std::string observer_qos;  // the base's: the library keeps one set a process
+  std::string observer_qos;  // the base's: the library keeps one set per process
   double alive_s = 10;
 };
 
@@ -47,7 +47,7 @@ class TuneTrial {
   void Turn(SteadyTime now);
   bool IsOver() const { return phase_ == Phase::kOver; }
   const TrialOrder& Order() const { return order_; }
-  // Once it is over.
+  // When it is over.
   TrialEvidence TakeEvidence();
 
  private:
@@ -93,8 +93,8 @@ class TuneTrial {
   std::string trouble_;
 };
 
-// A place where no vehicles meet: as many lanes as vehicles, 3 m apart, and none out of
-// reach.
+// A place where no vehicles meet: as many lanes as vehicles, 3 m apart, all within reach of each
+// other.
 std::string TuneScenarioText(std::uint32_t vehicles);
 
 }  // namespace giveway::fleetctl

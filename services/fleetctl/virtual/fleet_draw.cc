@@ -13,16 +13,16 @@ namespace {
 constexpr double kSmallest_m = 0.15;
 constexpr double kSlowest_m_s = 0.2;
 constexpr double kFastest_m_s = 1.0;
-constexpr double kWeakest_m_s2 = 0.15;  // of speeding up and of braking
+constexpr double kWeakest_m_s2 = 0.15;  // acceleration and braking
 constexpr double kStrongest_m_s2 = 2.0;
 constexpr double kLeastTurn_rad_s = 0.6;
 constexpr double kMostTurn_rad_s = 2.5;
 constexpr double kLongest = 2;  // a box's length to its width, at most
-// More draws are not needed of what a quarter of all comes out by.
+// More draws are not needed for something that succeeds a quarter of the time.
 constexpr int kTries = 200;
 constexpr std::uint64_t kPoseStream = 0x706f7365;
 
-// As many weak ones as strong ones on a scale of ratios.
+// As many weak as strong ones, on a logarithmic scale.
 double UniformRatio(double low, double high, Random* dice) {
   return low * std::exp(dice->Uniform(0, std::log(high / low)));
 }
@@ -53,7 +53,7 @@ SonarModel FleetDraw::Sonar(SonarModel sonar) const {
   return sonar;
 }
 
-// Alone, with each that is there already, and before what stands.
+// Alone, with each vehicle that is there already, and near static objects.
 bool FleetDraw::ComesOut(const VehicleOptions& options) const {
   const auto with = [&](const VehicleOptions& other) {
     return SumOf(options, other, delay_s_).ComesOut();

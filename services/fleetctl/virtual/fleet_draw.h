@@ -13,13 +13,13 @@
 
 namespace giveway::fleetctl {
 
-// What the operator asked for.
+// The operator's choice.
 struct FleetChoice {
   bool mixed_robots = false;     // else Pioneers as the place has them
   std::vector<SonarTier> tiers;  // a seed draws one; empty: the place's own
   double least_slip = 0;         // of wheel slip and of encoder noise: share of a wheel's speed
   double most_slip = 0;
-  double least_wheel_error = 0;  // of diameter and axle, either way: share
+  double least_wheel_error = 0;  // of diameter and axle, either sign: share
   double most_wheel_error = 0;
   PoseFixModel pose_fix;               // not fitted: the place's own
   std::optional<double> pose_limit_m;  // absent: the usual one with fixes or wheel errors
@@ -30,11 +30,11 @@ class FleetDraw {
   // Bodies up to most_radius_m. `delay_s` is the longest transit time of a beacon.
   FleetDraw(const FleetChoice& choice, double most_radius_m, double delay_s, Random dice);
 
-  // The place's ultrasonics: the tier drawn, or as they were.
+  // The place's ultrasonics: the drawn tier, or unchanged.
   SonarModel Sonar(SonarModel sonar) const;
-  // Makes the next vehicle of the fleet of one that has its id and behaviour.
+  // Turns a vehicle with its id and behaviour into the next vehicle of the fleet.
   void Take(VehicleOptions* options);
-  // Draws that no brakes could make good, so far.
+  // The number of draws so far that no brakes could have made safe.
   std::uint32_t Refused() const { return refused_; }
 
  private:
@@ -46,7 +46,7 @@ class FleetDraw {
   double most_radius_m_;
   double delay_s_;
   Random dice_;
-  Random pose_dice_;  // apart, so that robots are what they are without
+  Random pose_dice_;  // separate, so that robots do not depend on it
   std::optional<SonarTier> tier_;
   std::vector<VehicleOptions> taken_;
   std::uint32_t refused_ = 0;

@@ -29,7 +29,7 @@ bool ShowProgress(const VirtualCase& smallest, std::uint32_t tries) {
   return Interrupts::Count() == 0;
 }
 
-// NAME.faults.textproto of NAME.textproto.
+// The name NAME.faults.textproto for NAME.textproto.
 std::string FaultFileOf(const std::string& file) {
   constexpr std::string_view kEnding = ".textproto";
   const std::string name =
@@ -46,7 +46,7 @@ std::string Comment(const CaseMaker& maker, const ShrinkOptions& options, const 
       Number(shrunk.violation.tick), file, ReplayFlags(shrunk.made.plan, FaultFileOf(file)));
 }
 
-// An expectation speaks of vehicles by name: a smaller run that misses it too would show nothing.
+// An expectation names vehicles: a smaller run that also misses it would show nothing.
 int TellThatNothingBreaks(const CaseMaker& maker, std::uint32_t seed, const VirtualCase& made) {
   fmt::print("{} with seed {} breaks no invariant\n", maker.Name(), seed);
   if (!maker.HasExpectations()) return 0;
@@ -65,7 +65,7 @@ std::string ReplayFlags(const sim::VirtualPlan& plan, const std::string& fault_f
     if (value > 0) flags += fmt::format(" {} {}", flag, value);
   };
   if (radio.burst.enter > 0) {
-    // The share of bad links is the loss that was asked for.
+    // The share of bad links is the requested loss.
     add("--loss", 100 * radio.burst.enter / (radio.burst.enter + radio.burst.leave));
     flags += " --burst";
   } else {

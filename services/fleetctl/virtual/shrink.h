@@ -1,6 +1,6 @@
 // The verb `fleetctl shrink`: reduces a failing virtual run to a small one that still fails, and
-// writes it as a scenario file, and what is left of a schedule of faults as a fault file. Values
-// in; the exit code out.
+// writes it as a scenario file, and the rest of its fault schedule as a fault file. Values in; the
+// exit code out.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@ struct ShrinkOptions {
 // 1 if the run fails and the file is written, 0 if it does not fail, 2 if it could not run.
 int RunShrink(const ShrinkOptions& options);
 
-// The flags of `fleetctl virtual` that replay the plan on the file: empty where nothing goes wrong.
-// Its schedule, where it has one, is read from `fault_file`.
+// The flags of `fleetctl virtual` that replay the plan on the file: empty if nothing goes wrong.
+// The schedule, if there is one, is read from `fault_file`.
 std::string ReplayFlags(const sim::VirtualPlan& plan, const std::string& fault_file);
 
 }  // namespace giveway::fleetctl

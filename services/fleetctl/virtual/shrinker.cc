@@ -11,9 +11,9 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr double kAfterwards_s = 1;  // left to a run beyond the violation
-constexpr double kSpare_s = 60;      // beyond the free-flow time, for those who are to arrive
+constexpr double kSpare_s = 60;      // beyond the free-flow time, for vehicles that are to arrive
 
-// Who is gone is neither crashed, paused nor expected.
+// A removed vehicle is neither crashed, paused nor expected.
 void RemoveVehicles(std::size_t first, std::size_t count, VirtualCase* made) {
   auto& vehicles = made->scenario.vehicles;
   const auto begin = vehicles.begin() + static_cast<std::ptrdiff_t>(first);
@@ -74,7 +74,7 @@ class Shrinker {
     return true;
   }
 
-  // The file holds rounded numbers; where these do not fail, it will hold all digits.
+  // The file has rounded numbers; if these do not fail, it will have all digits.
   void TryRounded() {
     VirtualCase rounded = best_;
     rounded.scenario = RoundedAsWritten(rounded.scenario);
@@ -96,8 +96,8 @@ class Shrinker {
     return smaller;
   }
 
-  // As vehicles: a schedule has many faults, and most have nothing to do with it. What a rule draws
-  // for one hangs on no other.
+  // As for vehicles: a schedule has many faults, and most are unrelated. A rule's draws for one do
+  // not depend on another.
   bool LeaveOutScheduled() {
     bool smaller = false;
     const std::size_t all = best_.plan.schedule.size();
@@ -153,7 +153,7 @@ class Shrinker {
     return smaller;
   }
 
-  // A run that is to show who does not arrive must leave the time to.
+  // A run that shows which vehicles do not arrive must leave the time to.
   bool CutTime() {
     double needed_s = Number(violation_.tick) * Seconds(best_.scenario.tick_period) + kAfterwards_s;
     if (broken_ == sim::Invariant::kArrival) {

@@ -1,5 +1,5 @@
-// Makes a failing virtual run small: leaves out vehicles, faults, walls and what goes wrong on the
-// radio, and cuts the time, as long as the same invariant breaks.
+// Makes a failing virtual run small: removes vehicles, faults, walls and radio faults, and shortens
+// the time, as long as the same invariant breaks.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@ namespace giveway::fleetctl {
 
 struct Shrunk {
   VirtualCase made;
-  sim::Violation violation;  // the first of its invariant in the run that is left
+  sim::Violation violation;  // the first of its invariant in the remaining run
   std::uint32_t tries = 0;
 };
 
-// Called before every try. False: enough, take what there is.
+// Called before every try. False: stop, and take the result so far.
 using ShrinkProgress = std::function<bool(const VirtualCase& smallest, std::uint32_t tries)>;
 
-// Nothing if no invariant breaks in the run.
+// nullopt if no invariant breaks in the run.
 std::optional<Shrunk> Shrink(const VirtualCase& failing, const ShrinkProgress& progress);
 
 }  // namespace giveway::fleetctl

@@ -28,7 +28,7 @@ double Percentile(const std::vector<double>& sorted, double share) {
   return sorted[rank];
 }
 
-// Of those by which a run fails.
+// Those that make a run fail.
 std::string BrokenNames(const std::vector<BrokenInvariant>& violations,
                         sim::InvariantSet required) {
   std::string names;
@@ -76,7 +76,7 @@ VirtualReport ReportOf(const BatchTotals& totals, double wall_s, sim::InvariantS
   return report;
 }
 
-// A bar on stderr where that is a terminal.
+// A progress bar on stderr if that is a terminal.
 class ProgressBar {
  public:
   explicit ProgressBar(std::uint64_t runs) : runs_(runs), shown_(::isatty(STDERR_FILENO) == 1) {}

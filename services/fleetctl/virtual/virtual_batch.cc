@@ -12,7 +12,7 @@ namespace {
 // A sum over the seeds is the same in any order.
 std::uint64_t OfOneRun(std::uint32_t seed, std::uint64_t hash) { return Random(hash, seed).Next(); }
 
-// Which they are must not hang on which thread was first.
+// The selection must not depend on which thread was first.
 constexpr std::size_t kViolationsShown = 100;
 
 void KeepFirst(std::vector<SeedViolation>* violations) {
@@ -20,7 +20,7 @@ void KeepFirst(std::vector<SeedViolation>* violations) {
   if (violations->size() > kViolationsShown) violations->resize(kViolationsShown);
 }
 
-// Those that fail the run before those that do not, each kind once.
+// Those that make the run fail come first, each kind once.
 std::vector<SeedViolation> FirstOf(std::uint32_t seed, const sim::VirtualOutcome& outcome) {
   std::vector<SeedViolation> first;
   for (const auto* violations : {&outcome.first, &outcome.noted}) {

@@ -1,5 +1,5 @@
-// Many virtual runs at once, one thread a run, and what they came to together. The result does not
-// depend on how many threads there were.
+// Many virtual runs in parallel, one thread per run, and their combined result, which does not
+// depend on the number of threads.
 #pragma once
 
 #include <array>
@@ -28,7 +28,8 @@ struct BatchTotals {
   std::optional<double> separation_m;
   TrustCounters trust;
   std::uint64_t hash = 0;
-  // Of each seed the first of each invariant; of the first seeds, as many as a report shows.
+  // The first violation of each invariant for each seed; of the first seeds, as many as a report
+  // shows.
   std::vector<SeedViolation> first_violations;
   std::uint32_t vehicles = 0;
   std::uint32_t arrived = 0;
@@ -37,7 +38,7 @@ struct BatchTotals {
   void Add(std::uint32_t seed, const sim::VirtualOutcome& outcome, bool judge_expectations);
 };
 
-// Called now and then from the thread that started the batch. False: stop soon.
+// Called from time to time from the thread that started the batch. False: stop soon.
 using BatchProgress = std::function<bool(const BatchTotals& so_far)>;
 
 BatchTotals RunBatch(const CaseMaker& maker, const WholeRange& seeds, std::uint32_t jobs,

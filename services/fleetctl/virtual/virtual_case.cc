@@ -15,7 +15,7 @@ namespace {
 
 constexpr WholeRange kDefaultVehicles{6, 6};
 constexpr std::uint64_t kDraws = 0x5eed;   // a stream separate from the generators'
-constexpr std::uint64_t kRobots = 0xb0d1;  // and that of the robots
+constexpr std::uint64_t kRobots = 0xb0d1;  // and that for robots
 constexpr double kMeanBurst_ticks = 5;
 // Faults fall into the time in which paths cross.
 constexpr NumberRange kFaultTime_s{2, 25};
@@ -29,7 +29,7 @@ sim::RadioSettings RadioOf(const CaseOptions& options, Random* dice) {
   sim::RadioSettings radio;
   const double loss = dice->Uniform(options.loss_percent.low, options.loss_percent.high) / 100;
   if (options.burst && loss > 0) {
-    // Links are bad for the share of time that is to be lost, and then lose everything.
+    // Links are bad for the share of time that equals the loss, and then lose everything.
     radio.burst.leave = 1 / kMeanBurst_ticks;
     radio.burst.enter = std::min(0.8, radio.burst.leave * loss / (1 - loss));
   } else {
@@ -43,7 +43,7 @@ sim::RadioSettings RadioOf(const CaseOptions& options, Random* dice) {
   return radio;
 }
 
-// An open fleet as it stands when it starts: who joins first gets the first place.
+// An open fleet at its start: the first to join gets the first place.
 void FillPlaces(std::uint32_t count, Scenario* scenario) {
   const std::set<VehicleId> ids = IdsOf(*scenario).joining;
   auto id = ids.begin();
@@ -58,7 +58,7 @@ void FillPlaces(std::uint32_t count, Scenario* scenario) {
 
 void AddFaults(sim::ProcessFaultKind kind, const WholeRange& range, const Scenario& scenario,
                Random* dice, std::vector<sim::ProcessFault>* faults) {
-  // A number that is given draws nothing: seeds mean what they meant before there were ranges.
+  // A fixed number draws nothing: seeds mean what they meant before there were ranges.
   const std::uint32_t count = range.low == range.high ? range.low : Draw(range, dice);
   for (std::uint32_t i = 0; i < count; ++i) {
     const std::size_t victim = dice->Next() % scenario.vehicles.size();
@@ -81,7 +81,7 @@ void AddNamed(const sim::ProcessFault& fault, VirtualCase* made) {
   made->plan.faults.push_back(fault);
 }
 
-// One fault a rule, for its kind and target.
+// One fault per rule, for its kind and target.
 faults::Schedule AskedFor(const faults::FaultFile& file) {
   using What = faults::Target::What;
   using Targets = faults::Targets::What;
@@ -98,8 +98,8 @@ faults::Schedule AskedFor(const faults::FaultFile& file) {
   return asked;
 }
 
-// A list without anything random is taken as it is, however long the run: what is left of a longer
-// one by `fleetctl shrink` too.
+// A list without anything random is taken unchanged, however long the run: also the rest of a
+// longer one by `fleetctl shrink`.
 faults::Course CourseOf(const faults::FaultFile& file, const Scenario& scenario,
                         std::uint32_t seed) {
   faults::Course course{.seed = seed, .duration_s = scenario.duration_s};

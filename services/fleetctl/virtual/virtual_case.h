@@ -25,10 +25,10 @@ struct NumberRange {
   double high = 0;
 };
 
-// How much is looked at of a scenario that lasts until it is stopped.
+// How long a scenario without an end is run.
 inline constexpr double kEndless_s = 600;
 
-// What the operator asked for. Where a range is given, each seed draws its own value from it.
+// The operator's choice. From a range, each seed draws its own value.
 struct CaseOptions {
   std::string scenario;                // a file, a shipped one, or a generator
   std::optional<WholeRange> vehicles;  // of a generator, or of an open fleet
@@ -43,12 +43,12 @@ struct CaseOptions {
   double reorder_percent = 0;
   double duplicate_percent = 0;
   bool loops_back = false;  // every vehicle receives its own beacons too
-  WholeRange crashes;       // vehicles that die, pause, or start again, each at a time drawn
+  WholeRange crashes;       // vehicles that die, pause, or restart, each at a random time
   WholeRange pauses;
   WholeRange restarts;
-  std::vector<sim::ProcessFault> faults;    // on top of those drawn
-  std::string fault_file;                   // a file or a shipped one; empty: none
-  bool skip_unsupported = false;            // of the file what a virtual run cannot do
+  std::vector<sim::ProcessFault> faults;  // in addition to drawn ones
+  std::string fault_file;                 // a file or a shipped one; empty: none
+  bool skip_unsupported = false;  // of the file's faults those that a virtual run cannot inject
   std::optional<std::uint32_t> radio_seed;  // absent: the seed
 };
 
@@ -59,19 +59,18 @@ struct VirtualCase {
 
 class CaseMaker {
  public:
-  // Throws InputError where the scenario is neither a file nor a generator, or has no place
-  // for so many vehicles, and where the fault file is none, or asks for what a virtual run cannot
-  // do.
+  // Throws InputError if the scenario is neither a file nor a generator, or has too few places, or
+  // if the fault file is invalid, or asks for what a virtual run cannot inject.
   explicit CaseMaker(const CaseOptions& options);
 
-  // Throws InputError where the fault file does not fit the vehicles that the seed drew.
+  // Throws InputError if the fault file does not fit the vehicles that the seed drew.
   VirtualCase Make(std::uint32_t seed) const;
   const std::string& Name() const { return name_; }
-  // What of each seed there is in the schedule of a fault file; nothing without one.
+  // The fault schedule of each seed, from a fault file; nullopt without one.
   faults::Schedule ScheduleOf(const Scenario& scenario, std::uint32_t seed) const;
-  // True if the scenario states what it expects of a run: a file's does.
+  // True if the scenario states expectations: a file's does.
   bool HasExpectations() const { return loaded_.has_value(); }
-  // A line about what of the scenario is not carried out; empty if all of it is.
+  // A line about what of the scenario is left out; empty if nothing is.
   std::string Remark() const;
 
  private:
@@ -83,9 +82,9 @@ class CaseMaker {
   CaseOptions options_;
   std::string name_;
   const sim::Generator* generator_ = nullptr;
-  std::optional<Scenario> loaded_;  // with seed 0: as it stands in the file
+  std::optional<Scenario> loaded_;  // with seed 0: as in the file
   std::optional<faults::FaultFile> fault_file_;
-  std::string left_out_;  // what of it is not carried out, in words
+  std::string left_out_;  // what of it is left out, as text
 };
 
 }  // namespace giveway::fleetctl

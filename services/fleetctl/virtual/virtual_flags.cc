@@ -39,7 +39,7 @@ NumberRange NumbersOf(const std::string& flag, const std::string& text, double l
       flag, fmt::format("{} to {}, a number or LO..HI, not '{}'", least, most, text));
 }
 
-// In percent: a sign behind each number may say so.
+// In percent: each number may have a percent sign.
 std::string WithoutPercentSigns(std::string text) {
   const std::size_t dots = text.find("..");
   if (text.ends_with("%")) text.pop_back();
@@ -112,7 +112,7 @@ void AddCountFlag(CLI::App* verb, const std::string& flag, WholeRange* counts,
       description + ", or LO..HI");
 }
 
-// The first of the flags, for those after it say more.
+// The first group of flags.
 void AddFleetFlag(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option_function<std::string>(
           "--fleet",

@@ -1,4 +1,4 @@
-// The flags that say what a seed means; shared by the verbs that run virtual fleets.
+// The flags that define what a seed means; shared by the verbs that run virtual fleets.
 #pragma once
 
 #include <CLI/CLI.hpp>

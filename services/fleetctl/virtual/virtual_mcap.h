@@ -1,5 +1,5 @@
-// A virtual run as the recording a recorder would have made of it: what bodies, brains and world
-// say in each tick, with the times of the run.
+// Writes a virtual run as the recording that a recorder would have made: what bodies, brains and
+// world publish in each tick, with the times of the run.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace giveway::fleetctl {
 
 class VirtualRecording {
  public:
-  // Makes the file. Throws OutputError.
+  // Creates the file. Throws OutputError.
   explicit VirtualRecording(const std::string& path);
 
   void Note(const sim::VirtualFleet& fleet);
-  // Throws OutputError where the file could not be written.
+  // Throws OutputError if the file could not be written.
   void Close();
 
  private:

@@ -35,7 +35,7 @@ void AppendTruths(const sim::VirtualFleet& fleet, std::vector<Track>* tracks) {
   }
 }
 
-// Violations as text under the trace, so that one file has everything.
+// Violations as text after the trace, so that one file has everything.
 void AppendVerdict(const sim::VirtualOutcome& outcome, std::string* text) {
   for (const sim::Violation& violation : outcome.first) {
     *text +=
@@ -44,7 +44,7 @@ void AppendVerdict(const sim::VirtualOutcome& outcome, std::string* text) {
   }
 }
 
-// The picture's headline is the verdict of the invariants.
+// The headline of the picture is the verdict of the invariants.
 void JudgeByInvariants(const sim::VirtualOutcome& outcome, std::vector<WorldEvent>* events) {
   for (WorldEvent& event : *events) {
     if (event.kind != EventKind::kVerdict) continue;

@@ -7,7 +7,7 @@
 
 namespace giveway::fleetctl {
 
-// What is written of a run; an empty name asks for nothing.
+// The files to write for a run; an empty name writes nothing.
 struct ShownFiles {
   std::string picture;
   std::string trace;
@@ -16,7 +16,7 @@ struct ShownFiles {
   bool Any() const { return !picture.empty() || !trace.empty() || !mcap.empty(); }
 };
 
-// Runs the case and writes what is asked for. Throws OutputError.
+// Runs the case and writes the requested files. Throws OutputError.
 void ShowRun(const VirtualCase& made, const ShownFiles& files);
 
 }  // namespace giveway::fleetctl

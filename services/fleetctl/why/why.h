@@ -1,5 +1,5 @@
 // The verb `fleetctl why A B`: can A hear B? Finds both among the processes of this machine,
-// predicts, verifies by a probe, prints. Values in; the exit code out.
+// predicts, verifies with a probe, prints. Values in; the exit code out.
 #pragma once
 
 #include <filesystem>
@@ -25,17 +25,17 @@ struct WhyOptions {
   Named hearer;
   Named speaker;
   std::optional<std::uint32_t> domain;  // only processes of this one
-  std::optional<double> seconds;        // the probe listens at most so long; see ListenSeconds
+  std::optional<double> seconds;        // the longest time the probe listens; see ListenSeconds
   bool probe = true;
   bool json = false;
 };
 
-// "2", "world", "pid:1234"; nothing if it is none of these.
+// "2", "world", "pid:1234"; nullopt for anything else.
 std::optional<Named> ParseNamed(const std::string& text);
 std::string TextOf(const Named& named);
 
-// Which of the members are meant; 0 where there is none. Where several fit, those of one domain
-// belong together. Nothing can be chosen: what to say.
+// The chosen members; 0 if there is none. If several fit, those of one domain belong together. If
+// there is no choice: the message.
 struct ChosenPair {
   int hearer = 0;
   int speaker = 0;

@@ -35,7 +35,7 @@ std::int64_t NumberOr(std::int64_t otherwise, const ProcessSituation& process, q
   return ParticipantNumber(process, policy).value_or(otherwise);
 }
 
-// Where the first announcement goes: a multicast port that follows from the domain.
+// The target of the first announcement: a multicast port that depends on the domain.
 std::int64_t DiscoveryPort(const ProcessSituation& process) {
   return NumberOr(7400, process, qos::Policy::kPortBase) +
          NumberOr(250, process, qos::Policy::kDomainGain) * process.told.domain +
@@ -105,8 +105,8 @@ std::int64_t PeersRange(const ProcessSituation& process) {
   return range;
 }
 
-// True if the first announcements of `from` do not reach `to`: it asks a list of hosts, there only
-// the first few participants, and `to` is none of them.
+// True if the first announcements of `from` do not reach `to`: it contacts a list of hosts, only
+// the first few participants of each, and `to` is not one of them.
 bool AsksInVain(const ProcessSituation& from, const ProcessSituation& to) {
   const qos::Participation* const participation = ParticipationOf(from);
   if (participation == nullptr || participation->peers_without_port == 0) return false;
@@ -198,7 +198,8 @@ void CheckDiscovery(const ProcessSituation& hearer, const ProcessSituation& spea
   };
   const std::string values = Both(hearer, text(*a), speaker, text(*b));
   if (*a == qos::kNone || *b == qos::kNone) {
-    Add(Weight::kPrevents, "discovery_off", values, "A participant without discovery finds no peers.",
+    Add(Weight::kPrevents, "discovery_off", values,
+        "A participant without discovery finds no peers.",
         "discoveryProtocol SIMPLE or CLIENT in both profile sets", causes);
   } else if (IsClient(*a) != IsClient(*b)) {
     Add(Weight::kPrevents, "discovery_apart", values,

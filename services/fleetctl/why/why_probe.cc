@@ -25,7 +25,7 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr Nanoseconds kTurn = std::chrono::milliseconds(5);
-// A vehicle publishes its status five times a second, and may itself be a moment behind the probe.
+// A vehicle publishes its status five times a second, and may lag a little behind the probe.
 constexpr double kOwnWordSeconds = 2.5;
 constexpr double kRunTimeMs = 2000;
 constexpr Nanoseconds kNamesTime = std::chrono::seconds(2);
@@ -87,7 +87,7 @@ class Probing {
  public:
   explicit Probing(const ProbeOrder& order)
       : order_(order), observer_(OptionsOf(order.hearer.told)), since_(SteadyNow()) {
-    // Blackouts are counted from the start of the run: the world says how long ago that was.
+    // Blackouts count from the start of the run: the world publishes how long ago that was.
     while (HasBlackouts() && !run_began_ && SinceMs() < kRunTimeMs) {
       SleepUntil(SteadyNow() + kTurn);
       NoteOwnWord(observer_.Take());
@@ -136,7 +136,7 @@ class Probing {
     });
     return all && (OwnWordFits() || seconds >= kOwnWordSeconds);
   }
-  // Whether discovery has reported what a hearer that cannot be asked reads.
+  // Whether discovery has reported the readers of a hearer that does not answer.
   bool HasFits() const {
     return std::ranges::all_of(order_.topics, [&](const TopicOutlook& topic) {
       const auto found = result_.topics.find(topic.topic);
@@ -168,14 +168,15 @@ class Probing {
     probed->unfit = probed->fits ? "" : unfit;
   }
 
-  // It said something, and of a hearer of beacons that it took some: else it is given time to.
+  // It published a status, and one of a hearer of beacons says that it took some; else it gets more
+  // time.
   bool OwnWordFits() const {
     if (!order_.hearer_here) return HasFits();
     if (order_.hearer.told.is_world) return true;
     return result_.own_word && (order_.speaker.told.is_world || result_.own_word->taken > 0);
   }
 
-  // In containers every service is process 1: where both ids are known they must be the same.
+  // In containers every service is process 1: if both ids are known they must be the same.
   static bool MayBe(const ProcessSituation& meant, const link::EarProcess& process) {
     return meant.told.id == kNobody || process.vehicle == kNobody ||
            meant.told.id == process.vehicle;
@@ -237,7 +238,7 @@ class Probing {
   ProbeResult result_;
 };
 
-// One line a fact; the first word says which.
+// One fact per line; the first word says which.
 std::string Written(const ProbeResult& result) {
   std::string text = fmt::format("listened {}\n", result.listened_ms);
   if (result.discovered) {
@@ -309,7 +310,7 @@ ProbeResult Understood(const std::string& text) {
   return result;
 }
 
-// What each process calls itself, by the low half of its process id.
+// The name each process gives itself, by the low half of its process id.
 std::string NamesHeard(const Instructions& told, std::set<std::uint16_t> wanted) {
   link::Ear ear(OptionsOf(told), {}, kNobody);
   std::string text;
@@ -325,8 +326,8 @@ std::string NamesHeard(const Instructions& told, std::set<std::uint16_t> wanted)
   return text;
 }
 
-// What `listen` reports from a child process that has taken the place of another; "trouble WHY"
-// where it could not.
+// What `listen` reports from a child process in the place of another; "trouble WHY" if it could
+// not.
 std::string InPlaceOf(const ProcessSituation& process, const std::function<std::string()>& listen) {
   const auto in_its_place = [&] {
     try {

@@ -1,5 +1,5 @@
-// What `fleetctl why` found, put together and printed. Pure: predicted and probed in, verdicts,
-// text and exit code out.
+// The result of `fleetctl why`, combined and printed. Pure: prediction and probe in, verdicts, text
+// and exit code out.
 #pragma once
 
 #include <optional>
@@ -17,10 +17,11 @@ struct WhyReport {
   bool hearer_here = true;  // it is on this machine
   bool foretold = true;     // false: one of the two is not
   std::vector<TopicOutlook> topics;
-  // Found by the probe alone; here and below. Without a place in a world a vehicle talks to worlds.
+  // Found by the probe alone; here and below. Without a place in a world a vehicle communicates
+  // only with worlds.
   bool hearer_without_place = false;
   bool speaker_without_place = false;
-  std::optional<ProbeResult> probe;  // absent: not asked for
+  std::optional<ProbeResult> probe;  // absent: not requested
   std::vector<std::string> not_known;
   std::optional<std::uint16_t> host_id;  // of the speaker, as predicted
 };
@@ -29,25 +30,24 @@ enum class Verdict : std::uint8_t { kHears, kDoesNot, kNotKnown };
 
 struct TopicVerdict {
   Verdict verdict = Verdict::kNotKnown;
-  bool disagree = false;    // of what was predicted with what was probed
+  bool disagree = false;    // prediction and probe
   std::string explanation;  // "predicted: hears; probed: heard 40 samples, the first after 31 ms"
 };
 
-// At most how long the probe listens by default: longer where something should be heard, for
-// through a channel that loses packets discovery takes its time.
+// The default time limit of the probe: longer if something should be received, because discovery
+// takes time through a lossy channel.
 double ListenSeconds(const std::vector<TopicOutlook>& topics);
 
-// Adds the reason that no file of /proc shows and the probe does: a vehicle that has no place in a
-// world yet.
+// Adds the reason that only the probe shows, not /proc: a vehicle that has no place in a world yet.
 void AddNotJoined(const ProcessSituation& hearer, const ProcessSituation& speaker,
                   WhyReport* report);
 
-// Adds what discovery reports of endpoints that will not match, where that could not be predicted
-// because one of the two is no process that can be seen.
+// Adds what discovery reports of endpoints that will not match, if that could not be predicted
+// because one of the two processes is not visible.
 void AddUnfit(WhyReport* report);
 
 TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic);
-// What the hearer's own status says against the verdict; empty if it agrees or says nothing.
+// A contradiction between the hearer's own status and the verdict; empty if there is none.
 std::string Contradiction(const WhyReport& report);
 
 std::string ToText(const WhyReport& report);

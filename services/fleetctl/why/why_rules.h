@@ -1,5 +1,5 @@
-// Whether one process can hear another, predicted from where both stand. Pure: two situations in,
-// for each topic an outlook and its causes out. A probe (why_probe.h) then shows whether it is so.
+// Predicts whether one process can hear another, from the situations of both. Pure: two situations
+// in, for each topic an outlook and its causes out. A probe (why_probe.h) then verifies it.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ enum class Outlook : std::uint8_t {
 enum class Weight : std::uint8_t {
   kPrevents,
   kMayPrevent,
-  kBeside,  // does not prevent it, but should be known
+  kBeside,  // does not prevent it, but should be reported
 };
 
 struct Cause {
   qos::Finding finding;
   Weight weight = Weight::kPrevents;
-  // False if it is about the hearing process alone: another reader in its place would hear.
+  // False if it is only about the hearing process: another reader in its place would receive.
   bool in_place = true;
 };
 using Causes = std::vector<Cause>;
@@ -36,19 +36,19 @@ struct TopicOutlook {
   std::string topic;
   std::string read_in;  // the partition of the hearer's reader
   Outlook outlook = Outlook::kHears;
-  Outlook in_place = Outlook::kHears;  // of another reader in the hearer's place
-  Causes causes;                       // what prevents comes first, in the order of cause
+  Outlook in_place = Outlook::kHears;  // for another reader in the hearer's place
+  Causes causes;                       // those that prevent it come first, in the order of cause
 };
 
-// What the hearer reads of the speaker: vehicles of one another beacons, and of the world what the
-// vehicle is fitted with. Nothing between two worlds.
+// What the hearer reads of the speaker: between vehicles beacons, and of the world the data of the
+// vehicle's sensors. Nothing between two worlds.
 std::vector<TopicOutlook> TopicsBetween(const Instructions& hearer, const Instructions& speaker);
 
-// `vehicles` is how many vehicles speak in the hearer's domain, as far as is known.
+// `vehicles`: the number of vehicles in the hearer's domain, as far as is known.
 std::vector<TopicOutlook> Predict(const ProcessSituation& hearer, const ProcessSituation& speaker,
                                   std::uint32_t vehicles);
 
-// The rules, by what they look at; each adds what it finds, in the order of cause.
+// The rules, by subject; each adds its findings, in the order of cause.
 void CheckDomains(const ProcessSituation& hearer, const ProcessSituation& speaker, Causes* causes);
 void CheckNetworks(const ProcessSituation& hearer, const ProcessSituation& speaker, Causes* causes);
 void CheckSharedMemory(const ProcessSituation& hearer, const ProcessSituation& speaker,

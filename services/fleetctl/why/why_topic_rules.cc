@@ -1,4 +1,4 @@
-// Partitions, QoS and impairments: whether two that meet also hear each other on a topic.
+// Partitions, QoS and impairments: whether two participants that meet also communicate on a topic.
 #include <fmt/format.h>
 #include <fnmatch.h>
 
@@ -81,8 +81,8 @@ bool LosesMuch(const ImpairmentRule& rule) {
   return rule.loss >= kMuchLoss || rule.burst * rule.burst_loss >= kMuchLoss;
 }
 
-// The rule that the hearer's packets from the speaker meet: of those that fit and always hold the
-// last.
+// The rule that applies to the hearer's packets from the speaker: the last of those that match and
+// are always active.
 const ImpairmentRule* RuleBetween(const ProcessSituation& hearer, const Instructions& speaker) {
   const ImpairmentRule* last = nullptr;
   for (const ImpairmentRule& rule : hearer.told.impairment.rules) {

@@ -24,8 +24,8 @@ struct SoakOptions {
   std::uint32_t ring_s = 0;       // length of each ring; 0: everything, if `record` is set
   bool in_virtual_time = false;   // no processes: see soak_virtual.h
   std::string resume;             // continues in this report folder; empty: starts a new one
-  std::string around;  // runs nothing: a folder, see soak_around.h; empty: not requested
-  bool json = false;   // the report as one JSON object on stdout and nothing else
+  std::string around;             // runs nothing: a folder, see soak_around.h; empty: not requested
+  bool json = false;              // the report as one JSON object on stdout and nothing else
 };
 
 }  // namespace giveway::fleetctl

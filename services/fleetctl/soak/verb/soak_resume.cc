@@ -121,9 +121,8 @@ faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double war
     if (fault.at_s >= warm_up_s) {
       rest.push_back(std::move(fault));
     } else {
-      lost->push_back(
-          fmt::format("{}#{} at {:.1f} s: fell into the start of the resumed fleet",
-                      fault.rule, fault.nth, fault.at_s + from_s));
+      lost->push_back(fmt::format("{}#{} at {:.1f} s: fell into the start of the resumed fleet",
+                                  fault.rule, fault.nth, fault.at_s + from_s));
     }
   }
   return rest;

@@ -191,7 +191,8 @@ TEST_F(WhyChoice, WhoIsNotHereIsNobodyAndTwoOfThemAreTooMany) {
 }
 
 TEST_F(WhyChoice, NobodyHearsItself) {
-  EXPECT_THAT(Complaint({kThree, Named{.pid = 23}, {}}), HasSubstr("a process does not receive itself"));
+  EXPECT_THAT(Complaint({kThree, Named{.pid = 23}, {}}),
+              HasSubstr("a process does not receive itself"));
 }
 
 // A foreign vehicle that heard 36 samples was "no process of this machine", and the exit code 1.
