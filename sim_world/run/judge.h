@@ -6,6 +6,7 @@
 // with the axle centre within the goal's radius, and it has not left the circle since. Driving
 // through does not count, and a vehicle that leaves again has not arrived. A looping route has no
 // goal.
+#pragma once
 
 #include <cstdint>
 #include <optional>
