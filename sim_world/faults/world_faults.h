@@ -54,7 +54,7 @@ class WorldFaults {
   std::span<const faults::Fault* const> Begun() const { return begun_; }
   std::span<const faults::Fault* const> Ended() const { return ended_; }
 
-  // What a checkpoint keeps of an active fault. Earlier ultrasonic readings are not part of it: in
+  // What a checkpoint keeps of an active fault. Previous ultrasonic readings are not part of it: in
   // a restarted world stuck sensors stick to their first reading, and delayed ones start their
   // delay again.
   struct HeldWheels {

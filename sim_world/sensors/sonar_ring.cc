@@ -10,7 +10,7 @@
 namespace giveway::sim {
 namespace {
 
-// Gathered objects may be this much beyond hearing range, so that rounding loses none.
+// Objects in the list may be this much beyond hearing range, so that rounding loses none.
 constexpr double kRingSlack_m = 1e-9;
 
 void Keep(RangeReading* reading, std::optional<double> range_m) {

@@ -91,7 +91,7 @@ class Session {
       const std::size_t fleets = std::min<std::size_t>(options_.fleets, tasks_.size());
       for (std::size_t i = 0; i < fleets; ++i) threads.emplace_back([this] { Work(); });
     }
-    // Earlier measurements are shown all the same.
+    // Previous measurements are shown all the same.
     if (error_ && trials_.empty()) std::rethrow_exception(error_);
     if (next_ < tasks_.size() && report_.problems.empty()) report_.problems = {"interrupted"};
     report_.vehicles = options_.vehicles;
