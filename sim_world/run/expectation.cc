@@ -8,7 +8,7 @@ namespace giveway::sim {
 namespace {
 
 std::string Text(const std::vector<VehicleId>& vehicles) {
-  if (vehicles.empty()) return "nobody";
+  if (vehicles.empty()) return "none";
   std::string text;
   for (const VehicleId vehicle : vehicles) {
     if (!text.empty()) text += ' ';

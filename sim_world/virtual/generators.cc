@@ -10,23 +10,23 @@ namespace giveway::sim {
 namespace {
 
 constexpr std::array kGenerators = {
-    Generator{"crossing", "four roads meet, everyone drives straight across", 0.45, 2,
+    Generator{"crossing", "four roads meet, all vehicles drive straight across", 0.45, 2,
               MakeCrossing},
     Generator{"roundabout", "four roads meet in a ring", 0.4, 3, MakeRoundabout},
     Generator{"corridor", "a narrow passage with traffic from both ends", 0.25, 14, MakeCorridor},
     Generator{"merge", "a ramp joins a road", 0.4, 2, MakeMerge},
     Generator{"warehouse", "racks, aisles, a road along either side", 0.3, 4, MakeWarehouse},
     Generator{"swarm", "random starts and goals in an open field", 0.45, 2, MakeSwarm},
-    Generator{"convoy", "one lane, everyone the same way, at different speeds", 0.45, 2,
-              MakeConvoy},
-    Generator{"door", "two rooms, a door of 0.9 to 1.8 m, traffic both ways", 0.3, 3.2, MakeDoor},
-    Generator{"one_lane", "a passage one body wide, traffic both ways", 0.3, 15, MakeOneLane},
-    Generator{"antipodal", "a circle, everyone to the opposite side", 0.4, 2, MakeAntipodal},
+    Generator{"convoy", "one lane in one direction, at different speeds", 0.45, 2, MakeConvoy},
+    Generator{"door", "a door of 0.9 to 1.8 m, traffic in both directions", 0.3, 3.2, MakeDoor},
+    Generator{"one_lane", "a passage one body wide, traffic in both directions", 0.3, 15,
+              MakeOneLane},
+    Generator{"antipodal", "a circle, each vehicle to the opposite side", 0.4, 2, MakeAntipodal},
     Generator{"parking", "bays along an aisle, one half drives in, the other out", 0.4, 4,
               MakeParking},
     Generator{"shared_goal", "two or three want the same place: one of them arrives", 0.45, 2,
               MakeSharedGoal},
-    Generator{"mixed_yard", "pallets, posts and walls beside the ways, and one that walks about",
+    Generator{"mixed_yard", "pallets, posts and walls close to the paths, and a moving obstacle",
               0.4, 2, MakeMixedYard},
 };
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Who may give orders: nobody unless a service was told so; with a key who has it; without one
-# anybody, where --admin says so. Prints a line a row, "ok" or "FAILED".
+# Which orders a service accepts: none by default; with a key only those sealed with it; with --admin
+# and no key all. Prints a line a row, "ok" or "FAILED".
 source "$(dirname "${BASH_SOURCE[0]}")/../system/members.sh"
 unset GIVEWAY_QOS GIVEWAY_ADMIN GIVEWAY_ADMIN_KEY
 take_domain
@@ -35,7 +35,7 @@ order() {
 order 2 "no key: no order is taken" deadline.xml a
 order 2 "the wrong key" deadline.xml a --admin-key wrong.key
 order 0 "the right key" deadline.xml a --admin-key right.key
-order 2 "a service that was not told to take orders" deadline.xml b --admin-key right.key
+order 2 "a service that takes no orders" deadline.xml b --admin-key right.key
 order 0 "a service that takes any" deadline.xml c
 order 2 "a key that is too short is refused" other.xml a --admin-key short.key
 grep -q 'not sealed with the key' "$SCRATCH/a.log" || fail "a did not say why it refused"

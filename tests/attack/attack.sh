@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# An intruder without credentials attacks a fleet that drives: a line "ok" or "FAILED" an attack. Each
-# time: every process lives on, there is no contact, vehicles hear 90 % of each other's beacons and see
-# on all the time, no process grows by more than 16 MB, and all drive on within 5 s of the end.
+# An intruder without credentials attacks a driving fleet: a line "ok" or "FAILED" an attack. Each time:
+# every process survives, there is no contact, vehicles receive 90 % of each other's beacons and are never
+# blind, no process grows by more than 16 MB, and all drive again within 5 s of the end.
 #
 #   bash tests/attack/attack.sh [ATTACK ...]
 #
@@ -19,7 +19,7 @@ fi
 source "$(dirname "${BASH_SOURCE[0]}")/../system/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 ATTACKER=${GIVEWAY_ATTACKER:-$BIN/attacker}
-# Nobody else is in this namespace, but fleets of others share the folder of the domains' locks.
+# This namespace has no other fleet, but fleets outside share the folder of the domain locks.
 export TMPDIR=$SCRATCH
 DOMAIN=$((RANDOM % 90 + 5))
 VEHICLES=4
@@ -128,7 +128,7 @@ report() {
 # attacked NAME COMMAND...: the fleet while that runs, and after it. Who speaks as another with its next
 # numbers cannot be kept from blinding its readers for as long.
 attacked() {
-  local name=$1 line before died touched faults='' sent share grown begun took blind
+  local name=$1 line before died touched faults='' sent share grown started_ns took blind
   shift
   line=$(wc -l <"$SCRATCH/status.json")
   before=$(sizes)
@@ -136,9 +136,9 @@ attacked() {
   sent=$("$@" 2>&1) || faults+=" the attack did not run: $sent;"
   local after
   after=$(wc -l <"$SCRATCH/status.json")
-  begun=$(date +%s%N)
+  started_ns=$(date +%s%N)
   drives_on 5 "$after" || faults+=" not all drive on within 5 s:$(how_they_are "$after");"
-  took=$((($(date +%s%N) - begun) / 1000000))
+  took=$((($(date +%s%N) - started_ns) / 1000000))
   share=$(heard "$line")
   blind=$(blind_ms "$line" "$after")
   grown=$(growth_kb "$before")
@@ -185,7 +185,7 @@ from_the_cable() {
 }
 
 # Clients from another machine that send a byte every 0.2 s of a request that never ends, and one that
-# sends without end, beside probes of this machine.
+# sends without pause, in addition to probes from this machine.
 health_port() {
   local tricklers=() code=0 answered=0 _
   "$BIN/giveway-vehicle" --scenario patrol --domain "$((DOMAIN + 1))" --health-address 0.0.0.0 \
@@ -240,7 +240,7 @@ for name in "${ATTACKS[@]}"; do
   esac
 done
 
-# The run is told to stop, and its judge saw no contact either.
+# The run is stopped, and its judge saw no contact either.
 kill -INT "${PID[fleet]}"
 wait "${PID[fleet]}" || true
 unset 'PID[fleet]'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# What a process without credentials may say to a fleet that drives, and what comes of it: each row
-# of the table is one attack on the same fleet of four, on loopback. After each of them every process
-# of the fleet is there, every vehicle drives, and nothing of what the intruder wanted has happened.
+# What a process without credentials can send to a driving fleet, and the result: each row of the table
+# is one attack on the same fleet of four, on loopback. After each of them every process of the fleet
+# runs, every vehicle drives, and nothing that the intruder wanted has happened.
 # Prints a line a row, "ok" or "FAILED".
 source "$(dirname "${BASH_SOURCE[0]}")/../system/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN GIVEWAY_ADMIN GIVEWAY_ADMIN_KEY
@@ -63,7 +63,7 @@ memory_kb() {
 }
 row() { printf '%-7s %s\n' "$1" "$2"; }
 
-# judge WHAT: no process ended or was made anew, and all drive.
+# judge WHAT: no process ended or was restarted, and all drive.
 judge() {
   local what=$1 pid why=
   for pid in "${pids[@]}"; do

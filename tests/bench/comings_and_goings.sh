@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What comes and goes must cost nothing afterwards. A measurement, not a test: exit code 0 however it
-# comes out, 2 if a process could not be run. On loopback, in a domain of its own.
+# Vehicles that join and leave must cost nothing afterwards. A measurement, not a test: exit code 0 for
+# any result, 2 if a process could not be run. On loopback, in a domain of its own.
 #
 #   bash tests/bench/comings_and_goings.sh departed [COUNT]   CPU of a world, and of a vehicle that
 #       stays, before and after so many vehicles (default 64, then 200) came and left; with KILL=1
@@ -40,7 +40,7 @@ case $what in returns) removal=30 columns="0" ;; *) removal=1 columns="0 12 24 3
   done
 } >"$scratch/comings.textproto"
 
-start() { # NAME PROGRAM FLAG...: its id is in $pid; NAME_beside is in a fleet apart
+start() { # NAME PROGRAM FLAG...: its id is in $pid; NAME_beside is in a separate fleet
   local there=$domain
   [[ $1 != *_beside ]] || there=$((domain + 1))
   "$bin/$2" --scenario "$scratch/comings.textproto" --domain "$there" "${@:3}" 2>"$scratch/$1.log" &
@@ -86,11 +86,11 @@ case $what in
     start world_beside giveway-world
     world_beside=$pid
     start staying_beside giveway-vehicle --id 1
-    beside=("$world_beside" "$pid")
+    control=("$world_beside" "$pid")
     says world_beside 'started with'
     sleep 3
-    echo "ms/s of the world, of the one that stays; and of a world and a vehicle left in peace"
-    echo "before: $(cpu 20 "$world" "$staying" "${beside[@]}")"
+    echo "ms/s of the world, of the vehicle that stays; and of an undisturbed world and vehicle"
+    echo "before: $(cpu 20 "$world" "$staying" "${control[@]}")"
     id=1000
     for total in ${2:-64 200}; do
       while ((id < 1000 + total)); do
@@ -106,7 +106,7 @@ case $what in
         wait "${batch[@]}" 2>/dev/null || true
       done
       sleep 15 # the leases of those that died
-      echo "after $total: $(cpu 20 "$world" "$staying" "${beside[@]}")"
+      echo "after $total: $(cpu 20 "$world" "$staying" "${control[@]}")"
     done
     ;;
   returns)

@@ -13,7 +13,7 @@ prints a line a size:
   vehicle_cpu_ms_s    processor time of a vehicle a second, mean
   world_cpu_ms_s      of the world
   observer_cpu_ms_s   of fleetctl run, which watches
-  vehicle_mib         memory of a vehicle that it shares with nobody, mean
+  vehicle_mib         private memory of a vehicle, mean
   world_mib, observer_mib   of the world, of fleetctl
   threads, sockets, files   of a vehicle; UDP sockets, open descriptors
   packets_s           on the loopback interface, all, while driving
@@ -47,7 +47,7 @@ lanes() {
   local i
   cat <<'TEXT'
 name: "fleet_costs"
-description: "Parallel lanes, slowly: all hear all, and nobody is in anybody's way."
+description: "Parallel lanes at low speed: all vehicles receive each other, none conflicts."
 duration_s: 3600
 start_timeout_s: 120
 emission_radius_m: 1000
@@ -109,9 +109,9 @@ wait_until_running() {
 }
 
 measure() {
-  local count=$1 logs="$SCRATCH/logs-$1" begun world vehicles pid
+  local count=$1 logs="$SCRATCH/logs-$1" started_ns world vehicles pid
   lanes "$count" >"$SCRATCH/lanes-$count.textproto"
-  begun=$(date +%s%N)
+  started_ns=$(date +%s%N)
   read -r packets_0 _ <<<"$(wire)"
   "$FLEETCTL" run "$SCRATCH/lanes-$count.textproto" --qos "$qos" --logs "$logs" \
     >"$SCRATCH/out" 2>&1 &
@@ -121,7 +121,7 @@ measure() {
     kill "$fleet"
     return
   }
-  start_ms=$((($(date +%s%N) - begun) / 1000000))
+  start_ms=$((($(date +%s%N) - started_ns) / 1000000))
   read -r packets_1 _ <<<"$(wire)"
   sleep 3 # the announcements of the start are over
   world='' vehicles=()

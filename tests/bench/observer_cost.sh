@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# What whoever watches costs a fleet that drives: pairs of two fleets side by side, each in a domain of its
-# own, one of them watched. Which of the two starts first alternates. Prints a line a fleet, the ratio of
-# each figure (fleet_pairs.sh says what they are) watched to unwatched, and what the observer took itself.
+# The cost of observers to a driving fleet: pairs of two fleets side by side, each in a domain of its own,
+# one of them observed. Which of the two starts first alternates. Prints a line a fleet, the ratio of
+# each figure (described in fleet_pairs.sh) observed to unobserved, and the observer's own cost.
 #
 #   client    giveway-observer, and one client that follows the page's stream
-#   paused    the same, stopped by SIGSTOP as long as it is measured
-#   killed    the same, ended by kill -9 at the begin and at half of that time, and started again at once
+#   paused    the same, stopped by SIGSTOP during the measurement
+#   killed    the same, ended by kill -9 at the start and at half of that time, and restarted at once
 #   unread    giveway-observer, and 16 clients that never read
 #   full      fleetctl record onto a full disk, again and again; needs root
-#   alone     as client, of one fleet with none beside it: what the observer of many vehicles takes
+#   alone     as client, of a single fleet: the cost of an observer of many vehicles
 #
 # Usage: observer_cost.sh [--seconds S] [--pairs N] [--vehicles N] [WATCHED ...]   (20, 10, 8, the first five)
 set -euo pipefail
@@ -44,7 +44,7 @@ ended() {
 }
 trap ended EXIT
 
-# Crossings of eight vehicles each, so far apart that nobody of one hears anybody of another.
+# Crossings of eight vehicles each, too far apart to receive each other.
 bash "$project/tests/deploy/fleet_scenario.sh" "$vehicles" $(((vehicles + 7) / 8)) "$vehicles" |
   sed 's/^duration_s:.*/duration_s: 3600/' >"$work/fleet.textproto"
 

@@ -53,8 +53,8 @@ median() {
     | from_entries' "$@"
 }
 
-# told NAME FIGURES A.json B.json
-told() {
+# compare NAME FIGURES A.json B.json
+compare() {
   jq -nr --arg name "$1" --arg figures "$2" --slurpfile a "$3" --slurpfile b "$4" '
     def text: if . == null then "-" else tostring end;
     $figures | split(",")[] | . as $figure | $a[0][$figure] as $x | $b[0][$figure] as $y
@@ -83,20 +83,20 @@ row() {
   for ((round = 1; round <= rounds; ++round)); do
     # shellcheck disable=SC2086  # options are words
     fleet "$folder/shipped_$round" "$folder/shipped.xml" $options &
-    local beside=$!
+    local shipped_pid=$!
     # shellcheck disable=SC2086
     if ! fleet "$folder/other_$round" "$folder/other.xml" $options; then
       printf '%-58s refused: %s\n' "$name" \
         "$(sed -n 's/.*\(QoS file [^ ]*: \|Fast DDS: \)//p' "$folder/other_$round.err" | head -n 1)"
-      wait "$beside" || true
+      wait "$shipped_pid" || true
       return 0
     fi
-    wait "$beside" || die "$name: $(cat "$folder/shipped_$round.err")"
+    wait "$shipped_pid" || die "$name: $(cat "$folder/shipped_$round.err")"
     shipped+=("$folder/shipped_$round.json") other+=("$folder/other_$round.json")
   done
   median "${shipped[@]}" >"$folder/shipped.json"
   median "${other[@]}" >"$folder/other.json"
-  told "$name" "$figures" "$folder/shipped.json" "$folder/other.json"
+  compare "$name" "$figures" "$folder/shipped.json" "$folder/other.json"
 }
 
 [[ -n $list ]] || {

@@ -121,7 +121,7 @@ row 'liveliness of world_ranges -> AUTOMATIC' default "$cost" '' "${edit[@]}"
 automatic fleet_beacon
 row 'liveliness of fleet_beacon -> AUTOMATIC' default "$cost" '' "${edit[@]}"
 
-# Publishing, shared memory, another way of discovery.
+# Publishing, shared memory, another discovery protocol.
 row 'publishMode SYNCHRONOUS -> ASYNCHRONOUS' default "$cost" '' -u '//d:publishMode/d:kind' -v ASYNCHRONOUS
 row 'data_sharing OFF -> AUTOMATIC' default "$cost,shared_maps,shm_files,shm_kB,shm_left" '' \
   -u '//d:data_sharing/d:kind' -v AUTOMATIC

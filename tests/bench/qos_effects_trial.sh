@@ -8,14 +8,14 @@ bin=$here/../../build/release/bin
 set_file=$1 folder=$2
 shift 2
 declare -A asked=(
-  [vehicles]=8       # in lanes of their own, all in earshot, with every sensor, beside two signals
+  [vehicles]=8       # in lanes of their own, all in radio range, with every sensor, and two signals
   [impair]=none      # what every vehicle hears through
-  [seconds]=4        # measured, once everybody is matched or the wait is over
+  [seconds]=4        # measured, once all are matched or the wait is over
   [wait]=15          # for the matches, seconds at most
   [stop_vehicle]=0   # vehicle 1 stands still so long in the time measured, seconds
-  [stop_observers]=0 # and those who listen from outside
-  [late]=""          # yes: a vehicle comes when the others drive
-  [listen]=""        # what else is listened to beside fleet/status: world/truth,world/event
+  [stop_observers]=0 # and the outside listeners
+  [late]=""          # yes: a vehicle joins when the others drive
+  [listen]=""        # further topics to listen to: world/truth,world/event
   [ask]=0            # so many operators ask vehicle 1 at once what it runs with
   [silence]=0        # after a kill -9 the others are watched for so long, seconds
   [capture]=""       # yes: look at the packets for their time to live
@@ -99,7 +99,7 @@ end_all() { # without bash saying so
 }
 trap end_all EXIT
 
-# What somebody hears who comes when the fleet already drives; it listens to the end.
+# What a listener receives that joins when the fleet already drives; it listens to the end.
 listen() { # TOPIC FILE
   "$bin/fleetctl" listen "$1" --domain "$domain" --qos "$set_file" --json >"$2" 2>"$2.err" &
   members+=($!)
@@ -112,7 +112,7 @@ if [[ -n ${asked[server_after]} ]]; then
     >server.log 2>&1 &
   members+=($!)
 fi
-begun=$(now_ns)
+started_ns=$(now_ns)
 GIVEWAY_LOG_FORMAT=json "$bin/fleetctl" run scenario.textproto --vehicles 0 --seed 7 --json \
   --qos "$set_file" --impair "${asked[impair]}" --logs logs >run.json 2>run.err &
 fleet=$!
@@ -184,7 +184,7 @@ touch status.json truth.json roster.json
 jq -n --slurpfile shots <(cat before.json after.json held.json) \
   --slurpfile status status.json --slurpfile truth truth.json \
   --slurpfile roster roster.json \
-  --argjson hz "$(getconf CLK_TCK)" --argjson vehicles "$vehicles" --argjson begun "$begun" \
+  --argjson hz "$(getconf CLK_TCK)" --argjson vehicles "$vehicles" --argjson started_ns "$started_ns" \
   --argjson late "${late_begun:-0}" --argjson killed "${killed_at:-0}" \
   --slurpfile matches <(texts 'matched: vehicle ') --slurpfile gone <(texts 'unmatched: vehicle ') \
   --slurpfile driving <(jq -c 'select(.text | startswith("cruise"))' logs/late.log 2>/dev/null || true) \
@@ -207,7 +207,7 @@ jq -n --slurpfile shots <(cat before.json after.json held.json) \
     def grown(name): $b[name] - $a[name];
     def rate(name): grown(name) / ($s * $vehicles);
     def cpu(name): grown(name) / ($hz * $s / 60) | round2;
-    def whole_hourly: . / ($vehicles * ($b.at - $begun) / 1e9) * 3600 | round;
+    def whole_hourly: . / ($vehicles * ($b.at - $started_ns) / 1e9) * 3600 | round;
   def id: ltrimstr("matched: ") | ltrimstr("vehicle ") | tonumber? // ($vehicles + 1);
   ($matches | map(select((.process | id) <= $vehicles and (.text | id) <= $vehicles))
     | unique_by([.process, .text])) as $met
@@ -223,7 +223,7 @@ jq -n --slurpfile shots <(cat before.json after.json held.json) \
       driving: ([$status | group_by(.vehicle)[] | select(any(.rule != "not_running"))] | length),
       matched: ($met | length),
       all_matched_ms: (if ($met | length) == $vehicles * ($vehicles - 1)
-                       then [$met[].steady_ns] | max - $begun | ms else null end),
+                       then [$met[].steady_ns] | max - $started_ns | ms else null end),
       # Of the killed one alone: at the end all leave.
       unmatched_ms: ([$gone[] | select(.text == "unmatched: vehicle \($vehicles)") | .steady_ns]
                      | if length > 0 then max - $killed | ms else null end),

@@ -61,7 +61,7 @@ counter() {
     '.benchmarks[0] | .[$name] * $scale | round / $scale' "$scratch/interleaved.json"
 }
 
-# Vehicle::Step with everyone heard again every tick, microseconds.
+# Vehicle::Step with every peer received again every tick, microseconds.
 if wanted step; then
   figure step_10_peers_us "$(microbench VehicleStep/10 real_time)" 1
   figure step_100_peers_us "$(microbench VehicleStep/100 real_time)" 10
@@ -69,7 +69,7 @@ if wanted step; then
 fi
 
 # Vehicle-hours a minute in virtual time on two cores, 50 vehicles a run with 10 or all 49 in reach;
-# and what a vehicle and tick take of one core, in all and of that the parts beside Vehicle::Step.
+# and what a vehicle and tick take of one core, in total and outside Vehicle::Step.
 if wanted virtual; then
   fleet=VirtualFleetAdvance
   figure_at_least virtual_hours_per_min \

@@ -42,7 +42,7 @@ struct Options {
 // What the child leaves for the parent.
 struct Trace {
   std::atomic<std::uint64_t> done{0};  // inputs survived
-  std::atomic<std::size_t> bytes{0};   // of the input under way
+  std::atomic<std::size_t> bytes{0};   // of the current input
   char input[kMaxInputBytes];
 };
 static_assert(std::atomic<std::uint64_t>::is_always_lock_free, "shared between processes");
@@ -132,7 +132,7 @@ int Run(const Options& options) {
   if (child == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     TryAll(options, trace);
-    std::exit(0);  // and not _exit: leaks are looked for on the way out
+    std::exit(0);  // and not _exit: leaks are checked on exit
   }
   const std::optional<int> status = Await(child, *trace);
   if (status != 0) {
@@ -149,8 +149,8 @@ int Run(const Options& options) {
 int Main(int argc, char** argv) {
   Options options{.target = std::filesystem::path(argv[0]).filename()};
   CLI::App app("Feeds " + options.target +
-               " spoilt inputs. Exit code 0: it stood all of them; 1: it did not, and stderr names "
-               "the file with the input; 2: it could not be run.");
+               " malformed inputs. Exit code 0: it survived all of them; 1: it failed, and stderr "
+               "names the file with the input; 2: it could not be run.");
   app.add_option("--seed", options.seed, "which inputs")->capture_default_str();
   app.add_option("--seconds", options.seconds, "for how long")
       ->envname("GIVEWAY_FUZZ_SECONDS")

@@ -1,4 +1,4 @@
-// Whom an event of a reader is told to be about. No participant is made: the library's callbacks
+// Which peer a reader's event is attributed to. No participant is created: the library's callbacks
 // are called by hand, in the orders its threads call them.
 #include "services/link/inbox/peer_events.h"
 
@@ -65,7 +65,7 @@ class PeerEventsTest : public ::testing::Test {
     peers_.Translate(news, now, told);
     return told;
   }
-  // Whom the own clock finds to have missed a deadline of 150 ms.
+  // Peers that the own clock finds to have missed a deadline of 150 ms.
   std::vector<VehicleId> MissedAt(int ms) {
     std::vector<QosEvent> told;
     peers_.Watch(std::chrono::milliseconds(ms), std::chrono::milliseconds(150), told);
@@ -78,7 +78,7 @@ class PeerEventsTest : public ::testing::Test {
   }
   const PeerEvents& Peers() const { return peers_; }
   std::uint32_t Dropped() const { return events_.Dropped(); }
-  // The vehicles that are told to be incompatible.
+  // The vehicles that are reported as incompatible.
   std::vector<VehicleId> Unfit() {
     std::vector<QosEvent> told;
     const ReaderNews events = events_.Take();
@@ -200,7 +200,7 @@ TEST_F(PeerEventsTest, AMissIsToldByTheOwnClockWhereTheLibrarySaysNothing) {
   EXPECT_THAT(MissedAt(10'150), ::testing::IsEmpty());
   EXPECT_THAT(MissedAt(10'151), ElementsAre(VehicleId{5}));
   Miss(5);
-  EXPECT_THAT(Told(), ::testing::IsEmpty()) << "an edge, whoever sees it first";
+  EXPECT_THAT(Told(), ::testing::IsEmpty()) << "an edge, whichever detects it first";
   EXPECT_THAT(MissedAt(11'000), ::testing::IsEmpty());
   Hear(5, 12'000);
   Miss(5);

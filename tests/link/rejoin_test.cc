@@ -118,10 +118,10 @@ TEST(Rejoining, TheEntryThatLetAVehicleInIsNotToldAgainAndALaterOneOnce) {
   ASSERT_TRUE(Eventually(take));
   Repeat(milliseconds(200), take);
   EXPECT_EQ(told, 1);
-  EXPECT_TRUE(vehicle.TakeRoster(kSession).has_value()) << "each of the two ways is told by itself";
+  EXPECT_TRUE(vehicle.TakeRoster(kSession).has_value()) << "Take and TakeRoster each report it";
 }
 
-// What the vehicle is told meanwhile.
+// The entry that the vehicle receives meanwhile.
 std::optional<RosterEntry> ToldWithin(milliseconds duration, link::VehicleLink& vehicle,
                                       const std::function<void()>& meanwhile) {
   std::optional<RosterEntry> told;

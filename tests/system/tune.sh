@@ -81,7 +81,7 @@ kill -INT "$tuning"
 code=0
 wait "$tuning" || code=$?
 [[ $code -eq 1 ]] || fail "cut off: exit code $code: $(cat err)"
-grep -q 'goes on from here' err || fail "cut off: $(cat err)"
+grep -q 'run the same command again' err || fail "cut off: $(cat err)"
 if [[ -z $domain ]]; then
   fail "cut off: nobody was started"
 elif ! all_gone "$domain" 50; then
@@ -89,7 +89,7 @@ elif ! all_gone "$domain" 50; then
 fi
 compgen -G 'cut/trials/*.json' >/dev/null || fail "cut off: no evidence was kept"
 tune "0 1" "going on" "${small[@]}" --out cut
-grep -q 'going on: [1-9]' err || fail "going on: $(cat err)"
+grep -q 'resuming: [1-9]' err || fail "resuming: $(cat err)"
 
 if [[ ${GIVEWAY_TUNE_QUICK:-0} -eq 1 ]]; then
   begun=$SECONDS

@@ -22,7 +22,7 @@ void AddDiscoveryFlag(CLI::App* verb, std::vector<DiscoveryServer>* servers) {
   };
   verb->add_option_function<std::string>(
           "--discovery-server", take,
-          "Find everyone through HOST[:PORT],..., and not by what --qos says")
+          "Discover through the servers at HOST[:PORT],... instead of as --qos says")
       ->check([](const std::string& text) { return ParseDiscoveryServers(text).fault; })
       ->envname("GIVEWAY_DISCOVERY_SERVER");
 }

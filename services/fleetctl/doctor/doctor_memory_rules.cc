@@ -90,7 +90,7 @@ std::uint64_t BytesEach(const ProcessSituation& planned) {
   return 0;
 }
 
-// Calls `check` for every two processes that stand differently: one of each kind stands for all.
+// Calls `check` for every two processes of different kinds: one of each kind stands for all.
 template <typename Check>
 void ForPairs(const HostFacts& host, Check&& check) {
   using Kind = std::tuple<std::uint32_t, std::optional<std::uint64_t>, std::uint64_t, std::uint64_t,
@@ -113,15 +113,15 @@ void ForPairs(const HostFacts& host, Check&& check) {
 }  // namespace
 
 void CheckMemoryFiles(const HostFacts& host, qos::Findings* findings) {
-  AddGroups(host, MemoryState::kStale, "memory_stale",
-            "Their owners are gone: they take memory until they are removed, and every participant "
-            "that is killed adds its segment; once there is no room, the next dies of SIGBUS.",
-            "fleetctl doctor --fix", findings);
   AddGroups(
-      host, MemoryState::kOrphaned, "memory_orphaned",
-      "Parts without their lock or body that no process uses: they take memory until somebody "
-      "removes them.",
+      host, MemoryState::kStale, "memory_stale",
+      "Their owners are gone: they take memory until removed, and every killed participant adds "
+      "its segment; when /dev/shm is full, the next participant dies of SIGBUS.",
       "fleetctl doctor --fix", findings);
+  AddGroups(host, MemoryState::kOrphaned, "memory_orphaned",
+            "Incomplete sets, without lock or body, that no process uses: they take memory until "
+            "removed.",
+            "fleetctl doctor --fix", findings);
 }
 
 void CheckForeignFiles(const HostFacts& host, qos::Findings* findings) {
@@ -171,18 +171,17 @@ void CheckMemoryRoom(const HostFacts& host, qos::Findings* findings) {
         "The planned set does not use it; programs that do die of SIGBUS.");
   } else if (memory.free_bytes < each) {
     add(Severity::kError, "memory_full", each,
-        "Not one more participant finds room for its segment: it dies of SIGBUS as soon as it "
-        "writes "
+        "The segment of one more participant does not fit: it dies of SIGBUS on its first write "
         "there.");
   } else {
-    // The world and an observer come to the vehicles; those that run have theirs.
+    // The vehicles need a world and an observer; a running fleet has them.
     const std::uint64_t all = host.vehicles + std::uint64_t{qos::kOtherParticipants};
     const std::uint64_t others = all - std::min<std::uint64_t>(all, host.processes.size());
     if (memory.free_bytes >= others * each) return;
     add(Severity::kError, "memory_small", others * each,
         fmt::format(
-            "There is room for {} of {} more participants; the next dies of SIGBUS as soon as it "
-            "writes where there is none, and so may any other.",
+            "There is space for {} of {} more participants; the next dies of SIGBUS on its first "
+            "write beyond it, and so may any other.",
             memory.free_bytes / each, others));
   }
 }

@@ -30,7 +30,7 @@ Words SharedFlags(const FleetSpec& spec) {
   return flags;
 }
 
-// Of its log and its recording, without the ending.
+// The name of its log and its recording, without the ending.
 std::string FileNameOf(MemberId member) {
   if (member == kTheWorld) return "world";
   std::string name = NameOf(member);

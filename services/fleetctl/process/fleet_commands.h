@@ -1,4 +1,5 @@
-// What the processes of a fleet are started with, and the command lines that follow. Pure.
+// The settings with which the processes of a fleet are started, and the resulting command lines.
+// Pure.
 #pragma once
 
 #include <compare>
@@ -22,14 +23,14 @@ enum class MemberKind : std::uint8_t { kWorld, kVehicle, kNewcomer, kDiscoverySe
 // One process of a fleet, through all of its restarts.
 struct MemberId {
   MemberKind kind = MemberKind::kWorld;
-  // A vehicle's id; of newcomers, which have none yet, and of discovery servers from 1.
+  // A vehicle's id; of a newcomer, which has none yet, and of a discovery server from 1.
   std::uint32_t number = 0;
 
   friend auto operator<=>(const MemberId&, const MemberId&) = default;
 };
 inline constexpr MemberId kTheWorld{};
 constexpr MemberId MemberOf(VehicleId vehicle) { return {MemberKind::kVehicle, Number(vehicle)}; }
-// For people: "the world", "vehicle 2", "newcomer 1", "discovery server 1".
+// For messages: "the world", "vehicle 2", "newcomer 1", "discovery server 1".
 std::string NameOf(MemberId member);
 
 // Flags of every process. Absent values are the scenario's.
@@ -37,18 +38,18 @@ struct FleetOptions {
   std::optional<double> duration_s;
   std::optional<std::uint32_t> seed;
   std::optional<Behaviour> behaviour;
-  // Of an open fleet: how many are started without an id of the scenario. Absent: as many as the
-  // scenario waits for, or one a spawn place where it waits for none.
+  // In an open fleet: how many are started without an id of the scenario. Absent: as many as the
+  // scenario waits for, or one per spawn place if it waits for none.
   std::optional<std::uint32_t> vehicles;
   std::string interface = "127.0.0.1";
   std::vector<DiscoveryServer> discovery_servers;  // none: as the QoS file says
-  std::string impair;  // of what the vehicles hear, see config/impair.h; empty: the scenario's
+  std::string impair;  // of what the vehicles receive, see config/impair.h; empty: the scenario's
   bool lockstep = false;
   std::string log_level = "info";
   std::string logs_folder;    // empty: no logs are kept
   std::string record_folder;  // empty: vehicles record nothing
   std::string record_ring;    // seconds; empty: recordings are whole
-  std::string admin_key;      // a file: orders are to be sealed with it; empty: none are taken
+  std::string admin_key;      // a file: orders must be sealed with it; empty: none are accepted
   std::string record_split;   // a size, see config/byte_size.h; empty: a recording is one file
 };
 
@@ -58,14 +59,14 @@ struct FleetSpec {
   std::uint32_t domain = 0;
   std::string qos_file;
   int lock_fd = -1;             // inherited: the domain stays taken until the last process is gone
-  bool flags_only = false;      // a measurement: no variable of the shell has a say
+  bool flags_only = false;      // a measurement: no variable of the shell has an effect
   bool hands_on_lines = false;  // see ChildCommand
-  // Those that the scenario does not name ask for the ids 1, 2, 3 ..., and are vehicles of the
+  // Vehicles that the scenario does not name ask for the ids 1, 2, 3 ..., and are vehicles of the
   // fleet by these, not newcomers.
   bool names_newcomers = false;
   FleetOptions options;
   std::map<MemberId, std::vector<std::string>> extra_words;  // at the end of the command line
-  Nanoseconds stagger{0};  // from one start to the next, the world's being the first
+  Nanoseconds stagger{0};  // from one start to the next; the world starts first
 };
 
 struct MemberCommand {
@@ -74,9 +75,9 @@ struct MemberCommand {
   Nanoseconds start_after{0};  // the start of the fleet
 };
 
-// How many vehicles the scenario does not name are to be started: 0 of a closed fleet.
+// How many vehicles to start that the scenario does not name: 0 in a closed fleet.
 std::uint32_t NewcomerCount(const FleetOptions& options, const Scenario& scenario);
-// The world's first, then the named vehicles', then the newcomers'.
+// The world first, then the named vehicles, then the newcomers.
 std::vector<MemberCommand> MakeCommands(const FleetSpec& spec, const Scenario& scenario);
 
 }  // namespace giveway::fleetctl

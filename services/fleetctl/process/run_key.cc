@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where keys may be: a run and who gives it orders need not have the same environment. sudo and
-// cron leave out XDG_RUNTIME_DIR, which is the second one then.
+// Where keys may be: a run and the operator who gives it orders need not have the same environment.
+// sudo and cron drop XDG_RUNTIME_DIR, which is the second place then.
 std::vector<fs::path> KeyFolders() {
   const std::string user = std::to_string(::getuid());
   std::vector<fs::path> folders;
@@ -28,7 +28,7 @@ std::vector<fs::path> KeyFolders() {
   return folders;
 }
 
-// Where a new one is made.
+// Where a new one is created.
 fs::path KeyFolder() {
   for (const fs::path& folder : KeyFolders()) {
     if (::access(folder.parent_path().c_str(), W_OK) == 0) return folder;
@@ -36,7 +36,7 @@ fs::path KeyFolder() {
   return KeyFolders().back();
 }
 
-// Of this user alone; another may have made one of this name.
+// Accessible to this user alone; another user may have made a folder of this name.
 bool IsPrivate(const fs::path& folder) {
   struct stat about {};
   return ::lstat(folder.c_str(), &about) == 0 && S_ISDIR(about.st_mode) &&
@@ -47,7 +47,7 @@ std::string KeyFileOf(const fs::path& folder, std::uint32_t domain) {
   return folder / ("domain-" + std::to_string(domain) + ".key");
 }
 
-// The newest: one whose fleet is gone was left by a fleetctl that was killed. Empty: none.
+// The newest: older ones were left by a fleetctl that was killed. Empty: none.
 std::string FindKeyFile(std::uint32_t domain) {
   std::string newest;
   fs::file_time_type newest_time{};
@@ -67,15 +67,15 @@ std::string FindKeyFile(std::uint32_t domain) {
 
 RunKey::RunKey(const std::string& given, std::uint32_t domain) : file_(given) {
   if (!given.empty()) {
-    auth::ReadAdminKey(given);  // now, and not in each process
+    auth::ReadAdminKey(given);  // check it now, once for all processes
     return;
   }
   const fs::path folder = KeyFolder();
   ::mkdir(folder.c_str(), 0700);
   if (!IsPrivate(folder)) {
     throw auth::KeyError(folder.string() +
-                         ": must be a folder of this user that nobody else may enter, for the key "
-                         "of the fleet; remove it, or give --admin-key");
+                         ": must be a folder that only this user may enter, because it holds the "
+                         "fleet's key; remove it, or give --admin-key");
   }
   file_ = KeyFileOf(folder, domain);
   auth::MakeAdminKey(file_);

@@ -12,9 +12,9 @@ constexpr double kSigmas = 3;
 constexpr double kMatters = 0.2;  // of the rest's rate
 constexpr double kHour_s = 3600;
 
-// Whether a count over `a_size` is more than one over `b_size` explains. The variance of a Poisson
-// count is its mean, estimated from both together; one is added so that nothing against nothing is
-// no certainty.
+// Whether a count over `a_size` is higher than one over `b_size` can explain. The variance of a
+// Poisson count is its mean, estimated from both together; one is added so that no events against
+// no events is not certain.
 bool IsMore(double a, double a_size, double b, double b_size) {
   if (a_size <= 0 || b_size <= 0) return false;
   const double rate = (a + b + 1) / (a_size + b_size);
@@ -60,7 +60,7 @@ ServiceFigures Between(const VehicleStatus& before, const VehicleStatus& after, 
 }
 
 std::string WhyWorse(const ServiceFigures& canary, const ServiceFigures& rest) {
-  if (rest.taken == 0) return "there is nobody to compare it with";
+  if (rest.taken == 0) return "there is no other vehicle to compare it with";
   if (canary.taken == 0) return "it hears no beacon";
   const auto number = [](std::uint64_t count) { return static_cast<double>(count); };
   if (IsMore(number(canary.alarms), canary.pair_seconds, number(rest.alarms), rest.pair_seconds)) {

@@ -17,7 +17,7 @@ void CanaryWatch::Take() {
   for (const VehicleStatus& status : observer_.Take().statuses) {
     const auto [entry, is_new] = seen_.try_emplace(status.vehicle);
     Seen& seen = entry->second;
-    // A process that started again counts from nothing.
+    // A restarted process counts from zero.
     const bool began_anew = !is_new && status.beacons.sent < seen.last.beacons.sent;
     seen.began_anew |= began_anew;
     if (is_new || began_anew) {
@@ -50,7 +50,7 @@ CanaryWatch::Both CanaryWatch::Watch(VehicleId vehicle, Nanoseconds span) {
   if (ours == seen_.end() || end - ours->second.last_at > kSilence) {
     both.trouble = "it fell silent";
   } else if (ours->second.began_anew) {
-    both.trouble = "its process began anew";
+    both.trouble = "its process restarted";
   }
   for (const auto& [id, seen] : seen_) {
     ServiceFigures& figures = id == vehicle ? both.canary : both.rest;

@@ -20,7 +20,7 @@ std::optional<FieldDifference> Compare(const RecordedStep& recorded, const Outpu
 
 constexpr std::size_t kMostFailureBytes = 200;
 
-// A word from a file that is shown on a terminal.
+// A text from a file, made safe for a terminal.
 std::string Printable(std::string text) {
   text.resize(std::min(text.size(), kMostFailureBytes));
   std::ranges::replace_if(
@@ -42,12 +42,12 @@ void Replayer::Begin(const RecordingFile& file, ReplayedFile* outcome) {
   outcome->vehicle = file.Continues()->vehicle;
   outcome->part = file.Continues()->part;
   if (brain_ && *file.Continues() == next_) return;
-  brain_.reset();  // an image must bring one
+  brain_.reset();  // an image must restore one
   next_ = *file.Continues();
 }
 
-// Makes the brain that a part of a ring starts with; or, if one was led up to there, compares the
-// two. What speaks against it; empty: nothing.
+// Restores the brain with which a part of a ring starts; or, if one was replayed up to there,
+// compares the two. Returns the mismatch; empty: none.
 std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcome) {
   if (brain_) {
     if (AreBytesOf(image.state, brain_->State())) return "";
@@ -58,12 +58,12 @@ std::string Replayer::TakeImage(const RecordedImage& image, ReplayedFile* outcom
     return "";
   }
   const auto state = StateFrom(image.state, image.options);
-  if (state == nullptr) return "begins with a brain that this program cannot be in";
+  if (state == nullptr) return "starts from a vehicle state that this program cannot restore";
   brain_.emplace(image.options, next_.boot_epoch);
   brain_->Restore(*state);
   if (brain_->Hash() == image.hash) return "";
   brain_.reset();
-  return "begins with a brain that is not the one recorded";
+  return "starts from a vehicle state that differs from the recorded hash";
 }
 
 ReplayedFile Replayer::Replay(std::istream* part, const ReplayWatcher& watch) {
@@ -113,8 +113,7 @@ void Replayer::Lead(RecordingFile* file, const ReplayWatcher& watch, ReplayedFil
   outcome->complete = end.has_value();
   outcome->lost = end ? end->lost : 0;
   outcome->failure = end ? Printable(end->failure) : "";
-  // A ring may have started a file with its last breath: where the brain was led up to there, that
-  // one was compared.
+  // A ring may have started a file just before it ended: then only the image was compared.
   if (outcome->steps == 0 && outcome->finding.empty() && !compared_image) {
     outcome->finding = "holds no step: nothing was compared";
     if (!outcome->failure.empty()) outcome->finding += "; " + outcome->failure;

@@ -18,17 +18,18 @@ using faults::Kind;
 using faults::Target;
 using std::chrono::milliseconds;
 
-constexpr Nanoseconds kDuty = milliseconds(200);        // one turn of stopped and running
-constexpr Nanoseconds kChurnLife = milliseconds(1500);  // of each process that comes and is killed
+constexpr Nanoseconds kDuty = milliseconds(200);  // one turn of stopped and running
+constexpr Nanoseconds kChurnLife =
+    milliseconds(1500);  // of each process that is started and killed
 constexpr std::uint32_t kFirstChurnId = 1'000'000;
 
-// Nothing of a double's is written over what the member itself writes.
+// A duplicate's output never overwrites the member's own.
 void DropFlag(std::vector<std::string>* words, const std::string& flag) {
   const auto found = std::ranges::find(*words, flag);
   if (found != words->end()) words->erase(found, std::next(found, 2));
 }
 
-// The third field of proc_pid_stat(5), after the name in parentheses: T where it is stopped.
+// The third field of proc_pid_stat(5), after the name in parentheses: T if it is stopped.
 bool IsStopped(pid_t pid) {
   std::ifstream stat(fmt::format("/proc/{}/stat", pid));
   std::string text;
@@ -37,7 +38,7 @@ bool IsStopped(pid_t pid) {
   return name_end != std::string::npos && name_end + 2 < text.size() && text[name_end + 2] == 'T';
 }
 
-// Empty where it may use as much as it ever may.
+// Empty if its limit is not lowered.
 std::string LimitOf(pid_t pid, __rlimit_resource resource) {
   rlimit limit{};
   if (::prlimit(pid, resource, nullptr, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return {};
@@ -86,7 +87,7 @@ const char* ProcessFaults::WhyNot(const faults::Fault& fault, bool has_discovery
     case Kind::kQosMismatch:
     case Kind::kQosApply:
     case Kind::kDuplicateId:
-      return vehicles ? nullptr : "only a vehicle can be struck so";
+      return vehicles ? nullptr : "only vehicles can have this fault";
     case Kind::kChurn:
       return nullptr;
     case Kind::kClockStep:
@@ -156,7 +157,7 @@ std::string ProcessFaults::EffectOn(const faults::Fault& fault, MemberId member)
     case Kind::kDiskFull:
       return LimitOf(*pid, RLIMIT_FSIZE);
     case Kind::kLogReaderStops:
-      return "nobody reads its log";
+      return "its log has no reader";
     case Kind::kDuplicateId:
       return doubles_.contains(&fault) ? "a second process asks for its id" : "";
     case Kind::kClockStep:
@@ -293,7 +294,7 @@ void ProcessFaults::EndOn(const faults::Fault& fault, MemberId member) {
   switch (fault.kind) {
     case Kind::kRestart:
     case Kind::kQosMismatch:
-      // Of one that was away for another fault nothing started.
+      // Nothing was started for a member that was away for another fault.
       if (const auto away = away_.find(member); away != away_.end() && away->second == &fault) {
         if (processes_->IsRunning(member)) processes_->Kill(member);
         away_.erase(away);
@@ -337,7 +338,7 @@ void ProcessFaults::Turn(SteadyTime now, double time_s) {
     return true;
   });
   for (auto& [member, away] : away_) {
-    // Gone as planned: it comes back at once, with a set that matches no other.
+    // Gone as planned: it returns at once, with a set that matches no other.
     if (away->kind == Kind::kQosMismatch && !processes_->IsRunning(member) &&
         processes_->EndOf(member)) {
       MemberCommand command = CommandNow(member);
@@ -382,7 +383,7 @@ std::unique_ptr<ChildProcess> ProcessFaults::StartBeside(MemberId member, std::u
   child.name = name;
   child.hands_on_lines = false;
   child.environment.clear();  // its clock is not the member's, and what it reads is not counted
-  if (!child.log_file.empty()) child.log_file += fmt::format(".beside-{}", id);
+  if (!child.log_file.empty()) child.log_file += fmt::format(".duplicate-{}", id);
   SetFlag(&child.words, "--id", std::to_string(id));
   DropFlag(&child.words, "--record");
   DropFlag(&child.words, "--record-split");
@@ -409,7 +410,7 @@ void ProcessFaults::GiveOrder(const faults::Fault& fault, MemberId member) {
   orders_[&fault] = std::make_unique<ChildProcess>(order);
 }
 
-// A share of each turn it runs, and is stopped for the rest.
+// It runs for a share of each cycle, and is stopped for the rest.
 void ProcessFaults::TurnSlow(MemberId member, SteadyTime now, Slow* slow) {
   if (now - slow->since >= kDuty) slow->since = now;
   const double gone =
@@ -436,7 +437,7 @@ void ProcessFaults::TurnChurn(SteadyTime now, Churn* churn) {
   --churn->left;
 }
 
-// Nothing is put back as high as it may go: the hard limit was never changed.
+// Restores the soft limit: the hard limit was never changed.
 void ProcessFaults::Limit(MemberId member, int resource, std::optional<std::uint64_t> most) {
   const auto pid = processes_->PidOf(member);
   if (!pid) return;

@@ -1,7 +1,7 @@
-// Makes the supervisor's faults happen to the processes of a fleet, and undoes them. Whatever it
-// does dies with this process: what is stopped is a child that is killed with its parent, limits go
-// with the process they are of, and the processes started here are children too.
-// Knows no DDS; whether a fault had an effect is found out elsewhere.
+// Injects the supervisor's faults into the processes of a fleet, and removes them. Nothing outlives
+// this process: stopped processes are children that are killed with their parent, limits end with
+// the process they apply to, and the processes started here are children too. Knows no DDS; whether
+// a fault had an effect is checked elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -21,20 +21,20 @@
 
 namespace giveway::fleetctl {
 
-// What the faults are made with.
+// What is needed to inject the faults.
 struct FaultTools {
   std::vector<MemberCommand> commands;  // of every member, as it was started
   std::string fleetctl;                 // the program, for orders
   std::uint32_t domain = 0;
   std::string interface;
   std::string discovery_servers;  // as --discovery-server has them; empty: none
-  std::string admin_key;          // the file of the key that the fleet's orders are sealed with
-  // Of every member, where the list steps clocks: each was started with its own.
+  std::string admin_key;          // the file of the key that seals the fleet's orders
+  // The clock of every member, if the list steps clocks: each was started with its own.
   std::map<MemberId, SteppableClock> clocks;
-  std::string attacker;       // the program that is the intruder; empty: no fault is of one
-  PrivateShm* shm = nullptr;  // null: no fault is of shared memory. Outlives the faults
-  // What a vehicle that is started so many seconds after the start signal is given with --impair:
-  // its clock of the rules starts when it joins. Empty: nothing is impaired any more.
+  std::string attacker;       // the program of the intruder; empty: no such faults
+  PrivateShm* shm = nullptr;  // null: no shared memory faults. Outlives the faults
+  // The --impair of a vehicle that is started so many seconds after the start signal: its clock of
+  // the rules starts when it joins. Empty: nothing is impaired any more.
   std::function<std::string(VehicleId, double)> impairment_since;
 };
 
@@ -43,41 +43,41 @@ void SetFlag(std::vector<std::string>* words, const std::string& flag, const std
 
 class ProcessFaults {
  public:
-  // `processes` outlives this. On the thread that made it.
+  // `processes` outlives this. Use on the thread that created it.
   ProcessFaults(FaultTools tools, FleetProcesses* processes);
 
-  // Null: this kind can be made to happen to this target. Otherwise why not.
+  // Null if this kind of fault can be injected into this target, else the reason.
   static const char* WhyNot(const faults::Fault& fault, bool has_discovery_servers);
 
-  // Faults of other actors are none of ours: nothing happens. `fault` outlives its end. Throws
-  // StartError where a process cannot be started.
+  // Ignores faults of other actors. `fault` outlives its end. Throws StartError if a process cannot
+  // be started.
   void Begin(const faults::Fault& fault);
   void End(const faults::Fault& fault);
-  // What continues during a fault: stops and continues slow ones, polls its own children. Often.
+  // Continues active faults: stops and resumes slow processes, polls its own children. Call often.
   // `time_s` since the start signal.
   void Turn(SteadyTime now, double time_s);
 
-  // True while its process is gone, and planned to be.
+  // True while its process is gone as planned.
   bool IsAway(MemberId member) const {
     return away_.contains(member) || returning_.contains(member);
   }
-  // Ends of orders given by `fleetctl qos apply`, each once: the fault and the exit code.
+  // Ends of the orders given by `fleetctl qos apply`, each once: the fault and the exit code.
   struct OrderEnd {
     const faults::Fault* fault = nullptr;
     ProcessEnd how;
     std::string last_line;
   };
   std::vector<OrderEnd> TakeOrderEnds();
-  // How a member is to be started that ended just now.
+  // How to start a member that has just ended.
   MemberCommand CommandNow(MemberId member) const;
-  // What is seen from outside of a fault under way: that the process is stopped, gone, limited;
-  // empty where nothing is seen, or it shows elsewhere.
+  // The visible effect of an active fault: process stopped, gone, limited. Empty if none is
+  // visible, or if it is visible elsewhere.
   std::string EffectOf(const faults::Fault& fault) const;
-  // Of the member's planned end: the faults, by their place in the schedule, that killed it.
+  // The faults, by index in the schedule, that caused the member's planned end.
   std::vector<std::size_t> KillersOf(MemberId member, const faults::Schedule& schedule) const;
-  // Killed, and not to come back.
+  // Killed permanently.
   bool IsAwayForGood(MemberId member) const;
-  // Processes of churn that were started so far.
+  // The number of churn processes started so far.
   std::uint32_t Churned() const { return churned_; }
 
  private:
@@ -111,10 +111,10 @@ class ProcessFaults {
   FaultTools tools_;
   FleetProcesses* processes_;
   std::map<MemberId, const faults::Fault*> away_;
-  std::set<MemberId> returning_;  // killed, and started again once that is over
+  std::set<MemberId> returning_;  // killed, to be restarted when the fault is over
   std::map<const faults::Fault*, std::string> shm_effects_;
   std::map<MemberId, Slow> slow_;
-  std::map<MemberId, std::uint64_t> moved_before_;  // readings, before the clock was last stepped
+  std::map<MemberId, std::uint64_t> moved_before_;  // readings, at the last step of the clock
   std::map<const faults::Fault*, Churn> churns_;
   std::map<const faults::Fault*, std::unique_ptr<ChildProcess>> orders_;
   std::map<const faults::Fault*, std::vector<std::unique_ptr<ChildProcess>>> doubles_;

@@ -25,7 +25,7 @@ constexpr Nanoseconds kProgressEvery = seconds(10);
 constexpr Nanoseconds kSaveEvery = seconds(10);
 constexpr Nanoseconds kLeaveGrace = seconds(2);
 constexpr Nanoseconds kTermGrace = seconds(3);
-constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it takes reading every map
+constexpr std::uint64_t kSharedMemoryEvery = 10;  // samples: it requires reading every map
 constexpr std::size_t kMostEnds = 256;            // kept with their last lines
 
 link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
@@ -39,7 +39,7 @@ link::LinkOptions ObserverOf(const FleetSpec& spec, const Scenario& scenario) {
           spec.options.discovery_servers};
 }
 
-// A black box shows them.
+// Black boxes show them.
 link::ObserverLink::Ranges RangesFor(const FleetSpec& spec) {
   return spec.options.record_ring.empty() ? link::ObserverLink::Ranges::kNo
                                           : link::ObserverLink::Ranges::kYes;
@@ -162,7 +162,7 @@ void SoakSession::SaveIfDue(SteadyTime now) {
   SoakSeen so_far = seen_;
   so_far.lasted_s = watch_.TimeSeconds(now);
   Gather(&so_far);
-  // Of one that is still open it is not known yet what it broke.
+  // What an active fault broke is not known yet.
   for (const std::size_t i : watch_.Open()) {
     so_far.courses[i] = {.effect = watch_.Courses()[i].effect};
   }
@@ -223,7 +223,7 @@ void SoakSession::Drain() {
   }
 }
 
-// What is known to be broken while it runs: invariants, decisions on stale beacons, processes that
+// What is known to be broken during the run: invariants, decisions on stale beacons, processes that
 // ended.
 std::uint64_t SoakSession::BrokenSoFar() const {
   return seen_.restarts + timing_.Stale().size() + invariants_.Judged().Broken();
@@ -257,8 +257,7 @@ void SoakSession::CarryOut(std::span<const FaultEdge> edges) {
   }
 }
 
-// What is seen of a process from outside: that it is stopped or gone, what it may use, what an
-// order came to.
+// The externally visible state of a process: stopped or gone, its limits, the result of an order.
 void SoakSession::NoteProcessEffects() {
   for (const std::size_t i : watch_.Open()) {
     const faults::Fault& fault = schedule_[i];
@@ -282,8 +281,8 @@ void SoakSession::HearLines() {
   }
 }
 
-// One that was killed as planned is no news. Who ended otherwise is started again, as a container's
-// restart policy would do; that it ended stands in the verdict.
+// A process that was killed as planned is not reported. One that ended otherwise is restarted, as
+// by a container's restart policy; its end counts in the verdict.
 void SoakSession::NoteEnds() {
   for (const MemberEnd& end : processes_.TakeEnds()) {
     if (stopping_) continue;
@@ -358,12 +357,12 @@ void SoakSession::ShowProgress(SteadyTime now) {
   std::string names;
   for (const VehicleId vehicle : unwell) names += fmt::format(" {}", Number(vehicle));
   std::fprintf(
-      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu under way  invariants broken %lu%s%s\n",
+      stderr, "%6.0f of %.0f s  faults %zu of %zu, %zu active  invariants broken %lu%s%s\n",
       watch_.TimeSeconds(now), phases_.end_s, begun, schedule_.size(), clock_.UnderWay().size(),
       invariants_.Judged().Broken(), names.empty() ? "" : "  not driving:", names.c_str());
 }
 
-// The world first, so that it announces the end and the vehicles leave in good order.
+// The world first, so that it announces the end and the vehicles leave gracefully.
 void SoakSession::Stop() {
   stopping_ = true;
   processes_.AskToStop(kTheWorld);

@@ -15,18 +15,18 @@ using std::chrono::seconds;
 constexpr double kMoves_m_s = 0.01;
 constexpr Nanoseconds kAfterwards = seconds(10);
 constexpr Nanoseconds kGivenUp = seconds(120);
-// A status says what was counted until it was made; it may come a little after the fault's end.
+// A status has the counts up to its publication; it may arrive a little after the fault's end.
 constexpr Nanoseconds kStatusUnderway = seconds(2);
 
-// Packets that no library sends. Those without an RTPS header are a flood's, and numbers jump for
-// other reasons too.
+// Packets that no library sends. Those without an RTPS header belong to floods, and sequence
+// numbers jump for other reasons too.
 std::uint64_t MalformedOf(const PacketCounters& packets) {
   return packets.Dropped() - packets.Of(PacketDrop::kForeignSource) -
          packets.Of(PacketDrop::kNotRtps) - packets.Of(PacketDrop::kSequenceJump);
 }
 
-// What each kind of a hearer's fault is counted as by who hears; a set that does not match by those
-// who refuse it; and an intruder's packets by who is sent them.
+// The counter that shows each kind of fault: of the receiver for its impairments, of the peers that
+// refuse it for a set that does not match, of the target for an intruder's packets.
 std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
   switch (kind) {
     case Kind::kLoss:
@@ -56,13 +56,13 @@ std::uint64_t CountOf(Kind kind, const VehicleStatus& status) {
   }
 }
 
-// Whether a counter of some vehicle rises by it.
+// Whether a counter of some vehicle shows it.
 bool ShowsInCounters(Kind kind) {
   switch (faults::ActorOf(kind)) {
     case faults::Actor::kHearer:
       return true;
     case faults::Actor::kAttacker:
-      return kind != Kind::kReplayed;  // the library drops what has come before, and does not count
+      return kind != Kind::kReplayed;  // the library drops duplicates without counting them
     case faults::Actor::kSupervisor:
       return kind == Kind::kQosMismatch;
     case faults::Actor::kWorld:
@@ -136,7 +136,7 @@ void SoakWatch::FoldStatus(const VehicleStatus& status, SteadyTime now) {
   }
 }
 
-// Those of the world say so themselves.
+// The world reports its own faults.
 void SoakWatch::FoldEvent(const WorldEvent& event) {
   if (event.kind != EventKind::kFaultBegan) return;
   for (std::size_t i = 0; i < courses_.size(); ++i) {
@@ -145,12 +145,12 @@ void SoakWatch::FoldEvent(const WorldEvent& event) {
       continue;
     const std::string name =
         fmt::format("{} {} of {}", faults::ToString(fault.kind), fault.nth, fault.rule);
-    if (event.text == name) courses_[i].effect = "the world says that it began";
+    if (event.text == name) courses_[i].effect = "the world reports that it started";
   }
 }
 
-// A partition is seen from both of its sides: of the target alone, or of the peers that lost it.
-// What is said in the target's name, its peers hear.
+// A partition is visible from both sides: from the target, and from the peers that lost it. What is
+// sent in the target's name is received by its peers.
 bool SoakWatch::Concerns(const faults::Fault& fault, VehicleId vehicle) const {
   if (fault.kind == Kind::kSpoofed) return fault.target.vehicle != vehicle;
   return fault.target.what != Target::What::kVehicle || fault.target.vehicle == vehicle ||
@@ -168,7 +168,7 @@ void SoakWatch::SeekEffect(std::size_t i, const VehicleStatus& status) {
   }
   const std::uint64_t was = CountOf(fault.kind, before->second);
   const std::uint64_t is = CountOf(fault.kind, status);
-  if (is < was) {  // another life of it
+  if (is < was) {  // a new life of it
     before->second = status;
   } else if (is > was) {
     courses_[i].effect = fmt::format("vehicle {} counted {} {}", Number(status.vehicle), is - was,
@@ -240,7 +240,7 @@ std::uint32_t SoakWatch::Living() const {
 
 bool SoakWatch::AreAllWell(SteadyTime now) const { return Living() > 0 && Unwell(now).empty(); }
 
-// What a word or a status says later has other causes. One that never recovers is given up on.
+// Later log lines or statuses have other causes. A fault that never recovers is given up.
 void SoakWatch::CloseSettled(SteadyTime now) {
   std::erase_if(open_, [&](std::size_t i) {
     const FaultCourse& course = courses_[i];
@@ -252,12 +252,12 @@ void SoakWatch::CloseSettled(SteadyTime now) {
   });
 }
 
-// Where it faulted one vehicle, that one; else all.
+// The vehicle that it affects; else all.
 void SoakWatch::SeekRecovery(SteadyTime now) {
   for (const std::size_t i : open_) {
     FaultCourse& course = courses_[i];
     if (!course.ended || course.recovered || schedule_[i].kind == Kind::kKill) continue;
-    if (now - *course.ended < kFresh / 2) continue;  // what was said before its end does not count
+    if (now - *course.ended < kFresh / 2) continue;  // reports from before its end do not count
     const Target& target = schedule_[i].target;
     const bool of_one = target.what == Target::What::kVehicle;
     const auto view = views_.find(target.vehicle);

@@ -19,8 +19,8 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr Nanoseconds kUntilWell = seconds(30);
-constexpr Nanoseconds kLateStill = seconds(1);  // what comes after the promise is reported as late
-constexpr Nanoseconds kNoticing = milliseconds(200);  // for a word to be written and read
+constexpr Nanoseconds kLateStill = seconds(1);  // what is later than promised is reported as late
+constexpr Nanoseconds kNoticing = milliseconds(200);  // to write and read a log line
 constexpr Nanoseconds kEnding = seconds(3);           // of a process that was asked to
 
 // Ends the trials of this fleet; what() says why.
@@ -29,10 +29,10 @@ class Trouble : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A target, and when it was faulted: of cuts by each watcher's own clock of blackouts.
+// A target, and when it was faulted: for cuts by each watcher's own blackout clock.
 struct Struck {
   VehicleId victim = kNobody;
-  std::map<VehicleId, SteadyTime> at;  // by watcher; empty until it is known
+  std::map<VehicleId, SteadyTime> at;  // by watcher; empty until known
 };
 
 class Conductor {
@@ -101,7 +101,7 @@ class Conductor {
     }
   }
 
-  // By the clock of the vehicle that heard the start signal last: a tick or two after the first.
+  // By the clock of the vehicle that received the start signal last: a tick or two after the first.
   SteadyTime BeginOf(Nanoseconds since_start) const {
     SteadyTime latest{0};
     for (const VehicleId vehicle : task_.fleet) {
@@ -114,13 +114,13 @@ class Conductor {
     const SteadyTime limit = SteadyNow() + kUntilWell;
     const auto counts = [this](VehicleId id) { return fleet_.BlackoutsSince(id).has_value(); };
     while (!std::ranges::all_of(task_.fleet, counts)) {
-      if (SteadyNow() > limit) throw Trouble("not everyone heard the start signal");
+      if (SteadyNow() > limit) throw Trouble("not every vehicle received the start signal");
       Turn();
     }
     const SteadyTime ready = BeginOf(wave.begin) - 2 * kNoticing;
     WaitUntil(ready);
     result_.too_soon = fleet_.WhoHears().FirstDeaf(task_.fleet).has_value();
-    if (result_.too_soon) throw Trouble("a link was cut before everyone heard everyone");
+    if (result_.too_soon) throw Trouble("a link was cut before all vehicles received each other");
   }
 
   bool Watches(VehicleId vehicle) const {
@@ -157,8 +157,8 @@ class Conductor {
     return struck;
   }
 
-  // The time before the signal is sent: whatever the system call takes counts as detection. A loop
-  // that is to hang says itself when it does.
+  // The time before the signal is sent: the time of the system call counts as detection. A loop
+  // that is to hang reports this itself.
   SteadyTime StrikeNow(VehicleId victim) {
     const std::map<Fault, int> signals = {{Fault::kKill, SIGKILL},
                                           {Fault::kPause, SIGSTOP},
@@ -177,7 +177,7 @@ class Conductor {
         fmt::format("vehicle {} does not hang, though it was signalled to", Number(victim)));
   }
 
-  // The first word of the watcher by that mechanism after the fault.
+  // The watcher's first report by that mechanism after the fault.
   std::optional<SteadyTime> SeenBy(VehicleId watcher, Mechanism mechanism, VehicleId victim,
                                    SteadyTime at) const {
     for (const Said& said : fleet_.Heard()) {
@@ -189,8 +189,8 @@ class Conductor {
     return std::nullopt;
   }
 
-  // True when whatever must be seen has been, or is too late; and whatever must not be seen had its
-  // time.
+  // True when everything that must be seen has been seen, or is too late; and what must not be seen
+  // had its time.
   bool IsAllTold(const std::vector<Struck>& struck) const {
     const SteadyTime now = SteadyNow();
     for (std::size_t i = 0; i < kMechanisms; ++i) {
@@ -232,7 +232,7 @@ class Conductor {
     }
   }
 
-  // A vehicle that was dropped by its peers, or left, comes back as a new process: see PlanWaves.
+  // A vehicle that was dropped by its peers, or left, returns as a new process: see PlanWaves.
   void Heal() {
     for (const VehicleId victim : victims_) {
       task_.fault == Fault::kHung ? fleet_.Signal(victim, SIGUSR2) : Revive(victim);
@@ -258,7 +258,7 @@ class Conductor {
   const StallMonitor& monitor_;
   const std::vector<Wave> waves_;
   StopwatchFleet fleet_;
-  std::vector<VehicleId> victims_;  // of the wave under way
+  std::vector<VehicleId> victims_;  // of the current wave
   StopwatchResult result_;
 };
 

@@ -9,12 +9,12 @@ namespace giveway::fleetctl {
 namespace {
 
 constexpr const char* kStopwatchFooter = R"(
-Starts fleets of real processes, strikes vehicles one by one, and takes the time until each peer says
-in its log that it noticed, by each mechanism: the age of the newest beacon, DEADLINE, LIVELINESS, the
-participant's lease, a good-bye. --table says which must see which fault, and within what time.
+Starts fleets of real processes, injects faults into one vehicle at a time, and measures when each peer
+reports in its log that it noticed, by each mechanism: age of the newest beacon, DEADLINE, LIVELINESS,
+participant lease, leave notice. --table shows which must notice which fault, and within what time.
 
 Faults
-  kill     kill -9                      hung     the control loop stands still, its threads go on
+  kill     kill -9                      hung     the control loop stops, other threads run
   pause    SIGSTOP                      cut      no packet between it and its peers, either way
   exit     SIGTERM                      one_way  its packets are lost, it hears its peers
 
@@ -27,7 +27,7 @@ Examples
 Exit code: 0 every promise was kept; 1 one was broken, or it was interrupted; 2 could not run.
 )";
 
-// Above 32 vehicles code sets another lease; one place stays free.
+// Above 32 vehicles the code sets another lease; one place stays free.
 constexpr std::uint32_t kMostVictims = 31;
 constexpr std::uint32_t kMostTrials = 100'000;
 constexpr std::uint32_t kMostFleets = 16;
@@ -41,7 +41,7 @@ Fault ParseFault(const std::string& name) {
                                  name + "'");
 }
 
-// In the order of the table, each once; all of them where none is named.
+// In the order of the table, each once; all of them if none is named.
 std::vector<Fault> ParseFaults(const std::vector<std::string>& names) {
   std::vector<Fault> faults;
   for (const std::string& name : names) faults.push_back(ParseFault(name));

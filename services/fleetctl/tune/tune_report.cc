@@ -132,7 +132,7 @@ std::string ToText(const TuneResult& result) {
   text +=
       "\n* nothing tried has both fewer alarms and earlier notice. ! measured and predicted "
       "differ\n"
-      "beyond chance. Noticed: from the victim's last beacon to the turn that acts on its "
+      "beyond chance. Noticed: from the target's last beacon to the loop cycle that acts on its "
       "silence.\n\n";
   return text + VerdictText(result);
 }

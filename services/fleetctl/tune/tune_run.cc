@@ -34,17 +34,17 @@ namespace fs = std::filesystem;
   throw InputError({{file, 0, "", "", what, remedy}});
 }
 
-// What the defaults of the flags come to.
+// Resolves the defaults of the flags.
 QosTuneOptions Filled(QosTuneOptions options) {
   if (options.trial_s <= 0) options.trial_s = options.quick ? 12 : 20;
   if (options.verify_trials == 0) options.verify_trials = options.quick ? 5 : 6;
   if (options.fleets == 0) options.fleets = 2 * std::max(1U, std::thread::hardware_concurrency());
-  // A vehicle that is not impaired counts no packets: this impairs nothing, and counts.
+  // An unimpaired vehicle counts no packets: this impairs nothing, but counts.
   if (options.impair == "none" || options.impair.empty()) options.impair = "loss=0";
   return options;
 }
 
-// All that the evidence depends on; how many fleets run side by side may change.
+// Everything that the evidence depends on; the number of parallel fleets may change.
 std::string PlanOf(const QosTuneOptions& options, const qos::ProfileFile& base) {
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(base.bytes.data()),
                         base.bytes.size());
@@ -75,7 +75,7 @@ class Tuning {
                .observer_qos = base_.name,
                .alive_s = options_.trial_s};
     ground_.fleet.options.impair = options_.impair;
-    ground_.fleet.options.vehicles = 0;  // beside those the scenario names
+    ground_.fleet.options.vehicles = 0;  // only those the scenario names
     MakeProfiles();
   }
 
@@ -120,8 +120,8 @@ qos::ProfileFile Tuning::ReadBase() {
   return base;
 }
 
-// The base's text with the candidate's values; empty, with words in `trouble`, if `qos check` finds
-// an error in it.
+// The base's text with the candidate's values; empty, with a message in `trouble`, if `qos check`
+// finds an error in it.
 std::string Tuning::CheckedProfile(const TuneCandidate& candidate, std::string* trouble) const {
   const BeaconQos& base = result_.candidates.front().candidate.qos;
   const qos::EditedProfiles edited =
@@ -170,7 +170,7 @@ std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
   return trials;
 }
 
-// Of the first so many trials: a search that continues sees what it saw when it was cut off.
+// Of the first trials only: a resumed search sees what it saw before it was interrupted.
 void Tuning::TakeFigures(const TuneSearch& search, std::uint32_t most) {
   std::vector<std::vector<TrialEvidence>> taken;
   for (const TunedCandidate& tuned : result_.candidates) {
@@ -235,7 +235,7 @@ TuneResult Tuning::Run() {
   const Interrupts interrupts;
   TuneSearch search(ground_, store_, options_.fleets, options_.seed, PlannedTrials(rungs));
   const std::size_t before = search.All().size();
-  if (before > 0) std::fprintf(stderr, "going on: %zu trials are there already\n", before);
+  if (before > 0) std::fprintf(stderr, "resuming: %zu trials are already done\n", before);
   Climb(rungs, &search);
   Judge(&result_);
   Verify(&search);
@@ -248,7 +248,7 @@ TuneResult Tuning::Run() {
   return result_;
 }
 
-// What `fleetctl qos tune` chose, said where the reader of the file starts.
+// Adds the choice of `fleetctl qos tune` at the top of the file.
 std::string Headed(const std::string& profile, const TuneResult& result) {
   const TunedCandidate& chosen = result.candidates[result.recommended];
   std::string note = fmt::format(
@@ -264,7 +264,7 @@ std::string Headed(const std::string& profile, const TuneResult& result) {
          (declaration == 0 ? "\n" : "") + profile.substr(declaration);
 }
 
-// False if stdout did not take it.
+// False if it could not be written to stdout.
 bool Print(const std::string& text) {
   std::fputs(text.c_str(), stdout);
   return std::fflush(stdout) == 0;
@@ -289,7 +289,7 @@ int RunQosTune(const QosTuneOptions& options) {
                    folder.c_str());
     });
   } catch (const TuneInterrupted&) {
-    std::fprintf(stderr, "interrupted; the same command goes on from here\n");
+    std::fprintf(stderr, "interrupted; run the same command again to resume\n");
     return 1;
   }
 }

@@ -135,7 +135,7 @@ TuneStore::TuneStore(fs::path folder, const std::string& plan) : folder_(std::mo
   if (fs::exists(plan_file) && ReadAll(plan_file) != plan + "\n") {
     throw OutputError(folder_.string() +
                       " holds the evidence of another search (plan.json says which); give its "
-                      "arguments to go on with it, or another --out");
+                      "arguments to resume it, or another --out");
   }
   Write("plan.json", plan + "\n");
   std::vector<fs::path> files;
@@ -144,7 +144,7 @@ TuneStore::TuneStore(fs::path folder, const std::string& plan) : folder_(std::mo
   }
   std::ranges::sort(files);
   for (const fs::path& file : files) {
-    // One that cannot be read is measured again.
+    // A file that cannot be read is measured again.
     if (auto evidence = EvidenceFrom(ReadAll(file))) found_.push_back(std::move(*evidence));
   }
 }

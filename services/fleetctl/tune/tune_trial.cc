@@ -17,7 +17,7 @@ using std::chrono::seconds;
 
 constexpr Nanoseconds kStartLimit = seconds(40);
 constexpr Nanoseconds kSettle = milliseconds(500);
-// Between two killings: longer than any limit that is searched.
+// Between two kills: longer than any limit that is searched.
 constexpr Nanoseconds kBetweenKillings = milliseconds(700);
 constexpr Nanoseconds kFirstKilling = milliseconds(20);
 constexpr std::size_t kMostKillings = 3;
@@ -43,7 +43,7 @@ link::LinkOptions ObserverOptions(const TuneGround& ground, std::uint32_t domain
   return options;
 }
 
-// "bytes=1234" of the line in which a vehicle says what was injected.
+// "bytes=1234" in the line in which a vehicle logs its impairments.
 std::optional<double> BytesIn(const std::string& line) {
   const std::size_t impairment = line.find("impairment: ");
   if (impairment == std::string::npos) return std::nullopt;
@@ -85,7 +85,7 @@ bool TuneTrial::AllHearAll() const {
          std::ranges::all_of(hears_all_, [](const auto& entry) { return entry.second; });
 }
 
-// None but the killed may end before it is asked to.
+// Only killed processes may end before they are asked to.
 void TuneTrial::CheckAlive() {
   const auto gone = processes_->FirstEndNotAllowed([](const auto& end) { return end.planned; });
   if (!gone) return;
@@ -116,8 +116,8 @@ void TuneTrial::EndAlive(SteadyTime now) {
   Enter(Phase::kKilling, now + planned_.front().after);
 }
 
-// Who dies, and how long after the last one, is the seed's; where in the target's own tick that
-// falls is chance.
+// The seed decides which vehicle is killed, and how long after the last one; the phase in the
+// target's own tick is random.
 void TuneTrial::PlanKillings() {
   std::vector<VehicleId> vehicles;
   for (const VehicleOptions& vehicle : ground_.scenario->vehicles) vehicles.push_back(vehicle.id);
@@ -132,7 +132,7 @@ void TuneTrial::PlanKillings() {
   }
 }
 
-// Counted from when the last one was, not from when it should have been: after a pause of this
+// Counted from the actual time of the last kill, not from the planned one: after a pause of this
 // process two would follow each other at once.
 void TuneTrial::KillIfDue(SteadyTime now) {
   if (killed_.size() == planned_.size() || now < until_) return;
@@ -145,7 +145,7 @@ void TuneTrial::KillIfDue(SteadyTime now) {
 
 void TuneTrial::Stop(SteadyTime now) {
   stopped_ = now;
-  // All alike: a vehicle that is asked to leave says what was injected.
+  // All by SIGTERM: a vehicle that stops gracefully logs its impairments.
   processes_->AskToStop();
   Enter(Phase::kStopping, now + kLeaveGrace);
 }
@@ -166,7 +166,7 @@ void TuneTrial::Turn(SteadyTime now) {
   switch (phase_) {
     case Phase::kStarting:
       if (AllHearAll()) Enter(Phase::kSettling, now + kSettle);
-      if (phase_ == Phase::kStarting && now > until_) Fail("not everybody heard everybody");
+      if (phase_ == Phase::kStarting && now > until_) Fail("not all vehicles received each other");
       return;
     case Phase::kSettling:
       if (now >= until_) BeginAlive(now);
@@ -184,7 +184,7 @@ void TuneTrial::Turn(SteadyTime now) {
   }
 }
 
-// By those that were not killed: only they say it. Over their whole life, discovery included.
+// From those that were not killed: only they log it. Over their whole life, discovery included.
 std::optional<double> TuneTrial::HeardBytesPerSecond() const {
   double sum = 0;
   int count = 0;
@@ -227,7 +227,8 @@ TrialEvidence TuneTrial::TakeEvidence() {
 std::string TuneScenarioText(std::uint32_t vehicles) {
   std::string text =
       "name: \"qos_tune\"\n"
-      "description: \"Parallel lanes, slowly: all hear all, and nobody is in anybody's way.\"\n"
+      "description: \"Parallel lanes at low speed: all vehicles receive each other, none "
+      "conflicts.\"\n"
       "duration_s: 3600\nstart_timeout_s: 60\nemission_radius_m: 1000\n";
   for (std::uint32_t i = 1; i <= vehicles; ++i) {
     text += fmt::format(
@@ -235,7 +236,7 @@ std::string TuneScenarioText(std::uint32_t vehicles) {
         "goal {{ x_m: 1000 y_m: {1} }} }}\n",
         i, 3 * (i - 1));
   }
-  // A place for a newcomer who never comes: in an open fleet a death is not the end of the run.
+  // A place for a newcomer that never joins: in an open fleet a death does not end the run.
   text += "spawn { start { x_m: 0 y_m: -30 heading_deg: 0 } cruise_m_s: 0.05 }\n";
   return text + "expect { any_halted: true any_arrived: true }\n";
 }

@@ -39,7 +39,7 @@ NumberRange NumbersOf(const std::string& flag, const std::string& text, double l
       flag, fmt::format("{} to {}, a number or LO..HI, not '{}'", least, most, text));
 }
 
-// In percent: a sign behind each number may say so.
+// In percent: each number may have a percent sign.
 std::string WithoutPercentSigns(std::string text) {
   const std::size_t dots = text.find("..");
   if (text.ends_with("%")) text.pop_back();
@@ -65,9 +65,9 @@ void AddRadioFlags(CLI::App* verb, CaseOptions* made_by) {
           "Percent of beacons lost: 5%, or LO..HI%")
       ->type_name("PERCENT");
   verb->add_flag("--burst", made_by->burst, "The loss comes in bursts of five beacons on average");
-  verb->add_option("--delay", made_by->delay_ms, "Milliseconds a beacon is under way")
+  verb->add_option("--delay", made_by->delay_ms, "Transit time of a beacon in milliseconds")
       ->check(Between(0, 1000));
-  verb->add_option("--jitter", made_by->jitter_ms, "Milliseconds it may take longer")
+  verb->add_option("--jitter", made_by->jitter_ms, "Most random extra transit time in milliseconds")
       ->check(Between(0, 1000));
   verb->add_option("--reorder", made_by->reorder_percent, "Percent held back and overtaken")
       ->check(Between(0, 100));
@@ -112,7 +112,7 @@ void AddCountFlag(CLI::App* verb, const std::string& flag, WholeRange* counts,
       description + ", or LO..HI");
 }
 
-// The first of the flags, for those after it say more.
+// The first group of flags.
 void AddFleetFlag(CLI::App* verb, CaseOptions* made_by) {
   verb->add_option_function<std::string>(
           "--fleet",
@@ -180,8 +180,8 @@ void AddPoseFlags(CLI::App* verb, CaseOptions* made_by) {
         made_by->fleet.least_wheel_error = percent.low / 100;
         made_by->fleet.most_wheel_error = percent.high / 100;
       },
-      "Percent by which wheels are unequal and the axle is another, or LO..HI: each vehicle draws "
-      "both, and which way");
+      "Percent of error in wheel diameter and axle length, or LO..HI: each vehicle draws both, "
+      "and their signs");
   verb->add_option_function<std::string>(
       "--pose-limit",
       [made_by](const std::string& text) {

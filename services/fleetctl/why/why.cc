@@ -47,7 +47,7 @@ std::string Listed(const std::vector<FleetMember>& members,
                 : " no process of a fleet";
 }
 
-// A hearer or speaker of which nothing but its name is known; it is taken to be as the other.
+// A hearer or speaker of which only the name is known; it is assumed to be like the other.
 ProcessSituation StandIn(const Named& named, const ProcessSituation& other) {
   ProcessSituation situation;
   situation.pid = other.pid;
@@ -64,7 +64,7 @@ bool IsIn(const std::optional<std::uint32_t>& domain, const FleetMember& member)
   return !domain || member.domain == *domain;
 }
 
-// Whether someone who was named may be among those that were given no id.
+// Whether a named vehicle may be among those without an id.
 bool MayBeNameless(const Named& named, const std::vector<FleetMember>& members,
                    const std::optional<std::uint32_t>& domain) {
   const auto found = std::ranges::find_if(members, [&](const FleetMember& member) {
@@ -74,8 +74,8 @@ bool MayBeNameless(const Named& named, const std::vector<FleetMember>& members,
   return found != members.end() && !found->is_world && found->id == kNobody;
 }
 
-// Names those that publish no id, as far as they are heard in the place of the first of them. Two
-// that discovery cannot distinguish, being the same process id of two containers, stay nameless.
+// Names the vehicles that publish no id, if the probe hears them in the place of the first of them.
+// Two that discovery cannot distinguish, with the same process id in two containers, stay unnamed.
 void NameByEar(const std::vector<FleetMember*>& nameless) {
   std::map<std::uint16_t, std::vector<FleetMember*>> by_process;
   std::optional<ProcessSituation> place;
@@ -95,7 +95,7 @@ void NameByEar(const std::vector<FleetMember*>& nameless) {
   }
 }
 
-// Names the vehicles of a domain that were given no id, fleet by fleet: one domain number may be of
+// Names the vehicles of a domain without an id, fleet by fleet: one domain number may belong to
 // several, each with a network of its own.
 void NameNameless(std::uint32_t domain, std::vector<FleetMember>* members) {
   std::map<std::pair<std::uint64_t, std::string>, std::vector<FleetMember*>> nameless;
@@ -119,7 +119,7 @@ std::uint32_t VehiclesIn(const std::vector<FleetMember>& members, std::uint32_t 
       members, [&](const FleetMember& one) { return !one.is_world && one.domain == domain; }));
 }
 
-// `foreign`: whose DDS the probe found it to be, if another vendor's.
+// `foreign`: the vendor of its DDS that the probe found, if it is not ours.
 void AddNotKnown(const std::optional<ProcessSituation>& process, const Named& named,
                  const std::string& foreign, WhyReport* report) {
   if (!process) {
@@ -221,7 +221,7 @@ std::variant<ChosenPair, std::string> Choose(const std::vector<FleetMember>& mem
       if (a.domain == b.domain) together.push_back(pairs.back());
     }
   }
-  if (pairs.empty()) return "both names are of one process, and nobody hears itself";
+  if (pairs.empty()) return "both names are of one process, and a process does not receive itself";
   if (pairs.size() == 1) return pairs.front();
   if (together.size() == 1) return together.front();
   std::vector<FleetMember> meant = hearers;

@@ -35,7 +35,7 @@ std::int64_t NumberOr(std::int64_t otherwise, const ProcessSituation& process, q
   return ParticipantNumber(process, policy).value_or(otherwise);
 }
 
-// Where the first announcement goes: a multicast port that follows from the domain.
+// The target of the first announcement: a multicast port that depends on the domain.
 std::int64_t DiscoveryPort(const ProcessSituation& process) {
   return NumberOr(7400, process, qos::Policy::kPortBase) +
          NumberOr(250, process, qos::Policy::kDomainGain) * process.told.domain +
@@ -58,9 +58,9 @@ std::string Where(const ProcessSituation& process) {
                      Listed(AllowedAddresses(process)));
 }
 
-// Whether two in one network namespace hear each other's first announcements. As measured with Fast
-// DDS 2.9.1: two whitelists need an address in common, one interface is not enough; and whoever has
-// a whitelist never meets one that has none where there is more than the loopback.
+// Whether two in one network namespace receive each other's first announcements. As measured with
+// Fast DDS 2.9.1: two whitelists need a common address, a common interface is not enough; and a
+// participant with a whitelist never finds one without if there is more than the loopback.
 bool MeetInside(const ProcessSituation& a, const ProcessSituation& b) {
   const auto allowed_a = AllowedAddresses(a);
   const auto allowed_b = AllowedAddresses(b);
@@ -105,8 +105,8 @@ std::int64_t PeersRange(const ProcessSituation& process) {
   return range;
 }
 
-// True if the first announcements of `from` do not reach `to`: it asks a list of hosts, there only
-// the first few participants, and `to` is none of them.
+// True if the first announcements of `from` do not reach `to`: it contacts a list of hosts, only
+// the first few participants of each, and `to` is not one of them.
 bool AsksInVain(const ProcessSituation& from, const ProcessSituation& to) {
   const qos::Participation* const participation = ParticipationOf(from);
   if (participation == nullptr || participation->peers_without_port == 0) return false;
@@ -198,7 +198,8 @@ void CheckDiscovery(const ProcessSituation& hearer, const ProcessSituation& spea
   };
   const std::string values = Both(hearer, text(*a), speaker, text(*b));
   if (*a == qos::kNone || *b == qos::kNone) {
-    Add(Weight::kPrevents, "discovery_off", values, "A participant without discovery meets nobody.",
+    Add(Weight::kPrevents, "discovery_off", values,
+        "A participant without discovery finds no peers.",
         "discoveryProtocol SIMPLE or CLIENT in both profile sets", causes);
   } else if (IsClient(*a) != IsClient(*b)) {
     Add(Weight::kPrevents, "discovery_apart", values,

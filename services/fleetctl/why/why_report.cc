@@ -11,7 +11,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// Discovery takes a moment: what was not seen for less than this may only be late.
+// Discovery takes a moment: what was missing for less than this may only be late.
 constexpr double kLongEnoughMs = 1000;
 
 bool Probed(const WhyReport& report) { return report.probe && report.probe->trouble.empty(); }
@@ -61,7 +61,7 @@ std::string ProbedText(const WhyReport& report, const std::string& topic) {
   return fmt::format("probed: nothing in {:.1f} s, {}", report.probe->listened_ms * 1e-3, far);
 }
 
-// Every cause once, in order, those that prevent first.
+// Every cause once, in order; those that prevent reception come first.
 std::vector<Cause> CausesOf(const WhyReport& report) {
   std::vector<Cause> all;
   for (const TopicOutlook& topic : report.topics) {
@@ -89,7 +89,7 @@ std::string OwnWordText(const WhyReport& report) {
   if (!Probed(report) || !report.probe->own_word) return {};
   const OwnWord& word = *report.probe->own_word;
   return fmt::format(
-      "its own status: {} near peer{} with a fresh beacon; of {} beacons it took since it began {} "
+      "its own status: {} near peer{} with a fresh beacon; of {} beacons taken since it started {} "
       "accepted, {} from too far, {} rejected; {} incompatible writer{}",
       word.peers_heard, word.peers_heard == 1 ? "" : "s", word.taken, word.accepted, word.too_far,
       word.rejected, word.incompatible, word.incompatible == 1 ? "" : "s");
@@ -112,7 +112,7 @@ std::string HostIdText(const WhyReport& report) {
   if (*report.probe->host_id == *report.host_id) return {};
   return fmt::format(
       "host id of {}: {:#06x} by its addresses now, {:#06x} as it reports itself: its addresses "
-      "have changed since it began",
+      "have changed since it started",
       report.speaker, *report.host_id, *report.probe->host_id);
 }
 
@@ -139,7 +139,7 @@ std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
   return object.Text();
 }
 
-// Whether the vehicle was seen, and without a place.
+// Whether the vehicle was discovered, and without a place.
 bool IsWithoutPlace(const Instructions& told, bool discovered, bool joined, double listened_ms) {
   return !told.is_world && discovered && !joined && listened_ms >= kLongEnoughMs;
 }
@@ -148,7 +148,7 @@ bool NeedsPlace(const TopicOutlook& topic) {
   return topic.topic != "fleet/join" && topic.topic != "world/roster";
 }
 
-// Whether the hearer itself cannot, though another reader in its place might.
+// Whether the hearer itself cannot receive, though another reader in its place might.
 bool IsItselfDeaf(const WhyReport& report, const TopicOutlook& topic) {
   return (topic.outlook == Outlook::kCannot && topic.in_place != Outlook::kCannot) ||
          (report.hearer_without_place && NeedsPlace(topic));
@@ -212,7 +212,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
   const bool own = IsItselfDeaf(report, topic);
   if (Probed(report)) {
     verdict.verdict = heard && !own ? Verdict::kHears : Verdict::kDoesNot;
-    // Who is elsewhere may stand otherwise than the probe did: discovery reports of its own
+    // A process elsewhere may be in another situation than the probe: discovery reports its own
     // readers.
     if (!report.hearer_here) {
       const ProbedTopic probed = ProbedOf(report, topic.topic);
@@ -222,7 +222,7 @@ TopicVerdict VerdictOf(const WhyReport& report, const TopicOutlook& topic) {
     }
     verdict.disagree = report.foretold && topic.in_place != Outlook::kNotKnown &&
                        heard != (topic.in_place == Outlook::kHears);
-    // That could not be predicted.
+    // It could not be predicted.
     if (!heard && report.speaker_without_place && NeedsPlace(topic)) verdict.disagree = false;
   } else if (topic.outlook != Outlook::kNotKnown && report.foretold) {
     verdict.verdict = topic.outlook == Outlook::kHears ? Verdict::kHears : Verdict::kDoesNot;

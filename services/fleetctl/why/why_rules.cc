@@ -25,7 +25,7 @@ Outlook OutlookOf(const Causes& causes, bool facts_known, bool in_place) {
   return any(Weight::kMayPrevent) || !facts_known ? Outlook::kNotKnown : Outlook::kHears;
 }
 
-// What the outlook rests on where nothing speaks against it.
+// What the outlook assumes if there is no cause against it.
 bool FactsKnown(const ProcessSituation& process) {
   return process.told.domain != 0 && process.network_namespace && process.addresses &&
          process.profiles && process.state;
@@ -44,23 +44,24 @@ void CheckEnvironment(const ProcessSituation& process, Causes* causes) {
 
 void CheckProfilesChanged(const ProcessSituation& process, Causes* causes) {
   if (!process.profiles_changed) return;
-  causes->push_back({{qos::Severity::kWarning,
-                      "profiles_changed",
-                      {process.told.qos_file, 0},
-                      NameOf(process),
-                      "the file was written to after the process began",
-                      "The process runs with what it read then, which may be other than foretold.",
-                      "start the process anew, or compare with fleetctl qos show --live"},
-                     Weight::kBeside});
+  causes->push_back(
+      {{qos::Severity::kWarning,
+        "profiles_changed",
+        {process.told.qos_file, 0},
+        NameOf(process),
+        "the file was written to after the process started",
+        "The process runs with what it read then, which may differ from what is predicted here.",
+        "restart the process, or compare with fleetctl qos show --live"},
+       Weight::kBeside});
 }
 
-// A stopped process is silent, and deaf: but in its place another would hear.
+// A stopped process neither sends nor receives: but in its place another would receive.
 void CheckState(const ProcessSituation& process, bool hears, Causes* causes) {
   if (!process.state) return;
   const char state = *process.state;
   if (state != 'T' && state != 't') return;
-  const std::string deaf = "It takes nothing from its readers until it goes on.";
-  const std::string silent = "It sends nothing until it goes on.";
+  const std::string deaf = "It takes nothing from its readers until it is resumed.";
+  const std::string silent = "It sends nothing until it is resumed.";
   causes->push_back({{qos::Severity::kError,
                       "process_stopped",
                       {},

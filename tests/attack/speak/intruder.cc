@@ -47,7 +47,7 @@ void Intruder::LookRound() {
         Take();
         return entries_.contains(orders_.victim) && truths_.contains(orders_.victim);
       },
-      "no world is heard that speaks of the victim");
+      "no world publishes the target");
 }
 
 const Truth& Intruder::VictimNow() {

@@ -1,5 +1,5 @@
-// A process that joins the domain of a fleet and needs no credentials for it: it hears what the
-// world says to all, and writes whatever it likes.
+// A process that joins the domain of a fleet and needs no credentials for it: it receives what the
+// world sends to all, and writes whatever it likes.
 #pragma once
 
 #include <chrono>
@@ -35,11 +35,11 @@ class Intruder {
  public:
   explicit Intruder(const Orders& orders);
 
-  // Until the truth of the victim and the roster's entry of it were heard. Throws.
+  // Waits until the truth and the roster entry of the target were received. Throws.
   void LookRound();
   link::Participant& Participant() { return participant_; }
   const Orders& Asked() const { return orders_; }
-  // Of the victim, as the world said last.
+  // The target's, as the world published last.
   const Truth& VictimNow();
   const RosterEntry& Entry() const { return entries_.at(orders_.victim); }
   const std::map<VehicleId, RosterEntry>& Entries() const { return entries_; }
@@ -47,7 +47,7 @@ class Intruder {
   // Waits for a reader of `writer`. Throws where there is none within seconds.
   template <typename Wire>
   void AwaitReader(const link::Writer<Wire>& writer) {
-    Await([&] { return writer.HasReader(); }, "nobody reads it");
+    Await([&] { return writer.HasReader(); }, "it has no reader");
   }
   // Calls say(i) every `period`, for as long as it was asked to; afterwards what it wrote has time
   // to arrive.

@@ -1,4 +1,4 @@
-// speak_attacker ATTACK DOMAIN QOS_FILE [VICTIM [MILLISECONDS]]: an intruder on a fleet, for the
+// speak_attacker ATTACK DOMAIN QOS_FILE [TARGET [MILLISECONDS]]: an intruder on a fleet, for the
 // tests. Exit code: 0 it did what it was asked to, 1 it could not.
 #include <cstdio>
 #include <cstdlib>
@@ -10,7 +10,7 @@ int main(int argc, char** argv) {
   using namespace giveway;
   const auto attack = argc < 4 ? attack::Attacks().end() : attack::Attacks().find(argv[1]);
   if (attack == attack::Attacks().end()) {
-    std::fputs("usage: speak_attacker ATTACK DOMAIN QOS_FILE [VICTIM [MILLISECONDS]]\n", stderr);
+    std::fputs("usage: speak_attacker ATTACK DOMAIN QOS_FILE [TARGET [MILLISECONDS]]\n", stderr);
     for (const auto& [name, does] : attack::Attacks()) std::fprintf(stderr, "  %s\n", name.c_str());
     return 1;
   }

@@ -23,12 +23,12 @@ TEST(Expectation, IsMetByWhatItAsksFor) {
 
 TEST(Expectation, NamesWhoHaltedAgainstIt) {
   EXPECT_EQ(Unmet({.halted = {kTwo}}, {.halted = {kOne, kTwo}}), "halted: expected 2, got 1 2");
-  EXPECT_EQ(Unmet({.halted = {kTwo}}, {}), "halted: expected 2, got nobody");
+  EXPECT_EQ(Unmet({.halted = {kTwo}}, {}), "halted: expected 2, got none");
 }
 
 TEST(Expectation, NamesEveryMismatchAtOnce) {
   EXPECT_EQ(Unmet({.arrived = {kOne}, .parted = true}, {.contacts = 3}),
-            "contacts: expected 0, got 3; arrived: expected 1, got nobody; "
+            "contacts: expected 0, got 3; arrived: expected 1, got none; "
             "parted: expected true, got false");
 }
 
@@ -63,10 +63,10 @@ TEST(Expectation, WhoHaltsOrArrivesCanBeLeftOpen) {
   outcome.arrived = {kTwo};
   Expectation expect;
   expect.any_halted = true;
-  EXPECT_EQ(Unmet(expect, outcome), "arrived: expected nobody, got 2");
+  EXPECT_EQ(Unmet(expect, outcome), "arrived: expected none, got 2");
   expect.any_halted = false;
   expect.any_arrived = true;
-  EXPECT_EQ(Unmet(expect, outcome), "halted: expected nobody, got 1");
+  EXPECT_EQ(Unmet(expect, outcome), "halted: expected none, got 1");
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ TEST(Run, AnExpectationNotMetFailsWithItsName) {
   driver.run.Start();
   driver.AdvanceToEnd();
   EXPECT_FALSE(driver.run.Figures().passed);
-  EXPECT_EQ(driver.run.Figures().reason, "halted: expected 2, got nobody");
+  EXPECT_EQ(driver.run.Figures().reason, "halted: expected 2, got none");
   EXPECT_EQ(driver.events.back().value, 0);
 }
 
@@ -178,7 +178,7 @@ TEST(Run, WhoDoesNotArriveInTimeIsNamed) {
   Driver driver(scenario);
   driver.run.Start();
   driver.AdvanceToEnd();
-  EXPECT_EQ(driver.run.Figures().reason, "arrived: expected 1 2, got nobody");
+  EXPECT_EQ(driver.run.Figures().reason, "arrived: expected 1 2, got none");
   EXPECT_FALSE(driver.run.Figures().time_to_clear_s.has_value());
 }
 

@@ -49,7 +49,7 @@ namespace fs = std::filesystem;
 
 constexpr unsigned kWriting_s = 60;
 
-// What is run, from files and flags; every process reads the scenario that is written here.
+// What to run, from files and flags; every process reads the scenario that is written here.
 struct Prepared {
   std::string scenario_file;
   std::string faults_file;  // the concrete list
@@ -62,7 +62,8 @@ struct Prepared {
   std::uint32_t newcomers = 0;
 };
 
-// The world's faults need a world that takes them, the hearers' an impairment: always.
+// The world's faults need a world that injects them, the receivers' an impairment: always
+// available.
 std::string WhyNot(const faults::Fault& fault, const std::string& why_no_attacker,
                    bool has_discovery_servers) {
   const auto actor = faults::ActorOf(fault.kind);
@@ -93,7 +94,7 @@ std::string WhyNot(const SoakOptions& options, const Scenario& scenario,
                                  : WhyNot(fault, why_no_attacker, options.discovery_servers > 0);
 }
 
-// Refuses what cannot be carried out here, all at once; or leaves it out and says so.
+// Refuses everything that cannot be injected here at once; or leaves it out and reports it.
 void Sift(const SoakOptions& options, const Scenario& scenario, Prepared* prepared) {
   std::vector<Problem> problems;
   const std::string why_no_attacker = WhyNoAttacker(options.attacker, MayOpenPacketSocket());
@@ -143,7 +144,7 @@ Prepared Prepare(const SoakOptions& options) {
     CheckFolder((folder / "impair").string());
   }
   if (Records(options)) CheckFolder((folder / "recordings").string());
-  // All start together, so that every vehicle's clock of faults is the same.
+  // All start together, so that all vehicles have the same fault clock.
   ScenarioEdit edit{.duration_s = 0.0};
   if (!as_shipped.spawns.empty()) edit.start_with = static_cast<std::uint32_t>(vehicles);
   prepared.scenario_file = (folder / "scenario.textproto").string();
@@ -184,7 +185,7 @@ FleetSpec SpecOf(const SoakOptions& options, const Prepared& prepared, const Dom
   return spec;
 }
 
-// In a file: hours of faults are longer than a command line may be.
+// In a file: hours of faults exceed the length of a command line.
 std::string ImpairFlag(const fs::path& folder, VehicleId vehicle, const Impairment& impairment) {
   const fs::path file = folder / fmt::format("vehicle-{}.impair", Number(vehicle));
   WriteFile(file.string(), ImpairmentText(impairment) + "\n");
@@ -291,7 +292,7 @@ int Conclude(const SoakOptions& options, const SoakResult& result) {
   });
 }
 
-// As `fleetctl virtual` does: the seed moves every vehicle, wherever its place comes from.
+// As in `fleetctl virtual`: the seed moves every vehicle, wherever its place comes from.
 Scenario VirtualScenario(const SoakOptions& options, const Prepared& prepared) {
   const Scenario as_written = LoadScenario(prepared.scenario_file, {0, std::nullopt, std::nullopt});
   Scenario scenario =
@@ -312,7 +313,7 @@ int SoakVirtually(const SoakOptions& options) {
   return Conclude(options, result);
 }
 
-// `whole` is what this is the rest of, if it is.
+// `whole` is the soak of which this is the rest, if any.
 int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const SoakResult* whole) {
   std::optional<PrivateShm> shm;  // first: the threads and processes of the soak share it
   if (Has(prepared.schedule, {faults::Kind::kSharedMemoryGone, faults::Kind::kSharedMemoryLeftOver,
@@ -349,7 +350,7 @@ int SoakProcesses(const SoakOptions& options, const Prepared& prepared, const So
   return Conclude(options, judged(seen));
 }
 
-// What the rest is run with: files of the folder, and figures of what was seen so far.
+// The arguments of the rest: files of the folder, and figures observed so far.
 SoakOptions OptionsOfRest(const SoakOptions& asked, const SoakResult& so_far) {
   const fs::path folder(asked.resume);
   SoakOptions options = asked;
@@ -382,9 +383,9 @@ int Resume(const SoakOptions& asked) {
   prepared.faults_file =
       (folder / fmt::format("faults.rest-{}.textproto", so_far.resumed_at_s.size() + 1)).string();
   WriteFile(prepared.faults_file, faults::AsTextproto(prepared.schedule));
-  // A new fleet: what the world of the one that died knew of its time and places is over.
+  // A new fleet: the old world's times and places are no longer valid.
   fs::remove(folder / "world.checkpoint");
-  std::fprintf(stderr, "goes on at %.0f of %.0f s\n", so_far.ran_s, so_far.planned_s);
+  std::fprintf(stderr, "resuming at %.0f of %.0f s\n", so_far.ran_s, so_far.planned_s);
   return SoakProcesses(options, prepared, &so_far);
 }
 

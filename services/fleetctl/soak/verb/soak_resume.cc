@@ -22,7 +22,7 @@ void Append(const std::vector<Item>& more, std::vector<Item>* items) {
   items->insert(items->end(), more.begin(), more.end());
 }
 
-// Of lists of things that have a time.
+// For lists of elements with a time.
 template <typename Item>
 void AppendLater(const std::vector<Item>& more, double by_s, std::vector<Item>* items) {
   for (Item item : more) {
@@ -72,7 +72,7 @@ void JoinCounts(const SoakResult& rest, double by_s, SoakResult* joined) {
   if (narrower) joined->narrowest_margin = margin;
 }
 
-// The rest ends as it ends; a promise that was broken before stays broken.
+// The rest has its own verdict; a promise that was broken before stays broken.
 void JoinVerdicts(const SoakResult& rest, SoakResult* joined) {
   joined->verdict = rest.verdict;
   std::map<std::string, std::uint64_t> by_kind;
@@ -107,9 +107,9 @@ SoakResult LoadSoFar(const std::string& folder) {
   throw InputError({{.file = folder,
                      .field = "--resume",
                      .value = folder,
-                     .message = "holds no soak to go on with: " + read.complaint,
-                     .remedy = "one that came to its verdict is over: see report.json there; one "
-                               "that died before its fleet drove is to be started anew"}});
+                     .message = "holds no soak to resume: " + read.complaint,
+                     .remedy = "one that reached its verdict is finished: see report.json there; "
+                               "one that died before its fleet drove must be started again"}});
 }
 
 faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double warm_up_s,
@@ -121,9 +121,8 @@ faults::Schedule RestOf(const faults::Schedule& whole, double from_s, double war
     if (fault.at_s >= warm_up_s) {
       rest.push_back(std::move(fault));
     } else {
-      lost->push_back(
-          fmt::format("{}#{} at {:.1f} s: fell into the start of the fleet that went on",
-                      fault.rule, fault.nth, fault.at_s + from_s));
+      lost->push_back(fmt::format("{}#{} at {:.1f} s: fell into the start of the resumed fleet",
+                                  fault.rule, fault.nth, fault.at_s + from_s));
     }
   }
   return rest;

@@ -62,7 +62,7 @@ TEST(Canary, ThatHearsOnlySomeOfThePeersIsWorse) {
 }
 
 TEST(Canary, WithoutAnyRestToCompareItWithIsNotPromoted) {
-  EXPECT_THAT(WhyWorse(Figures(0, 0, 600, 30), {}), HasSubstr("nobody"));
+  EXPECT_THAT(WhyWorse(Figures(0, 0, 600, 30), {}), HasSubstr("no other vehicle"));
 }
 
 }  // namespace
