@@ -65,7 +65,7 @@ TEST(AdminGate, RemembersSoManyAndRefusesWhatIsOlder) {
     ASSERT_EQ(gate.WhyNot(Order(2 * i)), "");
   }
   EXPECT_THAT(gate.WhyNot(Order(2)), HasSubstr("not above"));
-  EXPECT_THAT(gate.WhyNot(Order(3)), HasSubstr("not above")) << "new, and too old to tell";
+  EXPECT_THAT(gate.WhyNot(Order(3)), HasSubstr("not above")) << "new, but too old";
 }
 
 TEST(AdminGate, SealsAnAnswerWholly) {

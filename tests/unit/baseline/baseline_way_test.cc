@@ -86,7 +86,7 @@ TEST(FollowWay, AVehicleStaysOnABentWay) {
   EXPECT_LT(farthest_off_m, 0.03);
 }
 
-// A way of ten metres, closed between two units during some steps.
+// A lane of ten metres, blocked between two units until a given step.
 struct Barrier {
   std::uint32_t from_unit;
   std::uint32_t to_unit;

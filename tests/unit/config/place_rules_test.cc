@@ -241,7 +241,7 @@ TEST(PlaceRules, CountsHaveALimit) {
   EXPECT_THAT(With(Times(16383, "spawn {}\n")), Contains(Is(1, "", "16385 of vehicle and spawn")));
 }
 
-// 38 MB: refused by its size, before anybody reads it.
+// 38 MB: refused by its size, before it is parsed.
 TEST(PlaceRules, AMillionWallsAreTooLargeAFile) {
   const auto problems = With(Times(1'000'000, "wall{from{x_m:0 y_m:9}to{x_m:1 y_m:9}}"));
   ASSERT_EQ(problems.size(), 1U);

@@ -192,7 +192,7 @@ TEST(Place, AClosedFleetStartsWithNobodyInParticular) {
   EXPECT_EQ(Load(kGoodScenario).start_with, 0U);
 }
 
-// Vehicles have 1 and 2, so whoever joins first gets 3.
+// Vehicles have ids 1 and 2, so the first to join gets 3.
 TEST(Place, AnExpectationMayNameTheIdsTheWorldGives) {
   const auto text = [](const char* ids) {
     return Spoilt("arrived: [1]", std::string("arrived: [") + ids + "]") + kSpawn;

@@ -227,7 +227,7 @@ TEST(ScenarioRules, ATickTheBeaconAgeLimitCannotGuardIsRefused) {
   EXPECT_THAT(ProblemsOf(kGoodScenario + "tick_period_ms: 66"), IsEmpty());
 }
 
-// A vehicle nobody believes is one no vehicle gives way to.
+// No vehicle gives way to a vehicle whose beacons its peers reject.
 TEST(ScenarioRules, AVehicleWhosePeersWouldNotBelieveItIsRefused) {
   EXPECT_THAT(ProblemsOf(Spoilt("cruise_m_s: 0.4", "cruise_m_s: 2 profile{max_speed_m_s: 2.4}")),
               IsEmpty());

@@ -61,7 +61,7 @@ TEST(StartShape, ALineThroughABoxOrInsideItOverlaps) {
   EXPECT_TRUE(Overlap(box, StartLine{{-5, 1}, {9, 1}}));
   EXPECT_TRUE(Overlap(box, StartLine{{2, 1}, {2.01, 1}}));
   EXPECT_FALSE(Overlap(box, StartLine{{-5, 1}, {1.4, 1}}));
-  EXPECT_FALSE(Overlap(box, StartLine{{1.7, 1.4}, {2.6, 1.9}}));  // beside its long side
+  EXPECT_FALSE(Overlap(box, StartLine{{1.7, 1.4}, {2.6, 1.9}}));  // next to its long side
 }
 
 TEST(StartShape, WhatIsNotFiniteOverlapsNothing) {

@@ -55,7 +55,7 @@ Course AnyCourse() {
           .healing_s = *rc::gen::inRange(0, 20) * 1.0};
 }
 
-// Nobody may have died in vain.
+// No generated fault may be refused.
 Schedule AllOf(const FaultFile& file, const Course& course) {
   const Expansion expansion = Expand(file, course, Fleet(kVehicles));
   RC_ASSERT(expansion.refused.empty());
@@ -90,7 +90,8 @@ TEST(ExpandProperty, ListsAreSortedInTimeAndWithoutFaultsThatExcludeEachOther) {
   }));
 }
 
-// No fault of another rule moves or goes; one that had to make way may come back.
+// No fault of another rule is moved or removed; one that was dropped because of a conflict may come
+// back.
 TEST(ExpandProperty, TakingOneRuleOutLeavesTheFaultsOfAllOthers) {
   EXPECT_TRUE(rc::check("others stay", [] {
     FaultFile file = AnyFile();

@@ -25,7 +25,7 @@ using ::testing::StartsWith;
 
 constexpr SteadyTime kNow = seconds(100);
 
-// Vehicle 2 of 2, in a run that has begun, with ranges a moment old.
+// Vehicle 2 of 2, in a started run, with ranges a moment old.
 VehicleHealth Driving() {
   VehicleHealth vehicle;
   vehicle.loop = {.stage = HealthStage::kUnderWay, .turned = kNow - milliseconds(50), .turns = 7};
@@ -186,7 +186,7 @@ TEST(Health, MetricsHaveNamesUnitsAndHelp) {
   }
 }
 
-// What does not exist is left out, instead of being told as 0.
+// A value that does not exist is left out, not reported as 0.
 TEST(Health, ThereIsNoEchoAndNoAgeBeforeTheFirst) {
   VehicleHealth vehicle = Driving();
   vehicle.scanned = SteadyTime{0};

@@ -207,7 +207,7 @@ TEST(ChannelModel, ABlackoutBeginsAndEndsToTheNanosecondAndOnlyAfterTheStart) {
   rule.blackouts = {{1, 2}, {5, 6}};
   ChannelModel model(Of({rule}));
   const auto heard = [&](Nanoseconds at) { return !model.Decide(kThree, kBytes, at).dropped; };
-  EXPECT_TRUE(heard(seconds(1)));  // nobody has started
+  EXPECT_TRUE(heard(seconds(1)));  // not started yet
   model.Start(seconds(10));
   model.Start(seconds(11));  // a second start signal moves nothing
   constexpr Nanoseconds kTick{1};
@@ -227,7 +227,7 @@ TEST(ChannelModel, ARuleWithTimesHoldsFromOneToTheOtherAndNotBeforeTheStart) {
   ChannelModel model(Of({rule}));
   const auto heard = [&](Nanoseconds at) { return !model.Decide(kThree, kBytes, at).dropped; };
   constexpr Nanoseconds kTick{1};
-  EXPECT_TRUE(heard(milliseconds(1500)));  // nobody has started
+  EXPECT_TRUE(heard(milliseconds(1500)));  // not started yet
   model.Start(seconds(10));
   EXPECT_TRUE(heard(seconds(11) - kTick));
   EXPECT_FALSE(heard(seconds(11)));

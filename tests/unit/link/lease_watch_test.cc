@@ -1,4 +1,4 @@
-// Whom the lease watch takes leave of, and when: by packets as participants send them.
+// Which participants the lease watch drops, and when: by packets as participants send them.
 #include "services/link/packet_filter/lease_watch.h"
 
 #include <gtest/gtest.h>

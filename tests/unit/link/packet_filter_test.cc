@@ -370,7 +370,7 @@ TEST(PacketFilter, DropsCountsThatJump) {
       EXPECT_EQ(DropOf(make(kHighest), now, &filter), PacketDrop::kSequenceJump);
       now += milliseconds(200);
     }
-    EXPECT_EQ(DropOf(make(7), now, &filter), PacketDrop::kNone) << "a reader made anew";
+    EXPECT_EQ(DropOf(make(7), now, &filter), PacketDrop::kNone) << "a new reader";
     now += seconds(60);
     EXPECT_EQ(DropOf(make(400), now, &filter), PacketDrop::kNone) << "sent to others";
   }

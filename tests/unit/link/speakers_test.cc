@@ -96,7 +96,7 @@ TEST_F(Sessions, OnlyTheOwnerLeavesOrWhoKnowsTheSecret) {
   EXPECT_EQ(owners_.MayLeave(request, 2), Verdict::kOfAnother);
   request.secret = secret;
   EXPECT_EQ(owners_.MayLeave(request, 2), Verdict::kYes);
-  EXPECT_EQ(owners_.MayLeave(Ask(9), 1), Verdict::kOfAnother) << "nobody asked with it";
+  EXPECT_EQ(owners_.MayLeave(Ask(9), 1), Verdict::kOfAnother) << "never asked with";
 }
 
 TEST_F(Sessions, AnOwnerMayLeaveTwice) {
@@ -127,7 +127,7 @@ TEST_F(Sessions, AreBoundedAndTheOldestWithoutAPlaceGoFirst) {
   AskBy(3, 3);
   EXPECT_EQ(owners_.Sessions(), SessionOwners::kMostSessions);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 1U);
-  EXPECT_EQ(AskBy(4, 2), Verdict::kYes) << "it was forgotten: anybody may ask with it";
+  EXPECT_EQ(AskBy(4, 2), Verdict::kYes) << "it was evicted: any participant may ask with it";
 }
 
 TEST_F(Sessions, OfOneEveryVehicleIsKnownUntilItsPlaceEnds) {

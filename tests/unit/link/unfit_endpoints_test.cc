@@ -1,4 +1,4 @@
-// Endpoints on our topics that will never match, as discovery tells them.
+// Endpoints on our topics that will never match, as reported by discovery.
 #include "services/link/inbox/unfit_endpoints.h"
 
 #include <gmock/gmock.h>
@@ -80,7 +80,7 @@ TEST_F(Unfit, WhatIsMeantForOthersIsNot) {
   EXPECT_THAT(Lines({Endpoint(false, "world/ranges", "v3", 7),
                      Endpoint(true, "fleet/beacon", "north/v4", 7),
                      Endpoint(true, "fleet/beacon", "main/v5", 8),
-                     Endpoint(true, "fleet/beacon", "", 8),  // beside the one in a partition
+                     Endpoint(true, "fleet/beacon", "", 8),  // besides that in a partition
                      Endpoint(true, "chatter", "", 9)}),
               IsEmpty());
 }
@@ -102,7 +102,7 @@ TEST_F(Unfit, OfThoseThatCameLongAgoFewAreKnown) {
     EXPECT_THAT(unfit_.Judge(own_, now), IsEmpty());
   }
   EXPECT_LE(unfit_.Known(), 150U);
-  // What a vehicle has beside is known all the same, with eleven others between.
+  // A vehicle's other endpoints are still known, with eleven others in between.
   own_.push_back(Endpoint(false, "fleet/beacon", "main/*", 0));
   unfit_.Add(Endpoint(true, "fleet/beacon", "main/v5", 8), now);
   for (int i = 0; i < 110; ++i) unfit_.Add(JoinWriter(), now);

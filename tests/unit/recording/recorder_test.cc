@@ -156,7 +156,7 @@ TEST(Recorder, ALinkIsNotWrittenThrough) {
   EXPECT_THAT(FilesIn(folder), ElementsAre("tape", "tape.2"));
 }
 
-// The last steps make room for the end, which says why it comes.
+// The last steps are dropped to fit the end record, which says why the file ends.
 TEST(Recorder, AFullDiskIsToldByTheFile) {
   const TempFolder folder;
   const std::string file = folder.Path() + "/tape";

@@ -172,7 +172,7 @@ TEST(Picture, ABoxIsDrawnAsABoxThatPointsItsWay) {
   EXPECT_NEAR(standing.y, 4 * standing.x, 1);
 }
 
-// The world tells where a vehicle was closest, its track which way it pointed.
+// The world reports where the closest approach was; the track gives the heading there.
 TEST(Picture, ABoxAtItsClosestPointsAsItDroveThere) {
   Scenario scenario = Crossing();
   scenario.vehicles[0].profile.shape = BodyShape::kBox;

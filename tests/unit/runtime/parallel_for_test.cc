@@ -14,7 +14,7 @@ namespace giveway {
 namespace {
 
 // How often each index was given out. Plain bytes: two threads on one index are a data race, which
-// the thread sanitizer tells.
+// the thread sanitizer reports.
 std::vector<std::uint8_t> Visits(const ParallelFor& parallel_for, std::size_t count) {
   std::vector<std::uint8_t> visits(count, 0);
   parallel_for(count, [&](std::size_t begin, std::size_t end) {
@@ -90,7 +90,7 @@ TEST_P(ParallelPoolOf, EndsUnusedToo) {
   for (int i = 0; i < 100; ++i) ParallelPool pool(GetParam());
 }
 
-// Nested, the outer call's body goes on: the pool serves the next call as before.
+// Called from within a body, which then continues: the pool serves the next call as before.
 TEST_P(ParallelPoolOf, IsFreeAgainAfterEachCall) {
   ParallelPool pool(GetParam());
   const ParallelFor parallel_for = pool.Function();

@@ -1,4 +1,4 @@
-// What a vehicle that asks is told of where it is and how far its task was.
+// What the world answers a joining vehicle about its pose and the progress of its task.
 #include <gtest/gtest.h>
 
 #include "sim_world/run/admission.h"
@@ -57,7 +57,7 @@ class OnePlace {
   WorldEpoch epoch_;
 };
 
-// It drove 3.6 m in four_way, restarted itself and was told that it stood where it had started.
+// Regression: it drove 3.6 m in four_way, restarted itself, and the answer gave its start pose.
 TEST(AdmissionPlaces, EveryAnswerSaysWhereTheBodyIsNow) {
   OnePlace fleet;
   fleet.Join(Ask(1));

@@ -32,7 +32,7 @@ TEST(Admission, WhoFindsNoFreePlaceWaitsAndIsLetInWhenOneComesFree) {
   EXPECT_TRUE(third.waiting);
   EXPECT_EQ(third.reason, "no start place is free");
   for (int second = 0; second < 10; ++second) {
-    door.admission.Take(Ask(3));  // it continues asking, and is told once
+    door.admission.Take(Ask(3));  // it keeps asking, and is answered once
     door.Tick(20);
     EXPECT_TRUE(door.answers.empty());
   }
@@ -95,7 +95,7 @@ TEST(Admission, ARestartedVehicleGetsItsIdBackOnceTheOldOneIsSilentWhereItsBodyS
   EXPECT_EQ(back.spawn, 1U);
   EXPECT_GT(back.start_world.position_world.x, 0.2);
   EXPECT_EQ(back.start_world, door.run.BodyOf(VehicleId{1})->world_from_body);
-  // The old session, should it still be there, is told that it is out.
+  // The old session, if it still exists, is answered that it is out.
   EXPECT_EQ(door.answers.back().session, Ask(1).session);
   EXPECT_FALSE(door.answers.back().accepted);
   EXPECT_FALSE(door.answers.back().waiting);
@@ -240,7 +240,7 @@ TEST(Admission, AWorldThatStartsAnewGivesARunningVehicleOfAnOpenFleetItsIdBack) 
   EXPECT_EQ(door.Join(Ask(2)).vehicle, VehicleId{1});
 }
 
-// The vehicles know their sessions and ask again; what they are told is where they stand.
+// The vehicles keep their sessions and ask again; the answer is where they stand.
 TEST(Admission, ARestoredWorldKnowsItsSessionsAndWhereTheyStandOnceTheyStand) {
   constexpr WorldEpoch kNext{8};
   Door before(OpenScenario());

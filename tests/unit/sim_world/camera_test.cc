@@ -32,7 +32,7 @@ TEST(Camera, DoesNotSeeWhatIsHiddenOrOutOfItsField) {
   scene.AddDisc({3, 1}, 0.4, 1);
   scene.AddDisc({6.3, 2.1}, 0.3, 2);  // behind the first
   scene.AddDisc({8, -0.5}, 0.3, 3);   // behind the wall
-  scene.AddDisc({2, 2.5}, 0.3, 4);    // beside the field of view
+  scene.AddDisc({2, 2.5}, 0.3, 4);    // outside the field of view
   scene.AddDisc({-3, 0}, 0.3, 5);     // behind
   scene.AddDisc({16, 0.9}, 0.3, 6);   // too far
   scene.Index();

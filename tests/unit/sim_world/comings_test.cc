@@ -61,7 +61,7 @@ TEST(Comings, OfVehiclesThatLeftNothingIsKeptOrTold) {
   EXPECT_THAT(door.run.Forgotten(), ::testing::ElementsAre(VehicleId{399}));
   door.Tick();
   EXPECT_THAT(door.run.Truths(), ::testing::IsEmpty());
-  // One of them comes again, and is told of at once.
+  // One of them rejoins, and is reported at once.
   ASSERT_TRUE(door.Join(Ask(7, 399)).accepted);
   EXPECT_THAT(door.run.Truths(), ::testing::SizeIs(1));
 }

@@ -16,7 +16,7 @@ inline VehicleOptions SpawnAt(double x_m) {
   return options;
 }
 
-// Vehicle 2 is named; two places for whoever comes.
+// Vehicle 2 is named; two places are open to any vehicle.
 inline Scenario OpenScenario() {
   Scenario scenario = ScenarioOf({VehicleAt(2, {{0, 10}, 0})});
   scenario.spawns = {SpawnAt(0), SpawnAt(10)};

@@ -75,7 +75,7 @@ TEST(Drive, NoCommandEverBreaksTheCapsOrTheAcceleration) {
   }
 }
 
-// Wheels that speed up faster than they slow down could overshoot the turn cap on the way.
+// Wheels that speed up faster than they slow down could overshoot the turn cap in between.
 TEST(Drive, TheCapsWinOverTheAcceleration) {
   VehicleProfile eager = kP3dx;
   eager.acceleration_m_s2 = 3;

@@ -77,7 +77,7 @@ TEST_F(JudgeTest, AStopThatWasCalledOffIsNoCauseOfTheNextHalt) {
   SetSpeed(0);
   Observe(10);
   EXPECT_EQ(judge_.HaltedFor(), std::vector{Rule::kPeerLost});
-  SetSpeed(0.1);  // on its way again, and at once in the way of another
+  SetSpeed(0.1);  // drives again, and at once blocks another
   body_.command.decision.rule = Rule::kGiveWay;
   Observe(2);
   SetSpeed(0);

@@ -1,5 +1,5 @@
-// The sensor of fixes: how often, how wrong, how often not, and that it hangs on nobody else;
-// wheels that are not what the drive says; and the faults of fixes.
+// The pose fix sensor: rate, error, drop-outs, and independence from other vehicles; wheels that
+// differ from the nominal drive; and faults of fixes.
 #include "sim_world/sensors/pose_fix.h"
 
 #include <gtest/gtest.h>
@@ -174,7 +174,7 @@ TEST(PoseFixFault, OfSomeHitsSome) {
   EXPECT_LT(off, 17);
 }
 
-// Borenstein's bidirectional square path, one leg of it: unequal wheels bend a straight way.
+// One leg of Borenstein's bidirectional square path: unequal wheels bend a straight path.
 TEST(WheelErrors, UnequalWheelsBendAStraightWay) {
   VehicleProfile profile = PioneerP3dx();
   profile.wheel_error.diameter = 0.02;

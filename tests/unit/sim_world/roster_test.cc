@@ -66,7 +66,7 @@ TEST(Roster, AFullFleetTakesNobodyElse) {
   EXPECT_EQ(roster.Admit(Ask(3, 0)).reason, "the fleet is full");
 }
 
-// Whoever patrols comes by its start again: another one from there would fill the loop.
+// A patrolling vehicle passes its start again: another one starting there would fill the loop.
 TEST(Roster, APlaceThatLoopsIsItsVehiclesForAsLongAsThatIsInTheRun) {
   Scenario scenario = ScenarioOf({});
   scenario.spawns = {VehicleAt(0, {.position_world = {1, 0}})};

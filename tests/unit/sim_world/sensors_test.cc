@@ -21,7 +21,8 @@ struct Box {
   Vec2 half_m;
 };
 
-// Shapes round a sensor, kept beside the scene so that a reference can go through them one by one.
+// Shapes round a sensor, kept apart from the scene so that a reference can go through them one by
+// one.
 struct Place {
   std::vector<Wall> walls;
   std::vector<std::pair<Vec2, double>> discs;
@@ -285,7 +286,7 @@ TEST(Radar, OfManyTheNearestWinAndTheOrderOfAddingDoesNotShow) {
     Scene scene({});
     for (Owner i = 0; i < 60; ++i) {
       const Owner owner = backwards ? 59 - i : i;
-      // A fan of posts, each further than the one beside it, none behind another.
+      // A fan of posts, each further than its neighbour, none behind another.
       const double bearing = Radians(-38 + 1.25 * owner);
       const double range = 3 + 0.03 * owner;
       scene.AddDisc({range * Cos(bearing), range * Sin(bearing)}, 0.01, owner);

@@ -111,7 +111,7 @@ TEST(Crosstalk, AVehicleReadsTheOtherAtHalfItsDistance) {
 }
 
 TEST(Crosstalk, TheOwnEchoWinsWhereItIsNearer) {
-  // A wall's end beside the way, in the left transducers' cones only.
+  // The end of a wall next to the path, in the left transducers' cones only.
   const Wall beside = {{1, 0.2}, {1, 3}};
   const std::vector<double> without = RangesOfFirst(SonarTier::kP3dx, 2, 4, {&beside, 1});
   const std::vector<double> with = RangesOfFirst(SonarTier::kCrosstalk, 2, 4, {&beside, 1});

@@ -99,7 +99,8 @@ double Search(const View& view, Vec2 from, Vec2 to) {
   return GoldenMinimum([&](double u) { return view.Distance(at(u)); }, low, high);
 }
 
-// Along a ray the way to the disc's rim; beyond kMissed_m what it misses the disc by.
+// The distance along a ray to the disc's rim; beyond kMissed_m, the distance by which the ray
+// misses the disc.
 constexpr double kMissed_m = 1000;
 
 double WayToRim(Vec2 apex, Vec2 unit, Vec2 centre, double radius_m) {

@@ -167,7 +167,7 @@ TEST(SonarRing, TheOwnBodyIsNotHeard) {
   for (const RangeReading& reading : ring.Sense({}, Tick{3}, {&own, 1}, 0, {})) {
     EXPECT_NE(reading.kind, Echo::kEcho);
   }
-  // The same disc is heard at once when it is somebody else's.
+  // The same disc is detected at once when it is another vehicle's.
   EXPECT_EQ(ring.Sense({}, Tick{3}, {&own, 1}, 1, {})[0].range_m, 0);
 }
 

@@ -75,7 +75,7 @@ TEST(WorldBodies, ATouchingPairThatSlidesIsOneContact) {
   EXPECT_LE(world.Contacts(), 2U);
 }
 
-// Four meet in the middle: nobody is favoured.
+// Four meet in the middle: none is favoured.
 TEST(WorldBodies, ASymmetricSituationStaysSymmetric) {
   Scenario scenario = ScenarioOf({});
   for (std::uint32_t i = 0; i < 4; ++i) {

@@ -46,7 +46,7 @@ faults::Fault FaultAtAll(Kind kind) {
   return fault;
 }
 
-// A run in which everybody drives at 1 rad/s, and one beside it without faults.
+// A run in which all vehicles drive at 1 rad/s, and a fault-free one to compare with.
 class SideBySide {
  public:
   explicit SideBySide(faults::Schedule schedule, std::uint64_t seed = 1,
@@ -233,7 +233,7 @@ TEST(SonarFault, IntermittentLosesItsShareOfWholeScans) {
   EXPECT_NEAR(lost, 300, 60);
 }
 
-// Of a schedule for everybody each draws for itself.
+// Each vehicle draws its own values from a schedule for all.
 TEST(SonarFault, OfAllMeetsEverybody) {
   SideBySide pair({FaultAtAll(Kind::kSonarGarbage)});
   pair.AdvanceTo(kBegins);
@@ -359,7 +359,7 @@ TEST(WorldFaults, OneShorterThanATickLastsATick) {
   EXPECT_EQ(pair.Of(EventKind::kFaultOver).size(), 1U);
 }
 
-// What never met anybody is not said to have happened.
+// A fault that never affected a vehicle is not reported as having happened.
 TEST(WorldFaults, OfAVehicleThatIsNotThereNeverBegins) {
   faults::Fault fault = FaultAt(Kind::kSonarOff);
   fault.target.vehicle = VehicleId{9};
@@ -436,7 +436,8 @@ TEST(WorldFaults, ACheckpointOfAnotherScheduleIsRefused) {
   EXPECT_FALSE(without.Restore(pair.faulty.Save(), {}));
 }
 
-// Once nobody speaks for longer than a second, who is stopped on purpose is waited for.
+// After more than a second without commands, the run still waits for a vehicle stopped by a planned
+// fault.
 TEST(PlannedSilence, OfAPausedVehicleDoesNotEndAClosedRun) {
   SideBySide pair({FaultAt(Kind::kPause)});
   pair.AdvanceTo(10);

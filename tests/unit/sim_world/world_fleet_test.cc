@@ -1,4 +1,4 @@
-// Vehicles that come and go, checkpoints, and what other sensors are told.
+// Vehicles that join and leave, checkpoints, and what other sensors receive.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -37,8 +37,8 @@ TEST(WorldFleet, WhoeverJoinsIsSortedByIdInAnyOrder) {
   }
 }
 
-// The one that joins in between moves everybody's place: touching, motions and readings must
-// follow.
+// A vehicle that joins in the middle shifts the indices of the others: contacts, motions and
+// readings must follow.
 TEST(WorldFleet, JoiningDuringARunDisturbsNobody) {
   const auto scenario = ScenarioOf({VehicleAt(2, {}), VehicleAt(9, {{0.6, 0}, kPi})});
   World world(scenario, kEpoch);
@@ -100,7 +100,7 @@ TEST(WorldFleet, APlaceIsFreeWhereNothingTouches) {
   scenario.doors = {{.from_world = {-1, 3}, .to_world = {1, 3}}};
   World world(scenario, kEpoch);
   const auto is_free = [&](Vec2 at) { return world.IsFree(VehicleAt(2, {at, 0})); };
-  EXPECT_TRUE(is_free({0.4, 0}));  // nobody is there yet
+  EXPECT_TRUE(is_free({0.4, 0}));  // no vehicle is there yet
   world.Join(VehicleId{1});
   EXPECT_FALSE(is_free({0.4, 0}));
   EXPECT_FALSE(is_free({0.5, 0}));

@@ -37,8 +37,8 @@ TEST(World, EncodersAreEnoughForPerfectDeadReckoning) {
   EXPECT_GT(world.Contacts(), 0U);  // cut ticks were among them
 }
 
-// Whoever misses scans knows by the count how far it rolled, errors of the encoders included; a
-// body that is put into the world again starts to count again.
+// A vehicle that misses scans learns from the count how far it rolled, encoder errors included; a
+// body that is put into the world again counts from zero.
 TEST(World, EncodersCountWhatTheyTell) {
   Scenario scenario = Facing(0.6);
   scenario.vehicles[0].profile.encoder_noise = 0.1;

@@ -155,7 +155,7 @@ TEST(BrainState, OfAnotherFormatIsRefused) {
   EXPECT_EQ(StateFrom(bytes, DefaultOptions()), nullptr);
 }
 
-// Bytes of the layout of before end where those of the pose begin.
+// The bytes of the previous layout end where the pose state starts.
 TEST(BrainState, AnImageOfBeforeThePoseWasKeptIsTheSameBrainWithItsPoseBegunAnew) {
   Fate fate(5);
   Vehicle brain(DefaultOptions(), 42);

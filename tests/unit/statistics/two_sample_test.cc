@@ -15,7 +15,7 @@ using testing::ElementsAre;
 
 using Values = std::vector<double>;
 
-// Of 4 choose 2 = 6 ways to deal out ranks only one has the two greatest.
+// Of the 4 choose 2 = 6 rank assignments only one has the two greatest.
 TEST(MannWhitney, FewValuesAreCountedOut) {
   EXPECT_NEAR(MannWhitneyGreater(Values{1, 2}, Values{3, 4}), 1.0 / 6, 1e-12);
   EXPECT_NEAR(MannWhitneyGreater(Values{3, 4}, Values{1, 2}), 1, 1e-12);

@@ -60,7 +60,8 @@ RC_GTEST_PROP(Distance, GrowsInProportion, ()) {
   RC_ASSERT(Distance(metric, 2.0 * offset) == 2 * Distance(metric, offset));
 }
 
-// The safety of every gate: whoever is inside it by the Euclidean distance is inside it by any.
+// The safety of every gate: a vehicle inside it by the Euclidean distance is inside it by any
+// metric.
 RC_GTEST_PROP(GateDistance, IsNeverAboveTheEuclideanNotEvenByRounding, ()) {
   const Vec2 offset = AnyOffset();
   RC_ASSERT(GateDistance(AnyMetric(), offset) <= Norm(offset));

@@ -38,7 +38,7 @@ TEST(Order, IsStrictAndTotalOverDistinctIds) {
   }
 }
 
-// 4 is blocked by 1 and 1 by 33: all act by the key of 4, and only 33 can make room.
+// 4 is blocked by 1 and 1 by 33: all inherit the key of 4, and only 33 can clear the path.
 TEST(Order, WhoLendsItsKeyComesAfterWhomItIsLentTo) {
   const OrderKey lent = Key(0, 9, 4);
   EXPECT_TRUE(ComesFirst(lent, VehicleId{33}, lent, VehicleId{4}));

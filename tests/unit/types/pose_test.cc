@@ -75,8 +75,8 @@ TEST(PoseCovariance, IsCarriedOnWithTheErrorOfTheHeading) {
   const PoseCovariance start{0.04, 0.01, 0.02, 0.002, -0.003, 0.01};
   const Vec2 way{3, -2};
   const PoseCovariance end = Carried(start, way);
-  // An error (x, y, h) of the start becomes (x - way.y h, y + way.x h, h): by the variances of
-  // those sums, term by term.
+  // An error (x, y, h) of the start becomes (x + 2 h, y + 3 h, h): by the variances of those
+  // sums, term by term.
   EXPECT_NEAR(end.xx_m2, 0.04 + 2 * 2 * 0.002 + 4 * 0.01, 1e-15);
   EXPECT_NEAR(end.yy_m2, 0.02 + 2 * 3 * -0.003 + 9 * 0.01, 1e-15);
   EXPECT_NEAR(end.xy_m2, 0.01 + 3 * 0.002 + 2 * -0.003 + 6 * 0.01, 1e-15);

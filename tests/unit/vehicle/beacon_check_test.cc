@@ -25,7 +25,7 @@ struct Bounds {
   double most;
 };
 
-// A beacon whose cruise speed nobody holds against its order.
+// A beacon whose cruise speed is consistent with its priority key.
 Beacon Believable() {
   Beacon beacon = test::BeaconOf(2, 1, {});
   beacon.order.vehicle = VehicleId{9};

@@ -1,4 +1,4 @@
-// Who lends its place in the order: the first of those that this vehicle is in the way of.
+// Priority inheritance: the key of the first of the vehicles that this one blocks.
 #include "services/vehicle/situation/blocked.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 constexpr VehicleId kOwn{1};
 constexpr OrderKey kOwnKey{.speed_bucket = 6, .vehicle = kOwn};
 
-// The order of one that has heard these beacons.
+// The acting priority of a vehicle that has received these beacons.
 OrderKey After(const std::vector<Beacon>& beacons) {
   PeerTable peers;
   BeaconCounters counters;
@@ -24,7 +24,7 @@ OrderKey After(const std::vector<Beacon>& beacons) {
   return ActingOrder(kOwnKey, peers, kOwn);
 }
 
-// Faster than this vehicle, and held up by it.
+// Faster than this vehicle, and blocked by it.
 Beacon HeldUp(std::uint32_t tick) {
   Beacon beacon = test::BeaconOf(2, tick, {.position_world = {-1, 0}}, 0.4);
   beacon.blocked_by = kOwn;

@@ -1,5 +1,6 @@
-// Crossings that cannot be left are not entered, and who is held up before one is not waited for:
-// one brain on a table, heading east from the origin at 0.3 m/s; the peers cross its way at x = 4.
+// A crossing that cannot be left is not entered, and a peer held up before one is not waited for:
+// one brain on the bench, heading east from the origin at 0.3 m/s; the peers cross its path at x =
+// 4.
 #include "services/vehicle/situation/box.h"
 
 #include <gtest/gtest.h>
@@ -23,11 +24,11 @@ constexpr VehicleId kThird{9};
 
 WheelSpeeds Rolling(double speed_m_s) { return {speed_m_s / 0.0975, speed_m_s / 0.0975}; }
 
-// Comes from the south and stands before the own way.
+// Comes from the south and stands before the own path.
 Beacon PeerAt(std::uint32_t tick, double cruise_m_s) {
   return BeaconOf(2, tick, {.position_world = {4, -1.2}, .heading_rad = kPi / 2}, cruise_m_s);
 }
-// By its cruise speed it comes first, but says that it gives way to `to`.
+// Has priority by its cruise speed, but its beacon says that it gives way to `to`.
 Beacon PeerGivingWayTo(VehicleId to, std::uint32_t tick) {
   Beacon peer = PeerAt(tick, 0.4);
   peer.rule = Rule::kGiveWay;
@@ -42,7 +43,8 @@ Beacon Leader(std::uint32_t tick, double x_m, double speed_m_s) {
   return beacon;
 }
 
-// Drives on while the beacons are as `say` says at a tick, until told to stop, for 20 s at most.
+// Drives with the beacons that `say` gives for each tick, until commanded to stop, for 20 s at
+// most.
 template <typename Say>
 Outputs DriveUntilStopped(BrainBench* bench, Say say) {
   Outputs out;
@@ -58,7 +60,7 @@ Outputs DriveUntilStopped(BrainBench* bench, Say say) {
 
 double PlaceOf(const Outputs& out) { return out.beacon.world_from_body.position_world.x; }
 
-// Drives towards the peer, which says the same all the time.
+// Drives towards the peer, whose beacon does not change.
 Outputs DriveUpTo(Beacon peer) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   return DriveUntilStopped(&bench, [&peer](std::uint32_t tick) {
@@ -85,7 +87,7 @@ TEST(HeldUp, OneThatGivesWayToThisVehicleAloneIsWaitedForByTheOrder) {
   EXPECT_LT(PlaceOf(out), 3.4);
 }
 
-// Its shell is in the way already.
+// Its body is already in the path.
 TEST(HeldUp, OneThatStandsInTheCrossingIsWaitedFor) {
   Beacon peer = PeerGivingWayTo(kThird, 1);
   peer.world_from_body.position_world.y = -0.55;
@@ -94,8 +96,8 @@ TEST(HeldUp, OneThatStandsInTheCrossingIsWaitedFor) {
   EXPECT_LT(PlaceOf(out), 3.5);
 }
 
-// What it waits for may be gone before the lane is free. Its way comes down to this one at 17
-// degrees; it stands just beside it.
+// What it waits for may be gone before the lane is free. Its path meets this one at 17 degrees; it
+// stands right next to it.
 TEST(HeldUp, OneThatComesTheOtherWayIsWaitedFor) {
   Beacon peer = PeerGivingWayTo(kThird, 1);
   peer.world_from_body = {.position_world = {4, 0.62}, .heading_rad = -kPi + 0.3};
@@ -105,7 +107,7 @@ TEST(HeldUp, OneThatComesTheOtherWayIsWaitedFor) {
   EXPECT_LT(PlaceOf(out), 3);
 }
 
-// One that is held up and sets off after that many ticks of this vehicle's way.
+// A peer that is held up, and sets off after so many ticks.
 Outputs DriveUpToOneThatSetsOffAt(std::uint32_t when) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   return DriveUntilStopped(&bench, [when](std::uint32_t tick) {
@@ -116,12 +118,12 @@ Outputs DriveUpToOneThatSetsOffAt(std::uint32_t when) {
 }
 
 TEST(HeldUp, OneThatSetsOffIsWaitedForWhileThereIsTimeToStop) {
-  const Outputs out = DriveUpToOneThatSetsOffAt(140);  // 7 s: 2.1 m of the way
+  const Outputs out = DriveUpToOneThatSetsOffAt(140);  // 7 s: 2.1 m along the path
   EXPECT_EQ(out.command.decision.rule, Rule::kGiveWay);
   EXPECT_LT(PlaceOf(out), 3.4);
 }
 
-// It says that it gives way for as long as it could, and not once it is too far to stop.
+// The beacon says that it gives way for as long as it could stop, and no longer.
 TEST(HeldUp, TheWordToItIsTakenBackOnceItIsTooLateToStop) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   double said_last_m = 0;
@@ -135,13 +137,13 @@ TEST(HeldUp, TheWordToItIsTakenBackOnceItIsTooLateToStop) {
   EXPECT_LT(said_last_m, 3.3);
 }
 
-// It has no right to, but cannot stop any more; the peer, which has not moved for so long, can.
+// It has no priority, but cannot stop any more; the peer, which has not moved for so long, can.
 TEST(HeldUp, OneThatSetsOffTooLateToStopForIsDrivenPast) {
-  EXPECT_GT(PlaceOf(DriveUpToOneThatSetsOffAt(222)), 5);  // 11.1 s: 3.33 m of the way
+  EXPECT_GT(PlaceOf(DriveUpToOneThatSetsOffAt(222)), 5);  // 11.1 s: 3.33 m along the path
 }
 
-// Comes first, the other way and in a lane so near that each is in the other's way from the start.
-// It stands behind another one, which stands for whoever `blocks_it`.
+// Has priority and comes from ahead, in a lane so near that both are in each other's path from the
+// start. It stands behind another one, which `blocks_it` blocks.
 Outputs DriveUpToAQueueBehindOneBlockedBy(VehicleId blocks_it) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   return DriveUntilStopped(&bench, [blocks_it](std::uint32_t tick) {
@@ -155,7 +157,8 @@ Outputs DriveUpToAQueueBehindOneBlockedBy(VehicleId blocks_it) {
   });
 }
 
-// Two queues stood for good: each waited for one that stood behind what the other one kept.
+// Regression: two queues blocked each other permanently, each waiting for a vehicle that stood
+// behind one that the other queue blocked.
 TEST(HeldUp, OneThatIsHeldUpByThisVehicleOverAnotherIsNotWaitedFor) {
   const Outputs waits = DriveUpToAQueueBehindOneBlockedBy(kThird);
   EXPECT_EQ(waits.command.decision.rule, Rule::kGiveWay);
@@ -163,7 +166,7 @@ TEST(HeldUp, OneThatIsHeldUpByThisVehicleOverAnotherIsNotWaitedFor) {
   EXPECT_GT(PlaceOf(DriveUpToAQueueBehindOneBlockedBy(VehicleId{1})), 3);
 }
 
-// One whose way crosses the own one there, and who is so far before it.
+// A peer whose path crosses the own one at `own`, `away_m` before it.
 PeerView Crossing(Peer* peer, Stretch own, double away_m) {
   PeerView view{};
   view.peer = peer;
@@ -171,8 +174,8 @@ PeerView Crossing(Peer* peer, Stretch own, double away_m) {
   return view;
 }
 
-// Too little to stand in lies between 4.5 and 5 m, enough between 4.5 and 5.3 m. Those who are far
-// from where the ways cross make no box, and have theirs all the same.
+// The space between 4.5 and 5 m is too short to stop in, that between 4.5 and 5.3 m is long enough.
+// Peers far from the crossing point start no box, but are part of one.
 TEST(Box, BeginsWithTheFirstOfThoseThatLeaveNoRoomBetween) {
   const test::Onlooker onlooker;
   Peer peer = test::PeerAt({});
@@ -187,7 +190,8 @@ TEST(Box, BeginsWithTheFirstOfThoseThatLeaveNoRoomBetween) {
   EXPECT_EQ(views[4].box_begin_m, 2);
 }
 
-// The peer crosses at x = 4 some day; the leader stands where this vehicle would stand in its way.
+// The peer crosses at x = 4 some time later; the leader stands where this vehicle would have to
+// stop in the peer's path.
 TEST(Box, IsNotEnteredBehindOneThatStands) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
@@ -207,7 +211,7 @@ TEST(Box, IsEnteredWhereThereIsRoomBehindIt) {
   EXPECT_GT(PlaceOf(out), 5);
 }
 
-// Behind one that rolls on through the crossing there will be room.
+// A leader that keeps rolling through the crossing will leave space behind it.
 TEST(Box, IsEnteredBehindOneThatDrivesOn) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {
@@ -216,7 +220,8 @@ TEST(Box, IsEnteredBehindOneThatDrivesOn) {
   EXPECT_GT(PlaceOf(out), 4);
 }
 
-// It gives way to somebody farther on: it will stop, and this vehicle would in the crossing.
+// It gives way to a vehicle further ahead, so it will stop, and this vehicle would have to stop in
+// the crossing.
 TEST(Box, IsNotEnteredBehindOneThatWillStop) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   const Outputs out = DriveUntilStopped(&bench, [](std::uint32_t tick) {

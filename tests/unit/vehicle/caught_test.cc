@@ -1,4 +1,5 @@
-// One that gets no farther though it waits for nobody tries one heading after another.
+// A stuck vehicle, one that makes no progress though it waits for no peer, tries one heading after
+// another.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,8 +14,8 @@ namespace {
 
 using Neighbours = std::function<std::vector<Beacon>(std::uint32_t tick)>;
 
-// The headings taken one after another by a vehicle that is to drive east, and whose wheels turn as
-// `wheels` says instead: by default they are held.
+// The headings tried in turn by a vehicle that is to drive east, while its wheels turn as `wheels`
+// says: by default they are held.
 std::vector<double> HeadingsTried(std::uint32_t ticks, const Neighbours& beside,
                                   WheelSpeeds wheels = {}) {
   test::BrainBench bench(test::DefaultOptions());
@@ -40,7 +41,7 @@ Beacon LeaderAhead(std::uint32_t tick) {
   return leader;
 }
 
-// Six seconds until it has no aim, ten until it is caught, then another heading every three.
+// No progress for six seconds, stuck after ten, then another heading every three.
 TEST(Caught, ItTriesHeadingsAllRound) {
   EXPECT_TRUE(HeadingsTried(300, Nobody).empty());
   std::vector<double> tried = HeadingsTried(300 + 20 * 61, Nobody);
@@ -52,7 +53,7 @@ TEST(Caught, ItTriesHeadingsAllRound) {
   }
 }
 
-// Not where that leads into somebody: here one that stands to the north.
+// But no heading that leads into a peer: here one that stands to the north.
 TEST(Caught, ItTriesNoHeadingThatLeadsIntoAClaim) {
   const auto parked = [](std::uint32_t tick) {
     Beacon beacon = test::BeaconOf(2, tick, {{0, 0.6}});
@@ -70,7 +71,7 @@ TEST(Caught, AQueueIsWaitedIn) {
   EXPECT_TRUE(HeadingsTried(4000, leader).empty());
 }
 
-// The leader is held up by a third that waits for this very vehicle.
+// The leader is blocked by a third, which waits for this very vehicle.
 std::vector<Beacon> CircleOfThree(std::uint32_t tick) {
   Beacon leader = LeaderAhead(tick);
   leader.blocked_by = VehicleId{3};
@@ -97,7 +98,7 @@ TEST(Caught, ACircleIsLeftToTheSide) {
   EXPECT_GT(farthest_m, 0.1);
 }
 
-// It comes no nearer, but it comes about: something else will look up on the way.
+// It makes no progress, but it turns: its sensors will see something new.
 TEST(Caught, WhoeverDrivesInCirclesIsNot) {
   EXPECT_TRUE(HeadingsTried(2000, Nobody, {2, 3}).empty());
 }

@@ -1,5 +1,5 @@
-// Where a peer can be until it stands: nothing a peer may do leads out of its claim, and nobody
-// drives into one.
+// The region a peer can reach before it stands: no manoeuvre of a peer leads out of its claim, and
+// no vehicle drives into one.
 #include "services/vehicle/situation/claim.h"
 
 #include <gtest/gtest.h>
@@ -77,9 +77,9 @@ Beacon AnyBeacon(Random* random) {
   return beacon;
 }
 
-// Drives as it likes for unknown_s, keeps to that for its reaction time, then brakes both rims.
-// Every profile that the checks allow, turning included: 865cb28 took one rate of turning for all,
-// and nobody to turn while braking.
+// Drives anyhow for unknown_s, keeps that up for its reaction time, then brakes both rims. Every
+// profile that the checks allow, turning included: 865cb28 assumed one turn rate for all profiles,
+// and no turning while braking.
 TEST(Claim, HoldsWhateverThePeerDoesBeforeItStands) {
   constexpr double kStep_s = 0.01;
   for (std::uint32_t number = 1; number <= 50000; ++number) {
@@ -87,8 +87,8 @@ TEST(Claim, HoldsWhateverThePeerDoesBeforeItStands) {
     const Beacon beacon = AnyBeacon(&random);
     const double unknown_s = random.Uniform(0.05, 1.0);  // as long as a claim lasts
     Claim centre = ClaimOf(beacon, unknown_s);
-    // The claim holds the whole body: its centre stays a body's radius inside. Of a million draws
-    // the worst leaves it by 1.3 mm, and everyone keeps kClearance_m, 50 mm, from it.
+    // The claim holds the whole body: its centre stays a body's radius inside. In a million draws
+    // the worst leaves it by 1.3 mm, and every vehicle keeps kClearance_m, 50 mm, from it.
     centre.radius_m -= beacon.body_radius_m - 2e-3;
     const Twist told = TwistFromWheels(beacon.drive, beacon.wheels);
     const double beside_m_s = told.turn_rad_s * beacon.drive.axle_m / 2;
@@ -138,8 +138,8 @@ TEST(FreeBefore, IsHugeWhereTheyPass) {
   EXPECT_GT(FreeBefore(claim, {{2.6, -3}, {0, 1}}, 0.25), 1000);
 }
 
-// Head-on within the long claim of one with weak brakes: the way to its body led along the axis and
-// not deeper, was taken for a way out, and both met.
+// Regression: head-on within the long claim of a peer with weak brakes, the path to its body led
+// along the axis and no deeper, was taken for an exit, and both touched.
 TEST(FreeBefore, FromInsideTheWayToTheBodyIsNotFree) {
   const Claim claim{.axis = {{0, 0}, {1, 0}}, .length_m = 2, .radius_m = 0.25};
   EXPECT_EQ(FreeBefore(claim, {{1.5, 0}, {-1, 0}}, 0.25), 0);

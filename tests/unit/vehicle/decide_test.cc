@@ -121,7 +121,7 @@ TEST(Decide, AStandingEchoBesideThePathIsNoObstacle) {
   Outputs out;
   for (int i = 0; i < 12; ++i) {
     RangeScan scan = ClearScan(0);
-    test::SetEcho(&scan, 0, 0.4);  // a wall beside it
+    test::SetEcho(&scan, 0, 0.4);  // a wall at its side
     out = bench.Step(scan);
   }
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
@@ -141,8 +141,8 @@ TEST(Decide, AnEchoInThePathLimitsTheSpeedToWhatStopsBeforeIt) {
   }
 }
 
-// It said that it cruises: it would stand without any limit too. Of equal limits the more telling
-// reason is named.
+// Its beacon said that it cruises: it would stand without any limit too. Of equal limits the more
+// specific reason is named.
 TEST(Decide, AVehicleExactlyOnItsGoalSaysWhyItStands) {
   VehicleOptions options = test::DefaultOptions();
   options.goal.at_world = {0, 0};
@@ -251,7 +251,7 @@ TEST(Decide, AnEncounterIsNotOverWhileThePeerStillComesNearer) {
   EXPECT_EQ(bench.Step(Driving(0), {beacon}).command.decision.rule, Rule::kCruise);
 }
 
-// 2.1 m beside the path: past a small body there is room, past a large one there is not.
+// 2.1 m off the path: enough to pass a small body, not a large one.
 TEST(Decide, APeersOwnSizeDecidesHowMuchRoomItNeeds) {
   for (const double radius_m : {0.25, 1.7}) {
     BrainBench bench(test::DefaultOptions());
@@ -288,17 +288,18 @@ TEST(Decide, AWallInFrontOfAPeerIsNotThePeer) {
   EXPECT_EQ(bench.Step(scan, {BeaconOf(2, 2, near, 0.4)}).command.decision.rule, Rule::kGiveWay);
 }
 
-// By its cone alone the echo could lie in the path; the beacon says the body is beside it.
+// By its cone alone the echo could lie in the path; the beacon says that the body is off it.
 TEST(Decide, AKnownPeerBesideThePathIsNoObstacle) {
   BrainBench bench(test::DefaultOptions());
   RangeScan scan = ClearScan(0);
   test::SetEcho(&scan, 1, 0.284);
   EXPECT_EQ(bench.Step(scan).command.decision.rule, Rule::kObstacle);
-  const Beacon beside = BeaconOf(2, 1, {.position_world = {0.3, 0.62}});  // heads the same way
+  const Beacon beside = BeaconOf(2, 1, {.position_world = {0.3, 0.62}});  // same heading
   EXPECT_EQ(bench.Step(scan, {beside}).command.decision.rule, Rule::kCruise);
 }
 
-// The end of a wall by the left shoulder; the body of the peer is farther and more to the side.
+// The end of a wall at the left shoulder; the body of the peer is further away and more to the
+// side.
 TEST(Decide, AWallBeforeAKnownPeerIsAnObstacle) {
   BrainBench bench(test::DefaultOptions());
   RangeScan scan = ClearScan(0);

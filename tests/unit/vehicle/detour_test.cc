@@ -1,4 +1,5 @@
-// A way round what stands: it exists where a coarse eye sees one, and never leads through a body.
+// A detour round standing obstacles: it is found where a coarse search finds one, and never leads
+// through a body.
 #include "services/vehicle/decision/detour.h"
 
 #include <gtest/gtest.h>

@@ -59,7 +59,8 @@ INSTANTIATE_TEST_SUITE_P(Of, Gates,
                                   std::string(Name(test.param.metric));
                          });
 
-// At the crossing the other is askew: by the longer of the two ways only it is nearer.
+// At the crossing the peer lies off axis: it is nearer only by the longer of the two axis
+// distances.
 TEST(GatesOfTheLecture, ChebyshevMakesItStopSoonerForOneThatIsAskew) {
   const Scenario scenario = test::Crossing(Behaviour::kLectureYield, 0.4, 0.3);
   EXPECT_LT(DrivenBeforeGivingWay(Measured(scenario, DistanceMetric::kChebyshev)) + 0.1,

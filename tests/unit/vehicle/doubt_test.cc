@@ -14,8 +14,8 @@ using test::BeaconOf;
 using test::BrainBench;
 using test::ClearScan;
 
-// The own vehicle is first in the order, at 0.3 m/s; the conflict begins at x = 3.4. A peer to the
-// south of it grants, and may have jumped shortly before.
+// The own vehicle has priority, at 0.3 m/s; the conflict starts at x = 3.4. A peer to the south of
+// it grants, and may have jumped shortly before.
 Outputs DriveUpToAGrant(bool jumps) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   RangeScan scan = ClearScan(0);
@@ -89,7 +89,7 @@ TEST(Doubt, NeverRaisesTheMode) {
     for (Peer& peer : doubting->heard.peers.Peers()) {
       peer.trust = {.ever_doubted = true, .doubted_at = last.now};
     }
-    // Judged anew all the same: of that only the jumps are left out.
+    // The last step is repeated without the beacons, which hold the jumps.
     Inputs without_jumps = last;
     without_jumps.beacons = {};
     vehicle.Restore(*believing);

@@ -1,5 +1,5 @@
-// Two vehicles whose ways cross at any angle, at any speeds, early or late for each other: nobody
-// touches and everybody arrives. Each case is drawn from its number and replays from it.
+// Two vehicles whose paths cross at any angle, at any speeds, early or late for each other: no
+// contact, and both arrive. Each case is drawn from its number and replays from it.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -31,7 +31,7 @@ Scenario AnyCrossing(std::uint32_t number, Behaviour behaviour) {
   return scenario;
 }
 
-// Starts or goals within 1 m of each other leave no room for two vehicles.
+// Starts or goals within 1 m of each other do not fit two vehicles.
 bool IsSolvable(const Scenario& scenario) {
   const VehicleOptions& one = scenario.vehicles[0];
   const VehicleOptions& two = scenario.vehicles[1];

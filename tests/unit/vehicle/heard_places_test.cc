@@ -154,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(Sonar, WallsEnd,
                                               "Crosstalk"}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// The end of a wall beside the way of its middle, as a door frame is.
+// The end of a wall next to the path of its middle, as a door frame is.
 test::Outcome Passes(const Tier& tier, double beside_m, double drop_out, std::uint32_t seed) {
   Scenario scenario =
       test::ScenarioOf({test::VehicleAt(1, Behaviour::kCooperative, 0.4, {-3, 0}, 0, 6)});

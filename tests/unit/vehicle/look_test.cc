@@ -8,9 +8,9 @@
 namespace giveway {
 namespace {
 
-// Stands ahead in the own lane, turned as the vehicle is.
+// Stands ahead in the own lane, with nearly the own heading.
 Peer Ahead() { return test::PeerAt({{2, 0.1}, 0.1}); }
-// Comes across the own way from the right.
+// Crosses the own path from the right.
 Peer Across() { return test::PeerAt({{3, -2}, kPi / 2}); }
 
 bool Leads(Rule rule) {
@@ -19,7 +19,8 @@ bool Leads(Rule rule) {
   return test::Onlooker().LookAt(&peer).leads;
 }
 
-// Vehicles queued for good behind one that had arrived and happened to be turned their way.
+// Regression: vehicles queued permanently behind one that had arrived and happened to have their
+// heading.
 TEST(LookAt, OneThatHasArrivedIsNoLeaderHoweverItIsTurned) {
   EXPECT_TRUE(Leads(Rule::kGiveWay));
   EXPECT_TRUE(Leads(Rule::kSignal));
@@ -39,7 +40,7 @@ TEST(LookAt, OneThatIsGoneIsNoLeaderAndHasNoWay) {
   }
 }
 
-// One that fell silent may still be there.
+// A silent peer may still be there.
 TEST(LookAt, OneThatIsLostKeepsItsWay) {
   Peer across = Across();
   across.deadline_missed = true;
@@ -48,7 +49,7 @@ TEST(LookAt, OneThatIsLostKeepsItsWay) {
   EXPECT_TRUE(view.crossing);
 }
 
-// A peer that is where it drives to has no way there: which way it lies says nothing.
+// A peer at its destination has no path left: the direction of what remains means nothing.
 TEST(CarryForward, TakesTheStraightWayToWhereThePeerDrivesUntilItIsThere) {
   Peer peer = test::PeerAt({{3, -0.3}, 0});
   peer.beacon.toward_world = {3, -0.24};

@@ -1,5 +1,5 @@
-// A vehicle that does not know well enough where it is: it slows down, halts and says so; others
-// take it for an obstacle, and nobody waits for what it says.
+// A vehicle that does not know its pose well enough slows down, halts and says so; others take it
+// for an obstacle and do not wait for what its beacon says.
 #include <gtest/gtest.h>
 
 #include "services/types/math/math.h"
@@ -109,8 +109,7 @@ TEST(Lost, WithoutALimitItNeverIs) {
   EXPECT_EQ(UntilLost(&bench).command.decision.rule, Rule::kCruise);
 }
 
-// The same peer on a crossing way, from the right and faster: as one that drives and as one that is
-// lost.
+// The same peer on a crossing path, from the right and faster: once driving, once lost.
 Rule RuleBefore(Rule peers_rule) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   Rule rule = Rule::kCruise;
@@ -127,7 +126,7 @@ TEST(Lost, NobodyWaitsForTheWordOfOneThatIs) {
   EXPECT_FALSE(IsGiveWay(RuleBefore(Rule::kLost)));
 }
 
-// It may stand beside where it says that it does.
+// It may stand off the place that its beacon states.
 TEST(Lost, OneThatIsIsPassedAsFarAwayAsItIsUnsure) {
   const auto room_m = [](Rule rule) {
     const test::Onlooker onlooker;

@@ -1,5 +1,5 @@
-// What one vehicle says is not what it does: nobody touches all the same, and the others notice.
-// And where everybody says what is so, nobody is doubted, whatever the ultrasonics are like.
+// A vehicle whose beacons are false touches no other, and the others notice. Where all beacons are
+// true no vehicle is distrusted, however bad the ultrasonics.
 #include <gtest/gtest.h>
 
 #include "services/types/math/random.h"

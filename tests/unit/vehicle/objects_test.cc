@@ -94,7 +94,7 @@ TEST_F(Objects, WhatIsPassedByStandingIsNoObstacleHoweverFastItComesNearer) {
 TEST_F(Objects, WhatComesIntoTheCorridorBeforeTheVehicleCouldStandIsAnObstacle) {
   const Vec2 at = {0.8, 0.8};
   const auto towards = [&](double speed_m_s) { return -speed_m_s / Norm(at) * at; };
-  // It is in the corridor, 0.3 m beside the path, after 0.71 m of its way.
+  // It is in the corridor, 0.3 m off the path, after it has moved 0.71 m.
   EXPECT_EQ(RuleWith(RadarOf(at, towards(1.3))), Rule::kObject);
   EXPECT_EQ(RuleWith(RadarOf(at, towards(1.1))), Rule::kCruise);
   EXPECT_EQ(RuleWith(RadarOf(at, {0, 0})), Rule::kCruise);
@@ -113,7 +113,7 @@ TEST_F(Objects, WhatComesHeadOnIsAnObstacleFromFartherAway) {
   EXPECT_EQ(RuleWith(RadarOf(at, {1, 0})), Rule::kCruise);
 }
 
-// A vehicle stands across the way just ahead and says so.
+// A vehicle stands across the path just ahead and says so.
 class KnownPeer : public Objects {
  protected:
   Rule RuleWith(std::optional<SeenClass> seen_class, bool beacons = true) {

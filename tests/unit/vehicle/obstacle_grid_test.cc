@@ -181,7 +181,7 @@ TEST(ObstacleGrid, WhereTheOwnBodyStandsNothingElseDoes) {
   EXPECT_FALSE(Holds(grid, {0, 0}));
 }
 
-// Against a list of where things are, over ways that lead several times round the torus.
+// Against a list of where things are, over paths that lead several times round the torus.
 TEST(ObstacleGrid, ScrollsWithTheVehicleAndKeepsWhatIsNear) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Random random(seed);

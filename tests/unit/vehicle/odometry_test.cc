@@ -1,4 +1,4 @@
-// Dead reckoning against what it models: many robots with wheels as wrong as it is told.
+// Dead reckoning against its error model: many robots with wheel errors of the configured size.
 #include "services/vehicle/estimation/odometry.h"
 
 #include <gtest/gtest.h>

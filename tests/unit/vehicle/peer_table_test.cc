@@ -44,7 +44,7 @@ TEST_F(PeerTableTest, EveryNeighbourKeepsItsOwnPlace) {
   EXPECT_EQ(counters_.accepted, 3U);
 }
 
-// Whoever was heard after another one last time is looked for there first.
+// The table looks first at the peer that came next the last time.
 TEST_F(PeerTableTest, InWhateverOrderTheyAreHeardEachIsFoundInItsPlace) {
   const std::vector<std::vector<std::uint32_t>> orders = {{7, 3, 9, 5},    {7, 3, 9, 5},
                                                           {5, 9, 4, 7, 3}, {3, 4, 5, 7, 9},
@@ -196,7 +196,8 @@ TEST_F(PeerTableTest, OneThatLeavesWhileABeaconWaitsIsNoLossEither) {
   EXPECT_FALSE(IsLost(*table_->Find(VehicleId{2}), Fresh(2, milliseconds(1500))));
 }
 
-// Every start-up showed a refused beacon or two that nobody had done anything wrong to earn.
+// Regression: every start-up counted a refused beacon or two, though no sender had done anything
+// wrong.
 TEST_F(PeerTableTest, BeforeTheWorldIsHeardNobodyIsHeardAndNobodyIsRefused) {
   Beacon early = BeaconOf(2, 1, {});
   early.world_epoch = kNoEpoch;

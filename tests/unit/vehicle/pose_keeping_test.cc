@@ -205,7 +205,7 @@ TEST(PoseKeeping, AFixThatClaimsToBeExactIsRefused) {
   }
 }
 
-// One that waits came from a snapshot, where nobody has looked at it.
+// A fix that waits came from a snapshot, and is not checked yet.
 TEST(PoseKeeping, AFixThatWaitedIsLookedAtLikeAnyOther) {
   Keeper keeper(Fitted());
   keeper.Drive({});
@@ -347,7 +347,7 @@ TEST(PoseKeeping, UnequalWheelsAreLearntFromFixes) {
   EXPECT_NEAR(keeper.keeping.calibration.wheels.axle, -0.05, 0.012);
 }
 
-// It is told how wrong its wheels may be, not which way.
+// It knows the size of its wheel errors, not their sign.
 TEST(PoseKeeping, TheSignOfAWheelErrorIsNotKnownToIt) {
   VehicleProfile one = Fitted();
   one.wheel_error = {.diameter = 0.03, .axle = -0.05};
@@ -366,7 +366,7 @@ TEST(PoseKeeping, TheSignOfAWheelErrorIsNotKnownToIt) {
   EXPECT_EQ(odometry_of_one.Covariance(), odometry_of_other.Covariance());
 }
 
-// Its error grows with the way, not with the root of it.
+// Its error grows with the distance, not with the square root of it.
 TEST(PoseKeeping, WithoutFixesTheDoubtOfUnequalWheelsGrowsAsTheirErrorDoes) {
   VehicleProfile profile = PioneerP3dx();
   profile.wheel_error = {.diameter = 0.02, .axle = 0.02};

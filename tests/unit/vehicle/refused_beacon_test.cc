@@ -1,4 +1,4 @@
-// A refused beacon is told with the field, its value and what it may be.
+// A refused beacon is reported with the field, its value and the allowed range.
 #include "services/vehicle/refused_beacon.h"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // Vehicles in a world with every tier of ultrasonics, and with radar, lidar and camera switched on:
-// no two bodies touch, and everybody arrives.
+// no two bodies touch, and all arrive.
 #include <gtest/gtest.h>
 
 #include "tests/support/crossing.h"

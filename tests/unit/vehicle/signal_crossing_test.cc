@@ -1,5 +1,5 @@
 // Two vehicles and two traffic lights at a crossing, world and brains in memory: lights are obeyed,
-// whoever has green is not blocked by whom red stops, and without light they give way.
+// a vehicle at red does not block one with green, and without lights they give way.
 #include <gtest/gtest.h>
 
 #include "services/types/signal_plan.h"
@@ -129,7 +129,7 @@ TEST_P(LitCrossingTest, SilentLightsAreNoLights) {
   EXPECT_EQ(fleet.Count(EventKind::kArrived), 2U);
 }
 
-// The red one's light fails alone, at every moment in turn: it gives way like anybody.
+// Only the red light fails, at every moment in turn: its vehicle gives way as usual.
 TEST_P(LitCrossingTest, OneLightThatFailsAtAnyMomentEndsInNoContact) {
   for (int tenths = 20; tenths < 220; tenths += 4) {
     const Scenario scenario = Lit(7200);
@@ -143,7 +143,7 @@ TEST_P(LitCrossingTest, OneLightThatFailsAtAnyMomentEndsInNoContact) {
   }
 }
 
-// The lights change while vehicle 1 is anywhere on its way through: it is let out first.
+// The lights change while vehicle 1 is anywhere in the crossing: it leaves first.
 TEST_P(LitCrossingTest, WhoeverIsInsideWhenTheLightsChangeGoesFirst) {
   for (int seconds = 12; seconds < 60; seconds += 2) {
     const Scenario scenario = Lit(seconds);
@@ -155,7 +155,7 @@ TEST_P(LitCrossingTest, WhoeverIsInsideWhenTheLightsChangeGoesFirst) {
   }
 }
 
-// Nobody crosses a line on red, whatever the cycle.
+// No vehicle crosses a line on red, whatever the cycle.
 TEST_P(LitCrossingTest, NobodyGoesOverALineOnRed) {
   for (int seconds = 12; seconds < 60; seconds += 3) {
     const Scenario scenario = Lit(seconds);
@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P(Order, LitCrossingTest,
                                                                                  : "Equal";
                          });
 
-// A second vehicle on the same way stands behind the first at red and does not overtake it.
+// A second vehicle on the same path stands behind the first at red and does not overtake it.
 TEST(LitCrossing, AQueueAtRedStaysAQueue) {
   Scenario scenario = LitCrossing(0.3, 0.3, 60);
   scenario.vehicles.push_back(test::VehicleAt(3, Behaviour::kCooperative, 0.3, {0, -5.5}, 90, 7.0));

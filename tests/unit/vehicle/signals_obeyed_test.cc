@@ -81,7 +81,7 @@ TEST(SignalsObeyed, OnlyAHeadOnThePathInTheDirectionOfTravelMatters) {
   EXPECT_EQ(rule(0.5, -44), Rule::kSignal);
   EXPECT_EQ(rule(0.5, 46), Rule::kCruise);
   EXPECT_EQ(rule(0.5, 180), Rule::kCruise);
-  EXPECT_EQ(rule(0.5, 0, 1.1), Rule::kCruise);  // the line ends beside the path
+  EXPECT_EQ(rule(0.5, 0, 1.1), Rule::kCruise);  // the line ends next to the path
   EXPECT_EQ(rule(11, 0), Rule::kCruise);        // behind the goal
 }
 
@@ -221,7 +221,7 @@ TEST(SignalsOfOthers, WhoStandsAtRedComesAfterWhoDoesNot) {
   }
 }
 
-// The light's word is no licence to drive into whoever cannot keep it.
+// A red light for a peer is no licence to drive into it if it cannot stop for that light.
 TEST(SignalsOfOthers, APeerThatCouldNotStopAnyMoreIsNotCountedOn) {
   BrainBench bench(test::OptionsWithoutUltrasonics());
   Outputs out;
@@ -258,7 +258,7 @@ TEST(SignalsOfOthers, OfTwoThatLightsStoppedNeitherCountsOnTheOthersLight) {
   VehicleOptions options = test::DefaultOptions();
   options.cruise_m_s = 0.8;  // first in the order
   BrainBench bench(options);
-  // On to 0.87 m; the conflict with the path at x = 1.5 begins three centimetres farther on.
+  // On to 0.87 m; the conflict with the path at x = 1.5 starts three centimetres further on.
   bench.Step(ClearScan(0));
   for (int i = 0; i < 29; ++i) bench.Step(Driving(0.6));
   for (int i = 0; i < 2; ++i) {

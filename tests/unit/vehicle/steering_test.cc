@@ -38,8 +38,8 @@ TEST(Steering, TheLecturesVehicleTurnsAwayFromEitherSide) {
   EXPECT_EQ(left.right_rad_s, right.left_rad_s);
 }
 
-// The rule of a vehicle that drives two metres east once it has heard of one that has arrived there
-// on its way.
+// The rule of a vehicle that drives two metres east, after a beacon from one that has arrived in
+// its path.
 Rule RuleBefore(double x_m) {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
   options.goal.at_world = {2, 0};
@@ -148,8 +148,8 @@ TEST(Steering, OutOfATurnItBrakesWithoutTurningOn) {
   }
 }
 
-// A wall near the left shoulder, as far as a cone tells; the goal is straight ahead. Where the
-// wall is does not change while the vehicle turns: what the sensors hear is set once.
+// A wall near the left shoulder, at the range its cone reports; the goal is straight ahead. The
+// echo stays the same while the vehicle turns: it is set once.
 TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {
   test::BrainBench bench(test::DefaultOptions());
   RangeScan scan = test::ClearScan(0);
@@ -164,7 +164,8 @@ TEST(Steering, WhatStopsAnAimlessVehicleIsTurnedAwayFrom) {
   EXPECT_LT(TwistFromWheels(PioneerP3dx().drive, out.command.target).turn_rad_s, 0);
 }
 
-// What a sensor hears of a wall along y = wall_y_m, south of it: the nearest that its cone holds.
+// The range a sensor reports of a wall along y = wall_y_m, south of it: the nearest point within
+// its cone.
 double RangeToWall(const VehicleProfile& profile, std::size_t sensor, const Pose& world_from_body,
                    double wall_y_m) {
   const SensorMount& mount = profile.sonar[sensor];
@@ -175,8 +176,9 @@ double RangeToWall(const VehicleProfile& profile, std::size_t sensor, const Pose
   return Magnitude(slant_rad) < 1.5 ? above_m / Cos(slant_rad) : 1e9;
 }
 
-// Of corridor 474. One whose shell touches the own is in the way; it has no ears on that side. On
-// the other it hears the wall in so many directions that no heading past the other one is free.
+// From corridor 474. A peer that touches this vehicle blocks its path; the vehicle has no sensors
+// on that side. On the other side it has echoes of the wall in so many directions that no heading
+// past the peer is free.
 TEST(Steering, PastAVehicleItTurnsAlsoWhereEchoesLeaveNoHeading) {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
   for (std::size_t i = 3; i < 8; ++i) options.profile.sonar[i].enabled = true;
@@ -198,7 +200,7 @@ TEST(Steering, PastAVehicleItTurnsAlsoWhereEchoesLeaveNoHeading) {
   EXPECT_GT(out.beacon.world_from_body.position_world.x, 0.1);
 }
 
-// Of swarm 1130: shell to shell between two that stand. The only way out is square to the line
+// From swarm 1130: shell to shell between two that stand. The only exit is square to the line
 // through all three, and no wider than a twenty-fourth of a radian.
 TEST(Steering, ANarrowWayOutBetweenTwoBodiesIsOne) {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
@@ -223,9 +225,9 @@ TEST(Steering, ANarrowWayOutBetweenTwoBodiesIsOne) {
   EXPECT_GT(Norm(out.beacon.world_from_body.position_world), 1);
 }
 
-// Of corridor 7354: one that comes the other way stands shell to shell with it, and the way past
-// leads towards a wall. A heading off both lies so far back that a hair decides whether it is one,
-// and with every bit that the vehicle turns the echoes turn as well.
+// From corridor 7354: an oncoming peer stands shell to shell with it, and the path past it leads
+// towards a wall. A heading clear of both points so far back that rounding decides whether it is
+// one, and with every bit that the vehicle turns the echoes turn too.
 TEST(Steering, BesideAWallItDoesNotTurnToAndFroForEver) {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
   for (std::size_t i = 0; i < 8; ++i) options.profile.sonar[i].enabled = true;
@@ -248,8 +250,8 @@ TEST(Steering, BesideAWallItDoesNotTurnToAndFroForEver) {
   EXPECT_LT(out.beacon.world_from_body.position_world.x, -0.5);
 }
 
-// Echoes all round, and one that stands beside the vehicle, not in its way: it has no reason to
-// turn along that one's edge.
+// Echoes all round, and a peer that stands at the vehicle's side, not in its path: there is no
+// reason to turn along the peer's edge.
 TEST(Steering, WhereEchoesAloneCoverTheWayItIsKept) {
   test::BrainBench bench(test::DefaultOptions());
   RangeScan scan = test::ClearScan(0);

@@ -49,7 +49,7 @@ bool TakesForItsOwn(double nearer_m, const PoseCovariance& covariance) {
   return onlooker.LookAt(&peer).explains != 0;
 }
 
-// 0.5 m along the line of the two centres and 0.1 m across it, or the other way round.
+// 0.5 m along the line of the two centres and 0.1 m across it, or vice versa.
 constexpr PoseCovariance kAlong{.xx_m2 = 0.13, .xy_m2 = 0.12, .yy_m2 = 0.13};
 constexpr PoseCovariance kAcross{.xx_m2 = 0.13, .xy_m2 = -0.12, .yy_m2 = 0.13};
 
@@ -64,7 +64,7 @@ TEST(CriticalDistance, IsNeverBelowTheGate) {
   EXPECT_GT(CriticalDistanceWith({.xx_m2 = 1, .yy_m2 = 1}, 1.5), 1.5);
 }
 
-// Which way the worst axis lies makes no difference to ways and claims: they lead anywhere.
+// The direction of the worst axis makes no difference to paths and claims: they lead anywhere.
 TEST(Ways, AreKeptApartByTwiceWhatIsUnsureAlongTheWorstAxis) {
   const auto sure = CrossingWith({});
   ASSERT_TRUE(sure);
@@ -90,7 +90,7 @@ TEST(Peers, AreLessSureTheFartherTheyWereCarriedOn) {
   EXPECT_NEAR(view.apart.yy_m2, 0, 1e-12);
 }
 
-// What is too far away to matter stays so only as far as it is known where it is.
+// A peer is too far away to matter only as far as its position is known.
 TEST(Peers, ThatAreUnsureMatterFromFartherAway) {
   EXPECT_FALSE(MattersBeside({}));
   EXPECT_TRUE(MattersBeside({.xx_m2 = 4, .yy_m2 = 4}));
@@ -102,7 +102,7 @@ TEST(Echoes, OfAPeerMayBeNearerByTwiceWhatIsUnsure) {
   EXPECT_TRUE(TakesForItsOwn(0.15, {.xx_m2 = 0.01, .yy_m2 = 0.01}));
 }
 
-// Who drives on a heading it is not sure of is less sure of its place the farther it comes.
+// On an uncertain heading the uncertainty of the position grows with the distance driven.
 TEST(Beacon, TellsTheCovarianceOfItsPose) {
   VehicleOptions options = test::DefaultOptions();
   options.profile.wheel_slip = 0.05;

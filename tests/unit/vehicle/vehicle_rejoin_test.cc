@@ -1,4 +1,4 @@
-// A brain that is told by the roster where it stands, and one that goes on for the process before.
+// A brain that gets its pose from the roster, and one that takes over from the process before.
 #include <gtest/gtest.h>
 
 #include <initializer_list>
@@ -89,7 +89,7 @@ class Rounds {
     options.profile.wheel_slip = 0.02;
   }
 
-  // The next scan, of wheels that do what they were told.
+  // The next scan, of wheels that do as commanded.
   RangeScan Scan(WheelSpeeds wheels) {
     RangeScan scan = ScanOf(kWorld, ++tick);
     scan.wheels = wheels;
@@ -100,7 +100,7 @@ class Rounds {
   Outputs Step(Vehicle* brain, const RangeScan& scan) {
     return brain->Step({.now = Number(scan.tick) * options.tick_period, .scan = scan});
   }
-  // Through the first corner and some way on.
+  // Through the first corner and some distance on.
   Vehicle UnderWay() {
     Vehicle brain(options, 42);
     brain.Step({.now = Nanoseconds{0}, .roster = Placed(kWorld, {})});
@@ -131,7 +131,7 @@ TEST(VehicleThatRestarts, GoesOnAlongItsRouteFromWhereItBelievedToBe) {
   RosterEntry old = Placed(Rounds::kWorld, {});
   after.Step({.now = rounds.tick * rounds.options.tick_period, .roster = old});
   EXPECT_EQ(after.HandOver(), handover);
-  // It rolled on while nobody steered it: what was counted says how far.
+  // It kept rolling while no process steered it: the encoder count says how far.
   Outputs is;
   Outputs should_be;
   for (int i = 0; i < 10; ++i) {
@@ -227,7 +227,7 @@ TEST(VehicleThatRestarts, StandsBeforeItGoesAndIsHeardUntilThen) {
       {.now = Number(rolling.tick) * rounds.options.tick_period, .scan = rolling, .halting = true});
   EXPECT_EQ(said.command.target, WheelSpeeds{});
   EXPECT_EQ(said.command.decision.rule, Rule::kLeaving);
-  EXPECT_EQ(said.beacon.mode, Mode::kCooperative);  // no good-bye: it is still there
+  EXPECT_EQ(said.beacon.mode, Mode::kCooperative);  // no leave notice: it is still there
   EXPECT_FALSE(brain.Stands());
   const RangeScan standing = rounds.Scan({});
   brain.Step({.now = Number(standing.tick) * rounds.options.tick_period,

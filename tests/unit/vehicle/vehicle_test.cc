@@ -113,8 +113,8 @@ TEST(Vehicle, CountsThatNoDriveMadeAreNotBelieved) {
   EXPECT_GT(SigmaPosition(out.beacon.covariance), 0);
 }
 
-// Ticks begin again with a world; a wait counted in the old one's would be longer than the new one
-// is old, and no peer would believe it.
+// Ticks restart with a world; a wait counted in the old world's ticks would be longer than the new
+// one is old, and peers would reject it.
 TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   VehicleOptions options = test::DefaultOptions();
   options.ageing_limit = 2 * options.tick_period;
@@ -140,7 +140,7 @@ TEST(Vehicle, ANewWorldEpochForgetsWhatTheOldOneShowed) {
   EXPECT_EQ(brain.PeersHeard(), 0U);
 }
 
-// At 1.1 m/s with weak brakes 12.2 m are not too far to see to it.
+// At 1.1 m/s with weak brakes a peer 12.2 m away already matters.
 TEST(Vehicle, KeepsClearOfWhomItNeedsLongToStopFor) {
   VehicleOptions options = test::OptionsWithoutUltrasonics();
   options.cruise_m_s = 1.1;
@@ -157,7 +157,7 @@ TEST(Vehicle, KeepsClearOfWhomItNeedsLongToStopFor) {
   EXPECT_EQ(out.command.decision.rule, Rule::kKeepClear);
 }
 
-// A tick of the old world in which it turned is none of the new one's, where echoes tell motion.
+// A turn in the old world must not count in the new one, where echoes then reveal motion.
 TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
   BrainBench bench(test::DefaultOptions());
   for (int i = 0; i < 100; ++i) bench.Step(ClearScan(0));

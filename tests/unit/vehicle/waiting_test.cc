@@ -1,6 +1,6 @@
-// How waiting moves a vehicle up in the order: one brain on a table, heading east at 0.3 m/s.
-// Faster ones, which come first, cross its way 4 m on, one behind the other. An ageing limit is ten
-// ticks.
+// How waiting raises a vehicle's priority: one brain on the bench, heading east at 0.3 m/s. Faster
+// peers, which have priority, cross its path 4 m ahead, one behind the other. An ageing limit is
+// ten ticks.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class Waiting {
  public:
   Waiting() : bench_(Options()) {}
 
-  // The wheels do what they are told to. `peers` say it of the tick before.
+  // The wheels do as commanded. The beacons of `peers` are of the tick before.
   void Step(std::vector<Beacon> peers) {
     for (Beacon& peer : peers) peer.tick = Tick{peer.seq = bench_.NextTick() - 1};
     RangeScan scan = ClearScan(0);
@@ -31,13 +31,13 @@ class Waiting {
     for (std::uint32_t i = 0; i < count; ++i) Step(peers);
   }
   void StepBlind() { out_ = bench_.StepBlind(); }
-  // Drives up to where it waits for the peers, and begins to.
+  // Drives up to where it waits for the peers, until its wait starts.
   void DriveUpTo(const std::vector<Beacon>& peers) {
     for (int i = 0; i < 600 && WaitedTicks() == 0; ++i) Step(peers);
     ASSERT_EQ(WaitedTicks(), 1U);
   }
 
-  // True if an encounter with that peer is under way.
+  // True if an encounter with that peer is active.
   bool Meets(std::uint32_t id) const {
     const auto peers = bench_.Brain().State().heard.peers.Peers();
     return std::ranges::any_of(peers, [id](const Peer& peer) {
@@ -59,7 +59,7 @@ class Waiting {
   Outputs out_;
 };
 
-// Creeps towards the own way, so that it is a path and no body.
+// Creeps towards the own path, so that it counts as a path and not as a body.
 Beacon Coming(std::uint32_t id) {
   Beacon beacon = BeaconOf(id, 1, {.position_world = {4, -1.5}, .heading_rad = kPi / 2}, 0.4);
   beacon.wheels = {0.2, 0.2};

@@ -27,7 +27,7 @@ TEST(WhoCanArrive, OfTwoThatShareAGoalOne) {
   EXPECT_EQ(arriving.one_of[0], (std::vector{VehicleId{1}, VehicleId{3}}));
 }
 
-// Each at the far rim of its goal: 0.5 m of bodies find room between goals 0.31 m apart.
+// Each at the far rim of its goal: bodies of 0.5 m fit between goals 0.31 m apart.
 TEST(WhoCanArrive, NextToEachOtherBoth) {
   Scenario scenario;
   scenario.vehicles = {Towards(1, {5, 0}), Towards(2, {5.31, 0})};
@@ -52,7 +52,8 @@ TEST(GoalTolerances, AreForWheelsThatSlip) {
   EXPECT_GT(ToleranceOf(options).beyond_m, slips_m);
 }
 
-// Nobody can tell better than its wheels do; at the end of the run it still stands there.
+// A vehicle knows its position no better than its wheels do; at the end of the run it still stands
+// there.
 TEST(GoalTolerances, WhoStandsWithinHasArrivedWhenTheRunEnds) {
   Scenario scenario = MakeCrossing({2, 3});
   for (VehicleOptions& options : scenario.vehicles) options.profile.wheel_slip = 0.02;

@@ -46,18 +46,18 @@ TEST_F(ClaimsTest, ALeapLeavesThem) {
   Claims claims(scenario_);
   for (int i = 0; i < 10; ++i) Drive(0.3, 0.015, &claims);
   EXPECT_EQ(Drive(0.3, 0.5, &claims), 1U);
-  EXPECT_EQ(Drive(0.3, 0.015, &claims), 0U);  // told once
+  EXPECT_EQ(Drive(0.3, 0.015, &claims), 0U);  // reported once
 }
 
-// It has not left yet, but cannot stay.
+// It is still inside, but cannot stop there.
 TEST_F(ClaimsTest, OneThatCannotStopWithinLeavesThem) {
   Claims claims(scenario_);
   for (int i = 0; i < 10; ++i) Drive(0.3, 0.015, &claims);
   EXPECT_EQ(Drive(0.9, 0.03, &claims), 1U);
 }
 
-// By so little a tick that no later beacon of it shows: who was told to stop stands where it said
-// then.
+// The deviation per tick is too small for any later beacon to show: after the order to stop it
+// stands where its last beacon said.
 TEST_F(ClaimsTest, OneThatBrakesOnAnArcLeavesThem) {
   Claims claims(scenario_);
   for (int i = 0; i < 10; ++i) Drive(0.3, 0.015, &claims);

@@ -24,7 +24,7 @@ class ClearanceTest : public testing::Test {
     now_[0].forward_m_s = 0.3;
     now_[1].position_world = {10, 10};
   }
-  // How many are told of, of the scenario as it is, in one tick.
+  // How many are reported, of the scenario as it is, in one tick.
   std::size_t Told() {
     Clearance clearance(scenario_, 0.05);
     return clearance.Observe(now_, {}).size();

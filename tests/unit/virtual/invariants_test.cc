@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kTick_s = 0.05;
 
-// Three vehicles under way, without anything wrong; a test changes what it is about.
+// Three vehicles driving, with nothing wrong; a test changes what it is about.
 class InvariantsTest : public testing::Test {
  protected:
   InvariantsTest() {
@@ -69,7 +69,7 @@ class InvariantsTest : public testing::Test {
   std::optional<Invariants> invariants_;
   std::uint32_t tick_ = 0;
   bool answers_ = true;
-  double turning_m_s_ = 0;  // of the outer wheel beside the middle
+  double turning_m_s_ = 0;  // of the outer wheel relative to the middle
 };
 
 TEST_F(InvariantsTest, HoldWhileNothingIsWrong) {
@@ -288,7 +288,7 @@ TEST_F(InvariantsTest, OfAPlaceToldLongAgoOrBeforeTheFirstScanNothingIsSaid) {
   EXPECT_TRUE(invariants_->Held());
 }
 
-// Whatever it calls its reason: a word is not a way on.
+// Whatever reason it gives: a reason does not excuse standing.
 TEST_F(InvariantsTest, StandingIsBoundWhateverItIsFor) {
   Begin({.wait_s = 2});
   for (const Rule rule : {Rule::kObstacle, Rule::kKeepClear, Rule::kCruise, Rule::kGiveWay}) {

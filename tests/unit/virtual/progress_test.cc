@@ -12,8 +12,8 @@ namespace {
 constexpr std::uint32_t kSecond = 20;  // ticks
 constexpr std::uint32_t kLong = 62 * kSecond;
 
-// Two vehicles 1.5 m behind each other on their way to the east, the second waiting for the first,
-// and a third far off; moved by hand.
+// Two vehicles driving east 1.5 m behind each other, the second waiting for the first, and a third
+// far off; moved by hand.
 class ProgressTest : public testing::Test {
  protected:
   ProgressTest() {
@@ -62,7 +62,7 @@ TEST_F(ProgressTest, WhoComesNoNearerForAMinuteIsWedgedWhateverTheRuleIsCalled) 
   EXPECT_EQ(Wedged(), 2U);
   EXPECT_EQ(invariants_->First()[0].vehicle, VehicleId{1});
   Observe(kLong);
-  EXPECT_EQ(Wedged(), 2U);  // counted when it begins
+  EXPECT_EQ(Wedged(), 2U);  // counted when it starts
 }
 
 TEST_F(ProgressTest, DrivingAboutIsNoProgress) {

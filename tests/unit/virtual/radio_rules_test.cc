@@ -150,7 +150,7 @@ TEST(RadioRules, DuplicatesComeTwice) {
   EXPECT_NEAR(within.twice, 120, 40);
 }
 
-// A beacon that would be under way for ever comes by then.
+// A beacon delayed beyond the storage limit arrives by then.
 TEST(RadioRules, NothingIsUnderWayForLongerThanItIsKept) {
   const auto [without, within] = HeardUnder({.delay = Nanoseconds(10'000'000'000)});
   ExpectNothing(without);

@@ -26,7 +26,7 @@ class RedLightsTest : public testing::Test {
     now_ = {.vehicle = options.id, .present = true, .lives = true};
   }
 
-  // Drives from `from` to `to` at the speed, beginning at_s; how often that passed red.
+  // Drives from `from` to `to` at the speed, starting at at_s; returns how often that passed red.
   int Drive(double at_s, Vec2 from, Vec2 to, double speed_m_s) {
     RedLights lights(scenario_);
     const Vec2 way = to - from;

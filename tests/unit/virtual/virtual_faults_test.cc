@@ -130,7 +130,7 @@ TEST(VirtualFaults, AVehiclePausedForSecondsIsTakenBack) {
   EXPECT_EQ(count(EventKind::kArrived), 2);
 }
 
-// Longer than its body stays: it begins anew at its start place.
+// Away for longer than its body stays: it starts again at its start place.
 TEST(VirtualFaults, ARestartThatOutlastsItsBodyBeginsAtTheStart) {
   VirtualFleet fleet(TwoOnARoad(), Planned({FaultFor(Kind::kRestart, 6, 10)}));
   AdvanceBy(&fleet, 319);

@@ -1,5 +1,5 @@
-// Each fault of the world alone, on one vehicle of a crossing, over twenty seeds: who has it and
-// who meets that one still touch nobody.
+// Each fault of the world alone, on one vehicle of a crossing, over twenty seeds: neither that
+// vehicle nor those that meet it touch another.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OneWorldFault,
                                          faults::Kind::kEncoderWrong),
                          [](const auto& kind) { return std::string(ToString(kind.param)); });
 
-// Wheels that turn on whatever is commanded stop for nobody, and drive into who stands: seeds 9 and
-// 11 of these. Nobody else touches anybody for its sake.
+// A vehicle whose wheels keep turning whatever is commanded stops for no peer and drives into those
+// that stand: seeds 9 and 11 of these. No two others touch because of it.
 TEST(WorldFaultSweep, OneWithStuckWheelsTouchesOthersAndNoTwoOthersTouch) {
   for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
     const VirtualPlan plan = PlanOf(faults::Kind::kMotorStuck, seed);

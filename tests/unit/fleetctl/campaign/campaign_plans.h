@@ -49,7 +49,7 @@ inline ShardResult PretendedShard(const CampaignPlan& plan, const ShardOf& shard
     result.generators.emplace_back().generator = generator;
   }
   const ShardRuns runs(plan, shard);
-  // Backwards: in which order runs end is nobody's promise.
+  // In reverse: the order in which runs end is not guaranteed.
   for (std::uint32_t place = runs.Count(); place-- > 0;) {
     const CampaignRun run = runs.At(place);
     result.generators[run.generator].Add(PretendedRun(run.seed));

@@ -18,7 +18,7 @@ inline MemoryFile FileNamed(const std::string& name) {
   return file;
 }
 
-// A segment and its lock; somebody lives who owns it.
+// A segment and its lock, held by a live process.
 inline void AddSegment(const std::string& name, SharedMemory* memory) {
   memory->files.push_back(FileNamed(name));
   memory->files.back().users = {101};
@@ -26,7 +26,7 @@ inline void AddSegment(const std::string& name, SharedMemory* memory) {
   memory->files.back().locked = true;
 }
 
-// The same when it was killed.
+// The same after its owner was killed.
 inline void AddStaleSegment(const std::string& name, SharedMemory* memory) {
   memory->files.push_back(FileNamed(name));
   memory->files.push_back(FileNamed(name + "_el"));

@@ -128,7 +128,7 @@ TEST(Doctor, FindsHostIdsThatDiffer) {
   EXPECT_EQ(Only(host).rule, "host_ids_apart");
   EXPECT_THAT(Only(host).values, HasSubstr("both have one /dev/shm"));
   host.processes[1].told.domain = 8;
-  EXPECT_THAT(RulesOf(host), IsEmpty()) << "in two domains nobody minds";
+  EXPECT_THAT(RulesOf(host), IsEmpty()) << "no finding across two domains";
 }
 
 TEST(Doctor, FindsAnInterfaceThatIsNotThere) {

@@ -151,7 +151,7 @@ TEST_F(MadeMemory, IsReadWithSizesLocksAndUsers) {
   EXPECT_EQ(memory.files[0].user, user_);
   EXPECT_THAT(memory.files[0].users, ElementsAre(42));
   EXPECT_EQ(memory.files[1].held, false);
-  EXPECT_EQ(memory.files[3].held, true) << "whoever holds a lock has it open";
+  EXPECT_EQ(memory.files[3].held, true) << "a process that holds a lock has it open";
   EXPECT_THAT(memory.files[4].users, ElementsAre(42));
 }
 

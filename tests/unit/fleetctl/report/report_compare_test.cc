@@ -61,7 +61,7 @@ TEST(ComparedSoaks, ALongerTailIsFound) {
   EXPECT_THAT(Worse(SampleSoak(1), after), ElementsAre("reaction, 99 %"));
 }
 
-// Surely another, but by less than anybody cares.
+// A significant difference, but too small to matter.
 TEST(ComparedSoaks, ASmallChangeIsNoneHoweverSure) {
   SoakResult before = SampleSoak(1);
   SoakResult after = SampleSoak(2);

@@ -273,7 +273,7 @@ TEST_F(InvariantWatchTest, AnOpenFleetsNewcomersAreJudgedFromTheirRosterEntryOn)
   link::Observed joined;
   joined.roster.push_back({.vehicle = two_, .accepted = true, .epoch = kEpoch, .spawn = 1});
   watch_->Fold(joined);
-  watch_->Fold(joined);  // told again
+  watch_->Fold(joined);  // repeated answer
   Of(two_).seen = Of(two_).heard = Of(two_).status_comes = true;
   Observe({{.kind = EventKind::kJoined, .vehicle = two_}});
   Observe(30);

@@ -96,7 +96,7 @@ TEST(ResourcesOverTime, AShortLifeIsCountedAndNotJudged) {
   ResourceSeries series(kWarmUp_s);
   for (int t = 0; t < 20; ++t) series.Add("vehicle-1", t, Using(t, 1e6 * t));
   series.EndLife("vehicle-1");
-  series.EndLife("nobody");
+  series.EndLife("unknown");
   EXPECT_THAT(series.Slopes(), IsEmpty());
   EXPECT_EQ(series.LivesTooShort(), 1U);
 }

@@ -123,7 +123,7 @@ TEST_F(SoakWatchTest, AHearersFaultIsSeenByWhatItCounts) {
   VehicleStatus other = Driving(kOne);
   other.impaired.dropped_loss = 100;
   Say(other, milliseconds(10600));
-  EXPECT_EQ(watch_.Courses()[1].effect, "") << "of whom it is not";
+  EXPECT_EQ(watch_.Courses()[1].effect, "") << "not the target";
   status.impaired.dropped_loss = 9;
   Say(status, seconds(11));
   EXPECT_THAT(watch_.Courses()[1].effect, HasSubstr("counted 2 packets"));
@@ -176,7 +176,7 @@ TEST(SoakWatch, AFloodIsSeenByPacketsThatTheTargetsFilterDropsAsNoneOfRtps) {
   EXPECT_EQ(EffectOf(faults::Kind::kFlooded, Driving(kTwo), other), "");
   EXPECT_EQ(
       EffectOf(faults::Kind::kFlooded, Driving(kOne), Attacked(kOne, PacketDrop::kNotRtps, 9)), "")
-      << "of whom it is not";
+      << "not the target";
 }
 
 TEST(SoakWatch, MalformedPacketsAreSeenByWhateverTheFilterDropsThemFor) {

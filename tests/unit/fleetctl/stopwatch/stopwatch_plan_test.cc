@@ -31,7 +31,7 @@ TEST(StopwatchPlan, EveryTrialIsPlannedAndHalfTheFleetWatches) {
   for (const Wave& wave : Plan(Fault::kKill, 10, 8)) {
     std::set<VehicleId> victims;
     for (const Strike& strike : wave.strikes) victims.insert(strike.victim);
-    EXPECT_EQ(victims.size(), wave.strikes.size());  // nobody is faulted twice
+    EXPECT_EQ(victims.size(), wave.strikes.size());  // no vehicle is faulted twice
     EXPECT_LE(victims.size(), 4U);
     EXPECT_TRUE(std::ranges::is_sorted(wave.strikes, {}, &Strike::after));
     strikes += wave.strikes.size();
@@ -53,7 +53,7 @@ TEST(StopwatchPlan, ASeedRepeatsAndAnotherDoesNot) {
   EXPECT_NE(plan(3), plan(4));
 }
 
-// Whether `hearer` is told not to hear `sender` right after the strike.
+// Whether a blackout makes `hearer` miss `sender` right after the fault is injected.
 bool IsDeafTo(VehicleId hearer, VehicleId sender, Fault fault, const Wave& wave,
               const Strike& strike) {
   const auto fleet = StopwatchVehicles(4);

@@ -51,7 +51,7 @@ constexpr const char* kDev =
     "    lo: 5167049396 16411653    0\n"
     "  eth0: 352998022    8423    0\n"
     " veth1:       0       0    0\n";
-// Port 0x23c4 is 9156, of inode 777; 0x1f90 belongs to somebody else.
+// Port 0x23c4 is 9156, of inode 777; 0x1f90 belongs to another process.
 constexpr const char* kUdp =
     "   sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout "
     "inode ref pointer drops\n"

@@ -55,7 +55,7 @@ TEST(TunePredict, SilencesInBurstsAreThoseOfASimulatedChannel) {
 
 TEST(TunePredict, NothingLostIsNoAlarm) { EXPECT_EQ(Alarms(Qos(150), {}), 0); }
 
-// Without lost scans: three silences in a row are told by any limit up to 200 ms.
+// No scans lost: any limit up to 200 ms reports three missing beacons in a row.
 TEST(TunePredict, ADeadlineBetweenThreeAndFourPeriodsTakesThreeLosses) {
   EXPECT_NEAR(Alarms(Qos(175), {.loss = 0.1}), 0.9 * 0.001, 1e-9);
 }
@@ -74,7 +74,8 @@ TEST(TunePredict, BehindLongLimitsTheAgeOfBeaconsTells) {
   EXPECT_NEAR(Alarms(Qos(900, 900), {.loss = 0.1}), 0.5 * four + 0.9 * 1e-5, 1e-9);
 }
 
-// Behind limits that never tell: turns after 1.5, 3, 4 and 5 ticks, on whole ticks a toss.
+// Limits too long to fire: the age limit is reached after 1.5, 3, 4 and 5 ticks; on a whole tick it
+// is a coin toss.
 TEST(TunePredict, WhileOwnScansAreLostTheAgeOfBeaconsTells) {
   const double three = 0.5 * 1e-3 + 0.5 * 1e-4;
   EXPECT_NEAR(Alarms(Qos(900, 900), {.scan_loss = 0.1}), 0.9 * three, 1e-9);

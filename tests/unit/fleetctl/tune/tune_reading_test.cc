@@ -1,4 +1,5 @@
-// What a recording says of QoS: a brain on a table that hears, does not hear, and is told things.
+// What a recording shows of QoS: a brain on the bench that receives beacons, misses them, and gets
+// QoS events.
 #include "services/fleetctl/tune/tune_reading.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,8 @@ constexpr std::uint32_t kSteps = 40;
 
 constexpr SteadyTime AtTick(std::uint32_t tick) { return tick * kTick; }
 
-// A vehicle that hears vehicle 2 in every tick but those of which `silent` is true, and is told the
-// events of `told`; it takes no step in a tick of which `stands` is true.
+// A vehicle that receives vehicle 2 in every tick except where `silent` is true, and gets the given
+// QoS events; it skips the step of a tick where `stands` is true.
 std::string Recording(const std::function<bool(std::uint32_t)>& silent,
                       const std::function<std::vector<QosEvent>(std::uint32_t)>& told = {},
                       const std::function<bool(std::uint32_t)>& stands = {}) {

@@ -98,7 +98,7 @@ TEST(FleetDraw, DrawsAllThereIs) {
   EXPECT_LT(turns_least, 0.7);
 }
 
-// A box is held by the disc that beacons tell of.
+// A box is represented by the disc that its beacons publish.
 TEST(FleetDraw, ABoxHasTheDiscRoundIt) {
   OnManySeeds(MixedOf("swarm"), [](const Scenario& scenario) {
     for (const VehicleOptions& vehicle : scenario.vehicles) {

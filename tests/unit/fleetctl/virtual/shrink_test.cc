@@ -1,4 +1,5 @@
-// A failing run is reduced to what makes it fail, and the file that is left fails in the same way.
+// A failing run is reduced to what makes it fail, and the file that is left fails by the same
+// invariant.
 #include "services/fleetctl/virtual/shrink.h"
 
 #include <gtest/gtest.h>
@@ -99,7 +100,8 @@ TEST(Shrinking, LeavesOfAScheduleTheFaultThatMatters) {
   EXPECT_EQ(shrunk->made.plan.schedule[0], stuck);
 }
 
-// A fault of a vehicle that is left out has nobody to meet, and one that is not heard is nobody.
+// A fault needs its target, and a cut of one direction also its sender: with either removed the
+// fault is dropped.
 TEST(Shrinking, LeavesOutTheFaultsOfWhomItLeavesOut) {
   VirtualCase made = HeadOnAmongOthers();
   faults::Fault cut = Scheduled(faults::Kind::kOneWayCut, 1, 0);

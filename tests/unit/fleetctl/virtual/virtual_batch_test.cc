@@ -106,9 +106,9 @@ TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
   EXPECT_TRUE(totals.failing_seeds.empty()) << totals.failing_seeds.size() << " failed";
 }
 
-// Of ten thousand swarms nine did not hold: four vehicles queued permanently behind one that had
-// arrived, and five times all but one that still rolled to its goal halted. In 1130, of a later
-// brain, one found no way out between two bodies.
+// Nine of ten thousand swarms failed: in four, vehicles queued permanently behind one that had
+// arrived; in five, all halted except one that still rolled to its goal. In 1130, found with a
+// later brain, a vehicle found no exit between two bodies.
 TEST(VirtualBatch, SwarmsThatBrokeHold) {
   const CaseMaker maker(AsInTheCampaign("swarm"));
   for (const std::uint32_t seed :
@@ -194,7 +194,7 @@ std::vector<std::uint32_t> IdsOf(const CaseOptions& options) {
   return ids;
 }
 
-// They drove nobody, and passed; with faults they divided by none.
+// Regression: the run had no vehicles and passed; with faults it divided by zero.
 TEST(VirtualCaseOfASeed, AnOpenFleetStandsOnItsPlaces) {
   using Ids = std::vector<std::uint32_t>;
   EXPECT_EQ(IdsOf({.scenario = "open_fleet"}), (Ids{1, 2}));

@@ -85,7 +85,7 @@ TEST(WhyReport, AStoppedHearerIsDeafThoughAnotherInItsPlaceHears) {
   EXPECT_FALSE(Verdict1(report).disagree);
   EXPECT_EQ(Contradiction(report), "");
   report.probe->own_word = OwnWord{.peers_heard = 1, .taken = 9};
-  EXPECT_NE(Contradiction(report), "");  // who is stopped tells nothing
+  EXPECT_NE(Contradiction(report), "");  // a stopped process reports nothing
 }
 
 TEST(WhyReport, TheHearersOwnWordCounts) {

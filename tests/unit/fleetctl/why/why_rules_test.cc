@@ -312,7 +312,7 @@ TEST(WhyTopics, AVehicleReadsOfTheWorldWhatItIsFittedWith) {
 
 TEST(WhySituation, HostIdIsThatOfFastDdsForTheAddressesBesideTheLoopback) {
   ProcessSituation process = Vehicle(1);
-  EXPECT_EQ(HostId(process), 0xfd78);  // as Fast DDS 2.9.1 told on a machine with 192.0.2.2
+  EXPECT_EQ(HostId(process), 0xfd78);  // as Fast DDS 2.9.1 reported on a machine with 192.0.2.2
   process.addresses->resize(1);
   EXPECT_EQ(HostId(process), 0x017f);
   process.addresses.reset();
