@@ -108,9 +108,9 @@ class BrainBench {
     return StepWith(scan, beacons, {});
   }
   const std::array<RangeReading, kSensorCount>& LastReadings() const { return readings_; }
-  // What comes with the next step beside scan and beacons.
+  // What comes with the next step in addition to scan and beacons.
   MoreInputs& WithNext() { return more_; }
-  // From now on the wheels turn so, until a scan says otherwise.
+  // From now on the wheels turn at these speeds, until a scan says otherwise.
   void RollOn(WheelSpeeds wheels) { wheels_ = wheels; }
   // One tick's time passes and no scan comes.
   Outputs StepBlind() {

@@ -12,7 +12,7 @@ namespace giveway::test {
 
 DomainLock::DomainLock() {
   const std::string folder = P_tmpdir;  // as fleetctl: one set of locks a machine
-  // Start at different places, so that tests which begin together rarely try the same file.
+  // Different starting points, so that tests that start together rarely try the same file.
   const auto first = static_cast<std::uint32_t>(getpid()) % 99;
   for (std::uint32_t i = 0; i < 99; ++i) {
     domain_ = 1 + (first + i) % 99;

@@ -1,5 +1,5 @@
-// A disk without room, for one process and without rights: no file may grow beyond a size. Writing
-// on raises SIGXFSZ, as the system does it, and fails with EFBIG.
+// A full disk, for one process and without privileges: no file may grow beyond a size. Writing on
+// raises SIGXFSZ, as the system does, and fails with EFBIG.
 #pragma once
 
 #include <gtest/gtest.h>

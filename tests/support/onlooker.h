@@ -56,7 +56,7 @@ class Onlooker {
                options_};
 };
 
-// One that told so with the tick before.
+// A peer whose beacon of the tick before says so.
 inline Peer PeerAt(const Pose& pose, const PoseCovariance& covariance = {},
                    WheelSpeeds wheels = {}) {
   Peer peer{.id = VehicleId{2}, .known = true};

@@ -1,5 +1,5 @@
-// The defects of services/vehicle/estimation/planted.h by name, for programs that plant what an
-// environment variable says.
+// The defects of services/vehicle/estimation/planted.h by name, for programs that inject those an
+// environment variable names.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace giveway::fleetctl {
 inline constexpr WorldEpoch kEpoch{5};
 inline constexpr double kTick_s = 0.05;
 
-// Both are under way and nothing is wrong; a test says what is otherwise.
+// Both vehicles drive and nothing is wrong; a test says what is otherwise.
 class SeenFleet : public testing::Test {
  protected:
   struct Car {

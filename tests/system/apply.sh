@@ -93,13 +93,13 @@ says "a set without a participant" '.verdict == "refused" and
   (.vehicles[0].refusal | contains("a participant with it cannot be made"))'
 [[ $(grep -c 'restarts itself' logs/vehicle-1.log) -eq $restarts ]] ||
   fail "a set without a participant: vehicle 1 restarted"
-# One that comes back all the same, and finds that its new set does not do, has the former one.
+# A vehicle that restarts all the same, and finds its new set unusable, takes the former one.
 code=0
 timeout 20 "$GIVEWAY_BIN_DIR/giveway-vehicle" --scenario rounds.textproto --domain "$domain" --id 3 \
   --qos cut.xml --former-qos "$default" 2>err || code=$?
 if [[ $code -ne 2 ]] || ! grep -q 'comes back with the QoS it had before: .*cut.xml' err ||
   ! grep -q 'the world refused this vehicle' err; then
-  fail "no way back: exit code $code: $(cat err)"
+  fail "no fallback: exit code $code: $(cat err)"
 fi
 sed '0,/<.transport_id>/ s/<.transport_id>/&<output_port>7777<\/output_port>/' "$default" >door.xml
 apply 1 "an element that is no QoS" door.xml --to 1 --domain "$domain" --json
@@ -114,8 +114,8 @@ says "a canary that serves worse" '.verdict == "rolled_back" and (.trial.worse |
 "$FLEETCTL" qos show --live 1 --domain "$domain" --qos offered.xml >out 2>err ||
   fail "rolled back to something else: $(grep not out; cat err)"
 
-apply 2 "nobody of that id" deadline.xml --to 9 --domain "$domain"
-grep -q 'vehicle 9 is not heard' err || fail "nobody of that id: $(cat err)"
+apply 2 "no vehicle of that id" deadline.xml --to 9 --domain "$domain"
+grep -q 'vehicle 9 is not heard' err || fail "no vehicle of that id: $(cat err)"
 code=0
 timeout --foreground --preserve-status --signal INT 1 \
   "$FLEETCTL" qos apply deadline.xml --to 9 --domain "$domain" >out 2>err || code=$?

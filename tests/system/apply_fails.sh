@@ -79,10 +79,10 @@ if tail -n "+$((line_of_2 + 1))" 2.log | grep halt | grep -qv ranges_stale; then
   fail "the other was stopped by it: $(tail -n 3 2.log)"
 fi
 
-# With room in the memory the same order is taken.
+# With enough memory the same set is applied.
 "$FLEETCTL" qos apply same_host --to 1 --domain "$DOMAIN" --json >out 2>err ||
-  fail "with room: $(head -c 600 out err)"
-says "with room" '.verdict == "applied"'
+  fail "with enough memory: $(head -c 600 out err)"
+says "with enough memory" '.verdict == "applied"'
 await_places 1 3 10
 
 end_listening

@@ -43,7 +43,7 @@ jq -e '.verdict == "passed" and .all.runs == 102 and (.generators | length) == 2
 [[ $(jq -r '.generators[1] | .hash, .min_separation_m, .delay_s.mean' whole.json) == \
   $(jq -r '.hash, .min_separation_m, .delay_s.mean' virtual.json) ]] || fail "not the runs of fleetctl virtual"
 
-# Four shards, each told its number by another engine, of which one is killed and run again.
+# Four shards, each given its number by another engine; one of them is killed and run again.
 JOB_COMPLETION_INDEX=0 campaign 0 "Kubernetes" shard plan.textproto --out results
 SLURM_ARRAY_TASK_ID=1 campaign 0 "Slurm" shard plan.textproto --out results
 PARALLEL_SEQ=3 campaign 0 "parallel" shard plan.textproto --out results
@@ -67,7 +67,7 @@ cmp -s out whole.json || fail "cut in four it comes to something else: $(diff ou
 campaign 0 "merge of four, for people" merge results/*.json
 grep -Eq '^all +102 +0 +0 ' out || fail "for people: $(<out)"
 
-# As kubectl logs gives them: in one stream, with what was said beside.
+# As kubectl logs gives them: in one stream, between other output.
 { echo "shard 1 of 4: words"; cat results/*.json; echo; } >pods.log
 campaign 0 "merge of a log" merge pods.log --json
 cmp -s out whole.json || fail "of a log it comes to something else"
@@ -102,7 +102,7 @@ read -ra words <shown
 "$FLEETCTL" "${words[@]:1}" >/dev/null || code=$?
 [[ $code -eq 1 ]] || fail "the command does not fail again: exit code $code"
 
-# A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short nobody arrives,
+# A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short no vehicle arrives,
 # which its file expects.
 printf 'name: "placed"\nscenario: "four_way"\nseeds: [1, 4]\n' >placed.textproto
 for index in 0 1 2; do campaign 0 "a scenario" shard placed.textproto --of 3 --index "$index" --out placed; done

@@ -122,7 +122,7 @@ TEST(ChildProcess, DeathBySignalIsNamed) {
 }
 
 TEST(ChildProcess, ProgramThatIsNotThereSaysSo) {
-  ChildProcess child({"nobody", {"/does/not/exist"}, "", -1});
+  ChildProcess child({"absent", {"/does/not/exist"}, "", -1});
   ASSERT_TRUE(WaitForEnd(&child));
   EXPECT_EQ(child.End(), (ProcessEnd{false, 127}));
   EXPECT_THAT(child.LastLines(), ElementsAre(HasSubstr("cannot start /does/not/exist: No such")));
@@ -344,7 +344,7 @@ TEST(FleetProcesses, OnlyAnEndJustAsPlannedIsPlanned) {
   EXPECT_FALSE(fleet.EndOf(kTwo)->planned);
 }
 
-// Somebody else was first, and that has not been noticed yet.
+// Another process killed it first, which has not been noticed yet.
 TEST(FleetProcesses, AKillOfOneThatIsDeadAlreadyPlansNothing) {
   FleetProcesses fleet({Command(kOne, kSleep)});
   const pid_t pid = *fleet.PidOf(kOne);

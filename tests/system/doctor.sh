@@ -55,8 +55,8 @@ segment_of() {
   return 0
 }
 
-# Two that live and hear each other, and one that is alone in another domain: what that one leaves
-# is nobody's. Among themselves neighbours clear away a dead one's segment after some seconds.
+# Two vehicles that hear each other, and one that is alone in another domain: no process cleans up what that
+# one leaves. Neighbours remove each other's stale segments after some seconds.
 healthy "an empty host" --qos same_host
 says "an empty host" '.not_known == []'
 fleet=$DOMAIN
@@ -105,7 +105,7 @@ doctor 0 "all removed" --qos same_host --fix
 left=$(find /dev/shm -name '*fast*')
 [[ -z $left ]] || fail "left: $left"
 
-# Room for none, and for some.
+# Space for no segment, then for some.
 INSIDE=(unshare -m bash -c 'mount -t tmpfs -o size=1m none /dev/shm && exec "$@"' small)
 finds "a small shared memory" memory_small --qos same_host
 INSIDE=(unshare -m bash -c

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Which failed runs are made again, and how often: reports as fleetctl writes them, and a fleetctl of
-# our own that fails so many times before it passes.
+# Which failed runs are repeated, and how often: reports as fleetctl writes them, and a stub fleetctl that
+# fails so many times before it passes.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"
 mkdir logs
@@ -16,7 +16,7 @@ is() { excused run.json logs >/dev/null || fail "$1: not excused"; }
 is_not() { ! excused run.json logs >/dev/null || fail "$1: excused"; }
 
 log 0
-report "$halted" 0 1 0 && is_not "nobody was late"
+report "$halted" 0 1 0 && is_not "nothing was late"
 report "$halted" 0 2 0 && is "the world was late"
 report "$halted" 1 9 0 && is_not "a contact"
 report "$halted" 0 9 1 && is_not "an invariant"

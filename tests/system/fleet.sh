@@ -59,7 +59,7 @@ wait_for_child() {
   return 1
 }
 
-# The domain a child was told.
+# The domain in a child's arguments.
 domain_of() { arguments_of "$1" | sed -n 's/.*--domain \([0-9]*\) .*/\1/p'; }
 
 # The processes of a run on a domain, one a line.

@@ -10,19 +10,19 @@ ask() { "$BIN/giveway-vehicle" --health "$2" --health-port "$1" 2>&1; } # PORT l
 
 # await_health WHAT SECONDS PORT live|ready CODE PATTERN: asks until both come.
 await_health() {
-  local what=$1 seconds=$2 port=$3 which=$4 wanted=$5 pattern=$6 begun code answer
-  begun=$(date +%s%N)
+  local what=$1 seconds=$2 port=$3 which=$4 wanted=$5 pattern=$6 start_ns code answer
+  start_ns=$(date +%s%N)
   while true; do
     code=0
     answer=$(ask "$port" "$which") || code=$?
     [[ $code -eq $wanted && $answer =~ $pattern ]] && break
-    if (($(date +%s%N) - begun > seconds * 1000000000)); then
+    if (($(date +%s%N) - start_ns > seconds * 1000000000)); then
       fail "$what: no '$pattern' with exit code $wanted in $seconds s, but $code: $answer"
       return
     fi
     sleep 0.05
   done
-  echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms: $answer" >&2
+  echo "$what: $((($(date +%s%N) - start_ns) / 1000000)) ms: $answer" >&2
 }
 
 # The value of a metric; empty if there is none.
@@ -101,7 +101,7 @@ get() { printf '%s %s HTTP/1.1\r\nHost: a\r\n%s\r\n' "$1" "$2" "${3:-}"; }
 [[ $(get GET /livez | first_line) == 'HTTP/1.1 200 OK' ]] || fail "GET /livez"
 [[ $(get HEAD /livez | first_line) == 'HTTP/1.1 200 OK' ]] || fail "HEAD /livez"
 [[ $(get GET /secrets | first_line) == 'HTTP/1.1 404 '* ]] || fail "an unknown page"
-[[ $(get GET /../../etc/passwd | first_line) == 'HTTP/1.1 404 '* ]] || fail "a way out"
+[[ $(get GET /../../etc/passwd | first_line) == 'HTTP/1.1 404 '* ]] || fail "a path out of the root"
 [[ $(get POST /livez $'Content-Length: 5\r\n' | first_line) == 'HTTP/1.1 405 '* ]] || fail "POST"
 [[ $(get DELETE /livez | first_line) == 'HTTP/1.1 405 '* ]] || fail "DELETE"
 get GET '/readyz?format=json' | said_to "$A" | grep -q '^{"ready":true,"reasons":\[\]}' || fail "JSON"
@@ -135,17 +135,17 @@ trickles() {
 TRICKLERS=()
 trickles 10
 sleep 0.5
-for _ in $(seq 5); do await_health "beside clients that trickle bytes" 1 "$A" live 0 '^live$'; done
-begun=$(date +%s%N)
+for _ in $(seq 5); do await_health "while clients trickle bytes" 1 "$A" live 0 '^live$'; done
+start_ns=$(date +%s%N)
 printf 'GET /li' | said_to "$A" >/dev/null # cut off for another, or after its second
-(($(date +%s%N) - begun < 1500000000)) || fail "a request that never ends is waited for"
+(($(date +%s%N) - start_ns < 1500000000)) || fail "a request that never ends is waited for"
 kill "${TRICKLERS[@]}" 2>/dev/null || true
 wait "${TRICKLERS[@]}" 2>/dev/null || true
-# A few a busy machine takes by itself; a loop that waits for strangers would come late ten times a
+# A busy machine alone causes a few; a loop that waited for these clients would be late ten times for each
 # half-open connection.
 late=$(($(metric "$A" giveway_vehicle_late_scans_total) - late))
 missed=$(($(metric "$B" giveway_vehicle_deadline_missed_total) - missed))
-echo "beside strangers: $late scans late, $missed beacons missed" >&2
+echo "under strangers' requests: $late scans late, $missed beacons missed" >&2
 ((late <= 5 && missed <= 2)) || fail "strangers disturb the loop: $late late, $missed missed"
 
 # --- A loop that hangs is not live, and is again when it continues.
@@ -154,10 +154,10 @@ await_health "b hangs" 3 "$B" live 1 'not live: the control loop has been silent
 await_health "b hangs and is not ready" 1 "$B" ready 1 'silent for'
 await_health "a does not hang" 1 "$A" live 0 '^live$'
 kill -USR2 "${PID[b]}"
-await_health "b goes on" 2 "$B" live 0 '^live$'
+await_health "b continues" 2 "$B" live 0 '^live$'
 await_health "b drives again" 5 "$B" ready 0 '^ready$'
 
-# --- A leave is no loss. Half a request is no reason to stay.
+# A leave is not a loss. Half a request does not keep the vehicle from leaving.
 await "a hears b again" 5 a "beacon_heard: vehicle $id_b"
 sleep 0.5
 line=$(lines_of a)
@@ -167,8 +167,8 @@ printf 'GET /li' 1>&"$socket"
 stops b
 exec {socket}>&-
 grep -q 'leaving (leaving)' "$SCRATCH/b.log" || fail "b did not halt: $(tail -n 3 "$SCRATCH/b.log")"
-await "a is told" 2 a "beacon_left: vehicle $id_b" "$line"
-await "the world is told" 2 world "vehicle $id_b left the run"
+await "a gets the leave" 2 a "beacon_left: vehicle $id_b" "$line"
+await "the world gets the leave" 2 world "vehicle $id_b left the run"
 sleep 0.5
 if tail -n "+$((line + 1))" "$SCRATCH/a.log" | grep -E "(stale|lost|missed).*vehicle $id_b"; then
   fail "a takes a leave for a loss"
@@ -202,12 +202,12 @@ stops twin
 
 # --- At any moment of joining, from when it handles the signal: before, it is not yet itself.
 handles_term() { # NAME
-  local caught of="/proc/${PID[$1]}"
+  local handled of="/proc/${PID[$1]}"
   for _ in $(seq 400); do
     sleep 0.005
     [[ $(readlink "$of/exe") == */giveway-* ]] || continue # before the signals: those of the shell
-    caught=$(awk '/^SigCgt:/ {print $2}' "$of/status")
-    (((0x$caught >> 14) & 1)) && return
+    handled=$(awk '/^SigCgt:/ {print $2}' "$of/status")
+    (((0x$handled >> 14) & 1)) && return
   done
   fail "$1 never handled SIGTERM"
 }
@@ -242,7 +242,7 @@ else
   echo "no right to make process namespaces: process 1 is not tried" >&2
 fi
 
-# watched_in_vain: an observer joins, and dies without a word: nobody may wait for it for long.
+# watched_in_vain: an observer joins, and is killed: nothing may wait for it for long.
 watched_in_vain() {
   "$FLEETCTL" top --domain "$DOMAIN" >"$SCRATCH/top.log" 2>/dev/null &
   PID[top]=$!

@@ -3,7 +3,7 @@
 # injected is what was asked for.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
-# count VEHICLE NAME: a number of the line with which the vehicle's log tells what was injected.
+# count VEHICLE NAME: a number from the line in which the vehicle's log reports what was injected.
 count() { sed -n "s/.* impairment: .*\b$2=\([0-9]*\).*/\1/p" "$SCRATCH/logs/vehicle-$1.log"; }
 
 # crosses NAME ARGUMENTS...: the run passes, and no two bodies touch.
@@ -28,7 +28,7 @@ for vehicle in 1 2; do
   [[ ${packets:-0} -gt 500 ]] || fail "vehicle $vehicle: '$packets' packets"
   awk -v lost="${lost:-0}" -v of="${packets:-1}" \
     'BEGIN { exit !(lost / of > 0.05 && lost / of < 0.15) }' ||
-    fail "vehicle $vehicle: $lost of $packets lost, a tenth was asked for"
+    fail "vehicle $vehicle: $lost of $packets lost, expected a tenth"
   [[ $(count $vehicle delayed) == $(count $vehicle passed) ]] || fail "vehicle $vehicle: not all late"
 done
 

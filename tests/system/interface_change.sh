@@ -43,18 +43,18 @@ drive() {
 
 # ends WHAT NAME: with exit code 1, after NOTICED_MS from now at most, and the longest pause of the machine.
 ends() {
-  local what=$1 name=$2 code=0 begun last now took_ms pause_ms=0
-  begun=$(date +%s%3N)
-  now=$begun
-  while alive "$name" && ((now - begun < 10000)); do
+  local what=$1 name=$2 code=0 start_ms last now took_ms pause_ms=0
+  start_ms=$(date +%s%3N)
+  now=$start_ms
+  while alive "$name" && ((now - start_ms < 10000)); do
     last=$now
     sleep 0.02
     now=$(date +%s%3N)
     ((now - last <= pause_ms)) || pause_ms=$((now - last))
   done
-  took_ms=$((now - begun))
+  took_ms=$((now - start_ms))
   if alive "$name"; then
-    fail "$what: $name goes on: $(tail -n 3 "$SCRATCH/$name.log")"
+    fail "$what: $name still runs: $(tail -n 3 "$SCRATCH/$name.log")"
     return
   fi
   wait "${PID[$name]}" || code=$?

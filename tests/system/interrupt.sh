@@ -1,14 +1,15 @@
 #!/usr/bin/env bash
-# Ctrl-C is a clean stop: exit code 1, reason "interrupted", everyone leaves in good order. SIGTERM is
-# the same, a flood of it one request; a second Ctrl-C does not wait. The bound on the time is a guard against hanging, not a
-# measurement: a quiet machine takes under half a second, a busy one longer.
+# Ctrl-C is a clean stop: exit code 1, reason "interrupted", every process leaves in good order. SIGTERM is
+# the same, and many in a row count as one request; a second Ctrl-C does not wait. The bound on the time
+# guards against hanging, it is not a measurement: a quiet machine takes under half a second, a busy one
+# longer.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
 # interrupt NAME SECONDS SIGNAL...: sends the signals that long after the start, 50 ms apart.
 interrupt() {
-  local name=$1 delay=$2 run world domain begun code=0 signal
+  local name=$1 delay=$2 run world domain start_ms code=0 signal
   shift 2
   # The picture does not fit on the disk: the verdict stands all the same, and is the only one.
   (
@@ -22,13 +23,13 @@ interrupt() {
   }
   domain=$(domain_of "$world")
   sleep "$delay"
-  begun=$(now_ms)
+  start_ms=$(now_ms)
   for signal in "$@"; do
     kill -s "$signal" "$run" || true
     sleep 0.05
   done
   all_gone "$domain" 40 || fail "$name: left over: $(processes_on "$domain" | xargs)"
-  local took=$(($(now_ms) - begun))
+  local took=$(($(now_ms) - start_ms))
   wait "$run" || code=$?
   [[ $took -le 3000 ]] || fail "$name: it took $took ms until all were gone"
   [[ $code -eq 1 ]] || fail "$name: exit code $code"
@@ -43,21 +44,21 @@ interrupt() {
   echo "$name: gone after $took ms" >&2
 }
 
-# again_and_again NAME CODES SECONDS_BETWEEN: a vehicle is sent SIGTERM until it is gone. One request
-# sent often is one request; a later one ends what has not left yet, as by a shell: 128 + 15.
+# again_and_again NAME CODES SECONDS_BETWEEN: a vehicle is sent SIGTERM until it is gone. Many in quick
+# succession count as one request; a later one ends what has not left yet, as by a shell: 128 + 15.
 again_and_again() {
-  local vehicle code=0 signal begun
+  local vehicle code=0 signal start_ms
   "$(dirname "$FLEETCTL")/giveway-vehicle" --scenario wall_only --id 1 --domain 98 2>/dev/null &
   vehicle=$!
   sleep 0.3
-  begun=$(now_ms)
+  start_ms=$(now_ms)
   for ((signal = 0; signal < 300; ++signal)); do
     kill -TERM "$vehicle" 2>/dev/null || break
     [[ $3 == 0 ]] || sleep "$3"
   done
   wait "$vehicle" || code=$?
   [[ $code =~ ^($2)$ ]] || fail "$1: exit code $code"
-  (($(now_ms) - begun < 2000)) || fail "$1: it took $(($(now_ms) - begun)) ms"
+  (($(now_ms) - start_ms < 2000)) || fail "$1: it took $(($(now_ms) - start_ms)) ms"
 }
 
 for _ in 1 2 3; do

@@ -14,7 +14,7 @@ end_members() {
 }
 trap end_members EXIT
 
-# Sets DOMAIN to one that nobody uses, and keeps it by the lock that fleetctl takes too.
+# Sets DOMAIN to a free one, and keeps it by the lock that fleetctl takes too.
 take_domain() {
   for DOMAIN in $(seq 60 99); do
     exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$DOMAIN.lock"

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Vehicles come and go in a running world: one that was killed with -9 drives again within five
-# seconds of its restart, as itself or as another; a fleet grows from two to four and shrinks again;
-# and no two bodies touch.
+# Vehicles join and leave a running world: one that was killed with -9 drives again within five seconds of its
+# restart, under its id or another; a fleet grows from two to four and shrinks again; and no two bodies touch.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 keep_time
@@ -12,13 +11,13 @@ start b giveway-vehicle
 await "the first two drive (a)" 15 a 'cruise'
 await "the first two drive (b)" 15 b 'cruise'
 
-# As traffic has it: the lanes cross.
+# The lanes cross, so vehicles also wait for each other.
 DRIVES='cruise|keep_clear|give_way|not_granted'
 
 # As itself: its id is asked for, and its body still stands where it was left.
 id=$(id_of b)
 listen_places b "$DOMAIN" "$id"
-await_places b 1 25 # it is on its way
+await_places b 1 25 # it drives
 kill_now b
 start b2 giveway-vehicle --id "$id"
 await "killed and restarted by its id" 5 b2 'cruise'
@@ -50,9 +49,9 @@ halts=$(tail -n "+$((line + 1))" "$SCRATCH/b2.log" | grep '(halt)' || true)
 if [[ $(times_late) -gt $late ]]; then # the machine may have made its ranges stale
   halts=$(grep -v 'ranges_stale' <<<"$halts" || true)
 fi
-[[ -z $halts ]] || fail "who stayed was stopped by the others' coming: $halts"
+[[ -z $halts ]] || fail "a vehicle that stayed was stopped by those that joined: $halts"
 
-# The world ends: everybody goes home by themselves.
+# The world ends: the vehicles end by themselves.
 kill -TERM "${PID[world]}"
 for name in b2 a2 e; do
   code=0
