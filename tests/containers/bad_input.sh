@@ -56,9 +56,9 @@ service world GIVEWAY_SCENARIO=/scenarios/missing.textproto
 ends_with "no scenario is mounted" 'missing.textproto: no such file'
 service vehicle GIVEWAY_QOS=/qos/missing.xml
 ends_with "no QoS file is mounted" 'missing.xml: does not exist; give a complete profile set'
-service vehicle GIVEWAY_DISCOVERY_SERVER=nobody:11811
-waits_with "a server without an address" 'discovery server nobody .* has no address yet' \
-  'discovery server nobody .* has no address yet'
+service vehicle GIVEWAY_DISCOVERY_SERVER=no_such_host:11811
+waits_with "a server without an address" 'discovery server no_such_host .* has no address yet' \
+  'discovery server no_such_host .* has no address yet'
 service vehicle GIVEWAY_DISCOVERY_SERVER=172.30.54.200
 waits_with "a server that does not answer" 'no discovery server answers' '172.30.54.200:11811'
 # Patient: a shipped fleet waits ten minutes for its vehicles.

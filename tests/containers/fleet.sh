@@ -54,13 +54,13 @@ table bridge giveway_drill {
 }
 TEXT
 }
-# The rule stands where it should: servers are no proof where multicast would have done. A vehicle
-# that looks for the fleet by multicast finds nobody.
+# The rule is effective: otherwise multicast could have done the servers' work. A vehicle that uses multicast
+# finds no fleet.
 multicast_finds_nobody() {
   local alone
   alone=$(docker run -d --network "${PROJECT}_fleet" -e GIVEWAY_SCENARIO=open_fleet \
     -e GIVEWAY_DOMAIN=1 giveway-vehicle)
-  await "by multicast: nobody is found" 15 says "$alone" 'no answer from a world yet'
+  await "by multicast: no fleet is found" 15 says "$alone" 'no answer from a world yet'
   await "by multicast: the firewall dropped it" 5 drops_multicasts
   docker rm -f "$alone" >/dev/null
 }
@@ -122,7 +122,7 @@ any_drives() {
   return 1
 }
 
-# Places all vehicles were given so far: each is told again by another world.
+# Placements of all vehicles so far: another world places each again.
 places() {
   local vehicle sum=0
   for vehicle in $(running vehicle); do
@@ -131,20 +131,20 @@ places() {
   echo "$sum"
 }
 
-# await WHAT SECONDS COMMAND...: true once the command is; else a failure after so many seconds.
+# await WHAT SECONDS COMMAND...: waits until the command is true; fails after so many seconds.
 await() {
-  local what=$1 seconds=$2 begun now
+  local what=$1 seconds=$2 start_ns now
   shift 2
-  begun=$(date +%s%N)
+  start_ns=$(date +%s%N)
   while ! "$@"; do
     now=$(date +%s%N)
-    if ((now - begun > seconds * 1000000000)); then
+    if ((now - start_ns > seconds * 1000000000)); then
       fail "$what: not within $seconds s"
       return 0
     fi
     sleep 0.05
   done
-  echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms"
+  echo "$what: $((($(date +%s%N) - start_ns) / 1000000)) ms"
 }
 
 # holds WHAT SECONDS COMMAND...: true at every look for so many seconds.

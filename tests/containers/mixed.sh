@@ -20,7 +20,7 @@ OURS=$("$BIN/giveway-vehicle" --version)
 THEIRS=$(docker run --rm --network none giveway-vehicle --version)
 [[ $OURS != "$THEIRS" ]] || die "both are $OURS: nothing is mixed"
 
-# A domain nobody here uses, kept by the lock that fleetctl takes too.
+# A free domain, kept by the lock that fleetctl takes too.
 for DOMAIN in $(seq 60 99); do
   exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$DOMAIN.lock"
   flock -n "$lock" && break

@@ -50,7 +50,7 @@ bool ComesFirst(struct order_key a, uint32_t id_a, struct order_key b, uint32_t 
   if (a.waited_ticks != b.waited_ticks) return a.waited_ticks > b.waited_ticks;
   if (a.speed_bucket != b.speed_bucket) return a.speed_bucket > b.speed_bucket;
   if (a.vehicle != b.vehicle) return a.vehicle < b.vehicle;
-  /* One acts by the key of the other, and is in that one's way. */
+  /* One inherits the key of the other, and blocks it. */
   if (a.vehicle == id_a) return false;
   return b.vehicle == id_b || id_a < id_b;
 }

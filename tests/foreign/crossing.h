@@ -1,5 +1,5 @@
-/* What two vehicles must agree on at a crossing, by idl/FOREIGN.md: the check sum, the order, and
- * where their ways come too near. Pure. */
+/* What two vehicles must agree on at a crossing, by idl/FOREIGN.md: the checksum, the priority,
+ * and where their paths come too near. Pure. */
 #pragma once
 
 #include <stdbool.h>
@@ -15,7 +15,7 @@ struct way { /* straight */
   struct point from, to;
 };
 
-struct stretch { /* of the own way, from its beginning */
+struct stretch { /* of the own path, from its start */
   bool exists;
   double begin_m, end_m;
 };
@@ -30,5 +30,5 @@ uint32_t BeaconCrc(const giveway_wire_Beacon* beacon);
 /* True if `a`, which vehicle id_a acts by, goes before `b`. */
 bool ComesFirst(struct order_key a, uint32_t id_a, struct order_key b, uint32_t id_b);
 
-/* Where the own way is nearer than reach_m to any point of the other one. */
+/* Where the own path is nearer than reach_m to any point of the other one. */
 struct stretch CrossingOf(struct way own, struct way other, double reach_m);

@@ -221,7 +221,7 @@ static double Sigma(const Beacon* beacon) {
   return sqrt(fmax(0, beacon->covariance.xx_m2 + beacon->covariance.yy_m2));
 }
 
-/* What this peer allows: how far the own centre may go on, huge if it is in no other's way. */
+/* What this peer allows: how far the own centre may advance, huge if there is no conflict. */
 static double MayGo(struct peer* peer) {
   const double kFar_m = 1e6;
   const Beacon* beacon = &peer->beacon;
