@@ -1,6 +1,6 @@
-// The ten flaws of the printed scripts, in the lecture's order, one row each: a scenario, and what
-// the flaw looks like in it. The printed behaviour shows it. lecture_yield and cooperative drive
-// the same scenario without it: no two bodies touch, and whoever lives arrives.
+// The ten flaws of the printed scripts, in the lecture's order, one row each: a scenario, and how
+// the flaw shows in it. The printed behaviour has it. lecture_yield and cooperative drive the same
+// scenario without it: no two bodies touch, and every vehicle that lives arrives.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -18,15 +18,15 @@ using test::VehicleAt;
 using Ids = std::set<std::uint32_t>;
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-// What can be told of a run. It ends with the first contact.
+// What is observed of a run. It ends with the first contact.
 struct Story {
   std::uint32_t contacts = 0;
   Ids arrived;
   Ids halted;                  // stood still to give way
   Ids deaf;                    // stopped for something that came near unheard
-  std::set<Pair> gave_way;     // {who, to whom}, driving or standing
+  std::set<Pair> gave_way;     // {the vehicle that gives way, its peer}, driving or standing
   bool both_at_once = false;   // two gave way to each other in one tick
-  double last_for_dead_s = 0;  // when somebody gave way to one that had died, for the last time
+  double last_for_dead_s = 0;  // the last time a vehicle gave way to one that had died
   std::map<std::uint32_t, double> fastest_m_s;
   std::map<std::uint32_t, double> turned_rad;  // to either side, in all
 
@@ -46,7 +46,7 @@ bool IsDead(std::uint32_t vehicle, const sim::VirtualFleet& fleet) {
   });
 }
 
-// Who gives way to whom in this tick.
+// The pairs of vehicles in this tick of which the first gives way to the second.
 std::set<Pair> GivingWay(const sim::VirtualFleet& fleet) {
   std::set<Pair> pairs;
   for (std::size_t i = 0; i < fleet.Size(); ++i) {
@@ -109,7 +109,7 @@ Scenario StandingAtACrossing(Behaviour behaviour) {
                      VehicleAt(2, behaviour, 0.3, {0, -0.9}, 90, 4)});
 }
 
-// The third is heard last, goes its own way well away from the others, and stands by then.
+// The third is heard last, drives well away from the others, and stands by then.
 Scenario WithAThird(Behaviour behaviour) {
   Scenario scenario = Unequal(behaviour);
   scenario.vehicles.push_back(VehicleAt(3, behaviour, 0.2, {-2.5, 2}, 180, 1));
@@ -176,7 +176,7 @@ bool GivesWayToNobody(const Story& s) { return s.contacts > 0 && s.gave_way.empt
 bool BelievesTheDead(const Story& s) { return s.last_for_dead_s > 3 + 30; }
 
 bool TurnsAlong(const Story& s) {
-  return s.gave_way.contains({1, 2}) && s.turned_rad.at(1) > 0.3;  // its way is straight
+  return s.gave_way.contains({1, 2}) && s.turned_rad.at(1) > 0.3;  // its path is straight
 }
 
 bool GivesWayBecauseOfTheWall(const Story& s) { return s.gave_way == std::set<Pair>{{1, 2}}; }

@@ -30,7 +30,7 @@ Scenario Corridor() {
   return scenario;
 }
 
-// Straights, turns both ways, spins and reversing, by the tick alone.
+// Straights, turns to both sides, spins and reversing, by the tick alone.
 WheelSpeeds Script(std::uint32_t id, int tick) {
   constexpr WheelSpeeds kPhases[] = {{4, 4}, {2, 4.5}, {-3, -3}, {5, 1}, {-2, 2}, {6, 6.3}, {0, 0}};
   return kPhases[(static_cast<std::size_t>(tick) / 37 + id * 2) % std::size(kPhases)];

@@ -1,5 +1,4 @@
-// `fleetctl virtual` over vehicles with the defects planted that GIVEWAY_DEFECT names, commas
-// between.
+// `fleetctl virtual` over vehicles with the defects that GIVEWAY_DEFECT names, separated by commas.
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
