@@ -5,9 +5,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-# With --all, what runs processes in real time goes in order, and what only computes in the background at
-# idle priority, in two runs: the second needs the images. The last stages run alone.
-# asan runs in the container of asan13, asan_link and fuzz, which is given a time, in that of debian13.
+# With --all, stages that run processes in real time go in order, and those that only compute in the
+# background at idle priority, in two runs: the second needs the images. The last stages run alone. asan runs
+# in the container of asan13, asan_link and fuzz, which takes a given time, in that of debian13.
 # dev is for --full.
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers)
@@ -36,7 +36,7 @@ computes runs in the background, at idle priority. Stages:
   golden   hashes that must never change
   crossing one crossing of two real vehicles
   virtual  fleets of 2-50 in virtual time, 200 seeds a generator, judged by invariants
-  planted  defects planted in the rules on purpose are caught by the invariants
+  planted  defects injected into the rules are detected by the invariants
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
@@ -46,7 +46,7 @@ computes runs in the background, at idle priority. Stages:
   web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
   asan     unit and golden under the address and undefined-behaviour sanitizers
   asan_link link under the same
-  fuzz     spoilt scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
+  fuzz     malformed scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan_build, tsan
            what tsan needs is compiled; link and one crossing under the thread sanitizer
   dev      every file of the services compiled alone, with the includes it names, warned of hidden names
@@ -123,7 +123,7 @@ ending() {
   if [[ -n $stage ]]; then
     passed_total=$((passed_total + passed))
     failed_total=$((failed_total + failed + 1))
-    failed_names+=("$stage: could not go on")
+    failed_names+=("$stage: could not continue")
   fi
   if [[ -s $said ]]; then
     say "what failed tests printed"
@@ -154,9 +154,9 @@ check() {
   fi
 }
 
-# check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints, and as
-# many as a line "N passed, N failed" of another run of tests counts, which lists them as "failed:".
-# Lines that begin with "| " say why something failed.
+# check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints, and as many as a
+# line "N passed, N failed" of another run of tests counts, which lists them as "failed:". Lines that start
+# with "| " say why something failed.
 check_lines() {
   local lines code=0 good bad names
   lines=$("$@") || code=$?
@@ -201,7 +201,7 @@ count_cases() {
        /<testcase / {match($0, / name="[^"]*"/); name = substr($0, RSTART + 7, RLENGTH - 8)
                      match($0, / classname="[^"]*"/)
                      name = substr($0, RSTART + 12, RLENGTH - 13) "." name}
-       /<failure / && name != told {told = name; names = names name "\n"}
+       /<failure / && name != last {last = name; names = names name "\n"}
        END {print ran + 0, bad + 0; printf "%s", names}' "${files[@]}"
 }
 
@@ -227,14 +227,14 @@ run_ctest() {
   mapfile -t cases < <(count_cases "$preset" "$label")
   if [[ ${#cases[@]} -gt 0 ]]; then
     read -r ran bad_cases <<<"${cases[0]}"
-    # More programs than cases: some failed beside their cases, or left no file.
+    # More programs than cases: some failed outside their cases, or left no file.
     bad=$((bad_cases > bad ? bad_cases : bad))
     ran=$((ran > bad ? ran : bad))
     failed_names+=("${cases[@]:1}")
   fi
   passed=$((passed + ran - bad - skipped))
   failed=$((failed + bad))
-  # The programs beside their cases say nothing more.
+  # Programs that failed because of their cases need no line of their own.
   [[ ${bad_cases:-0} -eq 0 ]] || return 0
   mapfile -t names < <(sed -n "s|.*<testcase name=\"\([^\"]*\)\".* status=\"fail\".*|$preset/\1|p" "$report" 2>/dev/null)
   [[ $code -eq 0 || ${#names[@]} -gt 0 ]] || names=("$preset/$label: ctest's exit code $code")
@@ -265,7 +265,7 @@ stage_format() {
 stage_rules() {
   mapfile -t scripts < <(git ls-files '*.sh' .ci/run)
   check "include rules" bash tests/rules/include_rules.sh
-  check "include rules catch what is planted" bash tests/rules/include_rules_test.sh
+  check "include rules find each violation" bash tests/rules/include_rules_test.sh
   check "the table of modules in services/README.md" bash tests/rules/modules_table.sh --check
   check "lengths and links of the manuals" bash tests/rules/manuals.sh
   check "the rules over manuals find each violation" bash tests/rules/manuals_test.sh
@@ -275,7 +275,7 @@ stage_rules() {
   check "known vulnerabilities against the installed packages" bash tests/rules/exposure.sh
   check "the check of vulnerabilities finds each contradiction" bash tests/rules/exposure_test.sh
   check "shell scripts" shellcheck "${scripts[@]}"
-  check "the wire types are generated beside another user's" bash tests/rules/generate_test.sh
+  check "the wire types are generated next to another user's" bash tests/rules/generate_test.sh
 }
 
 # Kubernetes' schemas come as an npm package.
@@ -307,7 +307,7 @@ stage_planted() {
   prepare release fleetctl fleetctl_planted && check_lines bash tests/virtual/defects.sh
   $full || return 0
   prepare release fleetctl_mutants
-  check "defects chosen blindly are caught" bash tests/virtual/mutants.sh --least 14
+  check "defects chosen at random are detected" bash tests/virtual/mutants.sh --least 14
 }
 
 stage_model() {

@@ -24,7 +24,7 @@ if ! cmp -s "$here/package-lock.json" "$out/.fetched"; then
     die "npm ci failed; $out/npm.log says why"
   cp "$here/package-lock.json" "$out/.fetched"
 fi
-# Modules are looked for beside the file that names them.
+# Modules are searched for next to the file that names them.
 cp "$here"/*.mjs "$out"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
