@@ -1,5 +1,5 @@
-// Fault files: what the shipped ones say, what is refused and how, and that a list that was printed
-// is read back as the same list.
+// Fault files: what the shipped ones contain, what is refused and how, and that a printed list
+// reads back as the same list.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -49,7 +49,7 @@ std::vector<Problem> ProblemsIn(const std::string& text, const faults::Course& c
   return {};
 }
 
-// What is wrong with the one rule, written in the second line.
+// Problems of a single rule, written in the second line.
 void ExpectRefused(const std::string& rule, const char* field, const char* message) {
   EXPECT_THAT(ProblemsIn("description: \"d\"\n" + rule), ElementsAre(Is(2, field, message)))
       << rule;
@@ -211,7 +211,7 @@ TEST_P(ShippedFaults, DescribeThemselvesAndMakeAListThatReadsBack) {
 INSTANTIATE_TEST_SUITE_P(All, ShippedFaults,
                          ::testing::Values("calm", "radio_storm", "flaky_hardware", "everything"));
 
-// But for what needs shared memory.
+// Except for what needs shared memory.
 TEST(FaultsFile, EverythingHasEveryKindWithinHalfAnHourWhateverTheSeed) {
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     faults::Course course = kHalfHour;
@@ -231,7 +231,7 @@ TEST(FaultsFile, EverythingHasEveryKindWithinHalfAnHourWhateverTheSeed) {
   }
 }
 
-// Any numbers, not only those that are drawn.
+// Any numbers, not only those that a draw can give.
 TEST(FaultsFile, AnyListThatIsPrintedReadsBackBitForBit) {
   EXPECT_TRUE(rc::check("reads back", [] {
     faults::Schedule schedule;

@@ -28,7 +28,7 @@ ParsedFlags World(std::vector<const char*> words) {
   return ParseWorldFlags(static_cast<int>(words.size()), words.data(), "Fast DDS 9.8.7");
 }
 
-// What stderr says about words that must end with exit code 2.
+// The stderr of a command line that must end with exit code 2.
 std::string Refusal(const std::vector<const char*>& words) {
   CaptureStderr();
   const ParsedFlags parsed = Vehicle(words);
@@ -38,7 +38,7 @@ std::string Refusal(const std::vector<const char*>& words) {
   return text;
 }
 
-// Sets a variable for the length of a test.
+// Sets an environment variable for the duration of a test.
 class Variable {
  public:
   Variable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }

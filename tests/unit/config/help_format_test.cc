@@ -81,7 +81,7 @@ TEST_F(HelpFormatTest, TheTwinInTheEnvironmentIsNamed) {
 TEST(HelpFormat, AnExampleThatIsTooLongHasItsCommentAbove) {
   EXPECT_EQ(WrapParagraphs("  tool run crossing --seed 7      # with another seed", 40),
             "  # with another seed\n  tool run crossing --seed 7\n");
-  // No line of it can be taken for a command.
+  // None of its lines looks like a command.
   EXPECT_EQ(WrapParagraphs("  tool run crossing      # with another seed than before", 24),
             "  # with another seed\n  # than before\n  tool run crossing\n");
 }

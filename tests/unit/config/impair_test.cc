@@ -1,4 +1,4 @@
-// An impairment as a scenario and as --impair say it, and what either refuses.
+// Impairments in scenarios and in --impair, and what either refuses.
 #include "services/config/impair.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-// Every number another than without the rule.
+// Every number differs from its default.
 ImpairmentRule Everything() {
   ImpairmentRule rule;
   rule.from = ImpairedSender::kOneVehicle;

@@ -253,8 +253,8 @@ TEST(PlaceRules, AMillionWallsInFewBytesAreTooMany) {
               ElementsAre(Is(17, "wall[65536]", "is one of 1000001; at most 65536")));
 }
 
-// A fleet as large as allowed, in rank and file with walls between: compared pair by pair this
-// would be over a thousand million pairs.
+// The largest fleet allowed, in rows and columns with walls between: comparing pair by pair would
+// take over a thousand million pairs.
 TEST(PlaceRules, AFullFleetAmongManyWallsIsCheckedAtOnce) {
   std::string text = "name: \"full\" expect {}\n";
   for (int i = 0; i < 16384; ++i) {

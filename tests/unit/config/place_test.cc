@@ -1,5 +1,4 @@
-// What a scenario file says of its place, of boxes, sensors and spawn places, and what that
-// becomes.
+// How a scenario file describes its place, boxes, sensors and spawn places, and what that becomes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

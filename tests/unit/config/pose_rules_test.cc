@@ -1,5 +1,5 @@
-// What a scenario says of how a vehicle knows where it is: read, and refused with what to write
-// instead. What is appended to the good text stands on line 17.
+// How a scenario configures the localization of a vehicle: read, and refused with what to write
+// instead. What is appended to the good text is on line 17.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -26,13 +26,13 @@ class TempFolder {
   std::string path_;
 };
 
-// Two vehicles, a wall, a fault and an expectation, all in order; the lines are counted on.
+// Two vehicles, a wall, a fault and an expectation, all valid; tests rely on the line numbers.
 extern const std::string kGoodScenario;
 
-// kGoodScenario with the one place where `from` stands replaced.
+// kGoodScenario with `from`, which occurs once, replaced.
 std::string Spoilt(std::string_view from, std::string_view to);
 Scenario Load(const std::string& text, const ScenarioOverrides& overrides = {});
-// What is wrong with a scenario text; empty if it loads.
+// Problems of a scenario text; empty if it loads.
 std::vector<Problem> ProblemsOf(const std::string& text, const ScenarioOverrides& overrides = {});
 
 // For the messages of failed tests.

@@ -43,7 +43,7 @@ TEST(StartShape, ABoxIsJudgedByItsSidesAndNotByTheDiscThatHoldsIt) {
   EXPECT_TRUE(Overlap(Disc({0, 0.34}, 0.25), lying));
 }
 
-// Corner towards side: apart only along a direction that is a side of the turned one.
+// Corner towards side: only a direction along a side of the turned box separates them.
 TEST(StartShape, ATurnedBoxIsApartWhereOnlyItsOwnSidesShowIt) {
   const StartShape square = Box({0, 0}, 0, {1, 1});
   EXPECT_FALSE(Overlap(square, Box({1.8, 1.8}, 45, {1, 1})));

@@ -1,4 +1,4 @@
-// Which faults cannot be at once on one target.
+// Which faults exclude each other on one target.
 #include "services/faults/exclusion.h"
 
 #include <gtest/gtest.h>
@@ -79,7 +79,7 @@ TEST(Exclusion, EndsCountAsWithin) {
   EXPECT_FALSE(Exclude(after_it, first));
 }
 
-// Against looking at every two.
+// Against a comparison of all pairs.
 TEST(Exclusion, FindsEveryTwoOfAList) {
   Random dice(3);
   Schedule faults;

@@ -1,4 +1,4 @@
-// What is true of every expansion, whatever the rules.
+// Properties of every expansion, whatever the rules.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 

@@ -1,4 +1,4 @@
-// What becomes of the rules of a fault file, case by case.
+// How the rules of a fault file are expanded, case by case.
 #include "services/faults/expand.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// The hearers' faults as rules of an impairment.
+// Faults of receivers as rules of an impairment.
 #include "services/faults/hearing.h"
 
 #include <gmock/gmock.h>
@@ -32,7 +32,7 @@ ImpairmentRule During(double from_s, double to_s) {
   return rule;
 }
 
-// Nothing is heard of `from`, kNobody for no vehicle.
+// Nothing is received from `from`; kNobody: from no vehicle.
 ImpairmentRule Deaf(double from_s, double to_s, VehicleId from = kNobody) {
   ImpairmentRule rule = During(from_s, to_s);
   rule.blackouts = {{from_s, to_s}};
@@ -91,7 +91,7 @@ TEST(Hearing, OfTwoAtOnceBothCount) {
   EXPECT_THAT(rules, ElementsAre(lost, both, late));
 }
 
-// The last rule that fits a packet counts, so it must hold what befalls the others, too.
+// The last rule that matches a packet wins, so it must also contain what applies to the others.
 TEST(Hearing, OneThatIsCutOffAloneIsARuleAfterTheOneForAll) {
   const auto rules = RulesOf({Of(Kind::kLoss, Vehicle(1), 10, 5),
                               Of(Kind::kOneWayCut, Vehicle(1), 10, 5, {.from = kThree})},

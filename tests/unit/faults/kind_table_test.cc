@@ -1,4 +1,4 @@
-// The table of kinds against what is said of kinds and parameters elsewhere.
+// The table of kinds against what other places say of kinds and parameters.
 #include "services/faults/kind_table.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Who has to go for a newcomer at the health port. The sockets are tested in
+// Which connection is closed for a new one at the health port. The sockets are tested in
 // tests/system/health.sh.
 #include "services/health/connection_desk.h"
 

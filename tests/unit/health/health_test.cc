@@ -201,7 +201,7 @@ TEST(Health, ThereIsNoEchoAndNoAgeBeforeTheFirst) {
   EXPECT_THAT(some, HasSubstr("\ngiveway_vehicle_ranges_age_seconds 0.125\n"));
 }
 
-// Scrapers refuse a text in which a counter is called otherwise, or a family comes twice.
+// Scrapers refuse a text in which a counter's name is wrong, or a family occurs twice.
 TEST(Health, EveryCounterEndsInTotalAndEveryFamilyComesOnce) {
   const std::string all = MetricsText(Driving(), {}, kNow) + MetricsText(WorldHealth{}, {}, kNow);
   std::vector<std::string> names;
@@ -222,7 +222,7 @@ struct Many {
   std::array<std::uint64_t, 100> numbers{};
 };
 
-// A board that tears shows two numbers of different writes.
+// A torn read of the board shows two numbers of different writes.
 TEST(HealthBoard, WhatIsReadIsOneWriteAndNeverOlderThanTheLastRead) {
   HealthBoard<Many> board;
   std::atomic<bool> over{false};

@@ -1,6 +1,6 @@
-// The impaired channel against what was asked for, in simulated time. Shares are judged by five
-// standard deviations of a binomial share: a sound model is outside once in two million times, and
-// the seeds are fixed, so it never is here.
+// The impaired channel against its configuration, in simulated time. Shares are judged by five
+// standard deviations of a binomial share: a correct model is outside once in two million times,
+// and the seeds are fixed, so here it never is.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ ImpairmentCounters CountersOf(const ImpairmentRule& rule) {
   return model.Counters();
 }
 
-// That `count` of `of` are a share of `p`, within five standard deviations.
+// True if `count` of `of` is a share of `p`, within five standard deviations.
 void ExpectShare(std::uint64_t count, double p, std::uint64_t of = kPackets) {
   const auto n = static_cast<double>(of);
   EXPECT_NEAR(static_cast<double>(count) / n, p, 5 * std::sqrt(p * (1 - p) / n));
@@ -251,7 +251,7 @@ TEST(ChannelModel, ARuleOpenAtOneEndHoldsFromEverOrForEver) {
   EXPECT_FALSE(heard(seconds(100'000)));
 }
 
-// The last that fits counts, of those that hold at that moment.
+// Of the rules that hold at that moment, the last that matches wins.
 TEST(ChannelModel, ARuleThatHoldsForATimeStandsInFrontOfOneThatHoldsAlways) {
   ImpairmentRule storm{.loss = 1};
   storm.from_s = 1;

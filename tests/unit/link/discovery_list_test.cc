@@ -1,5 +1,5 @@
-// Which parameter lists of discovery the packet filter hands on: a list is sound if it ends where
-// its payload does, and all that it counts is in it.
+// Which parameter lists of discovery the packet filter passes: a list is intact if it ends where
+// its payload does, and contains all that it counts.
 #include "services/link/packet_filter/discovery_list.h"
 
 #include <gtest/gtest.h>
@@ -209,7 +209,7 @@ TEST(DiscoveryList, HoldsAsManyPropertiesAsItStates) {
   EXPECT_EQ(DropOf(kProperties, List().U32(1).Text().Text(5)), kTooLong);
 }
 
-// CVE-2026-55063, GHSA-8g7x-c9fg-g6mh: read as far as there is no NUL.
+// CVE-2026-55063, GHSA-8g7x-c9fg-g6mh: read until the next NUL.
 TEST(DiscoveryList, HoldsPartitionsWithTheirEnds) {
   EXPECT_EQ(DropOf(kPartitions, List().U32(2).Text()), kTooLong);
   EXPECT_EQ(DropOf(kPartitions, List().U32(1).Text(0x7fff'ff00)), kTooLong);
@@ -231,7 +231,7 @@ TEST(DiscoveryList, ComesInOnePiece) {
   }
 }
 
-// The library decodes what it is given of types, and checks no length in it.
+// The library decodes type information as it comes, and checks no length in it.
 TEST(DiscoveryList, HidesWhatItSaysOfTypes) {
   for (const bool little : {true, false}) {
     const auto payload_with = [little](const std::array<std::uint16_t, 3>& ids) {
@@ -241,7 +241,7 @@ TEST(DiscoveryList, HidesWhatItSaysOfTypes) {
       return Payload(list.Parameter(kPartitions, List(little).U32(1).Text()).End(), little);
     };
     const PacketBytes types = payload_with({0x69, 0x72, 0x75});
-    // Of a user's writer nothing is a list.
+    // Samples of a user's writer are no parameter lists.
     const auto packet_of = [&](const PacketBytes& announced) {
       return RtpsPacket(kAnnounced, test::kEProsima, !little)
           .Data(test::kUserWriter, 1, types)

@@ -1,4 +1,4 @@
-// Whose packet it is, by its header and by what discovery says.
+// The sender of a packet, by its header and by discovery.
 #include "services/link/impairment/impairer.h"
 
 #include <gtest/gtest.h>

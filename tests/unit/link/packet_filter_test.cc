@@ -1,5 +1,5 @@
-// What the packet filter hands on and what it drops: submessages by themselves first, then numbers
-// and announcements by what came before.
+// What the packet filter passes and drops: submessages by themselves first, then numbers and
+// announcements by what came before.
 #include "services/link/packet_filter/packet_filter.h"
 
 #include <gtest/gtest.h>
@@ -287,8 +287,8 @@ TEST(PacketFilter, HandsOnWhatComesAgainOrAfterALoss) {
   EXPECT_EQ(receiver.Data(200 + kSlack + 60 * 20), PacketDrop::kNone) << "a blackout";
 }
 
-// A vehicle that came to a world after 22 restarts of another heard no roster: of the packet that
-// said how far the writer is, the GAP before it was the number that it was held against.
+// Regression: a vehicle that joined a world after 22 restarts of another received no roster: the
+// GAP before the heartbeat in the packet was taken for the writer's highest number.
 TEST(PacketFilter, HandsOnTheSparseHistoryOfAnOldWriterToALateJoiner) {
   Received20Hz receiver;
   EXPECT_EQ(receiver.GapAndHeartbeat(4, 3, 5000), PacketDrop::kNone);
@@ -350,8 +350,8 @@ TEST(PacketFilter, AllowsAFastWriterLargerSteps) {
   EXPECT_EQ(receiver.Data(number + 600 + 10'000), PacketDrop::kSequenceJump);
 }
 
-// The library ignores every HEARTBEAT and ACKNACK whose count is not above the highest: one forged
-// count, and those of the true sender would never count again.
+// The library ignores every HEARTBEAT and ACKNACK whose count is not above the highest: after one
+// forged count those of the true sender would never be accepted again.
 TEST(PacketFilter, DropsCountsThatJump) {
   constexpr std::uint32_t kHighest = 0xffff'ffff;
   const auto heartbeat = [](std::uint32_t count) {

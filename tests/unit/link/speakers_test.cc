@@ -1,5 +1,5 @@
-// Who is believed, and what: sessions and their participants, ticks that can be true, entries and
-// samples in range.
+// Which senders are believed, and what of them: sessions and their participants, possible ticks,
+// entries and samples in range.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -62,7 +62,8 @@ TEST_F(Sessions, ASessionGoesToAnotherParticipantOnceItsOwnHasLeftOrIsSilent) {
   EXPECT_EQ(owners_.OwnerOf(kSeven), 3U);
 }
 
-// It was 0.75 s from the moment it was given its place, in which it may not have found its scans.
+// It was 0.75 s from the moment it got its place, during which it may not have discovered its
+// scans.
 TEST_F(Sessions, OneThatJustGotItsPlaceIsGivenTimeUntilItsFirstCommand) {
   AskBy(1, 5);
   owners_.Accept(kSeven, Ask(5).session);
@@ -145,7 +146,7 @@ TEST_F(Sessions, OfOneEveryVehicleIsKnownUntilItsPlaceEnds) {
   EXPECT_EQ(owners_.OwnerOf(VehicleId{8}), 2U);
 }
 
-// Of 256 vehicles the world looked through all, for each session, each 32 ticks.
+// Regression: with 256 vehicles the world searched all of them, for each session, every 32 ticks.
 TEST_F(Sessions, WithAPlaceAreNotLookedAtToBeForgotten) {
   for (std::uint32_t i = 1; i <= 256; ++i) {
     AskBy(i, i);

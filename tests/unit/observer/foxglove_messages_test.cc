@@ -1,5 +1,5 @@
-// The Foxglove WebSocket protocol as text and bytes: what is sent, and what is made of a client's
-// messages, the malformed ones too.
+// The Foxglove WebSocket protocol as text and bytes: what is sent, and how a client's messages are
+// read, malformed ones included.
 #include "services/observer/foxglove/foxglove_messages.h"
 
 #include <gmock/gmock.h>

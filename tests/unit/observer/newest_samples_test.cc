@@ -67,7 +67,7 @@ TEST(NewestSamples, TopicsDoNotReplaceEachOther) {
   EXPECT_THAT(All(&samples), ElementsAre("1:beacon", "2:truth"));
 }
 
-// A new sample of a vehicle does not send it to the end of the line: none starves.
+// A new sample of a vehicle keeps the vehicle's place in the queue: none starves.
 TEST(NewestSamples, TheOneThatWaitedLongestIsNext) {
   NewestSamples samples;
   samples.Subscribe(1, Beacons());

@@ -2,7 +2,7 @@
 // deployment:
 //   EXPECT rule [:line]   each rule that is broken, and no other may be
 //   FLEET n, TICK_MS n    how large it is and how often it speaks
-//   ENVIRONMENT, FOLDER   a variable that is set, a file that lies about
+//   ENVIRONMENT, FOLDER   a variable that is set, a file that is in the folder
 //   COMPLETE              the file claims to be a whole set
 #include <gmock/gmock.h>
 

@@ -28,8 +28,8 @@ TEST(Check, FindsNothingInTheShippedSets) {
   }
 }
 
-// The library re-arms a deadline for every vehicle that it ever heard, and the world decides by its
-// own clock whose command is old.
+// The library re-arms a deadline for every vehicle that it ever received, and the world checks the
+// age of commands by its own clock.
 TEST(ShippedSets, ArmNoDeadlineAtTheWorldForTheCommandsOfVehicles) {
   for (const auto& file : XmlFilesIn(GIVEWAY_QOS_SETS)) {
     const XmlRead read = ReadXml(BytesOf(file), file.filename());
@@ -76,7 +76,7 @@ TEST(Check, StopsCountingAtANumberAPersonReads) {
   EXPECT_EQ(ExitCode(findings), 2);
 }
 
-// Both sets are whole and clean; only together do they starve a reader.
+// Each set alone is complete and valid; only together do they starve a reader.
 TEST(Check, HoldsTheWritersOfOneFileAgainstTheReadersOfAnother) {
   const std::string good = BytesOf(std::string(GIVEWAY_QOS_SETS) + "/default.xml");
   std::string other = good;

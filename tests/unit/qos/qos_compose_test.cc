@@ -1,4 +1,4 @@
-// What a compose file says of a fleet's services, and what is found in it.
+// What a compose file says about a fleet's services, and what is found in it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(Compose, NamesAVariableThatNobodyReads) {
   EXPECT_THAT(RulesOf(findings), ElementsAre("misnamed_variable"));
 }
 
-// What a fleet is given whose containers have a network and, or, shared memory in common.
+// What a fleet gets whose containers share a network, shared memory, or both.
 std::vector<std::string> RulesWith(const std::string& network, const std::string& set) {
   const ComposeRead read =
       Read("services: {v: {image: giveway-vehicle" + network + ", environment: {}}}");
@@ -143,7 +143,7 @@ TEST(Compose, ThatMergesIntoItselfIsReadOnce) {
   EXPECT_EQ(Read("services: {a: {image: 'giveway${X}'}}", {"X=${X}${X}"}).services.size(), 1U);
 }
 
-// Nine merges into nine merges, thirty times: by its leaves it would be read for ever.
+// Nine merges into nine merges, thirty levels deep: expanding all of them would never end.
 TEST(Compose, ThatMultipliesIsGivenUpEarly) {
   std::string text = "a0: &a0 {x: giveway}\n";
   for (int i = 1; i < 30; ++i) {

@@ -67,7 +67,7 @@ TEST(Orders, MakeNoLibraryWriteFilesOrSendElsewhere) {
     EXPECT_THAT(RefusedRules(set, Default()),
                 ::testing::Contains(std::string("not_by_order ") + one.element))
         << one.text;
-    // Who runs with it already may keep it.
+    // A process that already runs with it may keep it.
     EXPECT_THAT(RefusedRules(set, set), ::testing::IsEmpty()) << one.text;
   }
 }

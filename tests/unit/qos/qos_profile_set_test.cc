@@ -42,7 +42,7 @@ TEST(ProfileSet, LeavesOutWhatMeansNothing) {
       "9223372036854775807</max_instances></resourceLimitsQos></topic></data_writer>");
   EXPECT_EQ(set.profiles.front().Number(Policy::kReliability), kReliable);
   EXPECT_EQ(set.profiles.front().Number(Policy::kDepth), 1);
-  // The library reads it so, too; the schema's check says that it is cut off.
+  // The library reads it the same way; the schema check reports that it is truncated.
   EXPECT_EQ(set.profiles.front().Number(Policy::kMaxInstances), -1);
 }
 

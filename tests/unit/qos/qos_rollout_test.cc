@@ -38,7 +38,7 @@ bool AllMatch(const RolloutProcess& from, const RolloutProcess& to) {
   return true;
 }
 
-// Takes the steps one by one and looks at every pair after each.
+// Takes the steps one by one and checks every pair after each.
 void ExpectAllMatchedAllTheWay(std::vector<RolloutProcess> processes, const Rollout& rollout,
                                const std::string& wanted) {
   EXPECT_THAT(rollout.blocked, ::testing::IsEmpty());

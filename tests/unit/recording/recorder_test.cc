@@ -1,4 +1,4 @@
-// The recorder never waits, and says what it could not write.
+// The recorder never waits, and reports what it could not write.
 #include "services/recording/recorder.h"
 
 #include <fcntl.h>
@@ -39,7 +39,7 @@ std::uint32_t StepsIn(const std::string& bytes, std::optional<RecordedEnd>* end 
   return steps;
 }
 
-// Feeds a recorder what a loop would.
+// Feeds a recorder as a loop would.
 void Drive(const std::vector<Record>& records, Recorder* recorder) {
   for (const Record& record : records) {
     if (const auto* life = std::get_if<RecordedLife>(&record)) {
@@ -75,7 +75,7 @@ std::vector<std::string> FilesIn(const TempFolder& folder) {
   return names;
 }
 
-// A vehicle that restarts, and several that were given one path: nothing is ever written over.
+// A vehicle that restarts, and several vehicles with one path: no file is ever overwritten.
 TEST(Recorder, EveryRecordingWithOnePathIsAFileOfItsOwn) {
   const TempFolder folder;
   const std::string file = folder.Write("v.tape", "of the life before");
@@ -228,7 +228,7 @@ TEST(Recorder, AFullDiskIsCountedAndNothingElse) {
   EXPECT_EQ(tally.lost, 20U);
 }
 
-// A pipe no process reads from is the slowest disk there is.
+// A pipe that no process reads from is the slowest disk possible.
 TEST(Recorder, ADiskThatHangsDoesNotHoldUpWhoSteps) {
   const TempFolder folder;
   const std::string pipe = folder.Path() + "/pipe";

@@ -1,4 +1,4 @@
-// A recording is read as far as it is whole, whatever was done to the file.
+// A recording is read as far as it is intact, whatever was done to the file.
 #include "services/recording/recording_file.h"
 
 #include <gmock/gmock.h>

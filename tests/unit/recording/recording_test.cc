@@ -1,4 +1,4 @@
-// What is recorded comes back to the bit, and what no vehicle wrote does not come back at all.
+// What is recorded reads back to the bit, and what no vehicle could have written is refused.
 #include "services/recording/recording.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a service hands on to itself comes back whole, or not at all.
+// What a service hands over to its restarted self arrives complete, or not at all.
 #include "services/recording/resumed.h"
 
 #include <gtest/gtest.h>

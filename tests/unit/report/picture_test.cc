@@ -107,7 +107,7 @@ TEST(Picture, ItMarksTheClosestApproachAndContacts) {
   EXPECT_THAT(svg, HasSubstr(">contact at 3.0 s<"));
 }
 
-// The world says when a vehicle fell silent, not where.
+// The world reports when a vehicle fell silent, not where.
 TEST(Picture, ADeathIsMarkedOnceWhereTheVehicleWasSeenLast) {
   const std::vector<WorldEvent> events{Event(EventKind::kSilent, 6.2, 2),
                                        Event(EventKind::kRemoved, 11.2, 2)};

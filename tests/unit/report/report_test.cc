@@ -34,7 +34,7 @@ Report Passed() {
   return report;
 }
 
-// Protobuf prints what has presence after the rest; the order means nothing in JSON.
+// Protobuf prints fields with presence after the others; the order means nothing in JSON.
 TEST(Report, JsonIsOneObjectOnOneLine) {
   EXPECT_EQ(ToJson(Passed()),
             R"({"scenario":"intersection_yield","verdict":"passed","reason":"expectations_met",)"

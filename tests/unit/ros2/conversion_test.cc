@@ -1,4 +1,4 @@
-// Samples as ROS 2 messages: frames, signs, units, and what ROS calls "nothing answered".
+// Samples as ROS 2 messages: frames, signs, units, and ROS's values for "no echo".
 #include "services/ros2/conversion.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// The text that a recording says of its types. tests/web/ros2.mjs compares the fields with the
-// public definitions.
+// The definitions of message types in a recording. tests/web/ros2.mjs compares the fields with the
+// public ones.
 #include "services/ros2/definitions.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What is due when: the rate, what is new, vehicles that come and go.
+// Which messages are due when: the rate, what is new, vehicles that join and leave.
 #include "services/ros2/view.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// A log whose reader has stopped: who logs never waits, and what is dropped is counted and
-// reported.
+// A log whose reader has stopped: a thread that logs never waits, and what is dropped is counted
+// and reported.
 #include "services/runtime/log_queue.h"
 
 #include <fcntl.h>
@@ -40,7 +40,7 @@ class StoppedReader : public testing::Test {
     queue_.reset();
     ::close(ends_[1]);
   }
-  // What was written behind the filling, once nothing waits any more.
+  // What was written after the filler, once nothing waits any more.
   std::string Read() {
     ::fcntl(ends_[0], F_SETFL, O_NONBLOCK);
     std::string text;

@@ -56,7 +56,7 @@ TEST(Log, TextNamesLevelAndProcess) {
   EXPECT_THAT(GetCapturedStderr(), HasSubstr("warning world: tick late\n"));
 }
 
-// Of three vehicles without --id every line said "process":"vehicle".
+// Regression: with three vehicles without --id every line had "process":"vehicle".
 TEST(Log, NamesAVehicleByTheIdThatTheWorldGave) {
   CaptureStderr();
   InitLog("vehicle", "json", "info");

@@ -1,4 +1,4 @@
-// The pool of threads: every index once, whatever the count, the threads, and who else calls.
+// The thread pool: every index once, whatever the count, the threads, and the other callers.
 #include "services/runtime/parallel_for.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST_P(ParallelPoolOf, VisitsEachIndexOnceWhateverTheCount) {
   }
 }
 
-// Calls in close order: a worker that is late for one meets the next.
+// Calls in quick succession: a worker that is late for one meets the next.
 TEST_P(ParallelPoolOf, KeepsItsCallsApart) {
   ParallelPool pool(GetParam());
   const ParallelFor parallel_for = pool.Function();
@@ -108,7 +108,7 @@ TEST_P(ParallelPoolOf, IsFreeAgainAfterEachCall) {
 INSTANTIATE_TEST_SUITE_P(Threads, ParallelPoolOf, ::testing::Values(0U, 1U, 2U, 3U, 8U),
                          ::testing::PrintToStringParamName());
 
-// Every body waits for the other: only two threads at once ever end this.
+// Every body waits for the other: this ends only with two threads at the same time.
 TEST(ParallelPool, TheCallerAndTheWorkersWorkTogether) {
   ParallelPool pool(2);
   std::atomic<int> here{0};

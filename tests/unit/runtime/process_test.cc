@@ -104,7 +104,7 @@ TEST(StopSignal, TheSameRequestSentTwiceEndsNothing) {
   EXPECT_TRUE(stop.IsSet());
 }
 
-// A library that hangs, and a loop that never asks: whatever the process does, it ends.
+// Whether a library hangs or a loop never checks for the request: the process ends.
 TEST(StopSignalDeathTest, AProcessThatDoesNotLeaveIsEndedASecondAfterTheFirstSignal) {
   EXPECT_EXIT(
       {

@@ -1,4 +1,4 @@
-// Each writer's fault is said once, and a flood of them fills no disk.
+// Each writer's fault is logged once, and a flood of them fills no disk.
 #include "services/runtime/refusal_log.h"
 
 #include <gmock/gmock.h>

@@ -46,7 +46,7 @@ TEST_F(StateFile, AHalfWrittenOneDoesNotTakeTheOldOnesPlace) {
   EXPECT_FALSE(std::filesystem::exists(file_ + ".new"));
 }
 
-// A checkpoint in a folder that others can write to: their link must not lead it elsewhere.
+// A checkpoint in a folder that other users can write to: their link must not redirect it.
 TEST_F(StateFile, ASymbolicLinkIsReplacedAndNotFollowed) {
   const std::string victim = folder_ / "linked";
   std::ofstream(victim) << "not ours";

@@ -7,7 +7,7 @@
 namespace giveway::sim {
 namespace {
 
-// An open fleet of one place, whose vehicle drives straight on as soon as it is in.
+// An open fleet of one place, whose vehicle drives straight on as soon as it has joined.
 class OnePlace {
  public:
   explicit OnePlace(std::uint32_t waypoints = 0, WorldEpoch epoch = kEpoch)
@@ -36,7 +36,7 @@ class OnePlace {
       admission.FollowRun();
     }
   }
-  // The answer of the tick in which it asks; made before the world moves on.
+  // The answer of the tick in which it asks; given before the world moves on.
   RosterEntry Join(const JoinRequest& request) {
     admission.Take(request);
     Tick();
@@ -84,14 +84,14 @@ TEST(AdmissionPlaces, AReturnedVehicleIsToldHowFarItsTaskWas) {
   fleet.task = {3, 20};
   fleet.Tick(40);
   EXPECT_EQ(fleet.Join(Ask(1, 1)).task, fleet.task);
-  // Killed and back under its id.
+  // Killed, and back under its id.
   fleet.speaks = false;
   fleet.Tick(40);
   const RosterEntry back = fleet.Join(Ask(9, 1));
   EXPECT_EQ(back.task, fleet.task);
   EXPECT_EQ(back.start_world, fleet.TheBody().world_from_body);
   EXPECT_EQ(back.counted, fleet.TheBody().counted);
-  // Then its world is, from a checkpoint.
+  // Then the same for its world, from a checkpoint.
   OnePlace after(4, WorldEpoch{8});
   const auto bytes = ToBytes(fleet.admission.Save(5));
   ASSERT_TRUE(after.admission.Restore(std::get<FleetCheckpoint>(FromBytes(bytes))));

@@ -1,4 +1,4 @@
-// What a camera names: where, how wide, of which class, and nothing that is hidden.
+// What a camera reports: where, how wide, of which class, and nothing that is hidden.
 
 #include <gtest/gtest.h>
 

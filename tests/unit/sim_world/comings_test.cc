@@ -1,4 +1,4 @@
-// What those who come and go, and those who only ask, may cost a world.
+// What vehicles that join and leave, and those that only ask, may cost a world.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -24,7 +24,8 @@ TEST(Comings, AFloodOfRequestsCostsATickNoMoreThanTheWaitingListHolds) {
   }
   EXPECT_LE(answers, 4 * Admission::kMostWaiting) << "each once in the three seconds it waits";
   EXPECT_GE(door.admission.PassedOver(), 29'000U);
-  // Who is in is known all the while, and who comes after the flood has its turn.
+  // The vehicles in the run stay known throughout, and a vehicle that asks after the flood gets its
+  // turn.
   EXPECT_TRUE(door.Join(Ask(2)).accepted);
   door.Tick(61);
   door.Leave(2);
@@ -44,8 +45,8 @@ TEST(Comings, WhoNeverSpeaksLosesItsPlaceSoonerThanWhoFellSilent) {
   EXPECT_EQ(door.run.BodyOf(VehicleId{1}), nullptr);
 }
 
-// Issue 21, number 11: of every vehicle that ever was, a body stayed, and a truth was sent each
-// tick.
+// Issue 21, number 11: every vehicle that ever joined left a body behind, and a truth was sent for
+// it each tick.
 TEST(Comings, OfVehiclesThatLeftNothingIsKeptOrTold) {
   Door door(OpenScenario());
   door.run.Start();

@@ -1,4 +1,4 @@
-// Work cut into pieces and done in an unlikely order, as threads might.
+// Work divided into pieces and done in an unlikely order, as by threads.
 #pragma once
 
 #include "services/types/parallel.h"

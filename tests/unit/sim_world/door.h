@@ -1,4 +1,4 @@
-// A world, its door, and vehicles that drive as soon as they are in: for tests of admission.
+// A world, its admission, and vehicles that drive as soon as they have joined.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline JoinRequest Ask(std::uint32_t session, std::uint32_t wanted = 0) {
   return {.session = {session, 0, 0, 1}, .wanted = VehicleId{wanted}};
 }
 
-// A world, its door, and vehicles that drive straight on as soon as they are in.
+// A world, its admission, and vehicles that drive straight on as soon as they have joined.
 class Door {
  public:
   explicit Door(const Scenario& scenario, WorldEpoch epoch = kEpoch)

@@ -49,7 +49,7 @@ TEST(Drive, ACommandBeyondTheCapsEndsOnTheCaps) {
   EXPECT_NEAR(TwistFromWheels(kP3dx.drive, spin).turn_rad_s, kP3dx.max_turn_rad_s, 1e-12);
 }
 
-// The asked-for curve is beyond both caps: forward and turn rate are capped each for itself.
+// The curve asked for exceeds both caps: forward speed and turn rate are capped separately.
 TEST(Drive, ACurveBeyondBothCapsSettlesOnBoth) {
   WheelSpeeds wheels;
   for (int i = 0; i < 400; ++i) wheels = MoveWheels(kP3dx, wheels, {20, 5}, kDt_s);

@@ -36,7 +36,7 @@ TEST(Grid, OrderIsAPermutation) {
   for (std::uint32_t i = 0; i < 500; ++i) ASSERT_EQ(order[i], i);
 }
 
-// Everything within reach is visited, nothing twice, whatever cell, reach and place.
+// Everything within reach is visited, nothing twice, whatever the cell size, reach and place.
 TEST(Grid, FindsWhatBruteForceFinds) {
   Random random(2);
   Grid grid;

@@ -33,8 +33,8 @@ Motion AnyMotion(Random* random, Vec2 at, bool box, double dt_s) {
   return DiscAt(random->Uniform(0.05, 0.4), start, twist, dt_s);
 }
 
-// The truth: what time-stepping in fine steps sees. Never overlapping before the contact found,
-// touching at it, and not missed.
+// The reference: time-stepping in fine steps. No overlap before the contact found, touching at it,
+// and none missed.
 template <typename A, typename B>
 bool CheckAgainstSampling(const A& a, const B& b, double to_s, int samples) {
   if (GapAt(a, b, 0) <= kTouch_m) return false;
@@ -119,8 +119,8 @@ TEST(OutlineMotion, TheTimeOfContactIsThatOfBisection) {
   EXPECT_GT(met, 300);
 }
 
-// What touches continues in every direction there is: shells never sink in by more than a contact
-// is found to, and nothing that opens is held.
+// After a contact, motion in every direction: shells never penetrate by more than the tolerance of
+// a contact, and no motion that separates them is blocked.
 TEST(OutlineMotion, TouchingBoxesGoOnWithoutSinkingIn) {
   Random random(46);
   int parted = 0;

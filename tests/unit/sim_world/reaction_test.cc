@@ -73,14 +73,14 @@ TEST(Reaction, MemoryIsBoundedAndTheLongestIsNeverForgotten) {
   EXPECT_DOUBLE_EQ(figures.max_ms.value(), 500);
 }
 
-// Issue 21, number 11: 800 KB were reserved, and taken from the system page by page while vehicles
-// decided: the world's memory grew for hours.
+// Issue 21, number 11: 800 KB were reserved, and allocated page by page while vehicles decided: the
+// world's memory grew for hours.
 TEST(Reaction, ARunOfManyHoursTakesNoMoreMemoryThanOneOfAMinute) {
   static_assert(sizeof(ReactionMeter) <= 72 * 1024);
   static_assert(std::is_trivially_copyable_v<ReactionMeter>);
 }
 
-// The ring has no place for the oldest any more, and all others count.
+// The ring drops the oldest, and all others count.
 TEST(Reaction, PercentilesAreOfTheNewest) {
   ReactionMeter meter;
   meter.Published(Tick{1}, milliseconds{0});

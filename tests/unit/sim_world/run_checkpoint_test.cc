@@ -10,7 +10,7 @@ namespace {
 
 constexpr WorldEpoch kNext{8};
 
-// Four that meet each other, walls, a cart and a door; with slip, so that chance is in it too.
+// Four vehicles that meet, walls, a cart and a door; with slip, so that randomness is in it too.
 Scenario Busy() {
   Scenario scenario;
   for (std::uint32_t id = 1; id <= 4; ++id) {
@@ -31,7 +31,7 @@ Scenario Busy() {
   return scenario;
 }
 
-// Straights and turns by vehicle and time; vehicle 3 says nothing in every third tick.
+// Straights and turns by vehicle and time; vehicle 3 sends nothing in every third tick.
 std::vector<MotorCommand> Script(const sim::Run& run, WorldEpoch epoch, int tick) {
   constexpr WheelSpeeds kPhases[] = {{4, 4}, {2, 4.5}, {-3, -3}, {5, 1}, {6, 6.3}};
   std::vector<MotorCommand> commands;

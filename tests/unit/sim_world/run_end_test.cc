@@ -1,4 +1,4 @@
-// What ends a run, and what a run may count on to end it.
+// What ends a run, and what a run may rely on to end it.
 #include <gtest/gtest.h>
 
 #include "sim_world/run/run.h"
@@ -15,7 +15,7 @@ Scenario Two() {
   return scenario;
 }
 
-// Two vehicles of which no process says anything.
+// Two vehicles without a process.
 std::string EndOf(const Scenario& scenario) {
   Run run(scenario, kEpoch);
   for (const VehicleOptions& options : scenario.vehicles) run.Join(options.id);

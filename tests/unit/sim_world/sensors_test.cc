@@ -1,4 +1,4 @@
-// Radar, lidar and camera against references that know no closed form of theirs: the ultrasonics'
+// Radar, lidar and camera against references that do not use their closed forms: the ultrasonics'
 // own cone, and outlines sampled point by point.
 #include <gtest/gtest.h>
 
@@ -78,8 +78,8 @@ std::array<Vec2, 4> CornersOf(const Box& box) {
 
 // ---- lidar
 
-// A point moved along the ray until it is within a hair of some shape, by the distance to the
-// nearest one: knows only how far a point is from a shape.
+// A point moved along the ray until it nearly touches some shape, by the distance to the nearest
+// one: needs only the distance of a point from a shape.
 double DistanceToNearest(const Place& place, Vec2 point) {
   double nearest = 1e9;
   const auto segment = [&](Vec2 from, Vec2 to) {
@@ -211,7 +211,7 @@ TEST(Radar, EveryRangeIsTheConesAndTheNearestIsNeverMissed) {
   }
 }
 
-// The range rate is what the range does: move everything on for an instant and measure again.
+// The range rate is the change of range: move everything on for an instant and measure again.
 TEST(Radar, RangeRateIsHowTheRangeOfADiscChanges) {
   Random random(5);
   for (int i = 0; i < kPlaces; ++i) {

@@ -1,4 +1,4 @@
-// The closest that any two came, against what every pair by itself says of it.
+// The closest approach of any two, against every pair by itself.
 #include "sim_world/separation.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace giveway::sim {
 namespace {
 
-// Vehicles near enough together that several pairs come near the record, each on an arc of its own;
+// Vehicles so close together that several pairs come near the minimum, each on an arc of its own;
 // now and then one stops within the tick.
 class Crowd {
  public:

@@ -1,5 +1,5 @@
-// Signal heads: what the plan shows when, who speaks when, what a fault makes of it, and whether
-// two plans let traffic go at once.
+// Signal heads: what the plan shows when, which head sends when, what a fault does to it, and
+// whether two plans show green at the same time.
 #include "sim_world/run/signals.h"
 
 #include <gtest/gtest.h>

@@ -20,7 +20,7 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
   throw std::bad_alloc();
 }
-// The library's own would not be counted, and not be free's to end.
+// Otherwise the library's own would be used: not counted, and not compatible with free().
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   return std::malloc(size == 0 ? 1 : size);
@@ -60,7 +60,7 @@ TEST(Allocation, ATickWithoutEventsAllocatesNothing) {
 }
 
 // Boxes, slip, a cart, a door and vehicles that run into walls and each other: once every list has
-// grown to what it needs, ticks are made in the memory there is.
+// grown to its size, ticks allocate nothing.
 TEST(Allocation, ABusyWorldStopsAllocatingOnceItHasGrown) {
   Scenario scenario;
   for (std::uint32_t id = 1; id <= 40; ++id) {

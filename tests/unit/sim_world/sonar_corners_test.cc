@@ -1,4 +1,4 @@
-// Edges diffract and inner corners send back: what the tiers above ideal hear of them.
+// Diffraction at edges and reflection from inner corners, as heard by the tiers above ideal.
 #include "sim_world/sensors/sonar_corners.h"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace giveway::sim {
 namespace {
 
-// Transducer 3 looks along 10 degrees from here.
+// From here transducer 3 points along 10 degrees.
 const Vec2 kApex = {0.166, 0.027};
 
 Vec2 Before3(double range_m, double off_deg) {
@@ -24,8 +24,8 @@ RangeReading HeardBy3(SonarTier tier, std::vector<Wall> walls) {
   return reading;
 }
 
-// A wall whose near end is before transducer 3, and which leads straight away from it, so that its
-// face answers nothing.
+// A wall whose near end is in front of transducer 3, and which leads straight away from it, so that
+// its face returns no echo.
 RangeReading HeardOfEnd(SonarTier tier, double range_m, double off_deg = 0) {
   const Vec2 end = Before3(range_m, off_deg);
   return HeardBy3(tier, {{end, Before3(range_m + 3, off_deg)}});
@@ -89,7 +89,7 @@ TEST(SonarCorners, TheOutsideOfACornerDiffracts) {
 TEST(SonarCorners, WhatStandsBetweenHidesACorner) {
   std::vector<Wall> walls = {{Before3(1.5, 0), Before3(3, 0)}};
   ASSERT_EQ(HeardBy3(SonarTier::kTypical, walls).kind, Echo::kEcho);
-  // So slanted that it answers nothing itself, and its ends lie outside the cone.
+  // So slanted that it returns no echo itself, and its ends lie outside the cone.
   walls.push_back({Before3(0.9, 40), Before3(2.2, -25)});
   EXPECT_EQ(HeardBy3(SonarTier::kTypical, walls).kind, Echo::kClear);
 }

@@ -1,4 +1,4 @@
-// The kernel in every width against the reference formulas: to the bit.
+// The kernel in every vector width against the reference formulas: to the bit.
 #include "sim_world/sensors/sonar_kernel.h"
 
 #include <gtest/gtest.h>

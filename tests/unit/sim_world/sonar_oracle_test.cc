@@ -1,6 +1,6 @@
-// Ranges of the ideal tier against an oracle that knows no closed form: it searches along the
-// outline for what lies in the cone, and refines by bisection and golden section.
-// GIVEWAY_CASES sets the number of placements.
+// Ranges of the ideal tier against an oracle without closed forms: it searches along the outline
+// for what lies in the cone, and refines by bisection and golden section. GIVEWAY_CASES sets the
+// number of placements.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -196,7 +196,7 @@ Placement Place(Random* random, int kind, Vec2 position, std::optional<Scene>* s
   return placed;
 }
 
-// They differ in whether there is an echo only where a hair's breadth of cone or range decides.
+// They disagree about an echo only where rounding decides about the cone or the range.
 bool IsCloseCall(View view, const Placement& placed) {
   view.half_rad += kTolerance_m;
   view.max_range_m += kTolerance_m;

@@ -75,7 +75,8 @@ TEST(SonarTypical, NoiseNeverLeavesTheRangeOfTheSensor) {
   }
 }
 
-// What transducer 3 says of a wall that leans away from the ray to its near end by this angle.
+// The reading of transducer 3 for a wall that leans away from the ray to its near end by this
+// angle.
 Echo HeardOfWallAt(double incidence_rad) {
   // Transducer 3 looks along 10 degrees; the ray along its left edge, 25 degrees, meets the wall's
   // near end and everything else of the wall lies outside the cone or further away.
@@ -108,8 +109,8 @@ TEST(SonarTypical, ADiscAnswersUpTo25DegreesOffItsNormal) {
 }
 
 TEST(SonarTypical, WhatIsCutOffDoesNotHideWhatIsBehindIt) {
-  // So slanted that it answers nothing, right through the cone; a disc behind it. Its ends, which
-  // would answer as edges, lie outside.
+  // So slanted that it returns no echo, right through the cone; a disc behind it. Its ends, which
+  // would return one as edges, lie outside.
   const Wall wall = {{0.7445, 0.716}, {2.291, -0.542}};
   OneVehicle vehicle(Faultless(SonarTier::kTypical), {&wall, 1});
   AddDiscAhead(&vehicle.scene, 3);

@@ -1,4 +1,4 @@
-// Boxes, slip and encoder noise, symmetry, and independence of how the work is cut.
+// Boxes, slip and encoder noise, symmetry, and independence of how the work is divided.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -219,7 +219,7 @@ TEST(WorldBodies, NothingDependsOnHowTheWorkIsCut) {
   }
 }
 
-// Shells never overlap by more than a contact is found to, whatever happens.
+// Shells never overlap by more than the tolerance of a contact, whatever happens.
 TEST(WorldBodies, NobodyEverOverlapsAnything) {
   Scenario scenario = ScenarioOf({});
   Random random(78);

@@ -1,5 +1,5 @@
-// Faults of ultrasonics, motors and encoders: what each does in numbers, that it is undone at its
-// end, that it repeats, and that a schedule without any changes no bit.
+// Faults of ultrasonics, motors and encoders: the effect of each in numbers, that it ends with the
+// fault, that it repeats, and that a schedule without faults changes no bit.
 #include "sim_world/faults/world_faults.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,8 @@ constexpr double kFor_s = 1;
 constexpr std::uint32_t kBegins = 20;  // the driving tick, and the first after it
 constexpr std::uint32_t kEnds = 40;
 
-// One before a wall that its front ultrasonics hear, with wheels that turn as commanded.
+// A vehicle in front of a wall that its front ultrasonics detect, with wheels that turn as
+// commanded.
 Scenario BeforeAWall() {
   Scenario scenario = ScenarioOf({VehicleAt(1, {{0, 0}, 0}), VehicleAt(2, {{0, 20}, 0})});
   scenario.walls = {{{4, -6}, {4, 6}}, {{4, 14}, {4, 26}}};
@@ -98,7 +99,8 @@ std::ptrdiff_t EchoCount(const RangeScan& scan) {
   return std::ranges::count(scan.readings, Echo::kEcho, &RangeReading::kind);
 }
 
-// Whatever of ultrasonics goes wrong: before and after it, for others, and of wheels nothing does.
+// Faults of ultrasonics have no effect before and after their time, on other vehicles, or on
+// wheels.
 class SonarFaultTest : public testing::TestWithParam<Kind> {};
 
 TEST_P(SonarFaultTest, IsThereForItsTimeAndItsVehicleOnly) {
@@ -160,7 +162,7 @@ TEST(SonarFault, GarbageIsInReachAndNewForEachFiring) {
       if (reading.kind == Echo::kEcho) ranges.push_back(reading.range_m);
     }
   }
-  // Eight transducers in 20 ticks, of which three quarters.
+  // Eight transducers in 20 ticks: three quarters of them.
   EXPECT_NEAR(static_cast<double>(ranges.size()), 120, 25);
   EXPECT_GE(std::ranges::min(ranges), 0);
   EXPECT_LE(std::ranges::max(ranges), 5);
@@ -295,7 +297,7 @@ TEST(DriveFault, WeakWheelsReachTheirPartAndAllOfItAfterwards) {
   EXPECT_DOUBLE_EQ(pair.faulty.Truths()[0].wheels.left_rad_s, 1);
 }
 
-// Neither a command nor the want of one stops it; its end does.
+// Neither a command nor a missing one stops it; its end does.
 TEST(DriveFault, StuckWheelsTurnOnWhateverIsCommanded) {
   SideBySide pair({FaultAt(Kind::kMotorStuck)});
   pair.AdvanceTo(kBegins - 1);
@@ -401,8 +403,8 @@ TEST(WorldFaults, NoneIsAtWorkBeforeTheStart) {
   EXPECT_EQ(EchoCount(run.Scans()[0]), 0);
 }
 
-// A checkpoint within the fault: the restored world drives on with the wheels it was stuck with,
-// whatever they turned like while it waited, and says no second time that the fault has started.
+// A checkpoint during the fault: the restored world drives on with the wheels stuck at the same
+// speed, whatever they did while it waited, and does not report the start of the fault again.
 TEST(WorldFaults, AreThereAgainInARestoredRun) {
   const FaultSchedule schedule{{FaultAt(Kind::kMotorStuck), FaultAt(Kind::kSonarOff)}, 1};
   SideBySide pair(schedule.faults);

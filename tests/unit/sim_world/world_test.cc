@@ -119,7 +119,7 @@ TEST(World, AWallIsAContactWithNobody) {
 }
 
 TEST(World, TheContactTickIsCutToTheClosedFormsMoment) {
-  // Full speed first, then the gap of the deciding tick is known exactly.
+  // Full speed first, so that the gap of the deciding tick is known exactly.
   World world = WorldOf(Facing(2.0));
   DriveAll(&world, 4, 4, 30);
   const double before = X(world, 1) - X(world, 0) - 0.5;

@@ -1,4 +1,4 @@
-// A brain that is made of its bytes is the same brain; bytes that are none make none.
+// A brain restored from its bytes is the same brain; malformed bytes give none.
 #include "services/snapshot/brain_state.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t kPeers = 5;
 
-// What befalls a brain in one tick, by a seed: peers that come, go, lie and cross, echoes, lights,
-// further sensors, words of the middleware.
+// The inputs of a brain in one tick, by a seed: peers that come, go, lie and cross, echoes, lights,
+// further sensors, QoS events.
 class Fate {
  public:
   explicit Fate(std::uint64_t seed) : random_(seed) {}
@@ -68,7 +68,7 @@ class Fate {
 class BrainStateOfSeed : public testing::TestWithParam<std::uint32_t> {};
 INSTANTIATE_TEST_SUITE_P(Seeds, BrainStateOfSeed, testing::Range(0U, 60U));
 
-// One that remembers what it heard, of every other seed.
+// With every other seed, a brain that remembers echoes.
 VehicleOptions OptionsOfSeed(std::uint32_t seed) {
   VehicleOptions options = DefaultOptions();
   if (seed % 2 == 1) options.sonar_noise = 0.01;
@@ -117,7 +117,7 @@ TEST(BrainState, KeepsWhatItHeardInAFewBytes) {
   EXPECT_GT(held, 0);
 }
 
-// Whatever is made of wrong bytes can be led.
+// A brain restored from altered bytes must still run.
 TEST_P(BrainStateOfSeed, BelievesNothing) {
   const VehicleOptions options = OptionsOfSeed(GetParam());
   Fate fate(7);
@@ -176,7 +176,7 @@ TEST(BrainState, AnImageOfBeforeThePoseWasKeptIsTheSameBrainWithItsPoseBegunAnew
   EXPECT_FALSE(AreBytesOf(bytes, brain.State()));
 }
 
-// Places by which a brain looks something up.
+// Indices that a brain looks something up by.
 TEST(BrainState, AWaypointThatTheRouteDoesNotHaveIsRefused) {
   Vehicle brain(DefaultOptions(), 42);
   auto state = std::make_unique<VehicleState>(brain.State());
@@ -192,7 +192,7 @@ TEST(BrainState, AWaypointThatTheRouteDoesNotHaveIsRefused) {
   EXPECT_NE(StateFrom(BytesOf(*state), DefaultOptions()), nullptr);
 }
 
-// Ranges that no ultrasonics can say, and cells surer than any grid is.
+// Ranges that no ultrasonic sensor can report, and cells with more confidence than a grid gives.
 TEST(BrainState, WhatNoScanCanHaveBroughtIsRefused) {
   const VehicleOptions options = OptionsOfSeed(1);
   BrainBench bench(options);

@@ -24,7 +24,7 @@ std::vector<Sample> EachSecond(std::size_t count, const std::function<double(dou
   return samples;
 }
 
-// As /proc says it: in whole pages.
+// As /proc reports it: in whole pages.
 double Pages(double bytes) { return std::floor(bytes / kPage) * kPage; }
 
 // As an allocator does: grows for half a minute, then gives back.
@@ -107,7 +107,7 @@ TEST(Leak, ASawtoothIsNone) {
   }
 }
 
-// A table that is allocated once, as late as it may be.
+// A table that is allocated once, as late as possible.
 TEST(Leak, OneStepIsNone) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Random random(seed);
@@ -144,8 +144,8 @@ TEST(Growth, IsInEachPartOrNotThroughout) {
   EXPECT_FALSE(GrowsThroughout(EachSecond(19, [](double t) { return t; })));
 }
 
-// What chance alone is called a leak: 2.5 % of independent noise, by the interval; of noise that
-// resembles itself over five samples hardly more.
+// How often noise alone is called a leak: 2.5 % of independent noise, by the interval; of noise
+// correlated over five samples hardly more.
 TEST(Leak, NoiseIsSeldomCalledOne) {
   int white = 0;
   int red = 0;

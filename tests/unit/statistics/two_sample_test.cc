@@ -56,7 +56,7 @@ TEST(MannWhitneyOfHistograms, SeesAShiftAndOnlyItsDirection) {
   EXPECT_GT(MannWhitneyGreater(after, 1e9, before, 1e9), 0.999);
 }
 
-// A hundred times the values of the same few seconds are no more evidence.
+// A hundred times the values from the same few seconds are no more evidence.
 TEST(MannWhitneyOfHistograms, WeighsNoMoreThanIsIndependent) {
   const Histogram before = Normal(1, 20'000, 50, 10);
   const Histogram after = Normal(2, 20'000, 50.6, 10);

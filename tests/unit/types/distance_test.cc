@@ -67,7 +67,7 @@ RC_GTEST_PROP(GateDistance, IsNeverAboveTheEuclideanNotEvenByRounding, ()) {
   RC_ASSERT(GateDistance(AnyMetric(), offset) <= Norm(offset));
 }
 
-// There the scaled Manhattan distance is the Euclidean one, but for the last bit.
+// There the scaled Manhattan distance equals the Euclidean one, except for the last bit.
 TEST(GateDistance, IsNotAboveTheEuclideanOnTheDiagonalEither) {
   for (int i = 1; i <= 1000; ++i) {
     const Vec2 offset{i / 1000.0, i / -1000.0};

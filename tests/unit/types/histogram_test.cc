@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kMicrosecond = 1000;
 
-// Of all sizes alike, from 1 us to 1 h: what matters is how many digits are left, not which.
+// All orders of magnitude alike, from 1 us to 1 h: what matters is how many digits are left.
 rc::Gen<std::vector<std::int64_t>> Durations() {
   const auto one = rc::gen::map(
       rc::gen::pair(rc::gen::inRange(0, 32), rc::gen::inRange<std::int64_t>(0, 1'000'000'000)),

@@ -1,4 +1,4 @@
-// Every number of a beacon has a least and a greatest value, and both are in range.
+// Every number of a beacon has a minimum and a maximum, and both are in range.
 #include "services/vehicle/estimation/beacon_check.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ const Bounds kBounds[] = {
 bool IsInRangeWith(const Bounds& bounds, double value) {
   Beacon beacon = Believable();
   bounds.number(beacon) = value;
-  // Not at all sure of its place: no covariance is too great for it.
+  // A completely unknown position: no covariance is too large for it.
   PoseCovariance& c = beacon.covariance;
   if (c.xy_m2 != 0) c.xx_m2 = c.yy_m2 = 1e6;
   return IsInRange(beacon);
@@ -88,7 +88,7 @@ TEST(BeaconCheck, ANumberIsInRangeIfAndOnlyIfItIsBetweenItsBounds) {
   }
 }
 
-// A number that may be 0 may be -0: what is rounded to nothing keeps its sign.
+// A number that may be 0 may be -0: a value rounded to zero keeps its sign.
 TEST(BeaconCheck, AZeroWithASignIsAZero) {
   for (const Bounds& bounds : kBounds) {
     if (bounds.least > 0) continue;

@@ -37,8 +37,8 @@ bool Holds(const Claim& claim, Vec2 point) {
   return Norm(point - claim.axis.from_world - at * claim.axis.direction_world) <= claim.radius_m;
 }
 
-// A vehicle by its rims, each of which speeds up and brakes as its drive allows, whatever was
-// asked.
+// A vehicle by its rims, each of which speeds up and brakes as its drive allows, whatever is
+// commanded.
 struct Rims {
   double left_m_s;
   double right_m_s;

@@ -1,4 +1,5 @@
-// World and brains together, in memory: the crossing as the scenarios ask for it, over many seeds.
+// World and brains together, in memory: the crossing as the scenarios configure it, over many
+// seeds.
 #include "tests/support/crossing.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ TEST(CrossingOnce, WhenThePeerDiesTheOtherStopsAndGoesOnOnceTheWayIsClear) {
   }
 }
 
-// Decisions of one vehicle in a finished run: a stop that flickers shows as many.
+// The number of decisions of one vehicle in a finished run: a stop that flickers shows as many.
 int DecisionsOf(std::size_t index, const Scenario& scenario) {
   sim::VirtualFleet fleet(scenario);
   int decisions = 0;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRoom_m = 0.65;
 
-// Discs side by side, open towards the west: a bag to drive out of backwards.
+// Discs side by side, open towards the west: a pocket to back out of.
 std::vector<KeepOut> Bag() {
   std::vector<KeepOut> discs;
   for (int i = -2; i <= 2; ++i) discs.push_back({{2, 1.0 * i}, kRoom_m});

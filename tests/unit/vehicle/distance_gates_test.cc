@@ -14,7 +14,7 @@ Scenario Measured(Scenario scenario, DistanceMetric metric) {
   return scenario;
 }
 
-// Driven by vehicle 2 until it first gives way; huge if it never does.
+// The distance vehicle 2 drives until it first gives way; huge if it never does.
 double DrivenBeforeGivingWay(const Scenario& scenario) {
   sim::VirtualFleet fleet(scenario);
   const Vec2 from = scenario.vehicles[1].start_world.position_world;
@@ -67,7 +67,7 @@ TEST(GatesOfTheLecture, ChebyshevMakesItStopSoonerForOneThatIsAskew) {
             DrivenBeforeGivingWay(scenario));
 }
 
-// The metric is a matter of gates: the printed scripts compare echoes alone.
+// The metric applies to gates only: the printed scripts compare echoes alone.
 TEST(GatesOfTheLecture, ThePrintedScriptsKnowOneDistanceOnly) {
   const Scenario scenario = test::Crossing(Behaviour::kLecturePrinted, 0.4, 0.3);
   EXPECT_EQ(DrivenBeforeGivingWay(Measured(scenario, DistanceMetric::kChebyshev)),

@@ -1,4 +1,5 @@
-// What doubt takes away from a peer's word, and that it never makes a vehicle less careful.
+// What distrust takes away from a peer's statements, and that it never makes a vehicle less
+// careful.
 #include <gtest/gtest.h>
 
 #include <memory>
@@ -40,7 +41,7 @@ TEST(Doubt, AGrantIsNotBelieved) {
   EXPECT_LT(out.beacon.world_from_body.position_world.x, 3.4 - 0.075);
 }
 
-// Any inputs a few ticks long, by number.
+// Random inputs of a few ticks, by number.
 Inputs AnyInputs(Random* random, std::uint32_t tick, std::vector<ReceivedBeacon>* heard) {
   Inputs inputs;
   inputs.now = tick * Nanoseconds(50'000'000);

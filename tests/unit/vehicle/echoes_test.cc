@@ -1,4 +1,4 @@
-// Which echoes are a peer's body: those from where it is, of any sensor, in any direction.
+// Which echoes belong to a peer's body: those from its position, on any sensor, in any direction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace giveway {
 namespace {
 
-// True if an echo is taken for one of the body of a peer with its centre there.
+// True if an echo is assigned to the body of a peer with its centre there.
 bool IsOfBody(test::Onlooker* onlooker, std::size_t sensor, double range_m, Vec2 centre) {
   onlooker->Hear(sensor, range_m);
   Peer peer = test::PeerAt({centre, 0});

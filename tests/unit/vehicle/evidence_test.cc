@@ -1,4 +1,4 @@
-// What a decision says that it stood on.
+// The evidence that a decision rests on.
 #include <gtest/gtest.h>
 
 #include "tests/support/brain_bench.h"

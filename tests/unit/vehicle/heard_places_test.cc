@@ -1,5 +1,5 @@
-// A vehicle with imperfect ultrasonics keeps from what it heard, though no sensor hears it any
-// more.
+// A vehicle with imperfect ultrasonics keeps away from what it detected, though no sensor detects
+// it any more.
 #include "services/vehicle/situation/heard_places.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ std::uint8_t Confidence(const test::BrainBench& bench, Vec2 point_body) {
   return bench.Brain().State().sensed.grid.At(point_body);
 }
 
-// What sensor 3, at 10 degrees, hears from 0.5 m away.
+// The reading of sensor 3, at 10 degrees, from 0.5 m away.
 const Vec2 kHeardBy3 = Vec2{0.166, 0.027} + 0.5 * Vec2{Cos(Radians(10)), Sin(Radians(10))};
 
 void HearThrice(test::BrainBench* bench, std::vector<Beacon> beacons = {}) {
@@ -67,8 +67,8 @@ TEST(HeardPlaces, ANewWorldHasNone) {
   EXPECT_FALSE(vehicle.State().sensed.grid.IsActive());
 }
 
-// Heard at 50 degrees on the left, then the vehicle turns left until it is straight ahead, and no
-// transducer fires meanwhile.
+// Detected at 50 degrees on the left, then the vehicle turns left until it is straight ahead, and
+// no transducer fires in between.
 TEST(HeardPlaces, WhatWasHeardBesideItIsAheadAfterATurn) {
   test::BrainBench bench(Noisy());
   RangeScan scan = test::ClearScan(0);
@@ -94,8 +94,8 @@ TEST(HeardPlaces, WhatWasHeardBesideItIsAheadAfterATurn) {
   EXPECT_LT(vehicle.State().sensed.grid.At(heard), ObstacleGrid::kHeld);
 }
 
-// Heard three times by that sensor, 0.3 m before it, and then not, by two firings of all: the last
-// echo is forgotten, the place is not. What the vehicle decides then, driving on.
+// Detected three times by that sensor, 0.3 m in front of it, and then missed, by two firings of
+// all: the last echo is forgotten, the place is not. Returns the decision after that, driving on.
 Decision AfterSilence(VehicleOptions options, int sensor, double speed_m_s, Vec2 goal_world) {
   options.cruise_m_s = speed_m_s;
   options.goal.at_world = goal_world;

@@ -1,4 +1,5 @@
-// Ultrasonics that jitter, drop out and fire in turn: what the brain keeps, forgets and believes.
+// Ultrasonics that jitter, drop out and fire in turn: which readings the brain keeps, forgets and
+// believes.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -32,7 +33,7 @@ VehicleOptions Noisy(double noise = 0.01) {
 
 class ImperfectRanges : public testing::Test {
  protected:
-  // The sensor says this at `tick`; the scan comes in the same one.
+  // The sensor reads this at `tick`; the scan arrives in the same one.
   void Take(std::uint32_t tick, Echo kind, double range_m, double before_s = 0) {
     RangeScan scan = ClearScan(tick);
     scan.readings[3] = {kind, range_m, Tick{tick}, before_s};
@@ -128,8 +129,8 @@ TEST(SlowSonar, TheRefreshIsReactionTime) {
   EXPECT_NEAR(ReactionSeconds(test::DefaultOptions()), 0.1, 1e-12);
 }
 
-// The same echo lets a vehicle drive on that hears it 20 times a second, and slows one down
-// that hears it 3 times a second.
+// The same echo lets a vehicle drive on whose sensors refresh 20 times a second, and slows one down
+// whose sensors refresh 3 times a second.
 TEST(SlowSonar, StopsSoonerBeforeAnObstacle) {
   const auto rule = [](const VehicleOptions& options) {
     BrainBench bench(options);
@@ -194,7 +195,7 @@ TEST(NoisySonar, WhatMovesByItselfIsStillHeard) {
   }
 }
 
-// What was heard 300 ms ago is where the peer was then, not where it is now.
+// An echo 300 ms old is where the peer was then, not where it is now.
 TEST(SlowSonar, AnOldEchoOfAPeerIsStillThatPeer) {
   BrainBench bench(Slow());
   RangeScan scan = ClearScan(0);

@@ -1,5 +1,5 @@
-// The ten flaws of the printed scripts, in the lecture's order. Each test says where the flaw is
-// settled; the tenth says where it is kept on purpose.
+// The ten flaws of the printed scripts, in the lecture's order. Each test names the code that fixes
+// the flaw; the tenth names the code that keeps it on purpose.
 #include <gtest/gtest.h>
 
 #include "tests/support/crossing.h"
@@ -15,7 +15,7 @@ using Ids = std::set<std::uint32_t>;
 
 class LectureFlaw : public testing::TestWithParam<Behaviour> {};
 
-// Settled in rules.cc, GiveWay: a dead stop, never the peer's speed.
+// Fixed in rules.cc, GiveWay: a dead stop, never the peer's speed.
 TEST_P(LectureFlaw, No1TheLoserHaltsInsteadOfCopyingThePeersSpeed) {
   sim::VirtualFleet fleet(Crossing(GetParam(), 0.4, 0.3));
   bool gave_way = false;
@@ -28,21 +28,21 @@ TEST_P(LectureFlaw, No1TheLoserHaltsInsteadOfCopyingThePeersSpeed) {
   EXPECT_TRUE(gave_way);
 }
 
-// Settled in types/beacon.h, GoesFirst: a strict total order.
+// Fixed in types/beacon.h, GoesFirst: a strict total order.
 TEST_P(LectureFlaw, No2EqualSpeedsSendOnlyOneToHalt) {
   const auto outcome = Finish(Crossing(GetParam(), 0.3, 0.3));
   EXPECT_EQ(outcome.halted, Ids{2});
 }
 
-// Settled by comparing the published cruise: halting does not lower it.
+// Fixed by comparing the published cruise: halting does not lower it.
 TEST_P(LectureFlaw, No3HaltingOnceIsEnough) {
   const auto outcome = Finish(Crossing(GetParam(), 0.4, 0.3));
   EXPECT_EQ(outcome.halts, 1U);
   EXPECT_EQ(outcome.arrived, (Ids{1, 2}));
 }
 
-// Settled in peer_table.h: one entry a vehicle. The third is nearer in the order of beacons,
-// faster, and drives away; it must not hide the one that matters.
+// Fixed in peer_table.h: one entry a vehicle. The third is nearer in the order of beacons, faster,
+// and drives away; it must not hide the one that matters.
 TEST_P(LectureFlaw, No4AThirdVehiclesBeaconHidesNobody) {
   Scenario scenario = Crossing(GetParam(), 0.4, 0.3);
   scenario.vehicles.push_back(VehicleAt(3, GetParam(), 0.2, {-4, 2}, 180, 1.5));
@@ -52,7 +52,7 @@ TEST_P(LectureFlaw, No4AThirdVehiclesBeaconHidesNobody) {
   EXPECT_EQ(outcome.arrived, (Ids{1, 2, 3}));
 }
 
-// Settled in peer_table.cc, IsFresh. Vehicle 1 waits for 2, which dies: it does not wait for ever.
+// Fixed in peer_table.cc, IsFresh. Vehicle 1 waits for 2, which dies: it does not wait for ever.
 TEST_P(LectureFlaw, No5ADeadPeerIsNotBelievedForEver) {
   Scenario scenario = Crossing(GetParam(), 0.3, 0.4);
   scenario.faults = {{FaultKind::kKill, VehicleId{2}, std::nullopt, 1.0}};
@@ -61,14 +61,14 @@ TEST_P(LectureFlaw, No5ADeadPeerIsNotBelievedForEver) {
   EXPECT_EQ(outcome.arrived, Ids{1});
 }
 
-// Settled by the order key: forward cruise, not left squared plus right squared.
+// Fixed by the order key: forward cruise, not left squared plus right squared.
 TEST(LectureFlaw, No6ASpinningVehicleIsNotAFastOne) {
   const OrderKey spinning{.speed_bucket = 4, .vehicle = VehicleId{1}};
   const OrderKey driving{.speed_bucket = 6, .vehicle = VehicleId{2}};
   EXPECT_TRUE(GoesFirst(driving, spinning));
 }
 
-// Settled in echoes.cc: an echo counts for a peer only where that peer's body is.
+// Fixed in echoes.cc: an echo counts for a peer only where that peer's body is.
 TEST_P(LectureFlaw, No7AWallBesideTheWayTriggersNoRightOfWay) {
   Scenario scenario = ScenarioOf({VehicleAt(1, GetParam(), 0.3, {0, 0}, 0, 4),
                                   VehicleAt(2, GetParam(), 0.4, {0, 2.5}, 180, 3)});
@@ -78,7 +78,7 @@ TEST_P(LectureFlaw, No7AWallBesideTheWayTriggersNoRightOfWay) {
   EXPECT_EQ(outcome.arrived, (Ids{1, 2}));
 }
 
-// Settled in steering.cc: the first in the order steers round the one that waits.
+// Fixed in steering.cc: the vehicle with priority steers round the one that waits.
 TEST_P(LectureFlaw, No8TwoParkedNoseToNoseLeave) {
   Scenario scenario = ScenarioOf({VehicleAt(1, GetParam(), 0.3, {-0.5, 0}, 0, 3),
                                   VehicleAt(2, GetParam(), 0.3, {0.5, 0}, 180, 3)});
@@ -87,7 +87,8 @@ TEST_P(LectureFlaw, No8TwoParkedNoseToNoseLeave) {
   EXPECT_EQ(outcome.arrived, (Ids{1, 2}));
 }
 
-// Settled in vehicle.cc, ListenForMovers: critical but deaf halts, and the halt names its cause.
+// Fixed in vehicle.cc, ListenForMovers: unidentified motion within the critical distance halts, and
+// the halt names its cause.
 TEST_P(LectureFlaw, No9CriticalButDeafHalts) {
   Scenario scenario = Crossing(GetParam(), 0.4, 0.3);
   for (VehicleOptions& vehicle : scenario.vehicles) vehicle.emission_radius_m = 0.6;

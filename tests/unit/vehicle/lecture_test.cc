@@ -1,5 +1,5 @@
-// The printed scripts and their one variable, with one brain on a table. What comes of it in a
-// fleet: tests/golden/lecture_printed_test.cc.
+// The printed scripts and their one variable, with one brain on the bench. Their effect in a fleet:
+// tests/golden/lecture_printed_test.cc.
 #include "services/vehicle/decision/lecture.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@ using test::BeaconOf;
 using test::BrainBench;
 using test::ClearScan;
 
-// What drives at that speed and is heard of in this tick's step.
+// A peer that drives at that speed, with a beacon in this tick's step.
 Beacon Drives(std::uint32_t id, std::uint32_t tick, double speed_m_s) {
   Beacon beacon = BeaconOf(id, tick, {.position_world = {0, 1.0 + id}}, speed_m_s);
   beacon.wheels = {speed_m_s / 0.0975, speed_m_s / 0.0975};

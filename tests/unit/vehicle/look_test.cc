@@ -1,4 +1,4 @@
-// How a peer stands to a vehicle at the origin that drives east.
+// How a peer relates to a vehicle at the origin that drives east.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,7 +66,7 @@ TEST(CarryForward, TakesTheStraightWayToWhereThePeerDrivesUntilItIsThere) {
   EXPECT_EQ(there.way_direction_world, (Vec2{1, 0}));
 }
 
-// Bodies of 0.25 m each and a margin of 0.1 m: nearer than 0.6 m, and what rounding may be.
+// Bodies of 0.25 m each and a margin of 0.1 m: nearer than 0.6 m, apart from rounding.
 TEST(CarryForward, LooksAtNoWayThatComesNowhereNearTheOwnOne) {
   Peer peer = test::PeerAt({{3, -5}, kPi / 2});
   peer.beacon.toward_world = {3, -0.75};

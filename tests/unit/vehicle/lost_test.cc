@@ -28,7 +28,7 @@ RangeScan Rolling(double rad_s) {
   return scan;
 }
 
-// Drives until it says by which rule it stands, for a minute at most.
+// Drives until it stands and names the rule, for a minute at most.
 Outputs UntilLost(BrainBench* bench, bool* slowed = nullptr) {
   Outputs out;
   for (int i = 0; i < 1200 && out.command.decision.rule != Rule::kLost; ++i) {
@@ -68,7 +68,7 @@ TEST(Lost, OneThatIsUnsureSaysAllTheSameThatALightStopsIt) {
   EXPECT_EQ(bench.Step(Rolling(3)).beacon.rule, Rule::kSignal);
 }
 
-// None of them asks how well it knows its place; one that does not know it at all stands.
+// None of them considers how well it knows its pose; a vehicle that does not know it at all stands.
 TEST(Lost, TheLecturesBehavioursHaltToo) {
   for (const Behaviour behaviour : {Behaviour::kLectureAvoid, Behaviour::kStockAvoid,
                                     Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {
@@ -137,7 +137,7 @@ TEST(Lost, OneThatIsIsPassedAsFarAwayAsItIsUnsure) {
   EXPECT_NEAR(room_m(Rule::kLost), room_m(Rule::kArrived) + kSigmas * 0.3, 1e-9);
 }
 
-// A fix that shows that it is not in its goal sends it on.
+// A fix that shows that it is not at its goal makes it drive on.
 TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
   VehicleOptions options = Slipping();
   options.goal.at_world = {1, 0};
@@ -156,7 +156,7 @@ TEST(Lost, OneThatArrivedByItsWheelsGoesOnWhenAFixShowsThatItIsElsewhere) {
     out = bench.Step(Rolling(0));
   }
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
-  // How near it came by its wheels alone does not count: it has yet to come nearer.
+  // Approaches measured by its wheels alone do not count: it has yet to come nearer.
   const VehicleState& state = bench.Brain().State();
   EXPECT_LE(state.progress.aimless_ticks, 1U);
   EXPECT_GT(state.progress.nearest_m, 0.1);

@@ -22,7 +22,7 @@ RangeScan Driving(double speed_m_s = kSpeed_m_s) {
   return scan;
 }
 
-// What a radar that moves at `own` sees of a point at (x, y) from it that moves at `velocity`.
+// What a radar that moves at `own` reports of a point at (x, y) from it that moves at `velocity`.
 RadarScan RadarOf(Vec2 at, Vec2 velocity, double own_m_s = kSpeed_m_s) {
   RadarScan scan;
   scan.count = 1;

@@ -81,7 +81,7 @@ TEST_F(PeerTableTest, ASilentPeerIsNotBelievedPastTheAgeLimit) {
   EXPECT_FALSE(Fresh(2, milliseconds(201)));
 }
 
-// The receiver's clock says "just now", the content is from long ago: a peer without ranges.
+// The receiver's clock says "just now", but the content is old: a peer without ranges.
 TEST_F(PeerTableTest, OldContentIsOldHoweverLatelyItCame) {
   Hear(2, 94, milliseconds(0));
   EXPECT_FALSE(Fresh(2, milliseconds(0)));
@@ -171,7 +171,7 @@ TEST_F(PeerTableTest, BeyondTheEmissionRadiusIsNotHeardAndNoLoss) {
   EXPECT_EQ(counters_.lost, 0U);
 }
 
-// For the tick that its first beacon waits, what is known of it is as old as when it left.
+// During the tick that its first beacon waits, what is known of it is as old as when it left.
 TEST_F(PeerTableTest, OneThatComesBackIntoReachIsNotLostUntilItsBeaconCounts) {
   Hear(2, 97, milliseconds(0));
   Take(Received(BeaconOf(2, 98, {.position_world = {5.1, 0}}), milliseconds(50)));
@@ -185,7 +185,7 @@ TEST_F(PeerTableTest, OneThatComesBackIntoReachIsNotLostUntilItsBeaconCounts) {
   EXPECT_TRUE(Fresh(2, now + milliseconds(50)));
 }
 
-// The one that waits is older than the one from beyond.
+// The waiting one is older than the one from out of range.
 TEST_F(PeerTableTest, OneThatLeavesWhileABeaconWaitsIsNoLossEither) {
   Hear(2, 99, milliseconds(0));
   Hear(2, 100, milliseconds(50));

@@ -40,7 +40,8 @@ TEST(RefusedBeacon, IsToldWithFieldValueAndBound) {
   EXPECT_EQ(FaultText(beacon), "order_waited_ticks is 2, must be 0 to 1");
 }
 
-// 0.3 / 0.05 is just less than 6: cut instead of rounded it is 5, and the vehicle was never heard.
+// 0.3 / 0.05 is just less than 6: truncated instead of rounded it is 5, and the vehicle was never
+// heard.
 TEST(RefusedBeacon, WithASpeedBucketThatWasCutIsToldTheRoundedOne) {
   Beacon beacon = test::BeaconOf(2, 1, {});
   beacon.cruise_m_s = 0.3;

@@ -88,7 +88,7 @@ class LitCrossingTest : public testing::TestWithParam<Speeds> {
   }
 };
 
-// Also where the order would put the one at red first.
+// Even where the vehicle at red has priority by its key.
 TEST_P(LitCrossingTest, RedStopsBeforeTheLineAndGreenIsNotBlocked) {
   const Scenario scenario = Lit(60);
   SmallFleet fleet(scenario);
@@ -162,7 +162,7 @@ TEST_P(LitCrossingTest, NobodyGoesOverALineOnRed) {
     SmallFleet fleet(scenario);
     const Seen seen = Drive(&fleet);
     for (std::size_t i = 0; i < 2; ++i) {
-      // A decision acts two ticks after what it rests on.
+      // A decision takes effect two ticks after its inputs.
       const Nanoseconds over = FromSeconds(seen.went_over_at_s[i] - 0.1);
       EXPECT_NE(PhaseAt(scenario.signals[i], over).phase, SignalPhase::kRed)
           << seconds << " vehicle " << i + 1;

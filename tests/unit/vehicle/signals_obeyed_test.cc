@@ -1,4 +1,4 @@
-// What one brain makes of traffic lights, phase by phase and edge by edge, on a table.
+// How one brain reacts to traffic lights, phase by phase and edge by edge, on the bench.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,7 +114,7 @@ TEST(SignalsObeyed, YellowStopsWhoCanAndLetsGoWhoCannot) {
   EXPECT_NEAR(TargetSpeed(out), 0.3, 1e-12);
 }
 
-// Braking costs a tick before it bites: the decision must not turn round meanwhile.
+// Braking takes a tick to act: the decision must not change back in between.
 TEST(SignalsObeyed, AYellowIsDecidedOnOnce) {
   BrainBench bench(test::DefaultOptions());
   bench.Step(Driving(0.3));
@@ -198,7 +198,7 @@ TEST(SignalTable, OldNewsAndOtherWorldsAreRefused) {
 
 // ---- what others' lights mean
 
-// A peer that stands south of the own path, heading across it, and would go first by its key.
+// A peer that stands south of the own path, heading across it, and has priority by its key.
 Beacon Southern(std::uint32_t tick, Rule rule, double south_m = 1.0) {
   Beacon beacon =
       BeaconOf(2, tick, {.position_world = {1.5, -south_m}, .heading_rad = kPi / 2}, 0.6);
@@ -235,8 +235,7 @@ TEST(SignalsOfOthers, APeerThatCouldNotStopAnyMoreIsNotCountedOn) {
   EXPECT_EQ(out.command.decision.rule, Rule::kNotGranted);
 }
 
-// Its light says stop, and it rolls up slowly; but it stops by its own brakes, not by this
-// vehicle's.
+// Its light is red, and it rolls up slowly; but it stops by its own brakes, not by this vehicle's.
 TEST(SignalsOfOthers, APeerWithWeakBrakesIsNotCountedOn) {
   for (const double deceleration_m_s2 : {0.6, 0.05}) {
     BrainBench bench(test::OptionsWithoutUltrasonics());
@@ -252,8 +251,8 @@ TEST(SignalsOfOthers, APeerWithWeakBrakesIsNotCountedOn) {
   }
 }
 
-// Both stood at red, and both lights fail at once: what the other said of its light a tick ago is
-// no reason to go now.
+// Both stood at red, and both lights fail at the same time: what the other's beacon said about its
+// light a tick ago is no reason to go now.
 TEST(SignalsOfOthers, OfTwoThatLightsStoppedNeitherCountsOnTheOthersLight) {
   VehicleOptions options = test::DefaultOptions();
   options.cruise_m_s = 0.8;  // first in the order

@@ -107,8 +107,8 @@ TEST(Steering, AVehicleThatSpeedsUpOutOfATurnDoesNotSway) {
   EXPECT_NEAR(TwistFromWheels(p3dx.drive, wheels).forward_m_s, 0.8, 1e-9);
 }
 
-// One rim speeds up ten times as fast as the other brakes. Steering away from what it had to stop
-// for it drove on, faster and faster, until both met.
+// Regression: one rim speeds up ten times as fast as the other brakes. Steering away from what it
+// had to stop for made it drive on, faster and faster, until both touched.
 TEST(Steering, ATurnMakesNobodyFasterThanItMayDrive) {
   VehicleProfile weak = PioneerP3dx();
   weak.acceleration_m_s2 = 2;

@@ -1,4 +1,5 @@
-// Each kind of what does not fit, and what looks like it and is none.
+// Each kind of contradiction between a peer's beacons and the own sensors, and what only looks like
+// one.
 #include "services/vehicle/estimation/trust.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ Beacon Ahead(std::uint32_t tick, double away_m = 3) {
   return BeaconOf(2, tick, {.position_world = {away_m, 0}, .heading_rad = kPi / 2});
 }
 
-// Both sensors that look ahead hear a body whose centre is so far away.
+// Both sensors that point ahead detect a body whose centre is at that distance.
 RangeScan HearingAhead(double away_m) {
   const SensorMount mount = PioneerP3dx().sonar[3];
   RangeScan scan = ClearScan(0);
@@ -124,7 +125,8 @@ TEST_F(Trust, AMoverNobodySpeaksForIsCountedWhenItBegins) {
 
 class SaysItStands : public Trust {
  protected:
-  // Heard where it says, standing, then nearer by so much a tick; its beacon follows by `follows`.
+  // Detected where its beacon says, standing, then nearer by so much a tick; its beacon follows by
+  // `follows`.
   void ComeNearer(double by_m, int ticks, bool follows) {
     HearFor(30, HearingAhead(2.5), Ahead(0, 2.5));
     for (int i = 1; i <= ticks; ++i) {
@@ -187,7 +189,7 @@ TEST_F(SaysItStands, AndOneThatFellSilentMayBeWhoComesNearer) {
   EXPECT_EQ(Counted().Total(), 0U);
 }
 
-// Its shell is nearer than the radio reaches, its centre is not.
+// Its shell is within radio range, its centre is not.
 TEST_F(SaysItStands, AndOneOutOfReachOfTheRadioComesNearer) {
   VehicleOptions options = test::DefaultOptions();
   options.emission_radius_m = 2.6;

@@ -1,4 +1,4 @@
-// What is not sure of where two vehicles are widens the distances that they keep.
+// The uncertainty of where two vehicles are widens the distances that they keep.
 #include <gtest/gtest.h>
 
 #include <optional>

@@ -43,7 +43,7 @@ TEST(VehicleInARestartedWorld, IsToldWhereItStandsAndDrivesOnFromThere) {
   out = step({.scan = ScanOf(kNext, 90)});
   EXPECT_EQ(out.beacon.world_from_body, kThere);
   EXPECT_EQ(out.command.decision.rule, Rule::kCruise);
-  // The old world's last words, and the entry once more, move nothing.
+  // The old world's last samples, and the entry once more, change nothing.
   out = step({.scan = ScanOf(WorldEpoch{7}, 91)});
   EXPECT_EQ(out.beacon.world_epoch, kNext);
   out = step({.roster = Placed(kNext, {})});
@@ -77,7 +77,7 @@ TEST(VehicleInARestartedWorld, OnAnotherPlaceItDrivesByOtherOptionsAsTheSameVehi
   EXPECT_GT(after.beacon.order.speed_bucket, before.beacon.order.speed_bucket);
 }
 
-// A vehicle that rounds a square: wheels that err, so that it is not sure where it is.
+// A vehicle that drives round a square with wheel errors, so that its position is uncertain.
 class Rounds {
  public:
   static constexpr WorldEpoch kWorld{8};
@@ -127,7 +127,7 @@ TEST(VehicleThatRestarts, GoesOnAlongItsRouteFromWhereItBelievedToBe) {
   EXPECT_GT(handover->covariance.yy_m2, 0);
   Vehicle after(rounds.options, 43);
   ASSERT_TRUE(after.TakeOver(*handover));
-  // An answer of the world that was made for the process before says nothing new.
+  // An answer that the world gave to the process before changes nothing.
   RosterEntry old = Placed(Rounds::kWorld, {});
   after.Step({.now = rounds.tick * rounds.options.tick_period, .roster = old});
   EXPECT_EQ(after.HandOver(), handover);

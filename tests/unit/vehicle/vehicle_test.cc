@@ -20,7 +20,7 @@ __attribute__((noinline)) void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size)) return memory;
   throw std::bad_alloc();
 }
-// The library's own would not be counted, and not be free's to end.
+// Otherwise the library's own would be used: not counted, and not compatible with free().
 __attribute__((noinline)) void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
   return std::malloc(size);
@@ -71,8 +71,8 @@ TEST(Vehicle, ALostTickIsBridgedAndCostsCertainty) {
   EXPECT_GT(SigmaPosition(bridged.beacon.covariance), SigmaPosition(out.beacon.covariance));
 }
 
-// A process that stood still while its vehicle braked and stood: what the encoders counted says how
-// far it came, not the speed before or after.
+// A process that was paused while its vehicle braked and stood: the encoder count says how far it
+// went, not the speed before or after.
 TEST(Vehicle, AfterAPauseItKnowsByItsEncodersHowFarItRolled) {
   BrainBench bench(test::DefaultOptions());
   RangeScan scan = ClearScan(0);
@@ -176,7 +176,7 @@ TEST(Vehicle, ANewWorldEpochForgetsThatItTurned) {
   EXPECT_EQ(out.command.decision.rule, Rule::kDeaf);
 }
 
-// One number that is none, once in the pose, would never leave it again.
+// A NaN in the pose would never leave it again.
 TEST(Vehicle, AScanThatCannotBeItsOwnIsRefusedAndCounted) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const auto refused = [](auto spoil) {

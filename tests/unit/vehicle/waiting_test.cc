@@ -115,8 +115,8 @@ TEST(KeepOrder, WhoPassedBeforeItWaitedHasNotBeenLetPass) {
   EXPECT_EQ(vehicle.PlaceInOrder(), 0U);
 }
 
-// In a world at half speed steps come twice a tick: a wait longer than the world's time would be
-// refused by every peer.
+// In a world at half speed steps come twice a tick: peers would reject a wait longer than the
+// world's time.
 TEST(KeepOrder, StepsWithoutANewTickAreNoWaiting) {
   Waiting vehicle;
   vehicle.DriveUpTo({Coming(2)});

@@ -1,5 +1,5 @@
-// A control loop on a table: a link that a test scripts turn by turn, and a clock that moves only
-// when the loop waits. No sockets, no time.
+// A control loop on the bench: a link that a test scripts turn by turn, and a clock that moves only
+// when the loop waits. No sockets, no real time.
 #pragma once
 
 #include <algorithm>
@@ -129,7 +129,7 @@ class ScriptedLink final : public link::DriveLink {
   bool lacks_body_ = false;
 };
 
-// The world's word on vehicle 1, which it gave its place.
+// The world's entry for vehicle 1, to which it gave its place.
 inline RosterEntry Entry(RunState state, WorldEpoch epoch = kEpoch) {
   return {.session = kSession,
           .vehicle = VehicleId{1},
@@ -175,13 +175,13 @@ class LoopBench {
   // After that many turns it is asked to stop.
   void StopAt(std::uint32_t turn) { stop_at_ = turn; }
   void StopAsItAsksForTime() { stops_as_it_asks_ = true; }
-  // At the end of that turn an order takes a restart.
+  // At the end of that turn an order requests a restart.
   void OrderRestartAt(std::uint32_t turn) { order_at_ = turn; }
 
   ScriptedLink& Link() { return link_; }
   const VehicleLoop& Loop() const { return *loop_; }
   SteadyTime Now() const { return clock_.Now(); }
-  // How much it had sent whenever it said that its first scan is answered.
+  // How much it had sent each time it reported that its first scan is answered.
   const std::vector<std::size_t>& FirstScans() const { return answered_; }
 
  private:

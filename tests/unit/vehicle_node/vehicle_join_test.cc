@@ -11,7 +11,7 @@ namespace {
 
 constexpr VehicleId kOne{1};
 
-// One that is stopped after so many looks at the clock.
+// A vehicle that is stopped after it has read the clock so often.
 class Joining : public ::testing::Test {
  protected:
   Joining() {

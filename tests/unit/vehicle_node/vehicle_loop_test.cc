@@ -15,7 +15,7 @@ constexpr WorldEpoch kNextWorld{8};
 
 Arrival ScanOnly(std::uint32_t turn) { return {.scan = Scan(turn), .beacons = {}, .roster = {}}; }
 
-// Scans, and once another word of the world.
+// Scans, and once another answer of the world.
 ScriptedLink::Script ScansAnd(std::uint32_t turn_of_entry, const RosterEntry& entry) {
   return [=](std::uint32_t turn) {
     Arrival arrival = ScanOnly(turn);
@@ -247,7 +247,7 @@ TEST(VehicleLoop, WhoseInterfaceChangedEndsWithoutAWord) {
   EXPECT_THAT(bench.Link().SaidBesides(), IsEmpty());
 }
 
-// Beacons that come between two ticks are decided by with the next one.
+// Beacons that arrive between two ticks count in the decision of the next one.
 TEST(VehicleLoop, InLockstepHoldsBeaconsUntilATick) {
   LoopBench bench(
       [](std::uint32_t turn) {

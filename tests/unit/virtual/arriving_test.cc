@@ -1,4 +1,4 @@
-// Who can arrive, when, and how near where wheels slip.
+// Which vehicles can arrive, when, and how near with slipping wheels.
 #include "sim_world/virtual/arriving.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// What a beacon claims holds the body as long as it drives as it said, and no longer.
+// The claim of a beacon holds the body as long as the vehicle drives as its beacon said, and no
+// longer.
 #include "sim_world/virtual/claims.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +20,7 @@ class ClaimsTest : public testing::Test {
     beacon_.cruise_m_s = 0.3;
     beacon_.wheels = WheelsFromTwist(beacon_.drive, {0.3, 0});
   }
-  // One tick of driving as the truth has it; how many left their claims.
+  // One tick of driving, by the truth; returns how many left their claims.
   std::size_t Drive(double forward_m_s, double moved_m, Claims* claims) {
     ++tick_;
     now_[0].position_world.x += moved_m;

@@ -1,4 +1,4 @@
-// Who drives too near to what, and who only stands or leaves.
+// Which vehicles drive too near to what, and which only stand or leave.
 #include "sim_world/virtual/clearance.h"
 
 #include <gtest/gtest.h>
@@ -94,7 +94,7 @@ TEST_F(ClearanceTest, EachTimeIsToldOnce) {
   EXPECT_EQ(clearance.Observe(now_, {})[0].other, VehicleId{2});
 }
 
-// Counted and named; a run passes all the same unless it is held to it.
+// Counted and named; a run passes nevertheless unless it is held to it.
 TEST_F(ClearanceTest, IsNoReasonToFailUnlessAskedFor) {
   now_[1].position_world = {0.54, 0};
   InvariantLimits limits;

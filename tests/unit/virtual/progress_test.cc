@@ -1,4 +1,4 @@
-// Who is wedged, and who only waits.
+// Which vehicles are wedged, and which only wait.
 #include <gtest/gtest.h>
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The virtual fleet's radio: who hears what and when, by statistics where it draws.
+// The virtual fleet's radio: which vehicle receives what and when, by statistics where it draws.
 #include "sim_world/virtual/radio.h"
 
 #include <gtest/gtest.h>

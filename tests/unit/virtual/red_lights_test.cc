@@ -1,4 +1,4 @@
-// Who passes a red light, and who only comes near.
+// Which vehicles pass a red light, and which only come near.
 #include "sim_world/virtual/red_lights.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Campaign files: what they say, and what is refused, all of it at once.
+// Campaign files: what they contain, and that all problems are reported together.
 #include "services/config/campaign/campaign_file.h"
 
 #include <gmock/gmock.h>

@@ -19,8 +19,7 @@ inline CampaignPlan SmallCampaign() {
   return plan;
 }
 
-// What a run of a seed might have come to: figures that differ from seed to seed. Every ninth
-// fails.
+// Invented results of a seed: figures that differ from seed to seed. Every ninth fails.
 inline BatchTotals PretendedRun(std::uint32_t seed) {
   BatchTotals totals;
   totals.runs = 1;

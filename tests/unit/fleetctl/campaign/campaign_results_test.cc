@@ -1,4 +1,4 @@
-// Results out of files and logs: those that stand there, and in words what is none.
+// Results from files and logs: those that are there, and a message for what is none.
 #include "services/fleetctl/campaign/campaign_results.h"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST(CampaignResults, StandAmongTheLinesOfALog) {
   EXPECT_EQ(had.shards[1].where, file + ":5");
 }
 
-// Those of all pods of a large campaign come in one stream.
+// The results of all pods of a large campaign come in one stream.
 TEST(CampaignResults, AreFoundInALogOfAnySize) {
   const TempFolder folder;
   const std::string noise(kMaxFileBytes, 'x');

@@ -1,4 +1,4 @@
-// Which runs are whose: each of exactly one shard, and all shards alike.
+// How runs are divided among shards: each run belongs to exactly one, and shards are of equal size.
 #include "services/fleetctl/campaign/campaign_runs.h"
 
 #include <gmock/gmock.h>

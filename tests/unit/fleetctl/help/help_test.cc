@@ -1,4 +1,4 @@
-// What the command line says of itself: the verb or flag that was probably meant, and completion.
+// Help of the command line: the verb or flag that was probably meant, and completion.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

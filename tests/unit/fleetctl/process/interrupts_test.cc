@@ -1,4 +1,4 @@
-// An interrupted verb ends whatever it is doing: a library that hangs does not keep it.
+// An interrupted verb ends whatever it is doing, even if a library hangs.
 #include "services/fleetctl/process/interrupts.h"
 
 #include <gtest/gtest.h>

@@ -35,14 +35,14 @@ TEST(ProcessResources, ANameMayHoldBracketsAndSpaces) {
   EXPECT_DOUBLE_EQ(resources->cpu_s, 3.0);
 }
 
-// The process had gone when its file was read, or while it was.
+// The process ended before or while its file was read.
 TEST(ProcessResources, HalfAFileIsNothing) {
   EXPECT_FALSE(ParseResources("", kStatus, kTicksPerSecond));
   const std::string whole = StatOf("giveway-vehicle");
   EXPECT_FALSE(ParseResources(whole.substr(0, whole.find(" 50 33")), kStatus, kTicksPerSecond));
 }
 
-// Of one that has ended and was not waited for yet.
+// A zombie: ended, but not waited for yet.
 TEST(ProcessResources, WithoutMemoryThereIsStillTheTime) {
   const auto resources = ParseResources(StatOf("sh"), "Name:\tsh\nThreads:\t1\n", kTicksPerSecond);
   ASSERT_TRUE(resources);

@@ -1,4 +1,4 @@
-// Where the key of a fleet is found, by an account that has another environment than the run.
+// Where the key of a fleet is found by an account with another environment than the run.
 #include "services/fleetctl/process/run_key.h"
 
 #include <gtest/gtest.h>

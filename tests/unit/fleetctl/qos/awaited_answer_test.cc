@@ -1,4 +1,4 @@
-// Which answer to an order counts, of the service's own and of an intruder's.
+// Which answer to an order counts: the service's own or an intruder's.
 #include "services/fleetctl/qos/awaited_answer.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// A replay is bit for bit, and whatever is not the same is found at its step.
+// A replay is bit for bit, and any difference is found at its step.
 #include "services/fleetctl/replay/replayer.h"
 
 #include <gmock/gmock.h>
@@ -195,7 +195,7 @@ TEST_F(RingReplayTest, AnImageThatIsNoBrainOrAnotherIsRefused) {
   EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("another vehicle's"));
 }
 
-// Its process died as it had started another file.
+// Its process died right after starting another file.
 TEST_F(RingReplayTest, AnImageWithoutAStepProvesSomethingBehindTheFileBeforeAlone) {
   second_.resize(2);
   EXPECT_THAT(ReplayOf(second_).finding, HasSubstr("no step"));

@@ -1,4 +1,4 @@
-// What is called worse of two soaks, and that equal ones are not.
+// Which differences of two soaks are called worse, and that equal ones are not.
 #include "services/fleetctl/report/report_compare.h"
 
 #include <gmock/gmock.h>

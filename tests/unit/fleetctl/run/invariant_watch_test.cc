@@ -1,4 +1,4 @@
-// What an observer of a real run holds against it, and what it must not.
+// Which violations an observer of a real run reports, and which it must not.
 #include "services/fleetctl/run/invariant_watch.h"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-// Which answers end the wait for a ring to be kept.
+// Which answers end the wait for rings to be kept.
 #include <gtest/gtest.h>
 
 #include "services/fleetctl/soak/ring_keeper.h"

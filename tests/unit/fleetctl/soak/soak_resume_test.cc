@@ -87,7 +87,7 @@ TEST(SoakResume, WhatIsSavedComesBackAndIsForgottenWithTheVerdict) {
   EXPECT_THROW(LoadSoFar(folder.Path()), InputError);
 }
 
-// A machine may die while it saves: there is the one before, or the new one.
+// A machine may die while it saves: the file is then the old or the new one.
 TEST(SoakResume, IsSavedWholeOrNotAtAll) {
   const TempFolder folder;
   ASSERT_EQ(SaveSoFar(SampleSoak(3), folder.Path()), "");

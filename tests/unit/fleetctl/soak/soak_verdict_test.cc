@@ -14,7 +14,7 @@ using ::testing::SizeIs;
 constexpr VehicleId kOne{1};
 constexpr VehicleId kTwo{2};
 
-// A run in which vehicle 1 was killed at 10 s, was noticed after 150 ms, and all was well.
+// A run in which vehicle 1 was killed at 10 s, its peers noticed after 150 ms, and nothing failed.
 class SoakVerdictTest : public testing::Test {
  protected:
   SoakVerdictTest() {

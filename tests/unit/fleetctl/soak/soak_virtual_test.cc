@@ -44,7 +44,7 @@ class SoakVirtualTest : public testing::Test {
   faults::Schedule schedule_;
 };
 
-// Of the invariants that are counted only, where a run is not held to them, nothing is broken.
+// Nor is any invariant broken that is only counted in such a run.
 TEST_F(SoakVirtualTest, NeverFailsWithoutSayingWhy) {
   scenario_ = WithPlacesFilled(LoadScenario("warehouse_loop", {0, std::nullopt, std::nullopt}), 20);
   for (std::uint32_t vehicle = 1; vehicle <= 20; ++vehicle) {

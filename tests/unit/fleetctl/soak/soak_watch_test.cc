@@ -147,14 +147,14 @@ TEST_F(SoakWatchTest, ALimitedRateIsSeenWhereOtherFaultsLeaveLessThanItPasses) {
   EXPECT_THAT(watch.Courses()[0].effect, HasSubstr("counted 40 packets"));
 }
 
-// What a vehicle's status says of an intruder's packets.
+// A vehicle's status that counts an intruder's packets.
 VehicleStatus Attacked(VehicleId vehicle, PacketDrop drop, std::uint64_t packets) {
   VehicleStatus status = Driving(vehicle);
   status.packets.packets[static_cast<std::size_t>(drop)] = packets;
   return status;
 }
 
-// The effect of a fault of that kind on the second vehicle, by two statuses, one before it.
+// The effect of a fault of that kind on the second vehicle, from a status before it and one after.
 std::string EffectOf(faults::Kind kind, const VehicleStatus& before, const VehicleStatus& now) {
   const faults::Schedule schedule{On(kTwo, kind, 2)};
   SoakWatch watch({kOne, kTwo}, schedule);

@@ -60,7 +60,7 @@ constexpr const char* kUdp =
     "  13: 00000000:1F90 00000000:0000 07 00000000:00000000 00:00000000 00000000     0        0 "
     "778 2 0000000000000000 0\n";
 
-// A /proc with one vehicle, 42, in a world of files of its own.
+// A /proc with one vehicle, 42, in a file system of its own.
 class MadeProc : public testing::Test {
  protected:
   MadeProc() {
@@ -123,8 +123,8 @@ TEST_F(MadeProc, ServicesAreFoundByTheirProgramAndNothingElseIs) {
   EXPECT_TRUE(members[1].is_world);
 }
 
-// Three vehicles without --id were distinguished by ear alone, and in containers, where all are
-// process 1, not at all.
+// Regression: three vehicles without --id were distinguished by discovery alone, and in containers,
+// where all are process 1, not at all.
 TEST_F(MadeProc, AVehicleIsKnownByTheIdThatTheWorldGaveIt) {
   for (const char* pid : {"51", "52"}) {
     Write(std::string(pid) + "/cmdline", Zeros({"giveway-vehicle", "--domain", "7"}));
@@ -146,7 +146,7 @@ TEST_F(MadeProc, AVehicleIsKnownByTheIdThatTheWorldGaveIt) {
   EXPECT_EQ(situation->participant, "010f45d2a3b1000001000000");
 }
 
-// A bridge of a container engine without a container: the library's host id is without it.
+// A container engine's bridge without a container: the library's host id does not include it.
 TEST_F(MadeProc, AnInterfaceWithoutCarrierHasNoAddressForTheLibrary) {
   const auto all = ReadSituation(folder_, 42)->addresses;
   ASSERT_TRUE(all && all->size() > 1);
@@ -242,7 +242,8 @@ TEST(ProcText, NonsenseIsNothing) {
   EXPECT_THAT(ZeroEnded(""), IsEmpty());
 }
 
-// Of two fleets in one domain number the one that could be heard was taken without a word.
+// Regression: of two fleets in one domain number the one that could be received was taken without a
+// warning.
 TEST(OtherFleetsTest, AreNamedWithWhatChoosesThem) {
   std::vector<FleetMember> members;
   members.push_back({.pid = 1, .domain = 7, .interface = "127.0.0.1", .network_namespace = 100});

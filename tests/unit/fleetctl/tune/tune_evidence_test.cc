@@ -54,7 +54,7 @@ TEST(TuneEvidence, ATrialWithTroubleCountsForNothing) {
 }
 
 TEST(TuneEvidence, AlarmsThatComeTogetherWidenTheInterval) {
-  // 4 and 16 alarms where 10 were to be expected twice: (36 + 36) / 10 over one degree of freedom.
+  // 4 and 16 alarms where 10 were expected each time: (36 + 36) / 10 over one degree of freedom.
   const std::vector<TrialEvidence> scattered = {Trial(1, 200), Trial(13, 200)};
   EXPECT_DOUBLE_EQ(Dispersion({scattered}), 7.2);
   // Another candidate's even trials count too, one trial alone and one with trouble do not.

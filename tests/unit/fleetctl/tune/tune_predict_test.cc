@@ -1,4 +1,4 @@
-// What a candidate should show, by arithmetic: held against hand-made sums and a simulation.
+// What a candidate should show, calculated: compared with sums by hand and with a simulation.
 #include "services/fleetctl/tune/tune_predict.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What a drawn fleet is, and that a seed without the draws means what it meant.
+// What a drawn fleet is, and that a seed without the draws means the same as before.
 #include "services/fleetctl/virtual/fleet_draw.h"
 
 #include <gtest/gtest.h>
@@ -127,7 +127,7 @@ TEST(FleetDraw, TheDurationIsThatOfTheRobotsDrawn) {
   });
 }
 
-// Goldens and campaigns rest on it: nothing asked for, nothing drawn, and the places are the same.
+// Goldens and campaigns rely on it: without options nothing is drawn, and the places are the same.
 TEST(FleetDraw, LeavesTheRestOfASeedAlone) {
   CaseOptions plain = MixedOf("warehouse");
   plain.fleet = {};

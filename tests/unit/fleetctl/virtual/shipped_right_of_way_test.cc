@@ -1,6 +1,6 @@
-// The shipped scenarios of right of way in virtual time: with every seed they come to what they
-// expect, and no invariant is broken. Of `head_on` who halts is not asked: the one that passes may
-// stop for a moment when the other sets off.
+// The shipped scenarios of right of way in virtual time: with every seed they meet their
+// expectation, and no invariant is broken. In `head_on` either vehicle may halt: the one that
+// passes may stop for a moment when the other sets off.
 #include <gtest/gtest.h>
 
 #include "services/config/scenario_file.h"

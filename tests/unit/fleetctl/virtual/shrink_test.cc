@@ -83,7 +83,7 @@ faults::Fault Scheduled(faults::Kind kind, std::uint32_t vehicle, std::uint32_t 
           .target = {.what = faults::Target::What::kVehicle, .vehicle = VehicleId{vehicle}}};
 }
 
-// Each of two would stop for the other; one whose wheels are stuck cannot.
+// Both would stop for each other; but one has stuck wheels and cannot.
 TEST(Shrinking, LeavesOfAScheduleTheFaultThatMatters) {
   VirtualCase made;
   made.scenario = sim::MakeCrossing({6, 3});
@@ -139,7 +139,7 @@ TEST(ReplayFlags, NameEverythingThatGoesWrong) {
             " --loss 12.5 --jitter 60 --radio-seed 17 --fault restart:3@4.5+0.5 --fault crash:2@8");
 }
 
-// What a fault of the world draws hangs on the seed too.
+// The draws of a fault of the world depend on the seed too.
 TEST(ReplayFlags, NameTheFaultFileAndTheSeed) {
   sim::VirtualPlan plan;
   plan.seed = 17;

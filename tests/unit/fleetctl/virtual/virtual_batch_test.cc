@@ -1,4 +1,4 @@
-// Batches of virtual runs: what a seed means, and that the number of threads means nothing.
+// Batches of virtual runs: what a seed means, and that the number of threads makes no difference.
 #include "services/fleetctl/virtual/virtual_batch.h"
 
 #include <gtest/gtest.h>
@@ -79,8 +79,8 @@ TEST(VirtualBatch, ARunInWhichEveryVehicleCrashesAtOnceDoesNotPass) {
   EXPECT_TRUE(RunBatch(CaseMaker(options), {1, 2}, 1, kGoOn).failing_seeds.empty());
 }
 
-// In open_fleet the vehicles after the eighth get the places, and so the goals, of those that have
-// parked: `steer_round` for nine minutes, and "passed".
+// Regression: in open_fleet the vehicles after the eighth get the places, and so the goals, of
+// those that have parked: `steer_round` for nine minutes, and "passed".
 TEST(VirtualBatch, AVehicleBehindOneParkedOnItsGoalIsWedged) {
   Scenario scenario = LoadScenario("open_fleet", {});
   VehicleOptions first = scenario.spawns[0];
@@ -96,7 +96,7 @@ TEST(VirtualBatch, AVehicleBehindOneParkedOnItsGoalIsWedged) {
   EXPECT_FALSE(outcome.held);
 }
 
-// Four of these had vehicles that stood permanently before one whose process had been paused.
+// In four of these, vehicles stood permanently behind one whose process had been paused.
 TEST(VirtualBatch, PausedProcessesHoldNobodyUpForGood) {
   CaseOptions options;
   options.scenario = "crossing";
@@ -117,12 +117,12 @@ TEST(VirtualBatch, SwarmsThatBrokeHold) {
   }
 }
 
-// Of four thousand corridors the first did not hold: one waited for another one that was held up by
-// itself, over a third. The next three are of brains that mended it otherwise: in 645 a queue
-// turned across its lane, in 694 the third was one of a longer queue, and in 474 two that stood
-// shell to shell found no heading between each other and the walls. The last are of ten thousand
-// with the brain that held these: turning to and fro between two headings, wedged between two
-// others; in 6868, of the next, they only took longer than they were given.
+// Of four thousand corridors the first failed: a vehicle waited for one that it held up itself,
+// over a third. The next three are from brains that fixed this in other ways: in 645 a queue turned
+// across its lane, in 694 the third was part of a longer queue, and in 474 two that stood shell to
+// shell found no heading between each other and the walls. The last are from ten thousand with the
+// brain that passed these: oscillating between two headings, wedged between two others; in 6868, of
+// the next, they only took longer than the time limit.
 TEST(VirtualBatch, CorridorsThatBrokeHold) {
   const CaseMaker maker(AsInTheCampaign("corridor"));
   for (const std::uint32_t seed :
@@ -291,7 +291,7 @@ TEST(VirtualFaultFile, AVehicleThatIsNotThereIsRefused) {
   EXPECT_THROW(maker.Make(1), InputError);
 }
 
-// As `fleetctl shrink` leaves one: later than the run that was cut is no matter.
+// As `fleetctl shrink` leaves one: what comes after the end of the shortened run does not matter.
 TEST(VirtualFaultFile, AListIsTakenAsItStands) {
   const FaultFile file(
       "at { name: \"a\" nth: 7 kind: \"pause\" time_s: 900 for_s: 100 vehicle: 1 }\n");

@@ -49,8 +49,8 @@ TEST(WhyReport, PredictionAndProbeThatAgreeDecide) {
   EXPECT_THAT(ToText(deaf), HasSubstr("processes: error: partition_apart: area: "));
 }
 
-// Through a channel that loses one packet in ten a vehicle was not discovered in three seconds, and
-// said not to be heard.
+// Regression: through a channel that loses one packet in ten a vehicle was not discovered in three
+// seconds, and reported as not received.
 TEST(WhyReport, WhatShouldBeHeardIsGivenTheTimeThatALossyChannelTakes) {
   EXPECT_GE(ListenSeconds(Predict(Vehicle(1), Vehicle(2), 2)), 10);
   ProcessSituation apart = Vehicle(2);
@@ -194,7 +194,8 @@ TEST_F(WhyChoice, NobodyHearsItself) {
   EXPECT_THAT(Complaint({kThree, Named{.pid = 23}, {}}), HasSubstr("nobody hears itself"));
 }
 
-// A foreign vehicle that heard 36 samples was "no process of this machine", and the exit code 1.
+// Regression: a foreign vehicle with 36 samples received was "no process of this machine", and the
+// exit code 1.
 TEST(WhyReport, AForeignHearerIsJudgedByItsOwnReadersAsDiscovered) {
   ProbeResult probe = Heard(36);
   probe.hearer_foreign = "Eclipse Cyclone DDS";
