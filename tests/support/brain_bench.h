@@ -1,4 +1,4 @@
-// A brain on a table: feed it scans and beacons tick by tick, read what it decides. No world.
+// A brain on the bench: feed it scans and beacons tick by tick, read what it decides. No world.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ inline VehicleOptions DefaultOptions(std::uint32_t id = 1) {
   return options;
 }
 
-// For peers that are near and never heard: switched off, the ultrasonics do not gainsay them.
+// For peers that are near and never detected: switched off, the ultrasonics do not contradict them.
 inline VehicleOptions OptionsWithoutUltrasonics() {
   VehicleOptions options = DefaultOptions();
   for (SensorMount& mount : options.profile.sonar) mount.enabled = false;
@@ -123,7 +123,7 @@ class BrainBench {
                    const std::vector<QosEvent>& events) {
     std::vector<ReceivedBeacon> received;
     for (const Beacon& beacon : beacons) received.push_back(Received(beacon, Now()));
-    // The wheels turn whether or not a scan comes to say so.
+    // The wheels turn even if no scan reports it.
     if (scan) wheels_ = scan->wheels;
     counted_ = CountOn(counted_, wheels_, Seconds(options_.tick_period));
     if (scan) scan->counted = counted_;

@@ -42,7 +42,7 @@ inline Scenario Crossing(Behaviour behaviour, double cruise_1_m_s, double cruise
                      VehicleAt(2, behaviour, cruise_2_m_s, {0, -way_2}, 90, way_2 + 2.5)});
 }
 
-// What a finished run amounts to.
+// The outcome of a finished run.
 struct Outcome {
   std::set<std::uint32_t> halted;
   std::set<std::uint32_t> arrived;

@@ -56,7 +56,7 @@ class Onlooker {
                options_};
 };
 
-// A peer whose beacon of the tick before says so.
+// A peer whose beacon of the tick before states this pose.
 inline Peer PeerAt(const Pose& pose, const PoseCovariance& covariance = {},
                    WheelSpeeds wheels = {}) {
   Peer peer{.id = VehicleId{2}, .known = true};

@@ -1,5 +1,5 @@
-// A recording in memory: a brain on a table meets another at a crossing, as a vehicle's loop would
-// have recorded it.
+// A recording in memory: a brain on the bench meets another at a crossing, as a vehicle's loop
+// would have recorded it.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Writes RTPS packets byte by byte: sound ones as Fast DDS sends them, and any others.
+// Writes RTPS packets byte by byte: valid ones as Fast DDS sends them, and any others.
 // Little-endian unless a test asks for the other order. Formats: OMG RTPS 2.3, 9.4.
 #pragma once
 

@@ -1,4 +1,4 @@
-// World and brains in memory for what the virtual fleet does not carry yet: traffic lights, tiers
+// World and brains in memory for what the virtual fleet does not support yet: traffic lights, tiers
 // of ultrasonics above ideal, and radar, lidar and camera.
 #pragma once
 
@@ -58,7 +58,7 @@ class SmallFleet {
     return run_.State() != RunState::kEnded;
   }
 
-  // Changes what is heard of a vehicle against what it said; its own brain knows nothing of it.
+  // Changes what is received of a vehicle against what it sent; its own brain is unaffected.
   void Lie(std::function<void(Beacon*)> lie) { lie_ = std::move(lie); }
 
   sim::SignalHeads& Heads() { return heads_; }

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Whatever is wrong with what the operator hands in: exit code 2, a message that names the file, the
-# line and what to do, nothing started, and no waiting.
+# Any mistake in what the operator gives: exit code 2, a message that names the file, the line and the remedy,
+# nothing started, and no waiting.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
-# A small scenario that is right; each case corrupts one thing.
+# A small valid scenario; each case corrupts one thing.
 good="$SCRATCH/good.textproto"
 cat >"$good" <<'TEXT'
 name: "good"
@@ -59,7 +59,7 @@ refused "100 MB of nothing" '8388608|8 MiB' "$SCRATCH/sparse.textproto"
 yes "$(cat "$good")" 2>/dev/null | head -c 100000000 >"$SCRATCH/huge.textproto" || true
 refused "100 MB of text" '8388608|8 MiB' "$SCRATCH/huge.textproto"
 mkfifo "$SCRATCH/pipe.textproto"
-# A million walls: too large a file, and, written as short as can be, too many.
+# A million walls: too large a file, and, in the shortest notation, too many.
 wall='wall{from{x_m:0 y_m:9}to{x_m:1 y_m:9}}'
 {
   cat "$good"
@@ -127,7 +127,7 @@ refused "duration 0" 'duration' intersection_yield --duration 0
 refused "unknown behaviour" 'behaviour' intersection_yield --behaviour reckless
 refused "absent QoS file" 'no_such\.xml' intersection_yield --qos no_such.xml
 refused "QoS file that is no XML" 'good\.textproto' intersection_yield --qos "$good"
-# The library would loop for ever on these, deaf to SIGTERM: no program may hand them over.
+# On these the library would loop for ever, deaf to SIGTERM: no program may pass them on.
 for nanosec in 1500000000 -1; do
   sed "/profile_name=\"fleet_beacon_reader\"/,/<\/data_reader/ s/150000000/$nanosec/" \
     "$REPOSITORY/config/qos/default.xml" >"$SCRATCH/hangs.xml"
@@ -151,8 +151,7 @@ refused "page without a name" 'html' intersection_yield --html ""
 refused "picture nowhere" 'no_such_folder' intersection_yield --picture no_such_folder/run.svg
 refused "picture that is a folder" "$SCRATCH" intersection_yield --picture "$SCRATCH"
 
-# A world that is to carry out faults: not one that is not there, nor what is random, nor what no
-# vehicle could meet.
+# A world with faults: a file that does not exist, random rules, and faults without a target are refused.
 echo 'random { name: "a" kind: "sonar_off" mean_between_s: 5 for_s: 2 }' >"$SCRATCH/random.textproto"
 echo 'at { name: "a" kind: "sonar_off" time_s: 5 for_s: 2 vehicle: 9 }' >"$SCRATCH/absent.textproto"
 for case in "no_such no_such" "$SCRATCH/random.textproto fleetctl.faults.expand" \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `fleetctl campaign`: one JSON object however the campaign was cut, run and interrupted, and what is
-# refused, in words and with exit code 2.
+# `fleetctl campaign`: one JSON object however the campaign was divided, run and interrupted, and what is
+# refused, with a reason and exit code 2.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"
 unset JOB_COMPLETION_INDEX SLURM_ARRAY_TASK_ID PARALLEL_SEQ
@@ -21,7 +21,7 @@ campaign() {
   timeout 60 "$FLEETCTL" campaign "$@" >out 2>err || code=$?
   [[ $code -eq $wanted ]] || fail "$name: exit code $code: $(head -c 900 out err)"
 }
-# refused NAME PATTERN ARGUMENTS...: exit code 2, in words like PATTERN, and nothing on stdout.
+# refused NAME PATTERN ARGUMENTS...: exit code 2, a message like PATTERN, and nothing on stdout.
 refused() {
   local name=$1 pattern=$2
   shift 2
@@ -72,7 +72,7 @@ grep -Eq '^all +102 +0 +0 ' out || fail "for people: $(<out)"
 campaign 0 "merge of a log" merge pods.log --json
 cmp -s out whole.json || fail "of a log it comes to something else"
 
-# What is there is not run again: the file stays as it is, and is what is printed.
+# A result that exists is not computed again: the file stays as it is, and is what is printed.
 touch -d '2001-01-01' results/small.1-of-4.json
 campaign 0 "there already" shard plan.textproto --index 1 --out results
 cmp -s out results/small.1-of-4.json || fail "there already: another line"
@@ -84,7 +84,7 @@ grep -q 'of another plan or program' err || fail "of another plan: $(<err)"
 campaign 0 "replaced" merge results/*.json --json
 cmp -s out whole.json || fail "replaced: it comes to something else"
 
-# Broken invariants end in 1, and come with the line that shows each again.
+# Broken invariants give exit code 1, with the command that shows each again.
 cat >deadly.textproto <<'PLAN'
 name: "deadly"
 generator: "crossing"
@@ -142,7 +142,7 @@ refused "half a file" 'half.json: is no result of a shard' merge results/small.[
 refused "no result" 'no line of it is a result' merge plan.textproto
 refused "no file" 'does not exist' merge no_such.json
 
-# The shipped ones, and the help.
+# The shipped campaigns, and the help.
 for shipped in nightly faulty; do
   refused "$shipped" 'from 0 to' shard "$shipped" --index 99999
 done
@@ -151,7 +151,7 @@ for verb in campaign 'campaign shard' 'campaign merge'; do
   "$FLEETCTL" $verb --help >/dev/null || fail "$verb --help: exit code $?"
 done
 
-# The files of Slurm and GNU parallel: what runs a shard there is what is tried here.
+# The files of Slurm and GNU parallel: what they run for a shard is tried here.
 PATH=$(dirname "$FLEETCTL"):$PATH SLURM_ARRAY_TASK_ID=2 SLURM_CPUS_PER_TASK=2 \
   bash "$REPOSITORY/config/deploy/campaign.slurm" plan.textproto 4 slurm >/dev/null 2>err ||
   fail "campaign.slurm: $(<err)"
@@ -159,8 +159,8 @@ cmp -s slurm/small.2-of-4.json results/small.2-of-4.json || fail "campaign.slurm
 code=0
 bash "$REPOSITORY/config/deploy/campaign.slurm" plan.textproto >/dev/null 2>err || code=$?
 [[ $code -eq 2 && $(<err) == usage:* ]] || fail "campaign.slurm without arguments: exit code $code"
-# The second time over an ssh that goes nowhere, and takes nothing of the environment along: the number
-# must come through, and stdout is what comes back.
+# The second time over a stub ssh that passes on nothing of the environment: the number must come through, and
+# stdout is what comes back.
 if parallel --version 2>/dev/null | grep -q GNU; then
   PATH=$(dirname "$FLEETCTL"):$PATH
   seq 4 | parallel -N0 fleetctl campaign shard plan.textproto --of 4 --out parallel >/dev/null 2>err ||

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# fleetctl doctor on a host of our own, a mount namespace with an empty /dev/shm: what killed vehicles
-# leave there is found and removed, and nothing that lives is touched; a full shared memory, two in
-# one network without a common one, and networks without multicast are found. Needs root.
+# fleetctl doctor on a host of its own, a mount namespace with an empty /dev/shm: what killed vehicles leave
+# there is found and removed, and nothing that lives is touched; a full shared memory, two separate ones in
+# one network, and networks without multicast are found. Needs root.
 if [[ -z ${OWN_HOST:-} ]]; then
   if [[ $(id -u) -ne 0 ]] || ! unshare -nm true 2>/dev/null; then
     echo "not root: left out" >&2
@@ -29,7 +29,7 @@ doctor() {
 # says NAME CONDITION: true of the JSON of the last command.
 says() { jq -e "$2" out >/dev/null || fail "$1: not true of $(head -c 900 out): $2"; }
 
-# finds NAME RULE ARGUMENTS...: that rule alone, with all that is to be said.
+# finds NAME RULE ARGUMENTS...: that rule alone, with values and remedy.
 finds() {
   local name=$1 rule=$2
   shift 2

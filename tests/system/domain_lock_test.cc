@@ -14,7 +14,7 @@
 namespace giveway::fleetctl {
 namespace {
 
-// What else runs on this machine is no business of these tests.
+// Other programs on this machine must not affect these tests.
 bool Quiet(std::uint32_t) { return false; }
 
 class DomainLockTest : public testing::Test {
@@ -90,7 +90,8 @@ TEST_F(DomainLockTest, OtherUsersCanReadTheLockFileWhateverTheUmask) {
   EXPECT_EQ(facts.st_mode & 0777U, 0644U);
 }
 
-// A fleet in a chroot held domain 1 by a lock file no other could see; both runs were corrupted.
+// Regression: a fleet in a chroot held domain 1 by a lock file that no other could see; both runs
+// were corrupted.
 TEST_F(DomainLockTest, DomainWithoutALockButWithAParticipantIsPassedOver) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in loopback{};

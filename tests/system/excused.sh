@@ -27,7 +27,7 @@ log 2 && is "a vehicle was late"
 log 2 'vehicle 1: impairment: packets=3' && is_not "its channel was impaired"
 rm run.json && is_not "no report"
 
-# Says what a run of its own says that failed for as long as there is something in ./failures.
+# Fails with the prepared report as long as there is something in ./failures.
 FLEETCTL=$SCRATCH/fleetctl
 cat >"$FLEETCTL" <<'TEXT'
 #!/usr/bin/env bash

@@ -103,7 +103,7 @@ eyes 1 "no fleet, as JSON" top --domain "$domain" --once --wait 1 --json
 says "no fleet, as JSON" '.[0] | .world.heard == false and .vehicles == []'
 eyes 1 "nothing to listen to" listen fleet/beacon --domain "$domain" --duration 0.5
 
-# One of two is killed by plan: it stays in the table, and the other names it.
+# One of two is killed by a planned fault: it stays in the table, and the other names it.
 marked() {
   "$FLEETCTL" top --domain "$domain" --json >live 2>err &
   local watching=$! code=0

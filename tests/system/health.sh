@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# /livez, /readyz and /metrics of real services, by --health and by whatever a stranger may send; a
-# loop that hangs; and stops: within a second of SIGTERM, with exit code 0, distinguished from a loss.
+# /livez, /readyz and /metrics of real services, by --health and by arbitrary requests of strangers; a loop
+# that hangs; and stops: within a second of SIGTERM, with exit code 0, distinguished from a loss.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 FIRST_PORT=$((21000 + DOMAIN * 10))
@@ -51,7 +51,7 @@ stops() {
   ended "$1" 0 "$since" 1000
 }
 
-# --- No world: live, and not ready; and it need not come for a vehicle to stop.
+# --- No world: live, and not ready; and a vehicle stops without one.
 start alone giveway-vehicle --health-port "$A"
 await_health "no world" 5 "$A" ready 1 'not joined: no answer from a world'
 await_health "no world, alive" 1 "$A" live 0 '^live$'
@@ -66,7 +66,7 @@ await_health "a drives" 15 "$A" ready 0 '^ready$'
 await_health "b drives" 15 "$B" ready 0 '^ready$'
 id_b=$(id_of b)
 
-# --- Metrics are those of this moment, and of the fleet's own counting.
+# --- Metrics are current, and equal the fleet's own counts.
 await "a drives" 5 a 'cruise'
 sleep 0.3 # a status
 turns=$(metric "$A" giveway_vehicle_loop_turns_total)
@@ -77,7 +77,7 @@ turns=$(metric "$A" giveway_vehicle_loop_turns_total)
 [[ $(metric "$WORLD" 'giveway_world_run_state{state="running"}') == 1 ]] || fail "the run"
 (($(metric "$A" giveway_vehicle_loop_turns_total) > turns)) || fail "the metrics of a stand still"
 
-# --- A port is taken by one: with its remedy, and at once.
+# --- A port that is taken: refused at once, with a remedy.
 since=$(date +%s%N)
 start second giveway-vehicle --health-port "$A"
 ended second 2 "$since" 2000
@@ -175,7 +175,7 @@ if tail -n "+$((line + 1))" "$SCRATCH/a.log" | grep -E "(stale|lost|missed).*veh
 fi
 [[ $(metric "$A" giveway_vehicle_liveliness_lost_total) == "$lost" ]] || fail "a counted a loss"
 
-# --- b's disk was full: it said so and drove on; so does its recording.
+# --- b's disk was full: it reported that and drove on; so does its recording.
 grep -q 'error .*the recording ends here: .*b.tape: File too large' "$SCRATCH/b.log" ||
   fail "b did not say that its disk is full"
 "$FLEETCTL" replay "$SCRATCH/b.tape" | grep -q 'could not be written: File too large' ||
@@ -200,7 +200,7 @@ await_health "a taken id" 5 "$B" ready 1 "not joined: the world lets it wait: .*
 await_health "a taken id, alive" 1 "$B" live 0 '^live$'
 stops twin
 
-# --- At any moment of joining, from when it handles the signal: before, it is not yet itself.
+# --- At any moment of joining, once it handles the signal: before that it is still the shell.
 handles_term() { # NAME
   local handled of="/proc/${PID[$1]}"
   for _ in $(seq 400); do
@@ -259,7 +259,7 @@ stops a
 [[ -e $SCRATCH/a.2.tape ]] || fail "a's recording was not split"
 "$FLEETCTL" replay "$SCRATCH"/a.*tape || fail "a's recording: exit code $?"
 
-# --- A loop that hangs does not see SIGTERM: the process ends all the same, and says so by its code.
+# --- A loop that hangs does not see SIGTERM: the process ends nevertheless, and its exit code says so.
 kill -USR2 "${PID[c2]}"
 await "c2 hangs" 2 c2 'the control loop hangs'
 since=$(date +%s%N)
@@ -286,7 +286,7 @@ start_unread d --health-port "$A" --log-level debug
 await_health "d drives" 10 "$A" ready 0 '^ready$'
 await_health "d's log is not read" 1 "$A" live 0 '^live$'
 [[ $(metric "$A" giveway_vehicle_log_lines_dropped_total) =~ ^[0-9]+$ ]] || fail "d: dropped lines"
-# --- A loop that hangs for longer ends with its process, which says where all of its threads are.
+# --- A loop that hangs for longer ends with its process, which logs where all of its threads are.
 start c3 giveway-vehicle --health-port "$C" --hang-on-signal
 await_health "c3 drives" 10 "$C" ready 0 '^ready$'
 since=$(date +%s%N)

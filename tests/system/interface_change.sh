@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A vehicle whose network interface is taken away and comes back otherwise, as another device or with
-# another address, would be deaf permanently: it ends with exit code 1 within three seconds, and drives on
-# from where it stands once it is started again. The other vehicle drives through. The world and the two
-# have network namespaces of their own, joined by a bridge. Needs root.
+# A vehicle whose network interface is removed and comes back differently, as another device or with another
+# address, would receive nothing any more: it ends with exit code 1 within three seconds, and drives on from
+# where it stands once it is restarted. The other vehicle drives on throughout. The world and the two have
+# network namespaces of their own, joined by a bridge. Needs root.
 if [[ -z ${OWN_NETWORK:-} ]]; then
   if [[ $(id -u) -ne 0 ]] || ! unshare -nm true 2>/dev/null; then
     echo "not root: left out" >&2
@@ -66,8 +66,8 @@ ends() {
     "$SCRATCH/$name.log" || fail "$what: $name does not say why: $(tail -n 3 "$SCRATCH/$name.log")"
 }
 
-# drives_through WHAT NAME LINE: since this line of its log it halted for nothing but a machine that is
-# late, whose ranges are old.
+# drives_through WHAT NAME LINE: since this line of its log it halted only for stale ranges, as on a late
+# machine.
 drives_through() {
   if tail -n "+$(($3 + 1))" "$SCRATCH/$2.log" | grep halt | grep -qv ranges_stale; then
     fail "$1: $2 was stopped by it: $(tail -n 3 "$SCRATCH/$2.log")"

@@ -11,7 +11,7 @@ now_ms() { echo $(($(date +%s%N) / 1000000)); }
 interrupt() {
   local name=$1 delay=$2 run world domain start_ms code=0 signal
   shift 2
-  # The picture does not fit on the disk: the verdict stands all the same, and is the only one.
+  # The picture does not fit on the disk: the verdict is given nevertheless, and is the only one.
   (
     ulimit -f 4 # KiB
     exec "$FLEETCTL" run intersection_yield --json --picture "$SCRATCH/picture.svg"

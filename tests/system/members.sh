@@ -67,7 +67,7 @@ no_contact() {
 }
 
 # Starts a process that only sleeps, 20 ms at a time, and notes each time that it was woken 40 ms late or
-# more: then the machine was too busy for vehicles, too, whose ranges are stale after 150 ms.
+# more: then the machine was too busy for vehicles too, whose ranges are stale after 150 ms.
 keep_time() {
   : >"$SCRATCH/late_us"
   (

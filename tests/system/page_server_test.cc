@@ -39,7 +39,7 @@ std::uint16_t FreePort() {
   return ntohs(address.sin_port);
 }
 
-// Follows the stream with as small a buffer as the kernel gives.
+// Follows the stream with the smallest buffer that the kernel allows.
 class SlowClient {
  public:
   explicit SlowClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -57,7 +57,7 @@ class SlowClient {
   SlowClient(const SlowClient&) = delete;
   SlowClient& operator=(const SlowClient&) = delete;
 
-  // What comes until a frame of at least this number; all there is where none comes.
+  // What arrives until a frame of at least this number; everything if none comes.
   std::string ReadUntilFrame(int number) const {
     std::string text;
     std::array<char, 4096> some;
@@ -90,7 +90,7 @@ class PageServerTest : public ::testing::Test {
     sources.frames = board;
     return sources;
   }
-  // A hundred a second, for so long; the number of the last.
+  // A hundred a second, for that long; returns the number of the last.
   int Publish(milliseconds time) {
     const auto end = std::chrono::steady_clock::now() + time;
     while (std::chrono::steady_clock::now() < end) {
@@ -128,7 +128,7 @@ TEST_F(PageServerTest, AClientThatWasSlowIsSoonAtTheNewestFrame) {
   over = true;
   publisher.join();
   EXPECT_GE(SlowClient::Newest(text), newest);
-  // What waited in the kernel on both sides, and no more: not the megabytes it would take.
+  // Only what waited in the kernel on both sides, not the megabytes of the whole stream.
   EXPECT_LT(text.size(), 15 * kFrameBytes);
 }
 

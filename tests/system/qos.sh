@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 sets=$REPOSITORY/config/qos
 bad=$REPOSITORY/tests/unit/qos/bad_qos
-# Variables of this shell would be findings of their own.
+# Variables of this shell would add findings.
 unset GIVEWAY_QOS GIVEWAY_INTERFACE FASTRTPS_DEFAULT_PROFILES_FILE ROS_DISCOVERY_SERVER
 cd "$SCRATCH"
 

@@ -14,7 +14,7 @@ await "the first two drive (b)" 15 b 'cruise'
 # The lanes cross, so vehicles also wait for each other.
 DRIVES='cruise|keep_clear|give_way|not_granted'
 
-# As itself: its id is asked for, and its body still stands where it was left.
+# Under its id: its body still stands where it was left.
 id=$(id_of b)
 listen_places b "$DOMAIN" "$id"
 await_places b 1 25 # it drives
@@ -22,7 +22,7 @@ kill_now b
 start b2 giveway-vehicle --id "$id"
 await "killed and restarted by its id" 5 b2 'cruise'
 
-# As another: any id, another place. The body of the dead one is taken away in time.
+# Under another: any id, another place. The body of the dead one is removed in time.
 kill_now a
 start a2 giveway-vehicle
 await "killed and restarted by any id" 5 a2 'cruise'
@@ -59,7 +59,7 @@ for name in b2 a2 e; do
   unset "PID[$name]"
   [[ $code -eq 0 ]] || fail "after the end: exit code $code of $name"
 done
-# The new process knows where the body was left, and drives on and not back.
+# The new process knows where the body was left, and drives on, not back.
 end_listening
 places b | jq -e 'length == 2 and all(.[]; .beacons > 5 and .beyond_m < 0.1) and
   .[1].first_toward == .[0].last_toward' >/dev/null ||

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What vehicles of real runs recorded comes out the same to the bit: of a crossing, of one whose
-# second vehicle is killed with -9, and of a file that was corrupted on the disk, as far as it can be.
+# Recordings of real runs replay to the bit: of a crossing, of one whose second vehicle is killed with -9, and
+# of a file corrupted on the disk, as far as possible.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 # replayed FILE CONDITION: true of the only file's entry in the report.

@@ -192,8 +192,8 @@ whole() {
     fail "a recording of the soak does not replay"
 }
 
-# Shared memory that is littered and full, and a system clock that jumps: each is seen to happen,
-# and the machine's own /dev/shm and clock are left alone.
+# Littered and full shared memory, and a system clock that jumps: each shows in the report, and the machine's
+# own /dev/shm and clock are left alone.
 host() {
   local code=0 shm before
   [[ $(id -u) -eq 0 ]] || return 0 # a /dev/shm apart needs root
@@ -213,7 +213,7 @@ host() {
   ((SECONDS - before < 300)) || fail "the clock of this script jumped"
 }
 
-# An intruder on loopback: each of its faults is seen by what its target or the peers count, no process
+# An intruder on loopback: each of its faults shows in the counters of its target or the peers, no process
 # ends, and all drive on.
 intruded() {
   local code=0 attacker=${FLEETCTL%/*}/attacker

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fleetctl stopwatch: the shipped profile keeps every promise; what is refused, AUTOMATIC
-# liveliness among it; and Ctrl-C.
+# fleetctl stopwatch: the shipped profile keeps every promise; what is refused, including AUTOMATIC
+# liveliness; and Ctrl-C.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE
 cd "$SCRATCH"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fleetctl why on real processes: each reason why one vehicle cannot hear another is named, and the
-# probe agrees; what is no reason is not named. Other namespaces need root, and are left out without.
+# fleetctl why on real processes: each reason why one vehicle cannot receive another is named, and the probe
+# agrees; what is no reason is not named. Other namespaces need root, and are skipped without it.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
@@ -35,8 +35,8 @@ hears() { # NAME A B: on every topic, predicted and probed, with no findings
     and all(.topics[]; .verdict == "hears" and .predicted == "hears" and .samples > 0 and .matched)'
 }
 
-# More places than lanes.textproto has, and the same in another area. The first starts the run: a
-# world that waits for several waits until they hear each other.
+# More places than lanes.textproto has, and the same in another area. The first starts the run: a world that
+# waits for several waits until they receive each other.
 {
   cat "$REPOSITORY/tests/system/lanes.textproto"
   echo 'start_with: 1'
@@ -92,7 +92,7 @@ says "a stopped hearer" '.disagree == false and .topics[0].samples > 0
   and .topics[0].verdict == "does not hear" and .topics[0].reasons == ["process_stopped"]'
 kill -CONT "${PID[two]}"
 
-# Each of the others has a world of its own, and speaks.
+# Each of the others has a world of its own, and sends.
 first=$DOMAIN
 one=pid:${PID[one]}
 take_domain

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The world is killed with -9 and started again, with a checkpoint, with a damaged one and without,
-# is asked to stop, and comes to the end of its run: the same vehicle processes drive again within five
-# seconds, and no two bodies touch. A vehicle without --stay ends with its run.
+# The world is killed with -9 and restarted, with a checkpoint, with a damaged one and without, is asked to
+# stop, and reaches the end of its run: the same vehicle processes drive again within five seconds, and no two
+# bodies touch. A vehicle without --stay ends with its run.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 checkpoint=$SCRATCH/world.checkpoint
@@ -68,6 +68,6 @@ for vehicle in a b c; do
   [[ $code -eq 0 ]] || fail "after the end: exit code $code of $vehicle"
 done
 no_contact
-# Their decisions in four worlds come out the same again.
+# Their decisions in four worlds replay identically.
 "$FLEETCTL" replay "$SCRATCH"/*.recording || fail "replay: exit code $?"
 [[ $failures -eq 0 ]]
