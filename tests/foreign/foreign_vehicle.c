@@ -113,7 +113,7 @@ static void Enter(const Roster* place) {
   fprintf(stderr, "joined as %u at (%.2f, %.2f)\n", place->vehicle, me.x_m, me.y_m);
 }
 
-/* Asks once a second, for a world forgets who waits and does not ask. */
+/* Asks once a second: a world forgets a vehicle that waits without asking. */
 static int Join(void) {
   const int64_t give_up = Now() + DDS_SECS(30);
   int64_t again = 0;
@@ -178,7 +178,7 @@ static struct peer* PeerOf(uint32_t id) {
   return oldest;
 }
 
-/* Believed: whole, of this world, and newer than what this life of the peer said before. */
+/* Accepted: intact, of this world, and newer than the last one of this life of the peer. */
 static void TakeBeacons(void) {
   Beacon beacon;
   void* at = &beacon;
@@ -200,7 +200,7 @@ static double SpeedOf(const Scan* scan) {
   return (scan->left_rad_s + scan->right_rad_s) / 2 * kWheelRadius_m;
 }
 
-/* To stand still from the present speed: two ticks until a command acts, one more in hand. */
+/* To stand still from the present speed: two ticks until a command acts, one more as a reserve. */
 static double StoppingDistance(void) {
   const double speed = fmax(0, SpeedOf(&me.scan));
   return speed * 3 * kTick_s + speed * speed / (2 * kDeceleration_m_s2) + 0.05;
@@ -212,7 +212,7 @@ static struct order_key OwnKey(void) {
   return (struct order_key){0, (uint32_t)bucket, me.id};
 }
 
-/* A peer that will not move by itself stands where it is, and is no matter of right of way. */
+/* A peer that will not move by itself stays where it is, and right of way does not apply to it. */
 static bool StaysPut(const Beacon* beacon) {
   return beacon->rule == giveway_wire_RULE_ARRIVED || beacon->rule == giveway_wire_RULE_NOT_RUNNING;
 }

@@ -1,6 +1,6 @@
 // A crowd, pinned: 200 vehicles as discs and boxes, with slip and encoder noise, walls, a cart, a
-// box on rails and doors. The same bits for every order of joining and every cut of the work. A
-// change of the hash is a change of behaviour; put the new one here only when that was meant.
+// box on rails and doors. The same bits for every order of joining and every division of the work.
+// A change of the hash is a change of behaviour; update it only when that was intended.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -103,7 +103,7 @@ Scenario Unequal(Behaviour behaviour) { return Crossing(behaviour, 0.4, 0.3); }
 
 Scenario Equal(Behaviour behaviour) { return Crossing(behaviour, 0.3, 0.3); }
 
-// Before a crossing and near each other, at a standstill.
+// Before a crossing, near each other, at standstill.
 Scenario StandingAtACrossing(Behaviour behaviour) {
   return ScenarioOf({VehicleAt(1, behaviour, 0.4, {-0.9, 0}, 0, 4),
                      VehicleAt(2, behaviour, 0.3, {0, -0.9}, 90, 4)});
@@ -134,7 +134,7 @@ Scenario PastOneThatTurns(Behaviour behaviour) {
   return scenario;
 }
 
-// Vehicle 2 is in reach of the radio alone.
+// Vehicle 2 is only within radio range.
 Scenario AlongAWall(Behaviour behaviour) {
   Scenario scenario = ScenarioOf(
       {VehicleAt(1, behaviour, 0.3, {0, 0}, 0, 4), VehicleAt(2, behaviour, 0.4, {0, 2.5}, 180, 3)});
@@ -170,7 +170,7 @@ bool BothStandForEver(const Story& s) {
   return s.both_at_once && s.halted == Ids{1, 2} && s.arrived.empty();
 }
 
-// Without the third it would at least mean to: MatchesSpeed.
+// Without the third it would at least react: MatchesSpeed.
 bool GivesWayToNobody(const Story& s) { return s.contacts > 0 && s.gave_way.empty(); }
 
 bool BelievesTheDead(const Story& s) { return s.last_for_dead_s > 3 + 30; }
@@ -195,7 +195,7 @@ struct Flaw {
   friend void PrintTo(const Flaw& flaw, std::ostream* out) { *out << flaw.name; }
 };
 
-// The tenth is of the lecture's other behaviour, Braitenberg's vehicle 2a.
+// The tenth concerns the lecture's other behaviour, Braitenberg's vehicle 2a.
 const Flaw kFlaws[] = {
     {"No1TheLoserCopiesThePeersSpeed", Unequal, MatchesSpeed},
     {"No2EqualSpeedsSendBothToGiveWay", Equal, BothGiveWayAndMeet},

@@ -217,7 +217,7 @@ inline Remember(i) {
   rests[i] = AGED_AT_MOST > 0 && ForgetsWaiting(!meets_any && !waits)
 }
 
-/* By the order as it should be, whatever is planted. */
+/* By the order as it should be, whatever defect is injected. */
 inline CheckOrder(i) {
   for (j : 0 .. N - 1) {
     if
@@ -306,7 +306,7 @@ inline Forget(i) {
   j = 0
 }
 
-/* Whoever is past, or out of reach, is no conflict for anybody. */
+/* A vehicle that is past, or out of reach, is no conflict for any other. */
 inline Say(i) {
 #if AGE >= 2
   Said(i, 2).place = Said(i, 1).place;
@@ -456,10 +456,10 @@ active proctype Fleet() {
 }
 
 #ifdef WEATHER
-/* Losses end some day: by weak fairness, not by any day in particular. */
+/* Losses end eventually: by weak fairness, not by a given time. */
 active proctype Weather() { good = true }
 
-/* A dead body that no longer rolls is taken away some day, unless it comes back before. */
+/* A dead body that no longer rolls is eventually removed, unless it comes back before. */
 active proctype Undertaker() {
   do
   :: atomic { !up[0] && !Rolls(place[0]) && place[0] != GONE -> place[0] = GONE }
@@ -473,6 +473,6 @@ active proctype Undertaker() {
 #ifndef WHO
 #define WHO 0
 #endif
-/* Whoever lives and has come near gets through. */
+/* A living vehicle that has come near gets through. */
 ltl passes { [] ((up[WHO] && IsNear(place[WHO])) -> <> (!up[WHO] || place[WHO] > LAST)) }
 #endif

@@ -12,7 +12,7 @@ export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$REPOSITORY/config}
   exit 2
 }
 
-# The invariant or promise that must be named of each. Of several one is enough.
+# The invariant or promise that must be named for each; of several one is enough.
 declare -A EXPECTED=(
   [none]=none
   [leak]=leak
@@ -54,7 +54,7 @@ END
   echo "$folder"
 }
 
-# schedule MUTANT: a fault file that gives the mutant something to be wrong about.
+# schedule MUTANT: a fault file that makes the mutant's defect show.
 schedule() {
   cat <<'END'
 
@@ -71,7 +71,7 @@ for mutant in "${@:-${ORDER[@]}}"; do
   }
   folder=$(programs "$mutant")
   schedule >"$folder/faults.textproto"
-  # Its text says that it happens, and no vehicle can lose what it does not hear.
+  # Its text says that it happens, but no vehicle loses anything.
   [[ $mutant != fault_without_effect ]] ||
     sed -i 's/probability: 0.6/probability: 0/' "$folder/faults.textproto"
   code=0

@@ -27,7 +27,7 @@ std::string_view Planted() {
   return name == nullptr ? "" : name;
 }
 
-// 1 kB a second, in pages that are touched.
+// 1 kB a second, in touched pages.
 [[noreturn]] void Leak() {
   constexpr std::size_t kBytes = 4096;
   while (true) {

@@ -1,5 +1,5 @@
-// Which of the defects of mutants.txt a run is to have: read once, before the first vehicle.
-// Included before everything else of the sources that are compiled with them.
+// Which of the defects of mutants.txt a run has: read once, before the first vehicle. Included
+// before everything else in the sources that are compiled with them.
 #pragma once
 
 #include <cstdlib>
