@@ -15,8 +15,8 @@ LAST_STAGES=(timed tsan debian13)
 BACKGROUND_STAGES=(format rules deploy tsan_build virtual planted model)
 BACKGROUND_IMAGES_STAGES=(asan13)
 
-# Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
-# failure: machines are shared.
+# Seconds each stage may take on two quiet cores with warm caches. A target, not a failure: machines are
+# shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
   [virtual]=150 [planted]=90 [model]=240 [system]=420 [timed]=240 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
   [images]=60 [asan13]=180 [debian13]=330 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
@@ -94,14 +94,14 @@ seeds=${seeds:-200}
 
 export GIVEWAY_FUZZ_SECONDS=${GIVEWAY_FUZZ_SECONDS:-$fuzz_seconds}
 
-# In CI warnings are errors, and the symbols are those a stack trace needs: a fifth of the compile
-# time is the rest of them.
+# In CI warnings are errors, and debug info is limited to what a stack trace needs: the rest is a fifth of the
+# compile time.
 configuration=()
 [[ ${CI:-} == true ]] && configuration=(-DGIVEWAY_WERROR=ON "-DCMAKE_CXX_FLAGS_DEBUG=-g1"
   "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG")
-# One cache for every checkout: what was compiled in another folder is not compiled again.
+# One cache for every checkout: files compiled in another folder are not compiled again.
 export CCACHE_BASEDIR=$GIVEWAY_ROOT CCACHE_NOHASHDIR=1
-# The library frees some objects by another size than it made them with.
+# The library frees some objects with another size than it allocated them with.
 export ASAN_OPTIONS=new_delete_type_mismatch=0:${ASAN_OPTIONS:-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
 export TSAN_OPTIONS=suppressions=$GIVEWAY_ROOT/tests/support/tsan.supp:${TSAN_OPTIONS:-}
@@ -181,7 +181,7 @@ junit() {
   echo "${value:-0}"
 }
 
-# What ctest, whose output this reads, printed of those that failed.
+# The part of ctest's output, read on stdin, that belongs to failed tests.
 of_failed() {
   awk '/^ *[0-9]+\/[0-9]+ Test +#[0-9]+:/ {shown = /\*\*\*(Failed|Timeout|Exception|Not Run)/}
        /^ +Start +[0-9]+:/ {shown = 0}
@@ -189,9 +189,9 @@ of_failed() {
        shown'
 }
 
-# count_cases PRESET LABEL: cases that ran and cases that failed in the programs that run all of theirs
-# in one process, then the names of those that failed. A program that was ended before it wrote its
-# file is a failed test of ctest, which counts it.
+# count_cases PRESET LABEL: cases that ran and cases that failed in the programs that run all their cases in
+# one process, then the names of those that failed. A program that ended before it wrote its file is a failed
+# test of ctest, which counts it.
 count_cases() {
   local files
   mapfile -t files < <(find "$GIVEWAY_ROOT/build/$1/cases/$2" -name '*.xml' 2>/dev/null)
@@ -218,7 +218,7 @@ run_ctest() {
   ran=$(junit "$report" tests)
   bad=$(junit "$report" failures)
   skipped=$(($(junit "$report" skipped) + $(junit "$report" disabled)))
-  # No test at all, or tests that could not even be run, are failures too.
+  # No test at all, or tests that could not be run, are failures too.
   if [[ $code -ne 0 && $bad -eq 0 ]]; then
     bad=$((skipped > 0 ? skipped : 1))
     skipped=0
@@ -241,7 +241,7 @@ run_ctest() {
   failed_names+=("${names[@]}")
 }
 
-# note_time STAGE SECONDS: its line of the table, and loudly if it took longer than it may.
+# note_time STAGE SECONDS: its line of the table, with a warning if it exceeded its budget.
 note_time() {
   local over=''
   if [[ $2 -gt ${BUDGET[$1]} ]]; then
@@ -342,7 +342,7 @@ stage_asan_link() { prepare asan link_tests && run_ctest asan link 2; }
 
 stage_fuzz() { prepare asan fuzz_tests && run_ctest asan fuzz "$(nproc)"; }
 
-# The services are what is watched; who starts them is the release's fleetctl.
+# The services are under test; the fleetctl that starts them is the release's.
 tsan_crossing() {
   local programs="$GIVEWAY_ROOT/build/tsan/watched/bin"
   mkdir -p "$programs"
@@ -392,8 +392,8 @@ run_stages() {
   done
 }
 
-# start_background STAGE...: another run of this script, which takes only what other processes leave of the
-# processor. In a session of its own: the kernel shares the processor between sessions first.
+# start_background STAGE...: another run of this script, which gets only the processor time that other
+# processes leave. In a session of its own: the kernel shares the processor between sessions first.
 start_background() {
   local log words=("$@")
   log=$(mktemp)
@@ -422,13 +422,13 @@ join_background() {
   failed_total=$((failed_total + failed))
 }
 
-# The count that ends another run's log, and the names of what failed.
+# The count at the end of another run's log, and the names of what failed.
 of_run() {
   grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" || echo "FAILED  a run in the background, which has no count"
   grep '^failed: ' "$1" || true
 }
 
-# Those of deploy now and not in the background: an installer at idle priority would keep others from installing.
+# The packages of deploy now and not in the background: an installer at idle priority would block others.
 mapfile -t packages < <(build_packages && test_packages && java_package && { ! $all || deploy_packages; })
 install_packages "${packages[@]}"
 check_java

@@ -138,7 +138,7 @@ drill_scale() {
   await "scaled down: the world has 3" "$LIMIT_S" joined 3
 }
 
-# What the deployment promises of every container, seen from the host.
+# What the deployment promises about every container, checked from the host.
 shut_in() { # CONTAINER
   local status
   status=/proc/$(pid_of "$1")/status

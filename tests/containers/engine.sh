@@ -14,7 +14,7 @@ container_packages() {
   printf '%s\n' debootstrap iptables nftables curl util-linux
 }
 
-# Leaves its process in ENGINE where it had to start one.
+# If it had to start one, leaves its process in ENGINE.
 engine_up() { engine_is_up || start_engine; }
 
 engine_down() {

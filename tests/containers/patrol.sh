@@ -33,8 +33,7 @@ refuses() { # ARGUMENTS...
   [[ $code -eq 2 ]] || fail "up.sh $*: exit code $code"
 }
 
-# Every vehicle was seen driving since the last call of begin_looking: at any one moment some stand
-# to give way.
+# Every vehicle was seen driving since the last call of begin_looking: at any moment some stand to give way.
 begin_looking() { declare -gA DRIVEN=(); }
 each_drove() {
   local container
@@ -71,7 +70,7 @@ placed() { [[ $(places) -ge $1 ]]; }
 restart_world() {
   local placed_before
   placed_before=$(places)
-  # The README's words, not docker's: the world is asked to stop, and its run is over.
+  # As the README says, not by docker: the world is asked to stop, and its run is over.
   compose restart -t 5 world >"$SCRATCH/restart.log" 2>&1 || fail "restart: $(tail -n 3 "$SCRATCH/restart.log")"
   await "world restarted: all are given a place" 20 placed $((placed_before + VEHICLES))
   drive_again "world restarted"
@@ -94,7 +93,7 @@ cut_network() {
   drive_again "network restored"
 }
 
-# Of each process that was there the whole quiet time.
+# Of each process that ran throughout the quiet time.
 judge_memory() { # FROM_SECONDS
   awk -v from="$1" -v most="$KIB_MORE" '
     $1 >= from {

@@ -64,7 +64,7 @@ for overlay in campaign 20; do
 done
 echo "ok      the clean tree is clean"
 
-# What the schemas see, and kustomize.
+# What the schemas and kustomize find.
 expect schema "a misspelt field" $B/vehicle.yaml 's/readOnlyRootFilesystem: true/&\n            runAsNonRoto: true/'
 expect schema "a field a level too high" $B/world.yaml 's/^  replicas: 1/&\n  restartPolicy: Always/'
 expect schema "a text for a number" $B/vehicle.yaml 's/failureThreshold: 60/failureThreshold: "60"/'
@@ -105,7 +105,7 @@ expect "arguments_filled" "an argument that stays unfilled" $B/discovery.yaml 's
 expect servers_found "a server with a number" $B/discovery.yaml 's/"-l"/"-i", "0", "-l"/'
 expect servers_found "a server with the lease of the library" $B/discovery.yaml 's/server.xml"/server.txt"/'
 
-# Where packets get to.
+# Network policies.
 expect "servers_found" "servers named in the wrong order" $B/kustomization.yaml \
   's/giveway-discovery-0:11811,giveway-discovery-1:11811/giveway-discovery-1:11811,giveway-discovery-0:11811/'
 expect servers_found "a server by the name of its pod" $B/kustomization.yaml 's/,giveway-discovery-1:/,giveway-discovery:/'
@@ -122,7 +122,7 @@ expect denied_by_default "no egress is denied" $B/network_policy.yaml \
 expect dns_open "no names by TCP" $B/network_policy.yaml '/protocol: TCP, port: 53/d'
 expect "health_reached" "health at another port" $B/kustomization.yaml 's/HEALTH_PORT=9101/HEALTH_PORT=9100/'
 
-# What the pods are given and denied.
+# What the pods are granted and denied.
 expect probed "a pod that is never asked" $B/world.yaml 's/livenessProbe:/lifecycle: \&never/; /lifecycle/,/failureThreshold/d'
 expect probed "readiness asked of liveness" $B/vehicle.yaml 's/path: \/readyz/path: \/livez/'
 expect bounded "no limits" $B/discovery.yaml '/limits: /d'

@@ -6,7 +6,7 @@ tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 failures=0
 
-# Fresh, clean, files in most modules.
+# A fresh tree of valid files in most modules.
 lay_out() {
   rm -rf "${tree:?}"/*
   put services/types/math/pose.h '#include <cstdint>'

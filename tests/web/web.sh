@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The observer in a browser, and its recordings in the field's own readers, also of ROS 2: a crossing live, a fleet of
-# 200 from virtual time, a recorder killed. Wants chromium, node and the built programs.
+# The observer in a browser, and its recordings in third-party readers, also of ROS 2: a crossing live, a
+# fleet of 200 from virtual time, a recorder killed. Needs chromium, node and the built programs.
 # Usage: web.sh; lines "ok NAME" and "FAILED NAME". Screenshots are kept in build/web/.
 # Exit code: 0 all ok, 1 something failed, 2 could not check.
 set -euo pipefail
