@@ -153,7 +153,7 @@ holds() {
   shift 2
   while ((SECONDS < until)); do
     "$@" || {
-      fail "$what: not at look $looks"
+      fail "$what: not at poll $looks"
       return 0
     }
     looks=$((looks + 1))

@@ -59,18 +59,18 @@ for signal in KILL TERM; do
   [[ ! -s killed.log ]] || fail "killed by $signal: it printed a result"
 done
 [[ $(find results -type f | sort | tr '\n' ' ') == *0-of-4.json*1-of-4.json*2-of-4.json\  ]] ||
-  fail "what was killed left something: $(ls -A results)"
+  fail "a killed shard left files: $(ls -A results)"
 refused "a shard lacks" 'index = 3: lacks: 1 of 4 shards; .*--of 4 --index 3' merge results/*.json
 campaign 0 "run again" shard plan.textproto --index 3 --out results
 campaign 0 "merge of four" merge results/*.json --json
-cmp -s out whole.json || fail "cut in four it comes to something else: $(diff out whole.json)"
+cmp -s out whole.json || fail "four shards give another result: $(diff out whole.json)"
 campaign 0 "merge of four, for people" merge results/*.json
 grep -Eq '^all +102 +0 +0 ' out || fail "for people: $(<out)"
 
 # As kubectl logs gives them: in one stream, between other output.
 { echo "shard 1 of 4: words"; cat results/*.json; echo; } >pods.log
 campaign 0 "merge of a log" merge pods.log --json
-cmp -s out whole.json || fail "of a log it comes to something else"
+cmp -s out whole.json || fail "a log gives another result"
 
 # A result that exists is not computed again: the file stays as it is, and is what is printed.
 touch -d '2001-01-01' results/small.1-of-4.json
@@ -82,7 +82,7 @@ cp other.json results/small.1-of-4.json
 campaign 0 "of another plan" shard plan.textproto --index 1 --out results
 grep -q 'of another plan or program' err || fail "of another plan: $(<err)"
 campaign 0 "replaced" merge results/*.json --json
-cmp -s out whole.json || fail "replaced: it comes to something else"
+cmp -s out whole.json || fail "replaced: another result"
 
 # Broken invariants give exit code 1, with the command that shows each again.
 cat >deadly.textproto <<'PLAN'
@@ -166,7 +166,7 @@ if parallel --version 2>/dev/null | grep -q GNU; then
   seq 4 | parallel -N0 fleetctl campaign shard plan.textproto --of 4 --out parallel >/dev/null 2>err ||
     fail "parallel: $(<err)"
   campaign 0 "merge of parallel" merge parallel/*.json --json
-  cmp -s out whole.json || fail "by parallel it comes to something else"
+  cmp -s out whole.json || fail "parallel gives another result"
   cat >ssh <<'SSH'
 #!/usr/bin/env bash
 # ssh [OPTION ...] HOST -- WORD ...
@@ -178,7 +178,7 @@ SSH
   seq 4 | parallel -N0 --ssh "$PWD/ssh" --sshlogin 1/here,1/there \
     fleetctl campaign shard "$PWD/plan.textproto" --of 4 >over_ssh.log 2>err || fail "parallel over ssh: $(<err)"
   campaign 0 "merge over ssh" merge over_ssh.log --json
-  cmp -s out whole.json || fail "over ssh it comes to something else"
+  cmp -s out whole.json || fail "ssh gives another result"
 else
   fail "GNU parallel is missing: apt-get install parallel"
 fi

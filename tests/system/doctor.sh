@@ -79,14 +79,14 @@ living=$(segment_of one)
 kill_now lone
 finds "one was killed" memory_stale --qos same_host
 says "one was killed" "[.memory.groups[] | select(.state == \"stale\").name] | index(\"$segment\")"
-says "another lives" "any(.memory.groups[]; .name == \"$living\" and .state == \"in_use\")"
+says "another vehicle lives" "any(.memory.groups[]; .name == \"$living\" and .state == \"in_use\")"
 doctor 0 "removed" --qos same_host --fix
 grep -qx "removed /dev/shm/$segment" out || fail "not removed: $(cat out)"
 [[ ! -e /dev/shm/$segment && ! -e /dev/shm/${segment}_el ]] || fail "$segment is there"
 [[ -e /dev/shm/$living ]] || fail "$living is gone"
 healthy "cleaned" --qos same_host
 timeout 10 "$FLEETCTL" listen fleet/beacon --domain "$DOMAIN" --qos same_host --vehicle 1 \
-  --count 5 --duration 8 >heard || fail "who lives is no longer heard: $(cat heard)"
+  --count 5 --duration 8 >heard || fail "a live vehicle is no longer heard: $(cat heard)"
 start two giveway-vehicle --id 2 --qos "$SAME"
 await "another comes" 10 two cruise
 for name in world one two; do alive "$name" || fail "$name is gone: $(tail -n 3 "$name.log")"; done

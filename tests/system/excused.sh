@@ -45,7 +45,7 @@ for times in 0 1 2 3; do
   again=0
   [[ ! -e run.json.again ]] || again=$(wc -l <run.json.again)
   [[ $code -eq $((times == 3)) ]] || fail "$times failures: exit code $code"
-  [[ $again -eq $((times < 3 ? times : 2)) ]] || fail "$times failures: made again $again times"
+  [[ $again -eq $((times < 3 ? times : 2)) ]] || fail "$times failures: repeated $again times"
 done
 
 [[ $failures -eq 0 ]]

@@ -14,7 +14,7 @@ cd "$SCRATCH"
 grep -v '^#' list.textproto | cmp - again.textproto || fail "the list does not expand to itself"
 [[ $(grep -c '^at ' list.textproto) -gt 300 ]] || fail "few faults: $(wc -l <list.textproto)"
 "$FLEETCTL" faults expand everything --seed 2 --duration 30m --vehicles 20 >other.textproto
-cmp -s list.textproto other.textproto && fail "two seeds make one list"
+cmp -s list.textproto other.textproto && fail "two seeds give the same list"
 "$FLEETCTL" faults expand radio_storm --duration 3m --vehicles 8 --text >lines ||
   fail "--text: exit code $?"
 grep -Eq '^[0-9.]+ s for [0-9.]+ s: vehicle [1-8]: loss probability=0.4  \[loss [0-9]+\]$' lines ||

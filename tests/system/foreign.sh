@@ -82,8 +82,8 @@ says "it hears ours" '.hears and .hearer_foreign == "Eclipse Cyclone DDS"
 asks 0 "its endpoints" qos show --live 5 --domain "$DOMAIN" --json
 says "its endpoints" '.foreign == "Eclipse Cyclone DDS" and any(.values[];
   .profile == "fleet_beacon_writer" and .policy == "deadline" and .value == "100 ms")'
-asks 1 "whose joins are not heard" why world 9 --domain "$DOMAIN" --seconds 2.5 --json
-says "whose joins are not heard" 'any(.findings[]; .rule == "endpoint_unfit"
+asks 1 "with joins that no world reads" why world 9 --domain "$DOMAIN" --seconds 2.5 --json
+says "with joins that no world reads" 'any(.findings[]; .rule == "endpoint_unfit"
   and (.values | test("fleet/join in fleet .*durability offered VOLATILE, requested TRANSIENT_LOCAL")))
   and any(.findings[]; .values | test("fleet/join with no partition"))'
 

@@ -75,7 +75,7 @@ turns=$(metric "$A" giveway_vehicle_loop_turns_total)
 [[ $(metric "$A" 'giveway_vehicle_mode{mode="cooperative"}') == 1 ]] || fail "a: mode"
 [[ $(metric "$WORLD" giveway_world_vehicles_joined) == 2 ]] || fail "the world: vehicles joined"
 [[ $(metric "$WORLD" 'giveway_world_run_state{state="running"}') == 1 ]] || fail "the run"
-(($(metric "$A" giveway_vehicle_loop_turns_total) > turns)) || fail "the metrics of a stand still"
+(($(metric "$A" giveway_vehicle_loop_turns_total) > turns)) || fail "the metrics of a do not change"
 
 # --- A port that is taken: refused at once, with a remedy.
 since=$(date +%s%N)
@@ -234,7 +234,7 @@ if unshare --pid --fork --mount-proc true 2>/dev/null; then
     [[ $state == Z || $state == gone ]] && break
     sleep 0.02
   done
-  [[ $state == Z ]] || fail "process 1 was to leave a stranger's child as it is, which is $state"
+  [[ $state == Z ]] || fail "process 1 must leave a stranger's child as it is, which is $state"
   since=$(date +%s%N)
   kill -TERM "$inner"
   ended first 0 "$since" 1000

@@ -113,7 +113,7 @@ killed() {
   sleep 11 # the second time it is saved
   kill -9 "$supervisor"
   wait "$supervisor" 2>/dev/null || true
-  all_gone "${children[@]}" || fail "processes of a killed soak live on"
+  all_gone "${children[@]}" || fail "processes of a killed soak still run"
   "$FLEETCTL" soak --resume "$report" --json >"$SCRATCH/resumed.json" 2>"$SCRATCH/resumed.log" || code=$?
   [[ $code -eq 0 ]] ||
     fail "a resumed soak ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/resumed.json")"
@@ -153,7 +153,7 @@ kept() {
   "$FLEETCTL" replay "$report"/recordings/*.recording >"$SCRATCH/replayed" ||
     fail "the rings do not replay: $(tail -n 3 "$SCRATCH/replayed")"
   "$FLEETCTL" soak --around "$report" >"$SCRATCH/around" || fail "there is nothing around a broken promise"
-  grep -q 'fleetctl shrink .*around.textproto' "$SCRATCH/around" || fail "--around says not how to shrink it"
+  grep -q 'fleetctl shrink .*around.textproto' "$SCRATCH/around" || fail "--around does not say how to shrink it"
   grep -q 'stop' "$report/around.textproto" || fail "the fault around it is not in around.textproto"
 }
 
@@ -167,7 +167,7 @@ virtually() {
   cmp -s "$SCRATCH/virtual-a.json" "$SCRATCH/virtual-b.json" || fail "two soaks in virtual time differ"
   jq -e '.virtual_time and (.faults | length) > 20 and ([.histograms[].name] | index("reaction_way"))' \
     "$SCRATCH/virtual-a.json" >/dev/null || fail "a soak in virtual time has no faults or no reactions"
-  grep -q '</html>' "$SCRATCH/virtual/report.html" || fail "the page of a soak in virtual time is not whole"
+  grep -q '</html>' "$SCRATCH/virtual/report.html" || fail "the page of a soak in virtual time is incomplete"
 }
 
 whole() {
@@ -185,7 +185,7 @@ whole() {
     fail "the whole soak has not accounted for its beacons: $(jq -c '[.accounting[:3]]' "$report/report.json")"
   jq -e '[.histograms[].name] as $all | ["beacon_age", "tick_jitter", "turn"] - $all == []' \
     "$report/report.json" >/dev/null || fail "the whole soak has not measured its vehicles"
-  grep -q '</html>' "$report/report.html" || fail "the page is not whole"
+  grep -q '</html>' "$report/report.html" || fail "the page is incomplete"
   "$FLEETCTL" report "$report" >"$SCRATCH/summary" || fail "fleetctl report does not read it"
   grep -q PASSED "$SCRATCH/summary" || fail "fleetctl report does not say that it passed"
   "$FLEETCTL" replay "$report"/recordings/vehicle-1.recording >/dev/null ||

@@ -93,7 +93,7 @@ class BeaconLedgerTest : public ::testing::Test {
 
 TEST_F(BeaconLedgerTest, CountsEachFateOfABeaconOnce) {
   NoteNext();
-  EXPECT_TRUE(ledger_.NextRows().Rows().empty()) << "one alone says nothing of the numbers";
+  EXPECT_TRUE(ledger_.NextRows().Rows().empty()) << "one alone proves nothing about the numbers";
   NoteNext();
   NoteNext(BeaconFate::kNotHeard);
   NoteNext(BeaconFate::kRefused);
@@ -208,7 +208,7 @@ TEST_F(BeaconLedgerTest, ALibraryNumberThatWasBrokenIsMadeUpForByTheNext) {
   NoteNext();
   NoteNext();
   NoteMisnumbered();
-  EXPECT_EQ(Row().last, 2U) << "it settles nothing";
+  EXPECT_EQ(Row().last, 2U) << "it proves nothing";
   NoteNext();
   EXPECT_EQ(Row().last, 8U);
   EXPECT_EQ(Row().lost, 4U);

@@ -70,7 +70,7 @@ TEST(LeaseWatch, SendsWhatAnHonestParticipantWouldSend) {
   LeaseWatch another;
   Announce(another, kDying, kFirst);
   EXPECT_TRUE(another.Hear(*farewell, kFirst));
-  EXPECT_EQ(another.Participants(), 0U) << "one that said farewell has none";
+  EXPECT_EQ(another.Participants(), 0U) << "a participant that left has none";
 }
 
 TEST(LeaseWatch, LeavesToAServerWhomItSpeaksFor) {

@@ -274,7 +274,7 @@ TEST(PacketFilter, DropsNumbersThatTheWritersRateDoesNotAllow) {
   EXPECT_EQ(receiver.Data(201 + (std::int64_t{1} << 40U)), PacketDrop::kSequenceJump);
   EXPECT_EQ(receiver.Data(200 + kSlack + 20), PacketDrop::kSequenceJump);
   EXPECT_EQ(receiver.Heartbeat(kFar, kFar), PacketDrop::kSequenceJump);
-  EXPECT_EQ(receiver.Data(201), PacketDrop::kNone) << "and the writer is heard on";
+  EXPECT_EQ(receiver.Data(201), PacketDrop::kNone) << "and the writer is still heard";
 }
 
 TEST(PacketFilter, HandsOnWhatComesAgainOrAfterALoss) {
@@ -304,7 +304,7 @@ TEST(PacketFilter, GapsThatComeAgainDoNotHoldUpAWriterThatWasHeardLongAgo) {
   receiver.Settle(200);
   int dropped = 0;
   while (receiver.GapAndHeartbeat(200, 3, 700) != PacketDrop::kNone) {
-    ASSERT_LT(++dropped, 20) << "half a thousand samples were lost: two seconds";
+    ASSERT_LT(++dropped, 20) << "500 samples were lost: two seconds";
     receiver.Wait(milliseconds(100));
   }
 }
@@ -409,7 +409,8 @@ TEST(PacketFilter, LetsStrangersInNoFasterThanAFleetGrows) {
     const PacketDrop drop = announce(Stranger(i));
     let_in += drop == PacketDrop::kNone ? 1 : 0;
     EXPECT_TRUE(drop == PacketDrop::kNone || drop == PacketDrop::kTooManyStrangers);
-    EXPECT_TRUE(i % 100 != 0 || announce(kPeer) == PacketDrop::kNone) << "who is in stays in";
+    EXPECT_TRUE(i % 100 != 0 || announce(kPeer) == PacketDrop::kNone)
+        << "those that are in stay in";
   }
   EXPECT_LE(let_in, 256 + 2 * 2 + 5 * 16 + 1);
   EXPECT_GE(let_in, 256);

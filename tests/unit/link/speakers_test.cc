@@ -73,7 +73,7 @@ TEST_F(Sessions, OneThatJustGotItsPlaceIsGivenTimeUntilItsFirstCommand) {
   EXPECT_EQ(AskBy(2, 5, later + SessionOwners::kSilence), Verdict::kOfAnother);
   AskBy(1, 5, later + SessionOwners::kSilence);
   EXPECT_EQ(AskBy(2, 5, later + SessionOwners::kSilenceBeforeCommands), Verdict::kOfAnother)
-      << "one that asks again is given the time again";
+      << "asking again restarts the time";
   EXPECT_EQ(AskBy(2, 5, later + seconds(4)), Verdict::kYes);
 }
 

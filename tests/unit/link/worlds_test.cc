@@ -111,7 +111,7 @@ TEST(TickPeriod, IsTheTimeFromOneTickToTheNext) {
   period.Hear(TruthOf(14, 2.0));
   EXPECT_EQ(period.Get(), milliseconds(250));
   period.Hear(TruthOf(5, 9.0, 2));
-  EXPECT_EQ(period.Get(), milliseconds(250)) << "another world: nothing to compare with";
+  EXPECT_EQ(period.Get(), milliseconds(250)) << "another world: nothing to compare";
 }
 
 TEST(TickPeriod, NeverExceedsThatOfAScenario) {

@@ -307,7 +307,7 @@ TEST(WriterTable, ForgetsStrangersBeforeTheFleet) {
   }
   for (std::uint32_t own = 0; own < 16; ++own) {
     EXPECT_FALSE(table.IsPlausible(Guid(own), std::int64_t{1} << 20U, Statement::kSample, now))
-        << "of a writer that it forgot any first number is plausible: " << own;
+        << "any first number of a forgotten writer is plausible: " << own;
   }
 }
 

@@ -153,7 +153,7 @@ TEST_F(DriveTimingTest, MeasuresJitterAgainstTicksAndNotAgainstScans) {
 TEST_F(DriveTimingTest, TellsAgesAndTurnsOfARunThatIsUnderWay) {
   age_ = milliseconds(70);
   Turn();
-  EXPECT_EQ(Of(DriveFigure::kBeaconAge).p50, 120'000U) << "the tick it is behind is age, too";
+  EXPECT_EQ(Of(DriveFigure::kBeaconAge).p50, 120'000U) << "the tick it is behind counts as age too";
   EXPECT_EQ(Of(DriveFigure::kTurn).p99, 300U);
   scan_.run_state = RunState::kWaiting;
   TurnSeen waits{.scan = &scan_};

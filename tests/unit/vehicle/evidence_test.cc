@@ -64,7 +64,7 @@ TEST(Evidence, TellsTheGapToThePeerThatIsGivenWayTo) {
     EXPECT_LT(*free_m, 1.8);
     return;
   }
-  FAIL() << "it never decided on account of the peer";
+  FAIL() << "it never decided because of the peer";
 }
 
 }  // namespace

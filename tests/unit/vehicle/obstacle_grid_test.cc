@@ -235,7 +235,7 @@ TEST(ObstacleGrid, TheSameStateHashesAlikeAndAnotherDoesNot) {
     return hash.Value();
   };
   ObstacleGrid a;
-  EXPECT_EQ(hash_of(a), StateHash().Value()) << "what takes nothing in shows in no hash";
+  EXPECT_EQ(hash_of(a), StateHash().Value()) << "a grid that takes nothing in changes no hash";
   HearTimes(&a, 2);
   ObstacleGrid b = a;
   EXPECT_EQ(hash_of(a), hash_of(b));

@@ -409,7 +409,7 @@ TEST(PoseKeeping, OneThatGrowsUnsureSlowsDownThenIsLostAndFoundByAFix) {
   ASSERT_TRUE(keeper.keeping.lost);
   EXPECT_GE(keeper.Sigma(), kUsualPoseLimit_m);
   keeper.Drive({});
-  EXPECT_EQ(keeper.Share(), 0) << "standing finds nothing";
+  EXPECT_EQ(keeper.Share(), 0) << "a standing vehicle learns nothing";
   keeper.Give(keeper.NoisyFix());
   keeper.Drive({});
   EXPECT_EQ(keeper.Share(), 1);

@@ -68,7 +68,7 @@ TEST_F(SoakVerdictTest, FailsWhereNobodyNoticedOrTooLate) {
   Noticed() = seconds(14);
   EXPECT_EQ(Judged().violations.at(0).invariant, "detection");
   pause_ = seconds(5);
-  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the machine stood still meanwhile";
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the machine stalled meanwhile";
   Noticed().reset();
   EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("no peer noticed"));
 }

@@ -106,7 +106,7 @@ TEST_F(SoakWatchTest, AFaultIsOpenUntilNothingMoreCanBeLearntOfIt) {
   EXPECT_THAT(watch_.Open(), ElementsAre(2, 0));
   watch_.NoteEnd(0, seconds(13));
   Say(Driving(kTwo), milliseconds(20100));
-  EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "who is killed does not recover";
+  EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "a killed vehicle does not recover";
   Say(Driving(kOne), seconds(22));
   EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "a peer may still say that it noticed";
   Say(Driving(kOne), seconds(24));
@@ -221,7 +221,7 @@ TEST_F(SoakWatchTest, AFaultOfTheWorldIsSeenWhenTheWorldSaysSo) {
   event.vehicle = kOne;
   event.text = "sonar_stuck 1 of ";
   watch.Fold(observed, seconds(1));
-  EXPECT_EQ(watch.Courses()[0].effect, "") << "another one of the rule";
+  EXPECT_EQ(watch.Courses()[0].effect, "") << "another fault of the rule";
   event.text = "sonar_stuck 0 of ";
   watch.Fold(observed, seconds(1));
   EXPECT_NE(watch.Courses()[0].effect, "");
