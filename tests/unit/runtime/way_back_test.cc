@@ -17,7 +17,7 @@
 namespace giveway {
 namespace {
 
-// How a child process ends that does this.
+// The wait status of a child process that runs `act`.
 int StatusOf(const std::function<void()>& act) {
   const pid_t process = fork();
   if (process == 0) {
@@ -37,7 +37,7 @@ std::optional<std::string> Argument(const std::string& name) {
   return found[1];
 }
 
-// Runs twice: as a test, and as the image that its child process executes.
+// Runs twice: as a test, and as the image that its child process comes back as.
 TEST(WayBack, LeadsOnFromTheSignalsThatEndAProcess) {
   if (const auto why = Argument("--why")) {
     EXPECT_EQ(why, "it ended by signal " + Argument("--by").value_or(""));

@@ -20,7 +20,7 @@ std::uint8_t Confidence(const test::BrainBench& bench, Vec2 point_body) {
   return bench.Brain().State().sensed.grid.At(point_body);
 }
 
-// The reading of sensor 3, at 10 degrees, from 0.5 m away.
+// The place of an echo that sensor 3, at 10 degrees, detects 0.5 m away.
 const Vec2 kHeardBy3 = Vec2{0.166, 0.027} + 0.5 * Vec2{Cos(Radians(10)), Sin(Radians(10))};
 
 void HearThrice(test::BrainBench* bench, std::vector<Beacon> beacons = {}) {

@@ -68,7 +68,7 @@ TEST(Lost, OneThatIsUnsureSaysAllTheSameThatALightStopsIt) {
   EXPECT_EQ(bench.Step(Rolling(3)).beacon.rule, Rule::kSignal);
 }
 
-// None of them considers how well it knows its pose; a vehicle that does not know it at all stands.
+// These behaviours ignore how well the pose is known; without any known pose the vehicle stands.
 TEST(Lost, TheLecturesBehavioursHaltToo) {
   for (const Behaviour behaviour : {Behaviour::kLectureAvoid, Behaviour::kStockAvoid,
                                     Behaviour::kLectureYield, Behaviour::kLecturePrinted}) {

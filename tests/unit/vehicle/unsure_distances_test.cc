@@ -90,7 +90,7 @@ TEST(Peers, AreLessSureTheFartherTheyWereCarriedOn) {
   EXPECT_NEAR(view.apart.yy_m2, 0, 1e-12);
 }
 
-// A peer is too far away to matter only as far as its position is known.
+// An uncertain peer counts as relevant at a greater distance.
 TEST(Peers, ThatAreUnsureMatterFromFartherAway) {
   EXPECT_FALSE(MattersBeside({}));
   EXPECT_TRUE(MattersBeside({.xx_m2 = 4, .yy_m2 = 4}));

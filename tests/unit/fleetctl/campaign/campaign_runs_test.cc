@@ -1,4 +1,4 @@
-// How runs are divided among shards: each run belongs to exactly one, and shards are of equal size.
+// How runs are divided among shards: each run belongs to one, and all shards take about as long.
 #include "services/fleetctl/campaign/campaign_runs.h"
 
 #include <gmock/gmock.h>

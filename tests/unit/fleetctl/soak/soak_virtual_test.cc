@@ -44,7 +44,7 @@ class SoakVirtualTest : public testing::Test {
   faults::Schedule schedule_;
 };
 
-// Nor is any invariant broken that is only counted in such a run.
+// Invariants that the run is not held to are only counted, and are not among the broken ones.
 TEST_F(SoakVirtualTest, NeverFailsWithoutSayingWhy) {
   scenario_ = WithPlacesFilled(LoadScenario("warehouse_loop", {0, std::nullopt, std::nullopt}), 20);
   for (std::uint32_t vehicle = 1; vehicle <= 20; ++vehicle) {
