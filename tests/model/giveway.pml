@@ -1,7 +1,7 @@
-/* The right of way of 2 or 3 vehicles at one crossing, for SPIN: every way in which beacons can be
- * lost, late, out of order or doubled, vehicles can die and come back, and all of it can be timed.
+/* The right of way of 2 or 3 vehicles at one crossing, for SPIN: all sequences in which beacons are
+ * lost, late, out of order or duplicated, and vehicles die and come back, at all times.
  *
- * What stands for what (services/vehicle, services/types):
+ * Correspondence with the code (services/vehicle, services/types):
  *
  *   here            there
  *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
@@ -16,25 +16,25 @@
  *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, Say            waiting.cc, vehicle.cc, decide.cc
  *   Move            World::Step; of the dead: watchdog, removal of the body     sim_world
  *
- * Time is ticks, all vehicles step in each. In tick k a brain knows beacons of ticks k-1 .. k-AGE, at
- * will any one of them or none: so they get lost, come late, overtake each other and come twice, and
- * the model needs neither sequence number nor boot epoch. Lost for how long is free too.
+ * Time is ticks, all vehicles step in each. In tick k a brain knows any one of the beacons of ticks
+ * k-1 .. k-AGE, or none: so they get lost, come late, out of order and twice, and the model needs
+ * neither sequence number nor boot epoch. How long a peer stays lost is free too.
  *
- * Geometry is one line of places a vehicle: FAR (nobody hears it), COMING, NEARER, GATE (stands before
- * the zone), RUNUP rolling places from which it can still stop, ZONE, PAST. Standing it needs RUNUP
- * ticks to be where it cannot stop any more: more than a beacon may be old, as in the real fleet.
+ * Geometry is one line of places a vehicle: FAR (out of range), COMING, NEARER, GATE (stands before
+ * the zone), RUNUP rolling places from which it can still stop, ZONE, PAST. From standstill it takes
+ * RUNUP ticks to where it can no longer stop: more than the age limit of a beacon, as in the real fleet.
  *
  * Not in the model, so not proven here: steering and everything it is for (detours, backing out, the
- * lent order, blocked_by, clears), traffic lights, queues in one lane, three zones instead of one,
- * speeds other than none and full, errors of pose, ultrasonics that miss a body, stale ranges, spoofed
- * or spoilt beacons, duplicate ids, restarts of the world. Ultrasonics hear exactly the bodies from
- * the gate to the end of the zone. The virtual fleet tries these things; it proves nothing.
+ * inherited priority, blocked_by, clears), traffic lights, queues in one lane, three zones instead of
+ * one, speeds other than none and full, pose errors, ultrasonics that miss a body, stale ranges, spoofed
+ * or corrupted beacons, duplicate ids, restarts of the world. Ultrasonics detect exactly the bodies from
+ * the gate to the end of the zone. The virtual fleet tests these things; it proves nothing.
  *
- * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: nobody comes
- * again; EVEN: one speed; STALL: whoever rolls may be slow; ONE_STEP: through the zone in one tick;
- * NO_CLAIMS, NO_AGREEMENT: one of the two reasons for safety is missing; ONLY_EXCLUSION: the other
- * safety properties are not looked at; WEATHER: losses end some day, and WHO must pass; the planted
- * defects. runs.txt says which are tried together, and what SPIN must find.
+ * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: no vehicle
+ * comes again; EVEN: one speed; STALL: a rolling vehicle may be slow; ONE_STEP: through the zone in
+ * one tick; NO_CLAIMS, NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the
+ * other safety properties are not checked; WEATHER: losses end eventually, and WHO must pass; the
+ * injected defects. runs.txt says which are tried together, and what SPIN must find.
  */
 #ifndef N
 #define N 2
@@ -121,10 +121,10 @@ bool clear, deaf, waits, met, meets_any, held;
 
 /* The safety properties. SPIN names the one that is broken. */
 bool two_in_zone;  /* exclusion: never two bodies in the zone, dead or alive */
-bool out_of_order; /* order: nobody enters before one that it hears near and that comes first,
-                    * unless that one waits for a third */
-bool unfrozen;     /* frozen: while encounters are under way the order published changes only once its
-                    * vehicle has let somebody pass, and stands before the zone */
+bool out_of_order; /* order: no vehicle enters before a near one that it hears and that has
+                    * priority, unless that one waits for a third */
+bool unfrozen;     /* frozen: during encounters the published priority changes only once its
+                    * vehicle has let another pass, and stands before the zone */
 bool unlatched;    /* latch: a stop for a peer lasts until that has passed or given way */
 
 #include "defects.pml"

@@ -4,7 +4,7 @@
 
 BEGIN {
   tick_s = 0.5
-  lead_s = 8             # from the start signal to tick 0: everybody is at its speed by then
+  lead_s = 8             # from the start signal to tick 0: all are at their speed by then
   gate_m = 0.9           # from the crossing to where a vehicle that waits stands
   acceleration = 0.3     # m/s^2, the default profile
   gate = 3               # the model's number of that place

@@ -66,7 +66,7 @@ export function deniedByDefault(fleet) {
   });
   const everyone = fleet.ofKind('NetworkPolicy').filter((one) =>
     [...(one.spec.ingress ?? []), ...(one.spec.egress ?? [])].some((rule) => !(rule.from ?? rule.to) || !rule.ports));
-  return [...complaints, ...everyone.map((one) => `NetworkPolicy/${one.metadata.name} lets everybody in, or every port`)];
+  return [...complaints, ...everyone.map((one) => `NetworkPolicy/${one.metadata.name} lets every pod in, or every port`)];
 }
 
 // Without names there are no servers.

@@ -101,7 +101,7 @@ export function plannedForIsRequested(fleet) {
     const wanted = [
       [cores(requests.cpu) * 1000 >= milliseconds, `requests ${requests.cpu} of processor, the plan is ${milliseconds.toFixed(0)}m`],
       [mebibytes(requests.memory) >= mib, `requests ${requests.memory} of memory, the plan is ${mib.toFixed(1)}Mi`],
-      // Meeting everybody takes several times what driving does, and a throttled loop misses ticks.
+      // Discovery of all peers takes several times the processor time of driving, and a throttled loop misses ticks.
       [cores(limits.cpu) * 1000 >= 4 * milliseconds, `is limited to ${limits.cpu} of processor, less than four times the plan`],
       [mebibytes(limits.memory) >= 1.5 * mib, `is limited to ${limits.memory} of memory, the plan is ${mib.toFixed(1)}Mi`],
     ];

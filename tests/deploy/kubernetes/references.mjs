@@ -30,7 +30,7 @@ function missingVolumes(workload) {
   const mounted = workload.pod.containers.flatMap((one) => one.volumeMounts ?? []).map((one) => one.name);
   return [
     ...mounted.filter((name) => !there.has(name)).map((name) => `${workload.name}: there is no volume ${name}`),
-    ...[...there].filter((name) => !mounted.includes(name)).map((name) => `${workload.name}: nobody mounts the volume ${name}`),
+    ...[...there].filter((name) => !mounted.includes(name)).map((name) => `${workload.name}: no container mounts the volume ${name}`),
   ];
 }
 
