@@ -110,7 +110,7 @@ byte waited[N];       /* ticks */
 bool let_pass[N];     /* one that comes first has passed since it waits */
 byte order[N];        /* the waited part of the own key, as published */
 byte gives_way[N];    /* said at the end of this tick */
-bool under_way[N];    /* this tick: encounters are under way, and were in the tick before */
+bool under_way[N];    /* this tick: encounters are active, and were in the tick before */
 bool rests[N];        /* this tick: no encounter, no waiting: what it waited is forgotten */
 
 /* Scratch: heard lives from Hear to the end of Decide, the rest within one step; 0 between. */
@@ -139,7 +139,7 @@ inline Look(i) {
   through = !conflict || (IsNear(place[i]) && IsThroughFirst(place[i], p, a))
 }
 
-/* It stands and gives way to a third one: so long it is not waited for. */
+/* It stands and gives way to a third one: meanwhile it is not waited for. */
 #if N == 3
 #define MayCross(i, j_)                               \
   (Said(j_, heard[j_]).place == GATE &&               \
@@ -340,8 +340,8 @@ inline Say(i) {
 }
 
 /* Crashes come between decision and motion: the last command still acts. Then the body rolls at most
- * as far as a vehicle may that brakes: the watchdog's ticks are part of the reaction every stopping
- * way allows for. */
+ * as far as a braking vehicle may: the watchdog's ticks are part of the reaction time that every
+ * stopping distance allows for. */
 inline Crash() {
   if
   :: true

@@ -86,5 +86,5 @@ END {
   printf "  build/release/bin/fleetctl virtual %s%s%s --seeds 1..1000\n", scenario, radio, faults
   print "Carried over: directions, speeds, who comes when, deaths and restarts, how much of the radio's"
   print "traffic was lost, late or overtaken. Not carried over: which beacon it was (the seeds try"
-  print "many), earlier approaches of a vehicle that came again, and a defect planted in the model."
+  print "many), earlier approaches of a vehicle that came again, and a defect injected into the model."
 }

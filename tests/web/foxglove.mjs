@@ -149,12 +149,12 @@ await check("foxglove: clients that never read cost no memory, and delay no othe
   const sockets = await Promise.all(Array.from({ length: 15 }, neverReading));
   const answer = await answerTo(upgrade);
   expect(answer.status === 503 && answer.body.includes("16 clients"), `a 17th: ${JSON.stringify(answer)}`);
-  await until("the other goes on", () => of(first, beacons).length > had + 160);
+  await until("the other continues", () => of(first, beacons).length > had + 160);
   const grown = rssOf(observer.child.pid) - before;
   console.log(`        ${grown.toFixed(1)} MB more with 15 clients that never read`);
   expect(grown < 12, `${grown} MB`);
   for (const socket of sockets) socket.destroy();
-  await until("there is room again", async () => (await answerTo(upgrade)).status === 101, 5000);
+  await until("there is space again", async () => (await answerTo(upgrade)).status === 101, 5000);
 });
 await run.ended;
 first.client.close();

@@ -36,7 +36,7 @@ export function shutIn(fleet) {
       [pod.securityContext?.runAsUser === 10001, 'does not run as the image\'s user, 10001'],
       [pod.securityContext?.seccompProfile?.type === 'RuntimeDefault', 'no seccomp profile RuntimeDefault'],
       [pod.automountServiceAccountToken === false, 'is given a token of the cluster'],
-      [pod.enableServiceLinks === false, 'is given variables of Services, which begin as ours do'],
+      [pod.enableServiceLinks === false, 'is given variables of Services, with our prefix'],
       [pod.terminationGracePeriodSeconds <= 10, 'is given more than 10 s to stop; it takes one'],
       [!pod.hostNetwork && !pod.hostPID && !pod.hostIPC, 'shares namespaces of its node'],
       [!(pod.volumes ?? []).some((one) => one.hostPath), 'mounts a folder of its node'],
