@@ -5,9 +5,9 @@ source "$(dirname "${BASH_SOURCE[0]}")/../services/setup.sh"
 cd "$GIVEWAY_ROOT"
 
 QUICK_STAGES=(format rules unit golden link crossing virtual)
-# With --all, what runs processes in real time goes in order, and what only computes in the background at
-# idle priority, in two runs: the second needs the images. The last stages run alone.
-# asan runs in the container of asan13, asan_link and fuzz, which is given a time, in that of debian13.
+# With --all, stages that run processes in real time go in order, and those that only compute in the
+# background at idle priority, in two runs: the second needs the images. The last stages run alone. asan runs
+# in the container of asan13, asan_link and fuzz, which takes a given time, in that of debian13.
 # dev is for --full.
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers)
@@ -15,8 +15,8 @@ LAST_STAGES=(timed tsan debian13)
 BACKGROUND_STAGES=(format rules deploy tsan_build virtual planted model)
 BACKGROUND_IMAGES_STAGES=(asan13)
 
-# Seconds each stage may take on two quiet cores with warm caches. A figure to hold against, not a
-# failure: machines are shared.
+# Seconds each stage may take on two quiet cores with warm caches. A target, not a failure: machines are
+# shared.
 declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
   [virtual]=150 [planted]=90 [model]=240 [system]=420 [timed]=240 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
   [images]=60 [asan13]=180 [debian13]=330 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
@@ -36,7 +36,7 @@ computes runs in the background, at idle priority. Stages:
   golden   hashes that must never change
   crossing one crossing of two real vehicles
   virtual  fleets of 2-50 in virtual time, 200 seeds a generator, judged by invariants
-  planted  defects planted in the rules on purpose are caught by the invariants
+  planted  defects injected into the rules are detected by the invariants
   model    SPIN: the right of way of two and three vehicles, exhaustively
   link     Fast DDS between participants of one process
   system   real processes: crossings, kills, bad input
@@ -46,7 +46,7 @@ computes runs in the background, at idle priority. Stages:
   web      the observer's page in a browser, its recordings in the field's own readers, its metrics in Prometheus
   asan     unit and golden under the address and undefined-behaviour sanitizers
   asan_link link under the same
-  fuzz     spoilt scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
+  fuzz     malformed scenarios, profiles, packets, beacons, scans and recordings in the asan build, a third of a minute each
   tsan_build, tsan
            what tsan needs is compiled; link and one crossing under the thread sanitizer
   dev      every file of the services compiled alone, with the includes it names, warned of hidden names
@@ -94,14 +94,14 @@ seeds=${seeds:-200}
 
 export GIVEWAY_FUZZ_SECONDS=${GIVEWAY_FUZZ_SECONDS:-$fuzz_seconds}
 
-# In CI warnings are errors, and the symbols are those a stack trace needs: a fifth of the compile
-# time is the rest of them.
+# In CI warnings are errors, and debug info is limited to what a stack trace needs: the rest is a fifth of the
+# compile time.
 configuration=()
 [[ ${CI:-} == true ]] && configuration=(-DGIVEWAY_WERROR=ON "-DCMAKE_CXX_FLAGS_DEBUG=-g1"
   "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2 -g1 -DNDEBUG")
-# One cache for every checkout: what was compiled in another folder is not compiled again.
+# One cache for every checkout: files compiled in another folder are not compiled again.
 export CCACHE_BASEDIR=$GIVEWAY_ROOT CCACHE_NOHASHDIR=1
-# The library frees some objects by another size than it made them with.
+# The library frees some objects with another size than it allocated them with.
 export ASAN_OPTIONS=new_delete_type_mismatch=0:${ASAN_OPTIONS:-}
 export UBSAN_OPTIONS=print_stacktrace=1:${UBSAN_OPTIONS:-}
 export TSAN_OPTIONS=suppressions=$GIVEWAY_ROOT/tests/support/tsan.supp:${TSAN_OPTIONS:-}
@@ -123,7 +123,7 @@ ending() {
   if [[ -n $stage ]]; then
     passed_total=$((passed_total + passed))
     failed_total=$((failed_total + failed + 1))
-    failed_names+=("$stage: could not go on")
+    failed_names+=("$stage: could not continue")
   fi
   if [[ -s $said ]]; then
     say "what failed tests printed"
@@ -154,9 +154,9 @@ check() {
   fi
 }
 
-# check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints, and as
-# many as a line "N passed, N failed" of another run of tests counts, which lists them as "failed:".
-# Lines that begin with "| " say why something failed.
+# check_lines COMMAND...: a test case for each line "ok" or "FAILED" that the command prints, and as many as a
+# line "N passed, N failed" of another run of tests counts, which lists them as "failed:". Lines that start
+# with "| " say why something failed.
 check_lines() {
   local lines code=0 good bad names
   lines=$("$@") || code=$?
@@ -181,7 +181,7 @@ junit() {
   echo "${value:-0}"
 }
 
-# What ctest, whose output this reads, printed of those that failed.
+# The part of ctest's output, read on stdin, that belongs to failed tests.
 of_failed() {
   awk '/^ *[0-9]+\/[0-9]+ Test +#[0-9]+:/ {shown = /\*\*\*(Failed|Timeout|Exception|Not Run)/}
        /^ +Start +[0-9]+:/ {shown = 0}
@@ -189,9 +189,9 @@ of_failed() {
        shown'
 }
 
-# count_cases PRESET LABEL: cases that ran and cases that failed in the programs that run all of theirs
-# in one process, then the names of those that failed. A program that was ended before it wrote its
-# file is a failed test of ctest, which counts it.
+# count_cases PRESET LABEL: cases that ran and cases that failed in the programs that run all their cases in
+# one process, then the names of those that failed. A program that ended before it wrote its file is a failed
+# test of ctest, which counts it.
 count_cases() {
   local files
   mapfile -t files < <(find "$GIVEWAY_ROOT/build/$1/cases/$2" -name '*.xml' 2>/dev/null)
@@ -201,7 +201,7 @@ count_cases() {
        /<testcase / {match($0, / name="[^"]*"/); name = substr($0, RSTART + 7, RLENGTH - 8)
                      match($0, / classname="[^"]*"/)
                      name = substr($0, RSTART + 12, RLENGTH - 13) "." name}
-       /<failure / && name != told {told = name; names = names name "\n"}
+       /<failure / && name != last {last = name; names = names name "\n"}
        END {print ran + 0, bad + 0; printf "%s", names}' "${files[@]}"
 }
 
@@ -218,7 +218,7 @@ run_ctest() {
   ran=$(junit "$report" tests)
   bad=$(junit "$report" failures)
   skipped=$(($(junit "$report" skipped) + $(junit "$report" disabled)))
-  # No test at all, or tests that could not even be run, are failures too.
+  # No test at all, or tests that could not be run, are failures too.
   if [[ $code -ne 0 && $bad -eq 0 ]]; then
     bad=$((skipped > 0 ? skipped : 1))
     skipped=0
@@ -227,21 +227,21 @@ run_ctest() {
   mapfile -t cases < <(count_cases "$preset" "$label")
   if [[ ${#cases[@]} -gt 0 ]]; then
     read -r ran bad_cases <<<"${cases[0]}"
-    # More programs than cases: some failed beside their cases, or left no file.
+    # More programs than cases: some failed outside their cases, or left no file.
     bad=$((bad_cases > bad ? bad_cases : bad))
     ran=$((ran > bad ? ran : bad))
     failed_names+=("${cases[@]:1}")
   fi
   passed=$((passed + ran - bad - skipped))
   failed=$((failed + bad))
-  # The programs beside their cases say nothing more.
+  # Programs that failed because of their cases need no line of their own.
   [[ ${bad_cases:-0} -eq 0 ]] || return 0
   mapfile -t names < <(sed -n "s|.*<testcase name=\"\([^\"]*\)\".* status=\"fail\".*|$preset/\1|p" "$report" 2>/dev/null)
   [[ $code -eq 0 || ${#names[@]} -gt 0 ]] || names=("$preset/$label: ctest's exit code $code")
   failed_names+=("${names[@]}")
 }
 
-# note_time STAGE SECONDS: its line of the table, and loudly if it took longer than it may.
+# note_time STAGE SECONDS: its line of the table, with a warning if it exceeded its budget.
 note_time() {
   local over=''
   if [[ $2 -gt ${BUDGET[$1]} ]]; then
@@ -265,7 +265,7 @@ stage_format() {
 stage_rules() {
   mapfile -t scripts < <(git ls-files '*.sh' .ci/run)
   check "include rules" bash tests/rules/include_rules.sh
-  check "include rules catch what is planted" bash tests/rules/include_rules_test.sh
+  check "include rules find each violation" bash tests/rules/include_rules_test.sh
   check "the table of modules in services/README.md" bash tests/rules/modules_table.sh --check
   check "lengths and links of the manuals" bash tests/rules/manuals.sh
   check "the rules over manuals find each violation" bash tests/rules/manuals_test.sh
@@ -275,7 +275,7 @@ stage_rules() {
   check "known vulnerabilities against the installed packages" bash tests/rules/exposure.sh
   check "the check of vulnerabilities finds each contradiction" bash tests/rules/exposure_test.sh
   check "shell scripts" shellcheck "${scripts[@]}"
-  check "the wire types are generated beside another user's" bash tests/rules/generate_test.sh
+  check "the wire types are generated next to another user's" bash tests/rules/generate_test.sh
 }
 
 # Kubernetes' schemas come as an npm package.
@@ -307,7 +307,7 @@ stage_planted() {
   prepare release fleetctl fleetctl_planted && check_lines bash tests/virtual/defects.sh
   $full || return 0
   prepare release fleetctl_mutants
-  check "defects chosen blindly are caught" bash tests/virtual/mutants.sh --least 14
+  check "defects chosen at random are detected" bash tests/virtual/mutants.sh --least 14
 }
 
 stage_model() {
@@ -342,7 +342,7 @@ stage_asan_link() { prepare asan link_tests && run_ctest asan link 2; }
 
 stage_fuzz() { prepare asan fuzz_tests && run_ctest asan fuzz "$(nproc)"; }
 
-# The services are what is watched; who starts them is the release's fleetctl.
+# The services are under test; the fleetctl that starts them is the release's.
 tsan_crossing() {
   local programs="$GIVEWAY_ROOT/build/tsan/watched/bin"
   mkdir -p "$programs"
@@ -392,8 +392,8 @@ run_stages() {
   done
 }
 
-# start_background STAGE...: another run of this script, which takes only what other processes leave of the
-# processor. In a session of its own: the kernel shares the processor between sessions first.
+# start_background STAGE...: another run of this script, which gets only the processor time that other
+# processes leave. In a session of its own: the kernel shares the processor between sessions first.
 start_background() {
   local log words=("$@")
   log=$(mktemp)
@@ -422,13 +422,13 @@ join_background() {
   failed_total=$((failed_total + failed))
 }
 
-# The count that ends another run's log, and the names of what failed.
+# The count at the end of another run's log, and the names of what failed.
 of_run() {
   grep -E '^[0-9]+ passed, [0-9]+ failed$' "$1" || echo "FAILED  a run in the background, which has no count"
   grep '^failed: ' "$1" || true
 }
 
-# Those of deploy now and not in the background: an installer at idle priority would keep others from installing.
+# The packages of deploy now and not in the background: an installer at idle priority would block others.
 mapfile -t packages < <(build_packages && test_packages && java_package && { ! $all || deploy_packages; })
 install_packages "${packages[@]}"
 check_java

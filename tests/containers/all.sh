@@ -4,7 +4,8 @@
 #
 #   bash tests/containers/all.sh images|asan13|debian13|containers
 #
-# images leaves the process of an engine that it started in the file GIVEWAY_ENGINE_FILE, for who ends it.
+# images leaves the process of an engine that it started in the file GIVEWAY_ENGINE_FILE, for the script that
+# ends it.
 # asan13 and debian13 of one tests/run.sh share one build folder, by its number in GIVEWAY_RUN.
 #
 # GIVEWAY_SUITE=bookworm puts the containers on Debian 12 with Fast DDS 2.9.1, without discovery
@@ -29,7 +30,7 @@ images() {
   echo "ok      images are built"
 }
 
-# run_of STAGE...: those of tests/run.sh in the container of Debian 13; its count and what failed.
+# run_of STAGE...: stages of tests/run.sh in the container of Debian 13; prints the count and what failed.
 run_of() {
   bash "$HERE/debian13.sh" "$@" | tee >(cat >&2) | grep -E '^([0-9]+ passed, [0-9]+ failed$|failed: )' ||
     echo "FAILED  $* on Debian 13"

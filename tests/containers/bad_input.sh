@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What a deployment gets wrong: each container says what and what to do, /readyz says why it waits,
-# and the restart policy does not spin.
+# Misconfigured deployments: each container says what is wrong and what to do, /readyz says why it waits, and
+# the restart policy does not spin.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 engine_up
 use multicast
@@ -13,7 +13,7 @@ end_bad_input() {
 }
 trap end_bad_input EXIT
 
-# service PROGRAM NAME=VALUE...: a container with these variables over sound ones, in BAD.
+# service PROGRAM NAME=VALUE...: a container with these variables over valid ones, in BAD.
 service() {
   local program=$1 variables=() pair
   shift
@@ -28,10 +28,10 @@ service() {
 ready_says() { ready "$BAD" | grep -Eq "$1"; }
 restarts() { docker inspect -f '{{.RestartCount}}' "$BAD"; }
 restarted() { [[ $(restarts) -ge $1 ]]; }
-# Of one that runs again the code is 0.
+# A container that runs again has code 0.
 waits_after_2() { [[ $(docker inspect -f '{{.State.Status}} {{.State.ExitCode}}' "$BAD") == "restarting 2" ]]; }
 
-# Ends, is started again, ever more rarely: docker doubles the wait from 0.1 s.
+# Ends, and is restarted ever more rarely: docker doubles the wait from 0.1 s.
 ends_with() { # WHAT PATTERN
   await "$1: says so" 10 says "$BAD" "$2"
   await "$1: tried again" 10 restarted 3
@@ -56,9 +56,9 @@ service world GIVEWAY_SCENARIO=/scenarios/missing.textproto
 ends_with "no scenario is mounted" 'missing.textproto: no such file'
 service vehicle GIVEWAY_QOS=/qos/missing.xml
 ends_with "no QoS file is mounted" 'missing.xml: does not exist; give a complete profile set'
-service vehicle GIVEWAY_DISCOVERY_SERVER=nobody:11811
-waits_with "a server without an address" 'discovery server nobody .* has no address yet' \
-  'discovery server nobody .* has no address yet'
+service vehicle GIVEWAY_DISCOVERY_SERVER=no_such_host:11811
+waits_with "a server without an address" 'discovery server no_such_host .* has no address yet' \
+  'discovery server no_such_host .* has no address yet'
 service vehicle GIVEWAY_DISCOVERY_SERVER=172.30.54.200
 waits_with "a server that does not answer" 'no discovery server answers' '172.30.54.200:11811'
 # Patient: a shipped fleet waits ten minutes for its vehicles.

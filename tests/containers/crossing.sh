@@ -10,7 +10,7 @@ DISCOVERY=$1
 use "$DISCOVERY"
 once
 
-# crossing VEHICLES SCENARIO: made again, twice at most, where the machine stood still.
+# crossing VEHICLES SCENARIO: repeated, twice at most, where the machine stalled.
 crossing() {
   local vehicles=$1 world code vehicle why try
   export GIVEWAY_SCENARIO=$2

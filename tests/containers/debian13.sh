@@ -15,8 +15,8 @@ trap engine_down EXIT
 base_image "$SUITE"
 build_image check
 
-# What the compiler cache holds outlives the container; what is built outlives it for the rest of one
-# tests/run.sh alone: another checkout's files may be older than what was built of this one's.
+# The compiler cache outlives the container; the build outlives it only until the end of this tests/run.sh:
+# another checkout's files may be older than what was built of this one's.
 mkdir -p "$GIVEWAY_ROOT/build" # where the volume is mounted
 BUILT=${GIVEWAY_RUN:+giveway-build13-$GIVEWAY_RUN:}/src/build
 # At idle priority where this script is. The engine's daemon starts the container, not this script, and in
@@ -61,7 +61,7 @@ one_system() {
   fi
 }
 
-# system SCRIPT[:ARGUMENT]...: three at once, each in a container and so on a network of its own.
+# system SCRIPT[:ARGUMENT]...: three at a time, each in a container and so on a network of its own.
 system() {
   local named running=0
   for named in "$@"; do

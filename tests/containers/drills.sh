@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
-# A composed fleet that anything may happen to: kill -9 of a vehicle, the world, one discovery server
-# and both, a pause, a cut network, more and fewer vehicles. No two bodies touch, whoever returns
-# drives again within five seconds (eight where its discovery servers were killed with it), and nobody
-# lends a hand.
+# A composed fleet under faults: kill -9 of a vehicle, the world, one discovery server and both, a pause, a
+# cut network, more and fewer vehicles. No two bodies touch, and every vehicle that returns drives again
+# within five seconds (eight where its discovery servers were killed with it), without help from outside.
 #
 #   bash tests/containers/drills.sh multicast|servers
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 [[ ${1:-} == multicast || ${1:-} == servers ]] || die "say multicast or servers"
 LIMIT_S=5
-# Where servers were killed, too: clients give up one that returned only after its lease of 2 s.
+# Where servers were killed too, clients drop one that returned only after its lease of 2 s.
 SERVERS_LIMIT_S=8
 export GIVEWAY_SCENARIO=/drill/lanes.textproto
 engine_up
@@ -23,23 +22,23 @@ drill_vehicle_crash() { # WHAT [SECONDS]
   await "$1: all drive" "${2:-$LIMIT_S}" all_drive "$VEHICLES"
 }
 
-# drive_again PLACES: so many places were given, and all drive. Without the former a vehicle that has
-# just woken might be seen with the speed and the ranges it fell asleep with.
+# drive_again PLACES: so many places were given, and all drive. Without the count, a vehicle just unpaused
+# could be sampled with the speed and the ranges from before its pause.
 drive_again() { [[ $(places) -ge $1 ]] && all_drive "$VEHICLES"; }
 
 drill_world_crash() {
-  local world before told
+  local world before placed_before
   world=$(first_of world)
   before=$(restart_count "$world")
-  told=$(places)
+  placed_before=$(places)
   crash "$world"
   await "world killed: its container is started again" 5 was_restarted "$world" "$before"
-  await "world killed: all drive again" "$LIMIT_S" drive_again $((told + VEHICLES))
+  await "world killed: all drive again" "$LIMIT_S" drive_again $((placed_before + VEHICLES))
 }
 
-# Whoever knows the others continues without a server; whoever is new finds them through the other
-# one, and after both were gone through either that is back. The packaged server has no packet filter:
-# what ends it costs a fleet three seconds at most.
+# Vehicles that know each other continue without a server; new ones find them through the other one, and after
+# both were down through either that is back. The packaged server has no packet filter: a packet that ends it
+# costs a fleet three seconds at most.
 drill_servers_crash() {
   local service others container
   local -A before=()
@@ -60,8 +59,8 @@ drill_servers_crash() {
   up "$VEHICLES"
   await "servers were killed: a newcomer drives, too" "$LIMIT_S" all_drive "$VEHICLES"
 }
-# One alone as a stranger in its network ends it: by a statistics submessage that is not the last one
-# of its packet, as tests/attack sends it to the services. Both at once by kill -9.
+# A single server is ended as an intruder in its network can do it: by a statistics submessage that is not the
+# last one of its packet, as tests/attack sends it to the services. Both at once by kill -9.
 end_server() { # CONTAINER SERVERS
   if [[ $2 == *" "* ]]; then
     kill -9 "$(server_in "$1")"
@@ -85,7 +84,7 @@ serves_again() { # CONTAINER BEFORE
   now=$(server_in "$1")
   [[ -n $now && $now != "$2" ]] && grep -q ":2E23 " "/proc/$now/net/udp" 2>/dev/null
 }
-# For longer than anybody's participant lease, which is 10 s.
+# Longer than any participant lease, which is 10 s.
 drill_servers_away() {
   docker stop -t 2 "$(first_of discovery-0)" "$(first_of discovery-1)" >/dev/null
   holds "both servers away: all drive on" 12 all_drive "$VEHICLES"
@@ -96,37 +95,37 @@ drill_servers_away() {
 }
 
 drill_pause() {
-  local vehicle told
+  local vehicle placed_before
   vehicle=$(first_of vehicle)
-  told=$(places)
+  placed_before=$(places)
   docker pause "$vehicle" >/dev/null
   await "paused: the world takes it away" 10 joined $((VEHICLES - 1))
   docker unpause "$vehicle" >/dev/null
-  await "unpaused: all drive again" "$LIMIT_S" drive_again $((told + 1))
+  await "unpaused: all drive again" "$LIMIT_S" drive_again $((placed_before + 1))
 }
 joined() { [[ $(metric "$(first_of world)" world_vehicles_joined) -eq $1 ]]; }
 
 drill_cut() {
-  local vehicle told
+  local vehicle placed_before
   vehicle=$(first_of vehicle)
-  told=$(places)
+  placed_before=$(places)
   cut_off "$vehicle"
   await "cut: the world takes it away" 10 joined $((VEHICLES - 1))
   reconnect "$vehicle"
-  await "restored: all drive again" "$LIMIT_S" drive_again $((told + 1))
+  await "restored: all drive again" "$LIMIT_S" drive_again $((placed_before + 1))
 }
 
-# The interface itself goes away, and another one with the same address comes. By multicast whoever
-# comes later does not find this vehicle any more, see config/deploy/README.md: it goes last there.
+# The interface itself goes away, and another one with the same address appears. With multicast, later
+# vehicles no longer find this one, see config/deploy/README.md: there this drill comes last.
 drill_unplug() {
-  local vehicle told address
+  local vehicle placed_before address
   vehicle=$(first_of vehicle)
   address=$(docker inspect -f '{{range .NetworkSettings.Networks}}{{.IPAddress}}{{end}}' "$vehicle")
-  told=$(places)
+  placed_before=$(places)
   docker network disconnect "${PROJECT}_fleet" "$vehicle"
   await "unplugged: the world takes it away" 10 joined $((VEHICLES - 1))
   docker network connect --ip "$address" "${PROJECT}_fleet" "$vehicle"
-  await "plugged in: all drive again" "$LIMIT_S" drive_again $((told + 1))
+  await "plugged in: all drive again" "$LIMIT_S" drive_again $((placed_before + 1))
 }
 
 drill_scale() {
@@ -139,7 +138,7 @@ drill_scale() {
   await "scaled down: the world has 3" "$LIMIT_S" joined 3
 }
 
-# What the deployment promises of every container, seen from the host.
+# What the deployment promises about every container, checked from the host.
 shut_in() { # CONTAINER
   local status
   status=/proc/$(pid_of "$1")/status

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# A container engine for tests: Debian's docker, started here if none runs, ended again by whoever
-# started it. No registry is asked for anything. Sourced, never run.
+# A container engine for tests: Debian's docker, started here if none runs, and stopped again by the script
+# that started it. No registry is contacted. Sourced, never run.
 source "$(dirname "${BASH_SOURCE[0]}")/../../config/deploy/engine.sh"
 
 failures=0
@@ -14,7 +14,7 @@ container_packages() {
   printf '%s\n' debootstrap iptables nftables curl util-linux
 }
 
-# Leaves its process in ENGINE where it had to start one.
+# If it had to start one, leaves its process in ENGINE.
 engine_up() { engine_is_up || start_engine; }
 
 engine_down() {

@@ -1,6 +1,6 @@
 # shellcheck shell=bash
-# What the container drills share: a composed fleet, looked at from inside each container's own
-# network, and waiting for conditions with deadlines. Sourced, never run.
+# What the container drills share: a composed fleet, observed from inside each container's own network, and
+# waiting for conditions with deadlines. Sourced, never run.
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
 
@@ -12,7 +12,7 @@ export DRILL_SCENARIOS=$SCRATCH/scenarios
 mkdir "$DRILL_SCENARIOS"
 chmod 755 "$SCRATCH" "$DRILL_SCENARIOS"
 cp "$HERE/lanes.textproto" "$DRILL_SCENARIOS"
-# use multicast|servers: how the fleet of this test finds itself. With servers a firewall rule drops
+# use multicast|servers: how the vehicles of this test discover each other. With servers a firewall rule drops
 # every multicast between the containers.
 use() {
   env_file=$GIVEWAY_ROOT/config/deploy/multicast.env
@@ -21,10 +21,10 @@ use() {
   return 0
 }
 
-# One run and no more: the services end with it, and the world's exit code is its verdict.
+# A single run: the services end with it, and the world's exit code is its verdict.
 once() { export GIVEWAY_RESTART=on-failure GIVEWAY_STAY=; }
 
-# eight ARRIVALS: the shipped open fleet, started by eight at once, with this line on who must arrive.
+# eight ARRIVALS: the shipped open fleet, started once eight have joined, with this line on which must arrive.
 eight() {
   sed -e 's/^start_with: 2$/start_with: 8\nstart_timeout_s: 60/' -e 's/^duration_s: 90$/duration_s: 60/' \
     -e "s/^  any_arrived: true\$/  $1/" "$GIVEWAY_ROOT/config/scenarios/open_fleet.textproto" \
@@ -54,13 +54,13 @@ table bridge giveway_drill {
 }
 TEXT
 }
-# The rule stands where it should: servers are no proof where multicast would have done. A vehicle
-# that looks for the fleet by multicast finds nobody.
+# The rule is effective: otherwise multicast could have done the servers' work. A vehicle that uses multicast
+# finds no fleet.
 multicast_finds_nobody() {
   local alone
   alone=$(docker run -d --network "${PROJECT}_fleet" -e GIVEWAY_SCENARIO=open_fleet \
     -e GIVEWAY_DOMAIN=1 giveway-vehicle)
-  await "by multicast: nobody is found" 15 says "$alone" 'no answer from a world yet'
+  await "by multicast: no fleet is found" 15 says "$alone" 'no answer from a world yet'
   await "by multicast: the firewall dropped it" 5 drops_multicasts
   docker rm -f "$alone" >/dev/null
 }
@@ -101,8 +101,8 @@ ready() { nsenter -t "$(pid_of "$1")" -n curl -s -m 2 http://127.0.0.1:8080/read
 # metric CONTAINER NAME: its value; 0 if the container does not answer.
 metric() { metrics "$1" | awk -v name="giveway_$2" '$1 == name {value = $2} END {print value + 0}'; }
 
-# Its wheels turn, and it is ready: a speed alone may be what it measured last, before the world or
-# the network was gone.
+# Its wheels turn, and it is ready: the speed alone may be the last one measured, before the world or the
+# network was gone.
 drives() { # CONTAINER
   metrics "$1" | awk '$1 == "giveway_vehicle_speed_meters_per_second" {speed = $2}
     $1 == "giveway_vehicle_ready" {ready = $2} END {exit !(ready == 1 && speed > 0.05)}'
@@ -122,7 +122,7 @@ any_drives() {
   return 1
 }
 
-# Places all vehicles were given so far: each is told again by another world.
+# Placements of all vehicles so far: another world places each again.
 places() {
   local vehicle sum=0
   for vehicle in $(running vehicle); do
@@ -131,29 +131,29 @@ places() {
   echo "$sum"
 }
 
-# await WHAT SECONDS COMMAND...: true once the command is; else a failure after so many seconds.
+# await WHAT SECONDS COMMAND...: waits until the command is true; fails after so many seconds.
 await() {
-  local what=$1 seconds=$2 begun now
+  local what=$1 seconds=$2 start_ns now
   shift 2
-  begun=$(date +%s%N)
+  start_ns=$(date +%s%N)
   while ! "$@"; do
     now=$(date +%s%N)
-    if ((now - begun > seconds * 1000000000)); then
+    if ((now - start_ns > seconds * 1000000000)); then
       fail "$what: not within $seconds s"
       return 0
     fi
     sleep 0.05
   done
-  echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms"
+  echo "$what: $((($(date +%s%N) - start_ns) / 1000000)) ms"
 }
 
-# holds WHAT SECONDS COMMAND...: true at every look for so many seconds.
+# holds WHAT SECONDS COMMAND...: true each time it is polled for so many seconds.
 holds() {
   local what=$1 until=$((SECONDS + $2)) looks=0
   shift 2
   while ((SECONDS < until)); do
     "$@" || {
-      fail "$what: not at look $looks"
+      fail "$what: not at poll $looks"
       return 0
     }
     looks=$((looks + 1))
@@ -162,7 +162,7 @@ holds() {
   echo "$what: at all of $looks looks"
 }
 
-# excused WORLD: true if nothing but the lateness of the machine explains that its run failed.
+# excused WORLD: true if only the lateness of the machine explains that its run failed.
 excused() {
   local ended reason vehicle
   ended=$(docker logs "$1" 2>&1 | sed -n 's/.*ended: .*; failed: \(.*\); late for \([0-9]*\) ticks.*/\2 \1/p')
@@ -173,7 +173,7 @@ excused() {
   )"
 }
 
-# As a crash is: docker itself would take its own kill for the wish that it stays ended.
+# As in a crash: docker would take its own kill for a request to stay stopped.
 crash() { kill -9 "$(pid_of "$1")"; }
 
 # was_restarted CONTAINER BEFORE: by its policy, more often than BEFORE times.
@@ -186,7 +186,7 @@ in_network_of() { # CONTAINER COMMAND...
   shift
   nsenter -t "$pid" -n "$@"
 }
-# Nothing gets in or out of a container; its own loopback stays.
+# No traffic in or out of a container; its own loopback stays.
 cut_off() {
   in_network_of "$1" iptables -A INPUT ! -i lo -j DROP
   in_network_of "$1" iptables -A OUTPUT ! -o lo -j DROP

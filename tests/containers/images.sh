@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The images as they are: size above their base, user, read-only root, no capabilities, labels, health
-# check, stop signal; and what is in them is found where it is installed.
+# The built images: size above their base, user, read-only root, no capabilities, labels, health check, stop
+# signal; and their files are found where they are installed.
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 engine_up
 trap engine_down EXIT
@@ -34,7 +34,7 @@ for target in world vehicle; do
 done
 docker run --rm --read-only --network none --entrypoint fleetctl giveway-tools \
   virtual crossing --vehicles 2 --seeds 1..2 >/dev/null || fail "fleetctl virtual"
-# What it starts is given neither the image's health port nor an id.
+# The program it starts gets neither the image's health port nor an id.
 docker run --rm --read-only --tmpfs /tmp --cap-drop ALL --network none -e GIVEWAY_ID=2 giveway-tools \
   run intersection_yield --json >/dev/null || fail "fleetctl run in the image of fleetctl"
 docker run --rm --read-only --network none --entrypoint fleetctl giveway-tools qos check default \

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A mixed fleet: vehicles built here (on Debian 12 Fast DDS 2.9.1) and of the image (3.1.2) on one
-# loopback, by turns under the world of either. The world's verdict counts.
+# A mixed fleet: vehicles built here (on Debian 12 Fast DDS 2.9.1) and of the image (3.1.2) on one loopback,
+# first under the world of the one, then of the other. The world's verdict counts.
 source "$(dirname "${BASH_SOURCE[0]}")/engine.sh"
 BIN=${GIVEWAY_BIN_DIR:-$GIVEWAY_ROOT/build/release/bin}
 SCRATCH=$(mktemp -d)
@@ -15,12 +15,12 @@ end_mixed() {
 trap end_mixed EXIT
 engine_up
 
-# Where both have one library nothing is mixed.
+# If both have the same library nothing is mixed.
 OURS=$("$BIN/giveway-vehicle" --version)
 THEIRS=$(docker run --rm --network none giveway-vehicle --version)
 [[ $OURS != "$THEIRS" ]] || die "both are $OURS: nothing is mixed"
 
-# A domain nobody here uses, kept by the lock that fleetctl takes too.
+# A free domain, kept by the lock that fleetctl takes too.
 for DOMAIN in $(seq 60 99); do
   exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$DOMAIN.lock"
   flock -n "$lock" && break

@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
-# A fleet as the README starts it, for as long as wanted: it drives until it is asked to stop, whatever
-# happens meanwhile. Its world is restarted three times, two vehicles are killed, one network is cut;
-# after each every vehicle drives again, no two bodies touch, and in the quiet last third nobody's
-# memory grows.
+# A fleet started as the README says, for as long as wanted: it drives until it is asked to stop, whatever
+# happens meanwhile. Its world is restarted three times, two vehicles are killed, one network is cut; after
+# each every vehicle drives again, no two bodies touch, and in the quiet last third no process's memory grows.
 #
 #   bash tests/containers/patrol.sh [MINUTES [VEHICLES]]   default: each of the three once, at once
 #
@@ -10,7 +9,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 MINUTES=${1:-0}
 VEHICLES=${2:-4}
-LIMIT_S=30 # to drive again: who gives way at a crossing stands for some of it
+LIMIT_S=30 # to drive again, including the time to give way at a crossing
 KIB_MORE=2048 # what a process may grow by in the quiet time
 SAMPLES=$SCRATCH/samples
 export COMPOSE_PROJECT_NAME=$PROJECT
@@ -34,8 +33,7 @@ refuses() { # ARGUMENTS...
   [[ $code -eq 2 ]] || fail "up.sh $*: exit code $code"
 }
 
-# Every vehicle was seen driving since the last call of begin_looking: at any one moment some stand
-# to give way.
+# Every vehicle was seen driving since the last call of begin_looking: at any moment some stand to give way.
 begin_looking() { declare -gA DRIVEN=(); }
 each_drove() {
   local container
@@ -53,28 +51,28 @@ drive_again() { # WHAT
 sample() {
   local container
   for container in $(running world) $(running vehicle); do
-    metrics "$container" | awk -v at="$((SECONDS - begun))" -v name="$(name_of "$container")" '
+    metrics "$container" | awk -v at="$((SECONDS - start_s))" -v name="$(name_of "$container")" '
       $1 == "process_resident_memory_bytes" {kib = $2 / 1024}
       $1 ~ /^giveway_(world_late_ticks|vehicle_late_scans)_total$/ {late = $2}
       $1 == "giveway_vehicle_speed_meters_per_second" {speed = $2}
       END {if (kib) printf "%d %s %d %d %.2f\n", at, name, kib, late, speed}' >>"$SAMPLES"
   done
 }
-# until SECONDS: samples every ten seconds until so long after the beginning.
+# until SECONDS: samples every ten seconds until so long after the start.
 until_then() {
-  while ((SECONDS - begun < $1)); do
+  while ((SECONDS - start_s < $1)); do
     sample
-    sleep "$(($1 - (SECONDS - begun) < 10 ? 1 : 10))"
+    sleep "$(($1 - (SECONDS - start_s) < 10 ? 1 : 10))"
   done
 }
 
 placed() { [[ $(places) -ge $1 ]]; }
 restart_world() {
-  local told
-  told=$(places)
-  # The README's words, not docker's: the world is asked to stop, and its run is over.
+  local placed_before
+  placed_before=$(places)
+  # As the README says, not by docker: the world is asked to stop, and its run is over.
   compose restart -t 5 world >"$SCRATCH/restart.log" 2>&1 || fail "restart: $(tail -n 3 "$SCRATCH/restart.log")"
-  await "world restarted: all are given a place" 20 placed $((told + VEHICLES))
+  await "world restarted: all are given a place" 20 placed $((placed_before + VEHICLES))
   drive_again "world restarted"
 }
 kill_vehicle() {
@@ -95,7 +93,7 @@ cut_network() {
   drive_again "network restored"
 }
 
-# Of each process that was there the whole quiet time.
+# Of each process that ran throughout the quiet time.
 judge_memory() { # FROM_SECONDS
   awk -v from="$1" -v most="$KIB_MORE" '
     $1 >= from {
@@ -120,7 +118,7 @@ refuses --vehicles 0
 refuses --vehicles 9 # of patrol, which has places for 8
 refuses --vehicle 2
 up_as_the_readme_says
-begun=$SECONDS
+start_s=$SECONDS
 drive_again "up"
 whole=$((MINUTES * 60))
 if [[ $whole -eq 0 ]]; then
@@ -131,13 +129,13 @@ else
   drills=(restart_world "kill_vehicle 1" restart_world cut_network "kill_vehicle 2" restart_world)
   for i in "${!drills[@]}"; do
     until_then $((whole * (i + 1) / 10))
-    echo "at $((SECONDS - begun)) s:"
+    echo "at $((SECONDS - start_s)) s:"
     ${drills[i]}
   done
-  quiet=$((SECONDS - begun + 30))
+  quiet=$((SECONDS - start_s + 30))
   until_then "$whole"
   judge_memory "$quiet"
-  drive_again "at the end, after $((SECONDS - begun)) s"
+  drive_again "at the end, after $((SECONDS - start_s)) s"
 fi
 for container in $(all_containers); do
   echo "$(name_of "$container"): restarted by its policy $(restart_count "$container") times"

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Eight containers cross while things happen to them: kill -9 of a vehicle, a pause, a cut network, and
-# kill -9 of the world. Unlike in the lanes of the drills they are in each other's way all the time; who
-# arrives is not asked, that no two bodies touch is, by the world's verdict over the whole run. How long the
-# engine takes is not asked either: the waits are as long as a busy machine may make them.
+# Eight containers cross under faults: kill -9 of a vehicle, a pause, a cut network, and kill -9 of the world.
+# Unlike in the lanes of the drills they block each other all the time. Which of them arrive is not checked;
+# that no two bodies touch is, by the world's verdict over the whole run. Nor is the time the engine takes:
+# the waits allow for a busy machine.
 #
 #   bash tests/containers/rough_crossing.sh multicast|servers
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
@@ -14,7 +14,7 @@ eight 'any_arrived: true'
 export GIVEWAY_SCENARIO=/drill/eight.textproto
 
 up 8
-await "up: somebody drives" 90 any_drives
+await "up: a vehicle drives" 90 any_drives
 mapfile -t vehicles < <(running vehicle)
 world=$(first_of world)
 seconds_in() { awk -v at="$1" -v now="$(metric "$world" world_run_seconds)" 'BEGIN {exit !(now >= at)}'; }

@@ -10,11 +10,11 @@ engine_up
 use multicast
 
 stops_in_time() { # CONTAINER
-  local begun code took
-  begun=$(date +%s%N)
+  local start_ns code took
+  start_ns=$(date +%s%N)
   docker kill -s TERM "$1" >/dev/null
   code=$(timeout 20 docker wait "$1") || code="none in 20 s"
-  took=$((($(date +%s%N) - begun) / 1000000))
+  took=$((($(date +%s%N) - start_ns) / 1000000))
   echo "$(name_of "$1"): exit code $code, $took ms after SIGTERM"
   [[ $code == 0 ]] || fail "$(name_of "$1"): exit code $code"
   [[ $took -le 1000 ]] || fail "$(name_of "$1"): $took ms"
@@ -37,20 +37,20 @@ kill_and_start() { # CONTAINER TIMES
 
 up 3
 await "up: all drive" 30 all_drive 3
-read -r victim other third <<<"$(running vehicle | tr '\n' ' ')"
-kill_and_start "$victim" 10 # what grows once is not a leak
+read -r target other third <<<"$(running vehicle | tr '\n' ' ')"
+kill_and_start "$target" 10 # what grows once is not a leak
 files=$(shared_files) bytes=$(world_bytes)
-[[ $bytes -gt 1000000 ]] || fail "the world does not tell its memory: $bytes"
-kill_and_start "$victim" "$KILLS"
+[[ $bytes -gt 1000000 ]] || fail "the world does not report its memory: $bytes"
+kill_and_start "$target" "$KILLS"
 grown=$(($(world_bytes) - bytes))
 echo "$KILLS kill -9 restarts: the world's memory went from $((bytes / 1024)) KiB by $((grown / 1024)) KiB"
 sort -t: -k2 -n "$SCRATCH/restarts" | tail -n 1
 # Measured over 200: 6 KiB each.
 [[ $grown -le $((KILLS * 8192 + 1048576)) ]] || fail "the world's memory grew by $grown bytes"
 [[ $(shared_files) -le $files ]] || fail "files were left in /dev/shm of the host"
-[[ $(shared_files_in "$victim") -eq 0 ]] || fail "files were left in /dev/shm of the container"
+[[ $(shared_files_in "$target") -eq 0 ]] || fail "files were left in /dev/shm of the container"
 
-stops_in_time "$victim"
+stops_in_time "$target"
 await "one has left: the others drive on" 5 all_drive 2
 stops_in_time "$other"
 stops_in_time "$third"

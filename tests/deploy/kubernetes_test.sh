@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Plants one mistake at a time in a copy of the manifests: kubernetes.sh must find each, by the
-# checks named, and find nothing else.
+# Injects one mistake at a time into a copy of the manifests: kubernetes.sh must find each, by the checks
+# named, and find nothing else.
 # The dollar signs in quotes are those of sed and of Kubernetes.
 # shellcheck disable=SC2016
 set -euo pipefail
@@ -10,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 B=config/deploy/kubernetes/base
 O=config/deploy/kubernetes/overlays
-planted=0
+injected=0
 
 # lay_out TREE: a copy of what the checks read.
 lay_out() {
@@ -29,29 +29,29 @@ failed_checks() {
 }
 
 # One mistake in a tree of its own, see expect.
-plant() {
+inject() {
   local tree=$1 checks=$2 what=$3 file=$4 script=$5 found
   lay_out "$tree"
   sed -i -E "$script" "$tree/$file"
   if cmp -s "$tree/$file" "$project/$file"; then
-    found="nothing was planted"
+    found="nothing was changed"
   else
     found=$(failed_checks "$tree")
   fi
   rm -rf "$tree"
   if [[ $found == "$checks" ]]; then
-    printf 'ok      caught: %s\n' "$what"
+    printf 'ok      detected: %s\n' "$what"
   else
-    printf 'FAILED  caught: %s\n    by: %s\n    expected: %s\n' "$what" "${found:-nothing}" "$checks"
+    printf 'FAILED  detected: %s\n    by: %s\n    expected: %s\n' "$what" "${found:-nothing}" "$checks"
   fi
 }
 
-# expect CHECKS WHAT FILE SED: WHAT is done by SED to FILE, and these checks fail. A script that
-# changes nothing plants nothing, which would pass unseen. As many at a time as there are cores.
+# expect CHECKS WHAT FILE SED: WHAT is done by SED to FILE, and these checks fail. A script that changes
+# nothing is reported. As many at a time as there are cores.
 expect() {
-  planted=$((planted + 1))
+  injected=$((injected + 1))
   (($(jobs -rp | wc -l) < $(nproc))) || wait -n
-  plant "$work/$planted" "$@" >"$work/$planted.said" 2>&1 &
+  inject "$work/$injected" "$@" >"$work/$injected.said" 2>&1 &
 }
 
 lay_out "$work/clean"
@@ -64,7 +64,7 @@ for overlay in campaign 20; do
 done
 echo "ok      the clean tree is clean"
 
-# What the schemas see, and kustomize.
+# What the schemas and kustomize find.
 expect schema "a misspelt field" $B/vehicle.yaml 's/readOnlyRootFilesystem: true/&\n            runAsNonRoto: true/'
 expect schema "a field a level too high" $B/world.yaml 's/^  replicas: 1/&\n  restartPolicy: Always/'
 expect schema "a text for a number" $B/vehicle.yaml 's/failureThreshold: 60/failureThreshold: "60"/'
@@ -75,7 +75,7 @@ expect rendered "a misspelt field of kustomize" $B/kustomization.yaml 's/^images
 expect rendered "a field that kustomize gives up" $B/kustomization.yaml 's/^labels:/commonLabels: {a: b}\n&/'
 expect "rendered" "a file that is not there" $B/kustomization.yaml 's/- world.yaml/- wrold.yaml/'
 
-# Who is meant by whom.
+# References between objects.
 expect "selectors_match health_reached" "a Service that selects nothing" $B/world.yaml \
   '/^kind: Service/,$s/selector: \*labels/selector: {app.kubernetes.io\/component: wrold}/'
 expect "selectors_narrow references" "a Service that selects all pods" $B/vehicle.yaml \
@@ -95,7 +95,7 @@ expect files_mounted "a checkpoint where nothing can be written" $B/world.yaml '
 expect files_the_projects "a file of another content" $O/20/kustomization.yaml \
   's/- \.\..*fleet_20.*/- fleet_20.textproto=..\/..\/..\/..\/scenarios\/fleet_2.textproto/'
 
-# What the services are told.
+# The services' configuration.
 expect variables_known "a variable no service knows" $B/kustomization.yaml 's/GIVEWAY_LOG_FORMAT/GIVEWAY_LOGFORMAT/'
 expect variables_known "the world's variable given to all" $B/kustomization.yaml 's/^( *- )GIVEWAY_LOG_FORMAT=json/&\n\1GIVEWAY_THREADS=2/'
 expect variables_known "a flag that goes out of use" services/config/flags.cc 's/"--log-format", "text/"--log-shape", "text/'
@@ -105,7 +105,7 @@ expect "arguments_filled" "an argument that stays unfilled" $B/discovery.yaml 's
 expect servers_found "a server with a number" $B/discovery.yaml 's/"-l"/"-i", "0", "-l"/'
 expect servers_found "a server with the lease of the library" $B/discovery.yaml 's/server.xml"/server.txt"/'
 
-# Where packets get to.
+# Network policies.
 expect "servers_found" "servers named in the wrong order" $B/kustomization.yaml \
   's/giveway-discovery-0:11811,giveway-discovery-1:11811/giveway-discovery-1:11811,giveway-discovery-0:11811/'
 expect servers_found "a server by the name of its pod" $B/kustomization.yaml 's/,giveway-discovery-1:/,giveway-discovery:/'
@@ -117,12 +117,12 @@ expect "domain_ports_open other_ports_shut" "another domain, the old ports" $B/k
 expect domain_ports_open "ports for one participant a pod" $B/network_policy.yaml 's/endPort: 9169/endPort: 9161/'
 expect domain_ports_open "samples by TCP" $B/network_policy.yaml 's/protocol: UDP, port: 9160/protocol: TCP, port: 9160/'
 expect other_ports_shut "ports of every domain" $B/network_policy.yaml 's/port: 9160, endPort: 9169/port: 7400, endPort: 32767/'
-expect denied_by_default "nothing is denied on the way out" $B/network_policy.yaml \
+expect denied_by_default "no egress is denied" $B/network_policy.yaml \
   '0,/policyTypes: \[Ingress, Egress\]/s//policyTypes: [Ingress]/'
 expect dns_open "no names by TCP" $B/network_policy.yaml '/protocol: TCP, port: 53/d'
 expect "health_reached" "health at another port" $B/kustomization.yaml 's/HEALTH_PORT=9101/HEALTH_PORT=9100/'
 
-# What the pods are given and denied.
+# What the pods are granted and denied.
 expect probed "a pod that is never asked" $B/world.yaml 's/livenessProbe:/lifecycle: \&never/; /lifecycle/,/failureThreshold/d'
 expect probed "readiness asked of liveness" $B/vehicle.yaml 's/path: \/readyz/path: \/livez/'
 expect bounded "no limits" $B/discovery.yaml '/limits: /d'
@@ -160,6 +160,6 @@ expect silent "shards that may speak" $C/job.yaml 's/policyTypes: .*/policyTypes
 expect apart "in the namespace of the fleets" $C/kustomization.yaml 's/^namespace: .*/namespace: giveway/'
 
 wait
-for ((i = 1; i <= planted; ++i)); do cat "$work/$i.said"; done | tee "$work/said"
-# Also where one was cut short and said nothing.
-[[ $(grep -c '^ok ' "$work/said") -eq $planted ]]
+for ((i = 1; i <= injected; ++i)); do cat "$work/$i.said"; done | tee "$work/said"
+# A check that was cut short prints nothing, so the lines are counted.
+[[ $(grep -c '^ok ' "$work/said") -eq $injected ]]

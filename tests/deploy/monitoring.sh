@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Checks config/deploy/monitoring: Prometheus reads its configuration, each alert fires in its drill and
 # none in a healthy fleet, and every metric that alerts and dashboard name is one the observer serves.
-# Grafana is in no Debian: of the dashboard the structure and the expressions are checked.
+# Grafana is not in Debian: of the dashboard the structure and the expressions are checked.
 # Usage: monitoring.sh; lines "ok NAME" and "FAILED NAME". Exit code: 0 all ok, 1 something failed.
 # shellcheck disable=SC2317  # what check runs is called by its name
 set -uo pipefail

@@ -49,7 +49,7 @@ knows() { # TEXT FLAG
   grep -qE -- "(^|[^a-z-])$2([^a-z-]|$)" <<<"$1"
 }
 
-# What is wrong with one simple command that is not run; nothing if nothing is.
+# Problems of one simple command that is not run; nothing if there are none.
 wrong_with() { # WORD...
   local help word verbs=()
   while [[ ${1:-} == *=* ]]; do shift; done

@@ -25,7 +25,7 @@ cp "$here"/*.pml .
 rm -f giveway.pml.trail
 read -ra flags <<<"$switches"
 
-# Breadth first finds the shortest counter-example; where there is none, depth first takes less.
+# Breadth first finds the shortest counter-example; where there is none, depth first takes less memory.
 compile=(-O2 -w -DNOREDUCE -DCOLLAPSE "-DMEMLIM=$MEMORY_MB")
 run=(-m3000000)
 case $property in
@@ -47,7 +47,7 @@ gcc "${compile[@]}" -o pan pan.c || die "the verifier does not compile"
 started=$SECONDS
 ./pan "${run[@]}" >pan.log 2>&1 || true
 
-# What was found, in the words of runs.txt.
+# The result, in the terms of runs.txt.
 if grep -qE 'out of memory|max search depth too small|aborting' pan.log; then
   found=unfinished
 elif grep -q 'errors: 0$' pan.log; then

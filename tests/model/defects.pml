@@ -1,4 +1,4 @@
-/* The points at which the model can be broken on purpose: as it should be, and each planted defect.
+/* The points at which the model can be broken on purpose: as it should be, and each injected defect.
  * What SPIN must find stands in runs.txt. */
 
 /* The order, as it should be. */

@@ -1,7 +1,7 @@
-/* The right of way of 2 or 3 vehicles at one crossing, for SPIN: every way in which beacons can be
- * lost, late, out of order or doubled, vehicles can die and come back, and all of it can be timed.
+/* The right of way of 2 or 3 vehicles at one crossing, for SPIN: all sequences in which beacons are
+ * lost, late, out of order or duplicated, and vehicles die and come back, at all times.
  *
- * What stands for what (services/vehicle, services/types):
+ * Correspondence with the code (services/vehicle, services/types):
  *
  *   here            there
  *   Hear            PeerTable::Take, IsFresh, IsLost                            peer_table.cc
@@ -16,25 +16,25 @@
  *   Remember, Say   KeepOrder, Remember, GivesWayTo, CanGiveWay, Say            waiting.cc, vehicle.cc, decide.cc
  *   Move            World::Step; of the dead: watchdog, removal of the body     sim_world
  *
- * Time is ticks, all vehicles step in each. In tick k a brain knows beacons of ticks k-1 .. k-AGE, at
- * will any one of them or none: so they get lost, come late, overtake each other and come twice, and
- * the model needs neither sequence number nor boot epoch. Lost for how long is free too.
+ * Time is ticks, all vehicles step in each. In tick k a brain knows any one of the beacons of ticks
+ * k-1 .. k-AGE, or none: so they get lost, come late, out of order and twice, and the model needs
+ * neither sequence number nor boot epoch. How long a peer stays lost is free too.
  *
- * Geometry is one line of places a vehicle: FAR (nobody hears it), COMING, NEARER, GATE (stands before
- * the zone), RUNUP rolling places from which it can still stop, ZONE, PAST. Standing it needs RUNUP
- * ticks to be where it cannot stop any more: more than a beacon may be old, as in the real fleet.
+ * Geometry is one line of places a vehicle: FAR (out of range), COMING, NEARER, GATE (stands before
+ * the zone), RUNUP rolling places from which it can still stop, ZONE, PAST. From standstill it takes
+ * RUNUP ticks to where it can no longer stop: more than the age limit of a beacon, as in the real fleet.
  *
  * Not in the model, so not proven here: steering and everything it is for (detours, backing out, the
- * lent order, blocked_by, clears), traffic lights, queues in one lane, three zones instead of one,
- * speeds other than none and full, errors of pose, ultrasonics that miss a body, stale ranges, spoofed
- * or spoilt beacons, duplicate ids, restarts of the world. Ultrasonics hear exactly the bodies from
- * the gate to the end of the zone. The virtual fleet tries these things; it proves nothing.
+ * inherited priority, blocked_by, clears), traffic lights, queues in one lane, three zones instead of
+ * one, speeds other than none and full, pose errors, ultrasonics that miss a body, stale ranges, spoofed
+ * or corrupted beacons, duplicate ids, restarts of the world. Ultrasonics detect exactly the bodies from
+ * the gate to the end of the zone. The virtual fleet tests these things; it proves nothing.
  *
- * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: nobody comes
- * again; EVEN: one speed; STALL: whoever rolls may be slow; ONE_STEP: through the zone in one tick;
- * NO_CLAIMS, NO_AGREEMENT: one of the two reasons for safety is missing; ONLY_EXCLUSION: the other
- * safety properties are not looked at; WEATHER: losses end some day, and WHO must pass; the planted
- * defects. runs.txt says which are tried together, and what SPIN must find.
+ * Switches: N vehicles; AGE ticks a beacon is trusted; CRASHES, RESTARTS in all; ONCE: no vehicle
+ * comes again; EVEN: one speed; STALL: a rolling vehicle may be slow; ONE_STEP: through the zone in
+ * one tick; NO_CLAIMS, NO_AGREEMENT: one of the two lines of defence is missing; ONLY_EXCLUSION: the
+ * other safety properties are not checked; WEATHER: losses end eventually, and WHO must pass; the
+ * injected defects. runs.txt says which are tried together, and what SPIN must find.
  */
 #ifndef N
 #define N 2
@@ -110,7 +110,7 @@ byte waited[N];       /* ticks */
 bool let_pass[N];     /* one that comes first has passed since it waits */
 byte order[N];        /* the waited part of the own key, as published */
 byte gives_way[N];    /* said at the end of this tick */
-bool under_way[N];    /* this tick: encounters are under way, and were in the tick before */
+bool under_way[N];    /* this tick: encounters are active, and were in the tick before */
 bool rests[N];        /* this tick: no encounter, no waiting: what it waited is forgotten */
 
 /* Scratch: heard lives from Hear to the end of Decide, the rest within one step; 0 between. */
@@ -121,10 +121,10 @@ bool clear, deaf, waits, met, meets_any, held;
 
 /* The safety properties. SPIN names the one that is broken. */
 bool two_in_zone;  /* exclusion: never two bodies in the zone, dead or alive */
-bool out_of_order; /* order: nobody enters before one that it hears near and that comes first,
-                    * unless that one waits for a third */
-bool unfrozen;     /* frozen: while encounters are under way the order published changes only once its
-                    * vehicle has let somebody pass, and stands before the zone */
+bool out_of_order; /* order: no vehicle enters before a near one that it hears and that has
+                    * priority, unless that one waits for a third */
+bool unfrozen;     /* frozen: during encounters the published priority changes only once its
+                    * vehicle has let another pass, and stands before the zone */
 bool unlatched;    /* latch: a stop for a peer lasts until that has passed or given way */
 
 #include "defects.pml"
@@ -139,7 +139,7 @@ inline Look(i) {
   through = !conflict || (IsNear(place[i]) && IsThroughFirst(place[i], p, a))
 }
 
-/* It stands and gives way to a third one: so long it is not waited for. */
+/* It stands and gives way to a third one: meanwhile it is not waited for. */
 #if N == 3
 #define MayCross(i, j_)                               \
   (Said(j_, heard[j_]).place == GATE &&               \
@@ -217,7 +217,7 @@ inline Remember(i) {
   rests[i] = AGED_AT_MOST > 0 && ForgetsWaiting(!meets_any && !waits)
 }
 
-/* By the order as it should be, whatever is planted. */
+/* By the order as it should be, whatever defect is injected. */
 inline CheckOrder(i) {
   for (j : 0 .. N - 1) {
     if
@@ -306,7 +306,7 @@ inline Forget(i) {
   j = 0
 }
 
-/* Whoever is past, or out of reach, is no conflict for anybody. */
+/* A vehicle that is past, or out of reach, is no conflict for any other. */
 inline Say(i) {
 #if AGE >= 2
   Said(i, 2).place = Said(i, 1).place;
@@ -340,8 +340,8 @@ inline Say(i) {
 }
 
 /* Crashes come between decision and motion: the last command still acts. Then the body rolls at most
- * as far as a vehicle may that brakes: the watchdog's ticks are part of the reaction every stopping
- * way allows for. */
+ * as far as a braking vehicle may: the watchdog's ticks are part of the reaction time that every
+ * stopping distance allows for. */
 inline Crash() {
   if
   :: true
@@ -456,10 +456,10 @@ active proctype Fleet() {
 }
 
 #ifdef WEATHER
-/* Losses end some day: by weak fairness, not by any day in particular. */
+/* Losses end eventually: by weak fairness, not by a given time. */
 active proctype Weather() { good = true }
 
-/* A dead body that no longer rolls is taken away some day, unless it comes back before. */
+/* A dead body that no longer rolls is eventually removed, unless it comes back before. */
 active proctype Undertaker() {
   do
   :: atomic { !up[0] && !Rolls(place[0]) && place[0] != GONE -> place[0] = GONE }
@@ -473,6 +473,6 @@ active proctype Undertaker() {
 #ifndef WHO
 #define WHO 0
 #endif
-/* Whoever lives and has come near gets through. */
+/* A living vehicle that has come near gets through. */
 ltl passes { [] ((up[WHO] && IsNear(place[WHO])) -> <> (!up[WHO] || place[WHO] > LAST)) }
 #endif

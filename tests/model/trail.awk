@@ -4,7 +4,7 @@
 
 BEGIN {
   tick_s = 0.5
-  lead_s = 8             # from the start signal to tick 0: everybody is at its speed by then
+  lead_s = 8             # from the start signal to tick 0: all are at their speed by then
   gate_m = 0.9           # from the crossing to where a vehicle that waits stands
   acceleration = 0.3     # m/s^2, the default profile
   gate = 3               # the model's number of that place
@@ -86,5 +86,5 @@ END {
   printf "  build/release/bin/fleetctl virtual %s%s%s --seeds 1..1000\n", scenario, radio, faults
   print "Carried over: directions, speeds, who comes when, deaths and restarts, how much of the radio's"
   print "traffic was lost, late or overtaken. Not carried over: which beacon it was (the seeds try"
-  print "many), earlier approaches of a vehicle that came again, and a defect planted in the model."
+  print "many), earlier approaches of a vehicle that came again, and a defect injected into the model."
 }

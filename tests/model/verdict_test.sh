@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# check.sh fails when SPIN finds nothing where it must find something, and the other way round.
+# check.sh fails when SPIN finds nothing where it must find something, and vice versa.
 # Usage: verdict_test.sh FOLDER
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

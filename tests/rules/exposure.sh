@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Holds config/security/exposure.textproto against its schema, the reasons of the packet filter, and
-# the installed packages of Debian 12 or 13: their versions, and every vulnerability that their
-# changelogs name. A line for each contradiction; exit code 1 if there is one. No build is needed.
+# Checks config/security/exposure.textproto against its schema, the reasons of the packet filter, and the
+# installed packages of Debian 12 or 13: their versions, and every vulnerability that their changelogs name. A
+# line for each contradiction; exit code 1 if there is one. No build is needed.
 # Usage: exposure.sh [--debian N] [--docs FOLDER] [--versions FILE] [--all-changelogs] [FILE]
 #   --debian N       as on that release (default: this host's)
 #   --docs FOLDER    where the changelogs are (default /usr/share/doc)

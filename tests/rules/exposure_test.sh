@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Each contradiction that exposure.sh is there for, written into a small file, a changelog or a list
-# of versions of the test's own: it must be named.
+# Each contradiction that exposure.sh looks for, written into a small file, a changelog or a list of versions
+# of the test's own: it must be named.
 set -euo pipefail
 rules=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tree=$(mktemp -d)

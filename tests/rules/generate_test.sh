@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# What fastddsgen leaves of the preprocessor lies in the folder of the build, and not in /tmp, where
-# the file of the first user of the host stops every other one; and it is gone afterwards.
+# fastddsgen's preprocessor output goes to the build folder, and not to /tmp, where the file of the host's
+# first user would block all others; and it is removed afterwards.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-# In place of the preprocessor: writes in the build's folder only.
+# Stands in for the preprocessor: writes to the build folder only.
 mkdir "$scratch/bin"
 cat >"$scratch/bin/cpp" <<TEXT
 #!/usr/bin/env bash

@@ -4,8 +4,8 @@
 BEGIN {
   LONGEST_FILE = 500
   MOST_FILES = 40
-  # Standard headers the pure modules do without: threads, clocks of the wall, files, and the
-  # streams nobody there has anything to say to.
+  # Standard headers the pure modules do without: threads, wall clocks, files, and standard
+  # streams, which they never write to.
   IMPURE = "^(thread|mutex|shared_mutex|atomic|condition_variable|future|semaphore|latch|barrier|" \
            "stop_token|coroutine|filesystem|fstream|iostream|ctime|random|time\\.h|csignal)$"
   # These differ from one C library or CPU to the next; services/types/math has its own.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# README.md and the manuals beside the code: their lengths, that every link leads to a file or a heading
-# that is there, and that every module has a manual in its folder or in the one above.
+# README.md and the manuals next to the code: their lengths, that every link leads to a file or a heading that
+# is there, and that every module has a manual in its folder or in the one above.
 # Usage: manuals.sh [ROOT]; a line for each violation; exit code 1 if there is one.
 set -euo pipefail
 cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"

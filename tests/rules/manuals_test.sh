@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Each violation that manuals.sh is there for, planted in a tree of its own: it must be named.
+# Each violation that manuals.sh looks for, in a tree of its own: it must be named.
 set -euo pipefail
 rules=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
 failed=0
 
-plant() { # FILE TEXT: a sound tree with one file as given
+lay_out() { # FILE TEXT: a sound tree with one file as given
   rm -rf "${tree:?}"/*
   mkdir -p "$tree/tests/rules" "$tree/services/types"
   printf 'services/types | pure | - | - | structs\n' >"$tree/tests/rules/modules.txt"
@@ -23,11 +23,11 @@ expect() { # EXIT CODE, WHAT IT SAYS
   failed=1
 }
 
-plant && expect 0 '2 manuals, 0 violations'
-plant README.md "$(printf 'x\\n%.0s' {1..251})" && expect 1 'README.md: 251 lines, of at most 250'
-plant services/types/README.md "$(printf 'x\\n%.0s' {1..121})" && expect 1 '121 lines, of at most 120'
-plant README.md "$(printf 'x%.0s' {1..121})\n" && expect 1 'README.md:1: 121 columns'
-plant README.md '[x](nowhere.md)\n' && expect 1 'the link to nowhere.md leads nowhere'
-plant README.md '# A\n[x](#other)\n' && expect 1 'there is no heading for #other'
-plant && rm "$tree/services/types/README.md" && expect 1 'services/types: no README.md'
+lay_out && expect 0 '2 manuals, 0 violations'
+lay_out README.md "$(printf 'x\\n%.0s' {1..251})" && expect 1 'README.md: 251 lines, of at most 250'
+lay_out services/types/README.md "$(printf 'x\\n%.0s' {1..121})" && expect 1 '121 lines, of at most 120'
+lay_out README.md "$(printf 'x%.0s' {1..121})\n" && expect 1 'README.md:1: 121 columns'
+lay_out README.md '[x](nowhere.md)\n' && expect 1 'the link to nowhere.md leads nowhere'
+lay_out README.md '# A\n[x](#other)\n' && expect 1 'there is no heading for #other'
+lay_out && rm "$tree/services/types/README.md" && expect 1 'services/types: no README.md'
 exit "$failed"

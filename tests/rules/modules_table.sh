@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Prints modules.txt as the table of services/README.md; with --check, says whether that holds just it.
+# Prints modules.txt as the table of services/README.md; with --check, says whether that file contains exactly
+# it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Words that an engineer of the field stumbles over: words.txt says what to write instead, and how
-# many there may still be. A count may only fall; --record writes the counts of now into the table.
+# Words that an engineer of the field stumbles over: words.txt says what to write instead, and how many there
+# may still be. A count may only fall; --record writes the current counts into the table.
 # Usage: words.sh [--record | --show PATTERN]; a line for each that rose; exit code 1 if one did.
 set -euo pipefail
 rules=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

@@ -30,7 +30,7 @@ expect 0 a.cc 'Vehicle::Sayings(1);\n'
 expect 2 a.md 'told anew\n'
 expect 0 a.md 'Say\n'
 
-# The record takes the counts of now, and is then kept to.
+# --record takes the current counts, which then are the limit.
 printf '// anew\n// anew\n// told\n' >"$tree/services/a.cc"
 bash "$rules/words.sh" --record
 bash "$rules/words.sh" >/dev/null || { echo "the record is not kept to"; failed=1; }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A soak that cannot fail is none. One vehicle of the fleet is not sound (planted_vehicle.cc), or one
-# fault does silently nothing, and the soak must name it. A line "ok" or "FAILED" each.
+# A soak that cannot fail proves nothing. One vehicle of the fleet has a defect (planted_vehicle.cc), or one
+# fault silently has no effect, and the soak must name it. A line "ok" or "FAILED" each.
 # Exit code 0: all were found; 1: one was not; 2: could not run.
 # Usage: mutants.sh [MUTANT ...]
 set -euo pipefail
@@ -12,7 +12,7 @@ export GIVEWAY_CONFIG_DIR=${GIVEWAY_CONFIG_DIR:-$REPOSITORY/config}
   exit 2
 }
 
-# The invariant or promise that must be named of each. Of several one is enough.
+# The invariant or promise that must be named for each; of several one is enough.
 declare -A EXPECTED=(
   [none]=none
   [leak]=leak
@@ -26,12 +26,12 @@ declare -A EXPECTED=(
 ORDER=(none leak descriptor slow_loop priority_reversed deadline_ignored fault_without_effect
   stale_beacon_trusted)
 
-# programs MUTANT: a folder in which every vehicle is planted so.
+# programs MUTANT: a folder in which every vehicle has that defect.
 programs() {
   local folder=$SCRATCH/$1 name
   mkdir -p "$folder"
   for name in giveway-world fleetctl; do cp "$BIN/$name" "$folder/"; done
-  local deadline='' planted=''
+  local deadline='' defect=''
   if [[ $1 == deadline_ignored ]]; then
     # Its reader asks for a beacon an hour.
     deadline=$folder/no_deadline.xml
@@ -39,7 +39,7 @@ programs() {
       /<deadline>/,/<\/deadline>/ s|<sec>0</sec>|<sec>3600</sec>|
     }' "$REPOSITORY/config/qos/default.xml" >"$deadline"
   elif [[ $1 != none && $1 != fault_without_effect ]]; then
-    planted=$1
+    defect=$1
   fi
   cat >"$folder/giveway-vehicle" <<END
 #!/bin/bash
@@ -48,13 +48,13 @@ while [[ \$# -gt 0 ]]; do
   if [[ \$1 == --qos && -n "$deadline" ]]; then words+=(--qos "$deadline") && shift 2; continue; fi
   words+=("\$1") && shift
 done
-PLANTED=$planted exec $BIN/planted_vehicle "\${words[@]}"
+GIVEWAY_DEFECT=$defect exec $BIN/planted_vehicle "\${words[@]}"
 END
   chmod +x "$folder/giveway-vehicle"
   echo "$folder"
 }
 
-# schedule MUTANT: a fault file that gives the mutant something to be wrong about.
+# schedule MUTANT: a fault file that makes the mutant's defect show.
 schedule() {
   cat <<'END'
 
@@ -71,7 +71,7 @@ for mutant in "${@:-${ORDER[@]}}"; do
   }
   folder=$(programs "$mutant")
   schedule >"$folder/faults.textproto"
-  # Its text says that it happens, and no vehicle can lose what it does not hear.
+  # Its text says that it happens, but no vehicle loses anything.
   [[ $mutant != fault_without_effect ]] ||
     sed -i 's/probability: 0.6/probability: 0/' "$folder/faults.textproto"
   code=0

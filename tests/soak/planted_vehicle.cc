@@ -1,6 +1,6 @@
-// What is planted in `planted_vehicle`, a giveway-vehicle that is not sound, for tests of what a
-// soak finds: PLANTED names a defect of the brain (tests/support/planted_names.h), or leak,
-// descriptor or slow_loop. Empty or unset: nothing, and the vehicle is as the product's. Linked
+// The defects of `planted_vehicle`, a giveway-vehicle for tests of what a soak finds:
+// GIVEWAY_DEFECT names a defect of the brain (tests/support/planted_names.h), or leak, descriptor
+// or slow_loop. Empty or unset: no defect, and the vehicle behaves like the product's. Linked
 // before its libraries.
 #include <fcntl.h>
 
@@ -23,11 +23,11 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 std::string_view Planted() {
-  const char* const name = std::getenv("PLANTED");
+  const char* const name = std::getenv("GIVEWAY_DEFECT");
   return name == nullptr ? "" : name;
 }
 
-// 1 kB a second, in pages that are touched.
+// 1 kB a second, in touched pages.
 [[noreturn]] void Leak() {
   constexpr std::size_t kBytes = 4096;
   while (true) {
@@ -52,7 +52,7 @@ const bool kDone = [] {
   } else if (name == "descriptor") {
     std::thread(LoseDescriptors).detach();
   } else if (!name.empty() && name != "slow_loop" && !PlantNamed(name)) {
-    std::fprintf(stderr, "PLANTED: no defect is called '%s'\n", std::string(name).c_str());
+    std::fprintf(stderr, "GIVEWAY_DEFECT: no defect is called '%s'\n", std::string(name).c_str());
     std::_Exit(2);
   }
   return true;

@@ -1,5 +1,5 @@
-// Prints the state hash of a scenario run in virtual time: what a real run in lockstep must end in.
-// Beside the hash: how many faults began and ended in the world.
+// Prints the state hash of a scenario run in virtual time, in which a real run in lockstep must
+// end, and to stderr how many faults of the world started and ended.
 //   virtual_hash SCENARIO SEED [FAULTS]
 #include <algorithm>
 #include <cstdio>
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     const auto count = [&](giveway::EventKind kind) {
       return std::ranges::count(fleet.History(), kind, &giveway::WorldEvent::kind);
     };
-    std::fprintf(stderr, "%td began, %td over\n", count(giveway::EventKind::kFaultBegan),
+    std::fprintf(stderr, "%td started, %td over\n", count(giveway::EventKind::kFaultBegan),
                  count(giveway::EventKind::kFaultOver));
     return 0;
   } catch (const std::exception& error) {

@@ -25,7 +25,7 @@ with() {
 }
 with deadline.xml fleet_beacon_reader 's/<nanosec>150000000/<nanosec>180000000/'
 with depth.xml fleet_beacon_reader 's/<depth>[0-9]*/<depth>9/'
-# First what is offered, then what is requested.
+# First the offered value, then the requested one.
 with offered.xml fleet_beacon_writer 's/<nanosec>100000000/<nanosec>60000000/'
 sed '/profile_name="fleet_beacon_reader"/,/<\/data_/ s/<nanosec>150000000/<nanosec>60000000/' \
   offered.xml >tight.xml
@@ -35,7 +35,7 @@ printf '<dds><profiles>' >cut.xml
 
 cp "$REPOSITORY/tests/system/rounds.textproto" .
 
-# With one beacon in ten lost, a deadline of little more than a period is missed again and again.
+# With one beacon in ten lost, a deadline only slightly above the period is missed again and again.
 "$FLEETCTL" run rounds.textproto --impair loss=0.1 --json --logs logs >run.json 2>run.err &
 fleet=$!
 trap 'kill -INT "$fleet" 2>/dev/null || true; wait "$fleet" 2>/dev/null || true; rm -rf "$SCRATCH"' EXIT
@@ -65,7 +65,7 @@ says "the same again" '.verdict == "nothing_to_do"'
 apply 1 "no restart" depth.xml --to 1 --domain "$domain" --no-restart --json
 says "no restart" '.verdict == "refused"'
 
-# The example of the help, as it is printed but for the domain: to every vehicle and the world.
+# The example of the help, as printed except for the domain: to every vehicle and the world.
 example=$("$FLEETCTL" qos apply --help | sed -n "s/^ *fleetctl qos apply \(.*--canary.*\)/\1/p" |
   sed "s/--domain 7/--domain $domain/")
 [[ $example == *"--to all"* ]] || fail "the help has no such example: $example"
@@ -85,7 +85,7 @@ apply 0 "back to the default" default --to all --domain "$domain" --json
 says "back to the default" '.verdict == "applied" and (.vehicles | length == 5) and
   .order[0] == "the world"'
 
-# With data sharing the library makes no endpoint of ours, which no rule calls an error.
+# With data sharing the library creates none of our endpoints, which no rule reports as an error.
 restarts=$(grep -c 'restarts itself' logs/vehicle-1.log)
 with no_participant.xml fleet_beacon_writer '/<data_sharing>/,/<\/data_sharing>/ s/OFF/ON/'
 apply 1 "a set without a participant" no_participant.xml --to 1 --domain "$domain" --json
@@ -93,13 +93,13 @@ says "a set without a participant" '.verdict == "refused" and
   (.vehicles[0].refusal | contains("a participant with it cannot be made"))'
 [[ $(grep -c 'restarts itself' logs/vehicle-1.log) -eq $restarts ]] ||
   fail "a set without a participant: vehicle 1 restarted"
-# One that comes back all the same, and finds that its new set does not do, has the former one.
+# A vehicle that restarts all the same, and finds its new set unusable, takes the former one.
 code=0
 timeout 20 "$GIVEWAY_BIN_DIR/giveway-vehicle" --scenario rounds.textproto --domain "$domain" --id 3 \
   --qos cut.xml --former-qos "$default" 2>err || code=$?
 if [[ $code -ne 2 ]] || ! grep -q 'comes back with the QoS it had before: .*cut.xml' err ||
   ! grep -q 'the world refused this vehicle' err; then
-  fail "no way back: exit code $code: $(cat err)"
+  fail "no fallback: exit code $code: $(cat err)"
 fi
 sed '0,/<.transport_id>/ s/<.transport_id>/&<output_port>7777<\/output_port>/' "$default" >door.xml
 apply 1 "an element that is no QoS" door.xml --to 1 --domain "$domain" --json
@@ -114,8 +114,8 @@ says "a canary that serves worse" '.verdict == "rolled_back" and (.trial.worse |
 "$FLEETCTL" qos show --live 1 --domain "$domain" --qos offered.xml >out 2>err ||
   fail "rolled back to something else: $(grep not out; cat err)"
 
-apply 2 "nobody of that id" deadline.xml --to 9 --domain "$domain"
-grep -q 'vehicle 9 is not heard' err || fail "nobody of that id: $(cat err)"
+apply 2 "no vehicle of that id" deadline.xml --to 9 --domain "$domain"
+grep -q 'vehicle 9 is not heard' err || fail "no vehicle of that id: $(cat err)"
 code=0
 timeout --foreground --preserve-status --signal INT 1 \
   "$FLEETCTL" qos apply deadline.xml --to 9 --domain "$domain" >out 2>err || code=$?
@@ -128,7 +128,7 @@ for bad in "cut.xml --to 1" "/no/such.xml --to 1" "deadline.xml --to 0" "deadlin
   [[ -s err ]] || fail "refused without a word: $bad"
 done
 
-# Before and after each restart it knew where it was, and it continued to the corner it was driving to.
+# Before and after each restart it knew its position, and it continued to the corner it was driving to.
 end_listening
 places two >two.json
 jq -e 'length >= 2 and all(.[]; .beacons > 20 and .beyond_m < 0.1) and

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A QoS set that the trial of an order takes and the restart does not: between the two, shared memory
-# becomes full, and the library ends the process by SIGBUS. The vehicle comes back as the same process
-# with the set it had, answers "refused", and drives on from where it stands. On a host of our own, a
-# mount namespace with a small /dev/shm. Needs root.
+# A QoS set that works in the trial of an order but not in the restart: between the two, shared memory becomes
+# full, and the library ends the process by SIGBUS. The vehicle comes back as the same process with the set it
+# had, answers "refused", and drives on from where it stands. On a host of its own, a mount namespace with a
+# small /dev/shm. Needs root.
 if [[ -z ${OWN_HOST:-} ]]; then
   if [[ $(id -u) -ne 0 ]] || ! unshare -m true 2>/dev/null; then
     echo "not root: left out" >&2
@@ -26,8 +26,8 @@ says() { jq -e "$2" out >/dev/null || fail "$1: not true of $(head -c 900 out): 
 fill_memory() { head -c 1G /dev/zero >/dev/shm/full 2>/dev/null || true; }
 free_memory() { rm -f /dev/shm/full; }
 
-# The process that tries a set for process $1, which stands still from then on: what is done now is done
-# before the restart. Fails once the process $2 that gave the order is gone.
+# The process that tries a set for process $1, which stops it: what follows happens before the restart. Fails
+# once the process $2 that gave the order is gone.
 trial_of() {
   local children=
   while [[ -z $children ]]; do # they stand on a line without an end
@@ -39,7 +39,7 @@ trial_of() {
 }
 is_over() { [[ $(sed 's/.*) //; s/ .*//' "/proc/$1/stat" 2>/dev/null) == @(Z|) ]]; }
 
-# A world that an order made restart comes back, too.
+# A world that an order restarted comes back too.
 fill_memory
 start world giveway-world --qos "$QOS/same_host.xml" --former-qos "$QOS/default.xml"
 await "a world" 5 world 'comes back with the QoS it had before: it ended by signal 7'
@@ -79,10 +79,10 @@ if tail -n "+$((line_of_2 + 1))" 2.log | grep halt | grep -qv ranges_stale; then
   fail "the other was stopped by it: $(tail -n 3 2.log)"
 fi
 
-# With room in the memory the same order is taken.
+# With enough memory the same set is applied.
 "$FLEETCTL" qos apply same_host --to 1 --domain "$DOMAIN" --json >out 2>err ||
-  fail "with room: $(head -c 600 out err)"
-says "with room" '.verdict == "applied"'
+  fail "with enough memory: $(head -c 600 out err)"
+says "with enough memory" '.verdict == "applied"'
 await_places 1 3 10
 
 end_listening

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Whatever is wrong with what the operator hands in: exit code 2, a message that names the file, the
-# line and what to do, nothing started, and no waiting.
+# Any mistake in what the operator gives: exit code 2, a message that names the file, the line and the remedy,
+# nothing started, and no waiting.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
-# A small scenario that is right; each case corrupts one thing.
+# A small valid scenario; each case corrupts one thing.
 good="$SCRATCH/good.textproto"
 cat >"$good" <<'TEXT'
 name: "good"
@@ -35,15 +35,15 @@ refused() {
   echo "$name: $(head -n 1 "$SCRATCH/err" | head -c 200)" >&2
 }
 
-# corrupted NAME PATTERN SED: the same for the good scenario changed by a sed script.
-spoilt() {
-  local file="$SCRATCH/spoilt.textproto"
+# malformed NAME PATTERN SED: the same for the good scenario changed by a sed script.
+malformed() {
+  local file="$SCRATCH/malformed.textproto"
   sed -E "$3" "$good" >"$file"
-  cmp -s "$good" "$file" && fail "$1: the case spoils nothing"
+  cmp -s "$good" "$file" && fail "$1: the sed script changes nothing"
   refused "$1" "$2" "$file"
 }
 
-# The control: unspoilt, it runs. Otherwise every case below would prove nothing.
+# The control: unchanged, it runs. Otherwise the cases below would prove nothing.
 code=0
 "$FLEETCTL" run "$good" >/dev/null 2>"$SCRATCH/err" || code=$?
 [[ $code -eq 0 ]] || fail "the good scenario: exit code $code: $(tail -n 5 "$SCRATCH/err")"
@@ -59,7 +59,7 @@ refused "100 MB of nothing" '8388608|8 MiB' "$SCRATCH/sparse.textproto"
 yes "$(cat "$good")" 2>/dev/null | head -c 100000000 >"$SCRATCH/huge.textproto" || true
 refused "100 MB of text" '8388608|8 MiB' "$SCRATCH/huge.textproto"
 mkfifo "$SCRATCH/pipe.textproto"
-# A million walls: too large a file, and, written as short as can be, too many.
+# A million walls: too large a file, and, in the shortest notation, too many.
 wall='wall{from{x_m:0 y_m:9}to{x_m:1 y_m:9}}'
 {
   cat "$good"
@@ -79,41 +79,41 @@ refused "named pipe" 'pipe\.textproto' "$SCRATCH/pipe.textproto"
 } >"$SCRATCH/deep.textproto"
 refused "deep nesting" 'deep\.textproto' "$SCRATCH/deep.textproto"
 
-spoilt "unknown field" 'spoilt\.textproto:6: .*cruise_mps' '6s/cruise_m_s/cruise_mps/'
-spoilt "missing id" 'spoilt\.textproto:[0-9]+: .*id' '4d'
-spoilt "id 0" 'spoilt\.textproto:4: .*id' '4s/1/0/'
-spoilt "NaN" 'spoilt\.textproto:6: .*nan' '6s/0.3/nan/'
-spoilt "infinite" 'spoilt\.textproto:6: ' '6s/0.3/1e400/'
-spoilt "negative radius" 'spoilt\.textproto:3: .*body_radius_m' \
+malformed "unknown field" 'malformed\.textproto:6: .*cruise_mps' '6s/cruise_m_s/cruise_mps/'
+malformed "missing id" 'malformed\.textproto:[0-9]+: .*id' '4d'
+malformed "id 0" 'malformed\.textproto:4: .*id' '4s/1/0/'
+malformed "NaN" 'malformed\.textproto:6: .*nan' '6s/0.3/nan/'
+malformed "infinite" 'malformed\.textproto:6: ' '6s/0.3/1e400/'
+malformed "negative radius" 'malformed\.textproto:3: .*body_radius_m' \
   '3s/\{/{ profile { body_radius_m: -0.2 }/'
-spoilt "overlapping start poses" 'spoilt\.textproto:[0-9]+: .*' \
+malformed "overlapping start poses" 'malformed\.textproto:[0-9]+: .*' \
   '10s/x_m: 0 y_m: -3/x_m: -2.8 y_m: 0/'
-spoilt "duplicate ids" 'spoilt\.textproto:9: .*id' '9s/2/1/'
-spoilt "field given twice" 'spoilt\.textproto:2: |spoilt\.textproto:3: ' '2s/$/\nduration_s: 2/'
-spoilt "text where a number belongs" 'spoilt\.textproto:6' '6s/0.3/"fast"/'
-spoilt "unclosed brace" 'spoilt\.textproto:' '13d;12d'
-spoilt "wall of zero length" 'spoilt\.textproto:2: wall\[0\]\.to = .*no length' \
+malformed "duplicate ids" 'malformed\.textproto:9: .*id' '9s/2/1/'
+malformed "field given twice" 'malformed\.textproto:2: |malformed\.textproto:3: ' '2s/$/\nduration_s: 2/'
+malformed "text where a number belongs" 'malformed\.textproto:6' '6s/0.3/"fast"/'
+malformed "unclosed brace" 'malformed\.textproto:' '13d;12d'
+malformed "wall of zero length" 'malformed\.textproto:2: wall\[0\]\.to = .*no length' \
   '2s/$/ wall { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 1 } }/'
-spoilt "door of zero length" 'spoilt\.textproto:2: door\[0\]\.to = .*no length' \
+malformed "door of zero length" 'malformed\.textproto:2: door\[0\]\.to = .*no length' \
   '2s/$/ door { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 1 } }/'
-spoilt "boxes that overlap" 'spoilt\.textproto:2: obstacle\[0\]\.start = .*overlaps vehicle 1' \
+malformed "boxes that overlap" 'malformed\.textproto:2: obstacle\[0\]\.start = .*overlaps vehicle 1' \
   '2s/$/ obstacle { box { half_length_m: 1 half_width_m: 0.1 } start { x_m: -4 y_m: 0 } }/'
-spoilt "NaN pose" 'spoilt\.textproto:5: vehicle\[0\]\.start\.y_m = nan' '5s/y_m: 0/y_m: nan/'
-spoilt "infinite pose" 'spoilt\.textproto:5: vehicle\[0\]\.start\.x_m = -inf' '5s/x_m: -3/x_m: -inf/'
-spoilt "cart faster than anything" 'spoilt\.textproto:2: obstacle\[0\]\.speed_m_s = 11: .*10 m/s' \
+malformed "NaN pose" 'malformed\.textproto:5: vehicle\[0\]\.start\.y_m = nan' '5s/y_m: 0/y_m: nan/'
+malformed "infinite pose" 'malformed\.textproto:5: vehicle\[0\]\.start\.x_m = -inf' '5s/x_m: -3/x_m: -inf/'
+malformed "cart faster than anything" 'malformed\.textproto:2: obstacle\[0\]\.speed_m_s = 11: .*10 m/s' \
   '2s/$/ obstacle { disc_radius_m: 1 start { x_m: 9 y_m: 9 } waypoint { x_m: 9 y_m: 5 } speed_m_s: 11 }/'
-spoilt "cart without a way" 'spoilt\.textproto:2: obstacle\[0\]\.speed_m_s = 1: ' \
+malformed "cart without a path" 'malformed\.textproto:2: obstacle\[0\]\.speed_m_s = 1: ' \
   '2s/$/ obstacle { disc_radius_m: 1 start { x_m: 9 y_m: 9 } speed_m_s: 1 }/'
-spoilt "slots shorter than an echo" 'spoilt\.textproto:2: sonar\.slot_ms = 20: ' \
+malformed "slots shorter than an echo" 'malformed\.textproto:2: sonar\.slot_ms = 20: ' \
   '2s/$/ sonar { tier: p3dx slot_ms: 20 }/'
-spoilt "noise louder than the echo" 'spoilt\.textproto:2: sonar\.noise = 0.6: ' \
+malformed "noise louder than the echo" 'malformed\.textproto:2: sonar\.noise = 0.6: ' \
   '2s/$/ sonar { tier: typical noise: 0.6 }/'
-spoilt "greens against each other" 'spoilt\.textproto:3: signal\[1\]\.group = 1: .*at one time' \
+malformed "greens against each other" 'malformed\.textproto:3: signal\[1\]\.group = 1: .*at one time' \
   '2s/$/ signal { id: 1 group: 1 heading_deg: 0 line { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 2 } } }\
 signal { id: 2 group: 1 heading_deg: 0 line { from { x_m: 1 y_m: 1 } to { x_m: 1 y_m: 2 } } }/'
-spoilt "fault of a signal there is not" 'spoilt\.textproto:2: fault\[0\]\.dark = 9: ' \
+malformed "fault of a signal there is not" 'malformed\.textproto:2: fault\[0\]\.dark = 9: ' \
   '2s/$/ fault { dark: 9 at_s: 1 }/'
-spoilt "no expectation" 'spoilt\.textproto:.*expect' '13d'
+malformed "no expectation" 'malformed\.textproto:.*expect' '13d'
 
 refused "no scenario" 'SCENARIO'
 refused "unknown flag" 'Try: fleetctl run --help' intersection_yield --sped 3
@@ -127,7 +127,7 @@ refused "duration 0" 'duration' intersection_yield --duration 0
 refused "unknown behaviour" 'behaviour' intersection_yield --behaviour reckless
 refused "absent QoS file" 'no_such\.xml' intersection_yield --qos no_such.xml
 refused "QoS file that is no XML" 'good\.textproto' intersection_yield --qos "$good"
-# The library would loop for ever on these, deaf to SIGTERM: no program may hand them over.
+# On these the library would loop for ever, deaf to SIGTERM: no program may pass them on.
 for nanosec in 1500000000 -1; do
   sed "/profile_name=\"fleet_beacon_reader\"/,/<\/data_reader/ s/150000000/$nanosec/" \
     "$REPOSITORY/config/qos/default.xml" >"$SCRATCH/hangs.xml"
@@ -151,8 +151,7 @@ refused "page without a name" 'html' intersection_yield --html ""
 refused "picture nowhere" 'no_such_folder' intersection_yield --picture no_such_folder/run.svg
 refused "picture that is a folder" "$SCRATCH" intersection_yield --picture "$SCRATCH"
 
-# A world that is to carry out faults: not one that is not there, nor what is random, nor what no
-# vehicle could meet.
+# A world with faults: a file that does not exist, random rules, and faults without a target are refused.
 echo 'random { name: "a" kind: "sonar_off" mean_between_s: 5 for_s: 2 }' >"$SCRATCH/random.textproto"
 echo 'at { name: "a" kind: "sonar_off" time_s: 5 for_s: 2 vehicle: 9 }' >"$SCRATCH/absent.textproto"
 for case in "no_such no_such" "$SCRATCH/random.textproto fleetctl.faults.expand" \

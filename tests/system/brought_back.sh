@@ -14,10 +14,10 @@ TEXT
   >"$SCRATCH/report.json" 2>"$SCRATCH/fleet.log" &
 PID[fleet]=$!
 
-# drives WHAT SECONDS LOG: once a line of that log says so.
+# drives WHAT SECONDS LOG: waits until that log says so.
 drives() {
-  local end=$(($(date +%s%N) + $2 * 1000000000)) begun
-  begun=$(date +%s%N)
+  local end=$(($(date +%s%N) + $2 * 1000000000)) start_ns
+  start_ns=$(date +%s%N)
   until grep -q 'cruise' "$SCRATCH/logs/$3" 2>/dev/null; do
     if (($(date +%s%N) > end)); then
       fail "$1: $3 does not drive in $2 s: $(tail -n 3 "$SCRATCH/logs/$3" "$SCRATCH/fleet.log" 2>&1)"
@@ -25,7 +25,7 @@ drives() {
     fi
     sleep 0.02
   done
-  echo "$1: drives after $((($(date +%s%N) - begun) / 1000000)) ms" >&2
+  echo "$1: drives after $((($(date +%s%N) - start_ns) / 1000000)) ms" >&2
 }
 child() { wait_for_child "${PID[fleet]}" "$1"; }
 
@@ -45,7 +45,7 @@ for _ in $(seq 300); do
 done
 tail -n "+$((lines + 1))" "$SCRATCH/logs/vehicle-1.log" | grep -q 'drives on in world' ||
   fail "the world was not started again: $(cat "$SCRATCH/fleet.log")"
-grep -q 'resumes from the checkpoint' "$SCRATCH/logs/world+.log" || fail "the world began anew"
+grep -q 'resumes from the checkpoint' "$SCRATCH/logs/world+.log" || fail "the world started from scratch"
 sleep 2
 "$FLEETCTL" run intersection_yield --restart >"$SCRATCH/closed.log" 2>&1 && fail "a closed fleet is restarted"
 grep -q 'a death is the end of its run' "$SCRATCH/closed.log" || fail "$(cat "$SCRATCH/closed.log")"
@@ -54,7 +54,7 @@ kill -INT "${PID[fleet]}"
 wait "${PID[fleet]}" || true
 unset 'PID[fleet]'
 [[ $(grep -c 'died and is started again' "$SCRATCH/fleet.log") -eq 3 ]] ||
-  fail "fleetctl does not say whom it started again: $(cat "$SCRATCH/fleet.log")"
+  fail "fleetctl does not say which processes it restarted: $(cat "$SCRATCH/fleet.log")"
 [[ $(jq .contacts "$SCRATCH/report.json") == 0 ]] || fail "contacts: $(cat "$SCRATCH/report.json")"
 jq -e '.reason == "interrupted"' "$SCRATCH/report.json" >/dev/null ||
   fail "the run ended by itself: $(cat "$SCRATCH/report.json")"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# `fleetctl campaign`: one JSON object however the campaign was cut, run and interrupted, and what is
-# refused, in words and with exit code 2.
+# `fleetctl campaign`: one JSON object however the campaign was divided, run and interrupted, and what is
+# refused, with a reason and exit code 2.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"
 unset JOB_COMPLETION_INDEX SLURM_ARRAY_TASK_ID PARALLEL_SEQ
@@ -21,7 +21,7 @@ campaign() {
   timeout 60 "$FLEETCTL" campaign "$@" >out 2>err || code=$?
   [[ $code -eq $wanted ]] || fail "$name: exit code $code: $(head -c 900 out err)"
 }
-# refused NAME PATTERN ARGUMENTS...: exit code 2, in words like PATTERN, and nothing on stdout.
+# refused NAME PATTERN ARGUMENTS...: exit code 2, a message like PATTERN, and nothing on stdout.
 refused() {
   local name=$1 pattern=$2
   shift 2
@@ -43,7 +43,7 @@ jq -e '.verdict == "passed" and .all.runs == 102 and (.generators | length) == 2
 [[ $(jq -r '.generators[1] | .hash, .min_separation_m, .delay_s.mean' whole.json) == \
   $(jq -r '.hash, .min_separation_m, .delay_s.mean' virtual.json) ]] || fail "not the runs of fleetctl virtual"
 
-# Four shards, each told its number by another engine, of which one is killed and run again.
+# Four shards, each given its number by another engine; one of them is killed and run again.
 JOB_COMPLETION_INDEX=0 campaign 0 "Kubernetes" shard plan.textproto --out results
 SLURM_ARRAY_TASK_ID=1 campaign 0 "Slurm" shard plan.textproto --out results
 PARALLEL_SEQ=3 campaign 0 "parallel" shard plan.textproto --out results
@@ -59,20 +59,20 @@ for signal in KILL TERM; do
   [[ ! -s killed.log ]] || fail "killed by $signal: it printed a result"
 done
 [[ $(find results -type f | sort | tr '\n' ' ') == *0-of-4.json*1-of-4.json*2-of-4.json\  ]] ||
-  fail "what was killed left something: $(ls -A results)"
+  fail "a killed shard left files: $(ls -A results)"
 refused "a shard lacks" 'index = 3: lacks: 1 of 4 shards; .*--of 4 --index 3' merge results/*.json
 campaign 0 "run again" shard plan.textproto --index 3 --out results
 campaign 0 "merge of four" merge results/*.json --json
-cmp -s out whole.json || fail "cut in four it comes to something else: $(diff out whole.json)"
+cmp -s out whole.json || fail "four shards give another result: $(diff out whole.json)"
 campaign 0 "merge of four, for people" merge results/*.json
 grep -Eq '^all +102 +0 +0 ' out || fail "for people: $(<out)"
 
-# As kubectl logs gives them: in one stream, with what was said beside.
+# As kubectl logs gives them: in one stream, between other output.
 { echo "shard 1 of 4: words"; cat results/*.json; echo; } >pods.log
 campaign 0 "merge of a log" merge pods.log --json
-cmp -s out whole.json || fail "of a log it comes to something else"
+cmp -s out whole.json || fail "a log gives another result"
 
-# What is there is not run again: the file stays as it is, and is what is printed.
+# A result that exists is not computed again: the file stays as it is, and is what is printed.
 touch -d '2001-01-01' results/small.1-of-4.json
 campaign 0 "there already" shard plan.textproto --index 1 --out results
 cmp -s out results/small.1-of-4.json || fail "there already: another line"
@@ -82,9 +82,9 @@ cp other.json results/small.1-of-4.json
 campaign 0 "of another plan" shard plan.textproto --index 1 --out results
 grep -q 'of another plan or program' err || fail "of another plan: $(<err)"
 campaign 0 "replaced" merge results/*.json --json
-cmp -s out whole.json || fail "replaced: it comes to something else"
+cmp -s out whole.json || fail "replaced: another result"
 
-# Broken invariants end in 1, and come with the line that shows each again.
+# Broken invariants give exit code 1, with the command that shows each again.
 cat >deadly.textproto <<'PLAN'
 name: "deadly"
 generator: "crossing"
@@ -102,7 +102,7 @@ read -ra words <shown
 "$FLEETCTL" "${words[@]:1}" >/dev/null || code=$?
 [[ $code -eq 1 ]] || fail "the command does not fail again: exit code $code"
 
-# A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short nobody arrives,
+# A scenario in place of generators: its runs are those of fleetctl virtual too. Cut short no vehicle arrives,
 # which its file expects.
 printf 'name: "placed"\nscenario: "four_way"\nseeds: [1, 4]\n' >placed.textproto
 for index in 0 1 2; do campaign 0 "a scenario" shard placed.textproto --of 3 --index "$index" --out placed; done
@@ -142,7 +142,7 @@ refused "half a file" 'half.json: is no result of a shard' merge results/small.[
 refused "no result" 'no line of it is a result' merge plan.textproto
 refused "no file" 'does not exist' merge no_such.json
 
-# The shipped ones, and the help.
+# The shipped campaigns, and the help.
 for shipped in nightly faulty; do
   refused "$shipped" 'from 0 to' shard "$shipped" --index 99999
 done
@@ -151,7 +151,7 @@ for verb in campaign 'campaign shard' 'campaign merge'; do
   "$FLEETCTL" $verb --help >/dev/null || fail "$verb --help: exit code $?"
 done
 
-# The files of Slurm and GNU parallel: what runs a shard there is what is tried here.
+# The files of Slurm and GNU parallel: what they run for a shard is tried here.
 PATH=$(dirname "$FLEETCTL"):$PATH SLURM_ARRAY_TASK_ID=2 SLURM_CPUS_PER_TASK=2 \
   bash "$REPOSITORY/config/deploy/campaign.slurm" plan.textproto 4 slurm >/dev/null 2>err ||
   fail "campaign.slurm: $(<err)"
@@ -159,14 +159,14 @@ cmp -s slurm/small.2-of-4.json results/small.2-of-4.json || fail "campaign.slurm
 code=0
 bash "$REPOSITORY/config/deploy/campaign.slurm" plan.textproto >/dev/null 2>err || code=$?
 [[ $code -eq 2 && $(<err) == usage:* ]] || fail "campaign.slurm without arguments: exit code $code"
-# The second time over an ssh that goes nowhere, and takes nothing of the environment along: the number
-# must come through, and stdout is what comes back.
+# The second time over a stub ssh that passes on nothing of the environment: the number must come through, and
+# stdout is what comes back.
 if parallel --version 2>/dev/null | grep -q GNU; then
   PATH=$(dirname "$FLEETCTL"):$PATH
   seq 4 | parallel -N0 fleetctl campaign shard plan.textproto --of 4 --out parallel >/dev/null 2>err ||
     fail "parallel: $(<err)"
   campaign 0 "merge of parallel" merge parallel/*.json --json
-  cmp -s out whole.json || fail "by parallel it comes to something else"
+  cmp -s out whole.json || fail "parallel gives another result"
   cat >ssh <<'SSH'
 #!/usr/bin/env bash
 # ssh [OPTION ...] HOST -- WORD ...
@@ -178,7 +178,7 @@ SSH
   seq 4 | parallel -N0 --ssh "$PWD/ssh" --sshlogin 1/here,1/there \
     fleetctl campaign shard "$PWD/plan.textproto" --of 4 >over_ssh.log 2>err || fail "parallel over ssh: $(<err)"
   campaign 0 "merge over ssh" merge over_ssh.log --json
-  cmp -s out whole.json || fail "over ssh it comes to something else"
+  cmp -s out whole.json || fail "ssh gives another result"
 else
   fail "GNU parallel is missing: apt-get install parallel"
 fi

@@ -1,4 +1,5 @@
-// Real processes and real time: what a pure test cannot say of ChildProcess and FleetProcesses.
+// Real processes and real time: the parts of ChildProcess and FleetProcesses that no pure test
+// covers.
 #include "services/fleetctl/process/child_process.h"
 
 #include <gmock/gmock.h>
@@ -52,7 +53,8 @@ TEST(ChildProcess, ExitCodeAndLastLinesAreKept) {
   EXPECT_THAT(child.LastLines(), ElementsAre("to stdout", "to stderr", "unfinished"));
 }
 
-// A port of fleetctl's own, an id and a question made every child the same, or no service at all.
+// Regression: fleetctl's own environment variables of port, id and health check gave every child
+// the same ones, or no service at all.
 TEST(ChildProcess, IsGivenOnlyTheVariablesThatAreMeantForIt) {
   const std::vector<const char*> names{
       "GIVEWAY_HEALTH_PORT", "GIVEWAY_HEALTH",     "GIVEWAY_ID", "GIVEWAY_RECORD",
@@ -122,7 +124,7 @@ TEST(ChildProcess, DeathBySignalIsNamed) {
 }
 
 TEST(ChildProcess, ProgramThatIsNotThereSaysSo) {
-  ChildProcess child({"nobody", {"/does/not/exist"}, "", -1});
+  ChildProcess child({"absent", {"/does/not/exist"}, "", -1});
   ASSERT_TRUE(WaitForEnd(&child));
   EXPECT_EQ(child.End(), (ProcessEnd{false, 127}));
   EXPECT_THAT(child.LastLines(), ElementsAre(HasSubstr("cannot start /does/not/exist: No such")));
@@ -178,7 +180,7 @@ bool IsGoneOrUnreaped(pid_t pid) {
   return !(stat >> id >> name >> state) || state == "Z";
 }
 
-// Also one that handles signals and does not come to them, and one that is stopped: `fleetctl
+// Also one that handles signals but does not get to them, and one that is stopped: `fleetctl
 // stopwatch` has both.
 class KilledParent : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(ChildProcess, KilledParent,
@@ -338,13 +340,13 @@ TEST(FleetProcesses, OnlyAnEndJustAsPlannedIsPlanned) {
   fleet.Plan(kTwo, {false, 5});
   leave();
   EXPECT_TRUE(fleet.EndOf(kTwo)->planned);
-  // What was planned of the last process is not of the next.
+  // A kill planned for the last process does not apply to the next.
   fleet.Restart(kTwo);
   leave();
   EXPECT_FALSE(fleet.EndOf(kTwo)->planned);
 }
 
-// Somebody else was first, and that has not been noticed yet.
+// Another process killed it first, which has not been noticed yet.
 TEST(FleetProcesses, AKillOfOneThatIsDeadAlreadyPlansNothing) {
   FleetProcesses fleet({Command(kOne, kSleep)});
   const pid_t pid = *fleet.PidOf(kOne);

@@ -4,7 +4,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 scenario=${1:?name a scenario}
 
-# What a reader of the JSON counts on, in every run.
+# What readers of the JSON rely on, in every run.
 shape='type == "object"
   and (.verdict | IN("passed", "failed", "not_run")) and (.reason | length > 0)
   and ([.contacts, .beacons_sent, .beacons_received, .deadline_missed, .liveliness_lost,
@@ -12,7 +12,7 @@ shape='type == "object"
   and (.halted | type == "array") and (.domain >= 1 and .domain <= 99)'
 passed='.verdict == "passed" and .contacts == 0 and .min_separation_m > 0
   and .beacons_sent > 0 and .beacons_received > 0'
-# Judged at all, mostly everywhere, and nothing found.
+# Judged at all, nearly everywhere, and without a violation.
 held='.ticks_judged > 200 and .ticks_unseen < .ticks_judged
   and (.violations | length == 10 and all(. == 0)) and .first_violations == []'
 

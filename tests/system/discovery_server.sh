@@ -73,7 +73,7 @@ wait "${PID[server]}" || code=$?
 unset "PID[server]"
 (($(date +%s%N) - since < 2000000000)) || fail "SIGTERM: the supervisor took longer than 2 s"
 [[ $code -eq 0 ]] || fail "SIGTERM: exit code $code"
-kill -0 "$old" 2>/dev/null && fail "SIGTERM: the server lives on"
+kill -0 "$old" 2>/dev/null && fail "SIGTERM: the server still runs"
 
 code=0
 timeout 10 sh "$REPOSITORY/config/deploy/discovery_server.sh" --no-such-flag >/dev/null 2>&1 || code=$?

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# fleetctl doctor on a host of our own, a mount namespace with an empty /dev/shm: what killed vehicles
-# leave there is found and removed, and nothing that lives is touched; a full shared memory, two in
-# one network without a common one, and networks without multicast are found. Needs root.
+# fleetctl doctor on a host of its own, a mount namespace with an empty /dev/shm: what killed vehicles leave
+# there is found and removed, and nothing that lives is touched; a full shared memory, two separate ones in
+# one network, and networks without multicast are found. Needs root.
 if [[ -z ${OWN_HOST:-} ]]; then
   if [[ $(id -u) -ne 0 ]] || ! unshare -nm true 2>/dev/null; then
     echo "not root: left out" >&2
@@ -29,7 +29,7 @@ doctor() {
 # says NAME CONDITION: true of the JSON of the last command.
 says() { jq -e "$2" out >/dev/null || fail "$1: not true of $(head -c 900 out): $2"; }
 
-# finds NAME RULE ARGUMENTS...: that rule alone, with all that is to be said.
+# finds NAME RULE ARGUMENTS...: that rule alone, with values and remedy.
 finds() {
   local name=$1 rule=$2
   shift 2
@@ -55,8 +55,8 @@ segment_of() {
   return 0
 }
 
-# Two that live and hear each other, and one that is alone in another domain: what that one leaves
-# is nobody's. Among themselves neighbours clear away a dead one's segment after some seconds.
+# Two vehicles that hear each other, and one that is alone in another domain: no process cleans up what that
+# one leaves. Neighbours remove each other's stale segments after some seconds.
 healthy "an empty host" --qos same_host
 says "an empty host" '.not_known == []'
 fleet=$DOMAIN
@@ -79,14 +79,14 @@ living=$(segment_of one)
 kill_now lone
 finds "one was killed" memory_stale --qos same_host
 says "one was killed" "[.memory.groups[] | select(.state == \"stale\").name] | index(\"$segment\")"
-says "another lives" "any(.memory.groups[]; .name == \"$living\" and .state == \"in_use\")"
+says "another vehicle lives" "any(.memory.groups[]; .name == \"$living\" and .state == \"in_use\")"
 doctor 0 "removed" --qos same_host --fix
 grep -qx "removed /dev/shm/$segment" out || fail "not removed: $(cat out)"
 [[ ! -e /dev/shm/$segment && ! -e /dev/shm/${segment}_el ]] || fail "$segment is there"
 [[ -e /dev/shm/$living ]] || fail "$living is gone"
 healthy "cleaned" --qos same_host
 timeout 10 "$FLEETCTL" listen fleet/beacon --domain "$DOMAIN" --qos same_host --vehicle 1 \
-  --count 5 --duration 8 >heard || fail "who lives is no longer heard: $(cat heard)"
+  --count 5 --duration 8 >heard || fail "a live vehicle is no longer heard: $(cat heard)"
 start two giveway-vehicle --id 2 --qos "$SAME"
 await "another comes" 10 two cruise
 for name in world one two; do alive "$name" || fail "$name is gone: $(tail -n 3 "$name.log")"; done
@@ -105,7 +105,7 @@ doctor 0 "all removed" --qos same_host --fix
 left=$(find /dev/shm -name '*fast*')
 [[ -z $left ]] || fail "left: $left"
 
-# Room for none, and for some.
+# Space for no segment, then for some.
 INSIDE=(unshare -m bash -c 'mount -t tmpfs -o size=1m none /dev/shm && exec "$@"' small)
 finds "a small shared memory" memory_small --qos same_host
 INSIDE=(unshare -m bash -c

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Which failed runs are made again, and how often: reports as fleetctl writes them, and a fleetctl of
-# our own that fails so many times before it passes.
+# Which failed runs are repeated, and how often: reports as fleetctl writes them, and a stub fleetctl that
+# fails so many times before it passes.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"
 mkdir logs
@@ -16,7 +16,7 @@ is() { excused run.json logs >/dev/null || fail "$1: not excused"; }
 is_not() { ! excused run.json logs >/dev/null || fail "$1: excused"; }
 
 log 0
-report "$halted" 0 1 0 && is_not "nobody was late"
+report "$halted" 0 1 0 && is_not "nothing was late"
 report "$halted" 0 2 0 && is "the world was late"
 report "$halted" 1 9 0 && is_not "a contact"
 report "$halted" 0 9 1 && is_not "an invariant"
@@ -27,7 +27,7 @@ log 2 && is "a vehicle was late"
 log 2 'vehicle 1: impairment: packets=3' && is_not "its channel was impaired"
 rm run.json && is_not "no report"
 
-# Says what a run of its own says that failed for as long as there is something in ./failures.
+# Fails with the prepared report as long as there is something in ./failures.
 FLEETCTL=$SCRATCH/fleetctl
 cat >"$FLEETCTL" <<'TEXT'
 #!/usr/bin/env bash
@@ -45,7 +45,7 @@ for times in 0 1 2 3; do
   again=0
   [[ ! -e run.json.again ]] || again=$(wc -l <run.json.again)
   [[ $code -eq $((times == 3)) ]] || fail "$times failures: exit code $code"
-  [[ $again -eq $((times < 3 ? times : 2)) ]] || fail "$times failures: made again $again times"
+  [[ $again -eq $((times < 3 ? times : 2)) ]] || fail "$times failures: repeated $again times"
 done
 
 [[ $failures -eq 0 ]]

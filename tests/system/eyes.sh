@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fleetctl top and fleetctl listen on a fleet that another fleetctl runs: what they show, that a
-# killed vehicle stays and is marked, how they end, and what they say where nobody is.
+# fleetctl top and fleetctl listen on a fleet that another fleetctl runs: what they show, that a killed
+# vehicle stays and is marked, how they end, and what they say without a fleet.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
@@ -26,8 +26,8 @@ until_true() {
   done
 }
 
-# Starts a run; its domain in $domain.
-begin() {
+# Starts a run; sets $domain to its domain.
+start_run() {
   : >run.err # that of the run before names a domain too
   "$FLEETCTL" run "$1" --json --logs logs >run.json 2>run.err &
   fleet=$!
@@ -53,7 +53,7 @@ interrupted() {
   [[ $code -eq 0 ]] || fail "$name: exit code $code by Ctrl-C"
 }
 
-begin intersection_yield
+start_run intersection_yield
 eyes 0 "top" top --domain "$domain" --once
 grep -q '^world running' out || fail "top: no world in $(cat out)"
 grep -Eq '^ +1  cooperative' out || fail "top: no vehicle in $(cat out)"
@@ -94,16 +94,16 @@ eyes 2 "no such profiles" listen fleet/beacon --domain "$domain" --qos no_such.x
 interrupted "top" top --domain "$domain"
 interrupted "listen" listen fleet/beacon --domain "$domain"
 wait "$fleet" || fail "watching changed the run: $(cat run.json)"
-grep -q 'matched: vehicle 1' logs/vehicle-2.log || fail "the log tells no event: $(cat logs/*2.log)"
+grep -q 'matched: vehicle 1' logs/vehicle-2.log || fail "the log has no event: $(cat logs/*2.log)"
 
-# The domain is free now: nobody is there.
-eyes 1 "nobody" top --domain "$domain" --once --wait 1 --area elsewhere
-grep -q "domain $domain on interface 127.0.0.1 in area elsewhere" err || fail "nobody: $(cat err)"
-eyes 1 "nobody, as JSON" top --domain "$domain" --once --wait 1 --json
-says "nobody, as JSON" '.[0] | .world.heard == false and .vehicles == []'
-eyes 1 "nobody to listen to" listen fleet/beacon --domain "$domain" --duration 0.5
+# The domain is free now: there is no fleet.
+eyes 1 "no fleet" top --domain "$domain" --once --wait 1 --area elsewhere
+grep -q "domain $domain on interface 127.0.0.1 in area elsewhere" err || fail "no fleet: $(cat err)"
+eyes 1 "no fleet, as JSON" top --domain "$domain" --once --wait 1 --json
+says "no fleet, as JSON" '.[0] | .world.heard == false and .vehicles == []'
+eyes 1 "nothing to listen to" listen fleet/beacon --domain "$domain" --duration 0.5
 
-# One of two is killed by plan: it stays in the table, and the other names it.
+# One of two is killed by a planned fault: it stays in the table, and the other names it.
 marked() {
   "$FLEETCTL" top --domain "$domain" --json >live 2>err &
   local watching=$! code=0
@@ -117,7 +117,7 @@ silent_in() {
     and any(.vehicles[]; .hearing == "heard" and .status.last_deadline_missed != null
       and .status.last_liveliness_lost != null))' "$1" >/dev/null 2>&1
 }
-begin peer_dies
+start_run peer_dies
 marked || fail "a killed vehicle: $(tail -n 1 live)"
 kill -INT "$fleet" || fail "the run ended before its time"
 wait "$fleet" || true

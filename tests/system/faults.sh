@@ -14,7 +14,7 @@ cd "$SCRATCH"
 grep -v '^#' list.textproto | cmp - again.textproto || fail "the list does not expand to itself"
 [[ $(grep -c '^at ' list.textproto) -gt 300 ]] || fail "few faults: $(wc -l <list.textproto)"
 "$FLEETCTL" faults expand everything --seed 2 --duration 30m --vehicles 20 >other.textproto
-cmp -s list.textproto other.textproto && fail "two seeds make one list"
+cmp -s list.textproto other.textproto && fail "two seeds give the same list"
 "$FLEETCTL" faults expand radio_storm --duration 3m --vehicles 8 --text >lines ||
   fail "--text: exit code $?"
 grep -Eq '^[0-9.]+ s for [0-9.]+ s: vehicle [1-8]: loss probability=0.4  \[loss [0-9]+\]$' lines ||
@@ -29,7 +29,7 @@ for verb in faults 'faults expand' 'faults list'; do
   "$FLEETCTL" $verb --help >/dev/null || fail "$verb --help: exit code $?"
 done
 
-# The example of that README.md, and one rule less: nothing of another moves.
+# The example of that README.md, and the same without one rule: the faults of the others do not move.
 sed -n '/^\(at\|random\) {/p' "$REPOSITORY/services/fleetctl/faults/README.md" >three.textproto
 [[ $(wc -l <three.textproto) -eq 3 ]] || fail "the example of README.md: $(<three.textproto)"
 expand() { "$FLEETCTL" faults expand "$1" --seed 7 --duration 1h --vehicles 4 | grep '^at '; }
@@ -38,7 +38,7 @@ sed '/"world"/d' three.textproto >two.textproto
 expand two.textproto >without
 grep -v 'name: "world"' with | cmp - without || fail "taking a rule out moved another's faults"
 
-# refused NAME PATTERN ARGUMENTS...: exit code 2, in words like PATTERN, and nothing on stdout.
+# refused NAME PATTERN ARGUMENTS...: exit code 2, a message like PATTERN, and nothing on stdout.
 refused() {
   local name=$1 pattern=$2 code=0
   shift 2

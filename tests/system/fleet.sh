@@ -1,7 +1,7 @@
 # shellcheck shell=bash
-# What the system tests share: where the programs are, a scratch folder, how a failure is said, and
-# who belongs to a run. Sourced, never run. Processes are found by id and by their own arguments,
-# never by name alone: other runs on the machine are of no interest here.
+# What the system tests share: where the programs are, a scratch folder, how failures are reported, and which
+# processes belong to a run. Sourced, never run. Processes are found by id and by their own arguments, never
+# by name alone: other runs on the machine do not matter here.
 set -euo pipefail
 
 source "$(dirname "${BASH_SOURCE[0]}")/../support/only_late.sh"
@@ -59,7 +59,7 @@ wait_for_child() {
   return 1
 }
 
-# The domain a child was told.
+# The domain in a child's arguments.
 domain_of() { arguments_of "$1" | sed -n 's/.*--domain \([0-9]*\) .*/\1/p'; }
 
 # The processes of a run on a domain, one a line.
@@ -82,8 +82,8 @@ all_gone() {
   [[ -z $(processes_on "$1") ]]
 }
 
-# excused REPORT LOGS: true if nothing but the lateness of the machine explains that a run failed. An
-# impaired channel makes scans late by itself: those do not count.
+# excused REPORT LOGS: true if only the lateness of the machine explains that a run failed. An impaired
+# channel makes scans late by itself: those do not count.
 excused() {
   jq -e '.contacts == 0 and (.violations | all(. == 0))' "$1" >/dev/null 2>&1 || return 1
   only_late "$(jq -r .reason "$1")" "$(jq .tick_overruns "$1")" "$(
@@ -91,9 +91,9 @@ excused() {
   )"
 }
 
-# judged_run REPORT LOGS ARGUMENTS...: fleetctl run ARGUMENTS, with its JSON in REPORT, what it says
-# in REPORT.err, and its exit code. A run that is excused is made again, twice at most, and said to
-# be in REPORT.again, a line each time.
+# judged_run REPORT LOGS ARGUMENTS...: fleetctl run ARGUMENTS, with its JSON in REPORT, its stderr in
+# REPORT.err, and its exit code. A run that is excused is repeated, twice at most, and noted in REPORT.again,
+# a line each time.
 judged_run() {
   local report=$1 logs=$2 code why try
   shift 2
@@ -111,8 +111,8 @@ judged_run() {
 }
 
 LISTENERS=()
-# listen_places NAME DOMAIN VEHICLE: from now on until end_listening, what its beacons say of where it
-# is, and where it is. By the set that requests least: it continues hearing a fleet that takes another.
+# listen_places NAME DOMAIN VEHICLE: from now on until end_listening, the pose in the vehicle's beacons, and
+# its true one. With the set that requests least: it keeps receiving a fleet that takes another set.
 listen_places() {
   local topic
   for topic in beacon truth; do
@@ -128,9 +128,9 @@ end_listening() {
   LISTENERS=()
 }
 
-# places NAME: of each life of the vehicle in each world, in order of time, as one list: the beacons
-# that could be compared, how far beyond 3 sigma of their own doubt the worst was off, and where the
-# first and the last said it drove to, in millimetres.
+# places NAME: for each life of the vehicle in each world, in order of time, as one list: the number of
+# beacons that could be compared, how far the worst was beyond 3 sigma of its own covariance, and the first
+# and last destination, in millimetres.
 places() {
   jq -n --slurpfile said "$SCRATCH/$1.beacon" --slurpfile is "$SCRATCH/$1.truth" '
     def at: "\(.world_epoch):\(.tick)";
@@ -146,7 +146,7 @@ places() {
 }
 
 # await_places NAME LIVES COUNT: until it has had so many lives, and so many beacons of the last can be
-# compared; a failure after ten seconds. The listener to either topic may be matched long after the other.
+# compared; fails after ten seconds. The reader of one topic may be matched long after that of the other.
 await_places() {
   local until=$((SECONDS + 10))
   until places "$1" 2>/dev/null | jq -e "length >= $2 and .[-1].beacons >= $3" >/dev/null; do

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A whole vehicle of another vendor's DDS among real processes: it crosses in both roles, without ever
-# granting, and killed and back; what it does wrong is logged by name; and fleetctl knows it as foreign.
-# Four runs side by side, each in a domain of its own: most of the time they wait.
+# A whole vehicle of another vendor's DDS among real processes: it crosses in both roles, also without ever
+# granting, and killed and back; its mistakes are logged by name; and fleetctl knows it as foreign. Four runs
+# in parallel, each in a domain of its own: most of the time they wait.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 HERE=$REPOSITORY/tests/foreign
 FOREIGN=$GIVEWAY_FOREIGN_VEHICLE
@@ -72,7 +72,7 @@ await "killed and back" 8 back 'joined as 5'
 start_foreign kept 6 0.5 1.6 0 volatile-join
 start_foreign lost 7 0.5 1.6 0 no-partition
 
-# What fleetctl makes of it, while it drives.
+# How fleetctl shows it, while it drives.
 asks 0 "its beacons are heard" why 1 5 --domain "$DOMAIN" --json
 says "its beacons are heard" '.hears and .speaker_foreign == "Eclipse Cyclone DDS"
   and (.not_known[0] | test("vehicle 5 is foreign"))'
@@ -82,8 +82,8 @@ says "it hears ours" '.hears and .hearer_foreign == "Eclipse Cyclone DDS"
 asks 0 "its endpoints" qos show --live 5 --domain "$DOMAIN" --json
 says "its endpoints" '.foreign == "Eclipse Cyclone DDS" and any(.values[];
   .profile == "fleet_beacon_writer" and .policy == "deadline" and .value == "100 ms")'
-asks 1 "whose joins are not heard" why world 9 --domain "$DOMAIN" --seconds 2.5 --json
-says "whose joins are not heard" 'any(.findings[]; .rule == "endpoint_unfit"
+asks 1 "with joins that no world reads" why world 9 --domain "$DOMAIN" --seconds 2.5 --json
+says "with joins that no world reads" 'any(.findings[]; .rule == "endpoint_unfit"
   and (.values | test("fleet/join in fleet .*durability offered VOLATILE, requested TRANSIENT_LOCAL")))
   and any(.findings[]; .values | test("fleet/join with no partition"))'
 
@@ -100,7 +100,8 @@ for name in second first silent; do ends "foreign_$name" && ends "ours_$name"; d
 grep -q 'not_granted for 2' ours_silent.log || fail "it drove on without a grant: $(cat ours_silent.log)"
 no_contact
 
-# A speed bucket that was cut instead of rounded made a vehicle deaf to it, and no log said why.
+# Regression: a speed bucket truncated instead of rounded made a vehicle reject all its beacons, and no log
+# said why.
 LANES=$HERE/crossing.textproto
 crossing cut 2 floors-bucket
 await "the field is named" 20 ours_cut 'beacon of vehicle 2: order_speed_bucket is 7, must be 8'

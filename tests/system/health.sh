@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# /livez, /readyz and /metrics of real services, by --health and by whatever a stranger may send; a
-# loop that hangs; and stops: within a second of SIGTERM, with exit code 0, distinguished from a loss.
+# /livez, /readyz and /metrics of real services, by --health and by arbitrary requests of strangers; a loop
+# that hangs; and stops: within a second of SIGTERM, with exit code 0, distinguished from a loss.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 FIRST_PORT=$((21000 + DOMAIN * 10))
@@ -10,19 +10,19 @@ ask() { "$BIN/giveway-vehicle" --health "$2" --health-port "$1" 2>&1; } # PORT l
 
 # await_health WHAT SECONDS PORT live|ready CODE PATTERN: asks until both come.
 await_health() {
-  local what=$1 seconds=$2 port=$3 which=$4 wanted=$5 pattern=$6 begun code answer
-  begun=$(date +%s%N)
+  local what=$1 seconds=$2 port=$3 which=$4 wanted=$5 pattern=$6 start_ns code answer
+  start_ns=$(date +%s%N)
   while true; do
     code=0
     answer=$(ask "$port" "$which") || code=$?
     [[ $code -eq $wanted && $answer =~ $pattern ]] && break
-    if (($(date +%s%N) - begun > seconds * 1000000000)); then
+    if (($(date +%s%N) - start_ns > seconds * 1000000000)); then
       fail "$what: no '$pattern' with exit code $wanted in $seconds s, but $code: $answer"
       return
     fi
     sleep 0.05
   done
-  echo "$what: $((($(date +%s%N) - begun) / 1000000)) ms: $answer" >&2
+  echo "$what: $((($(date +%s%N) - start_ns) / 1000000)) ms: $answer" >&2
 }
 
 # The value of a metric; empty if there is none.
@@ -51,7 +51,7 @@ stops() {
   ended "$1" 0 "$since" 1000
 }
 
-# --- No world: live, and not ready; and it need not come for a vehicle to stop.
+# --- No world: live, and not ready; and a vehicle stops without one.
 start alone giveway-vehicle --health-port "$A"
 await_health "no world" 5 "$A" ready 1 'not joined: no answer from a world'
 await_health "no world, alive" 1 "$A" live 0 '^live$'
@@ -66,7 +66,7 @@ await_health "a drives" 15 "$A" ready 0 '^ready$'
 await_health "b drives" 15 "$B" ready 0 '^ready$'
 id_b=$(id_of b)
 
-# --- Metrics are those of this moment, and of the fleet's own counting.
+# --- Metrics are current, and equal the fleet's own counts.
 await "a drives" 5 a 'cruise'
 sleep 0.3 # a status
 turns=$(metric "$A" giveway_vehicle_loop_turns_total)
@@ -75,9 +75,9 @@ turns=$(metric "$A" giveway_vehicle_loop_turns_total)
 [[ $(metric "$A" 'giveway_vehicle_mode{mode="cooperative"}') == 1 ]] || fail "a: mode"
 [[ $(metric "$WORLD" giveway_world_vehicles_joined) == 2 ]] || fail "the world: vehicles joined"
 [[ $(metric "$WORLD" 'giveway_world_run_state{state="running"}') == 1 ]] || fail "the run"
-(($(metric "$A" giveway_vehicle_loop_turns_total) > turns)) || fail "the metrics of a stand still"
+(($(metric "$A" giveway_vehicle_loop_turns_total) > turns)) || fail "the metrics of a do not change"
 
-# --- A port is taken by one: with its remedy, and at once.
+# --- A port that is taken: refused at once, with a remedy.
 since=$(date +%s%N)
 start second giveway-vehicle --health-port "$A"
 ended second 2 "$since" 2000
@@ -101,7 +101,7 @@ get() { printf '%s %s HTTP/1.1\r\nHost: a\r\n%s\r\n' "$1" "$2" "${3:-}"; }
 [[ $(get GET /livez | first_line) == 'HTTP/1.1 200 OK' ]] || fail "GET /livez"
 [[ $(get HEAD /livez | first_line) == 'HTTP/1.1 200 OK' ]] || fail "HEAD /livez"
 [[ $(get GET /secrets | first_line) == 'HTTP/1.1 404 '* ]] || fail "an unknown page"
-[[ $(get GET /../../etc/passwd | first_line) == 'HTTP/1.1 404 '* ]] || fail "a way out"
+[[ $(get GET /../../etc/passwd | first_line) == 'HTTP/1.1 404 '* ]] || fail "a path out of the root"
 [[ $(get POST /livez $'Content-Length: 5\r\n' | first_line) == 'HTTP/1.1 405 '* ]] || fail "POST"
 [[ $(get DELETE /livez | first_line) == 'HTTP/1.1 405 '* ]] || fail "DELETE"
 get GET '/readyz?format=json' | said_to "$A" | grep -q '^{"ready":true,"reasons":\[\]}' || fail "JSON"
@@ -135,17 +135,17 @@ trickles() {
 TRICKLERS=()
 trickles 10
 sleep 0.5
-for _ in $(seq 5); do await_health "beside clients that trickle bytes" 1 "$A" live 0 '^live$'; done
-begun=$(date +%s%N)
+for _ in $(seq 5); do await_health "while clients trickle bytes" 1 "$A" live 0 '^live$'; done
+start_ns=$(date +%s%N)
 printf 'GET /li' | said_to "$A" >/dev/null # cut off for another, or after its second
-(($(date +%s%N) - begun < 1500000000)) || fail "a request that never ends is waited for"
+(($(date +%s%N) - start_ns < 1500000000)) || fail "a request that never ends is waited for"
 kill "${TRICKLERS[@]}" 2>/dev/null || true
 wait "${TRICKLERS[@]}" 2>/dev/null || true
-# A few a busy machine takes by itself; a loop that waits for strangers would come late ten times a
+# A busy machine alone causes a few; a loop that waited for these clients would be late ten times for each
 # half-open connection.
 late=$(($(metric "$A" giveway_vehicle_late_scans_total) - late))
 missed=$(($(metric "$B" giveway_vehicle_deadline_missed_total) - missed))
-echo "beside strangers: $late scans late, $missed beacons missed" >&2
+echo "under strangers' requests: $late scans late, $missed beacons missed" >&2
 ((late <= 5 && missed <= 2)) || fail "strangers disturb the loop: $late late, $missed missed"
 
 # --- A loop that hangs is not live, and is again when it continues.
@@ -154,10 +154,10 @@ await_health "b hangs" 3 "$B" live 1 'not live: the control loop has been silent
 await_health "b hangs and is not ready" 1 "$B" ready 1 'silent for'
 await_health "a does not hang" 1 "$A" live 0 '^live$'
 kill -USR2 "${PID[b]}"
-await_health "b goes on" 2 "$B" live 0 '^live$'
+await_health "b continues" 2 "$B" live 0 '^live$'
 await_health "b drives again" 5 "$B" ready 0 '^ready$'
 
-# --- A leave is no loss. Half a request is no reason to stay.
+# A leave is not a loss. Half a request does not keep the vehicle from leaving.
 await "a hears b again" 5 a "beacon_heard: vehicle $id_b"
 sleep 0.5
 line=$(lines_of a)
@@ -167,15 +167,15 @@ printf 'GET /li' 1>&"$socket"
 stops b
 exec {socket}>&-
 grep -q 'leaving (leaving)' "$SCRATCH/b.log" || fail "b did not halt: $(tail -n 3 "$SCRATCH/b.log")"
-await "a is told" 2 a "beacon_left: vehicle $id_b" "$line"
-await "the world is told" 2 world "vehicle $id_b left the run"
+await "a gets the leave" 2 a "beacon_left: vehicle $id_b" "$line"
+await "the world gets the leave" 2 world "vehicle $id_b left the run"
 sleep 0.5
 if tail -n "+$((line + 1))" "$SCRATCH/a.log" | grep -E "(stale|lost|missed).*vehicle $id_b"; then
   fail "a takes a leave for a loss"
 fi
 [[ $(metric "$A" giveway_vehicle_liveliness_lost_total) == "$lost" ]] || fail "a counted a loss"
 
-# --- b's disk was full: it said so and drove on; so does its recording.
+# --- b's disk was full: it reported that and drove on; so does its recording.
 grep -q 'error .*the recording ends here: .*b.tape: File too large' "$SCRATCH/b.log" ||
   fail "b did not say that its disk is full"
 "$FLEETCTL" replay "$SCRATCH/b.tape" | grep -q 'could not be written: File too large' ||
@@ -200,14 +200,14 @@ await_health "a taken id" 5 "$B" ready 1 "not joined: the world lets it wait: .*
 await_health "a taken id, alive" 1 "$B" live 0 '^live$'
 stops twin
 
-# --- At any moment of joining, from when it handles the signal: before, it is not yet itself.
+# --- At any moment of joining, once it handles the signal: before that it is still the shell.
 handles_term() { # NAME
-  local caught of="/proc/${PID[$1]}"
+  local handled of="/proc/${PID[$1]}"
   for _ in $(seq 400); do
     sleep 0.005
     [[ $(readlink "$of/exe") == */giveway-* ]] || continue # before the signals: those of the shell
-    caught=$(awk '/^SigCgt:/ {print $2}' "$of/status")
-    (((0x$caught >> 14) & 1)) && return
+    handled=$(awk '/^SigCgt:/ {print $2}' "$of/status")
+    (((0x$handled >> 14) & 1)) && return
   done
   fail "$1 never handled SIGTERM"
 }
@@ -234,7 +234,7 @@ if unshare --pid --fork --mount-proc true 2>/dev/null; then
     [[ $state == Z || $state == gone ]] && break
     sleep 0.02
   done
-  [[ $state == Z ]] || fail "process 1 was to leave a stranger's child as it is, which is $state"
+  [[ $state == Z ]] || fail "process 1 must leave a stranger's child as it is, which is $state"
   since=$(date +%s%N)
   kill -TERM "$inner"
   ended first 0 "$since" 1000
@@ -242,7 +242,7 @@ else
   echo "no right to make process namespaces: process 1 is not tried" >&2
 fi
 
-# watched_in_vain: an observer joins, and dies without a word: nobody may wait for it for long.
+# watched_in_vain: an observer joins, and is killed: nothing may wait for it for long.
 watched_in_vain() {
   "$FLEETCTL" top --domain "$DOMAIN" >"$SCRATCH/top.log" 2>/dev/null &
   PID[top]=$!
@@ -259,7 +259,7 @@ stops a
 [[ -e $SCRATCH/a.2.tape ]] || fail "a's recording was not split"
 "$FLEETCTL" replay "$SCRATCH"/a.*tape || fail "a's recording: exit code $?"
 
-# --- A loop that hangs does not see SIGTERM: the process ends all the same, and says so by its code.
+# --- A loop that hangs does not see SIGTERM: the process ends nevertheless, and its exit code says so.
 kill -USR2 "${PID[c2]}"
 await "c2 hangs" 2 c2 'the control loop hangs'
 since=$(date +%s%N)
@@ -286,7 +286,7 @@ start_unread d --health-port "$A" --log-level debug
 await_health "d drives" 10 "$A" ready 0 '^ready$'
 await_health "d's log is not read" 1 "$A" live 0 '^live$'
 [[ $(metric "$A" giveway_vehicle_log_lines_dropped_total) =~ ^[0-9]+$ ]] || fail "d: dropped lines"
-# --- A loop that hangs for longer ends with its process, which says where all of its threads are.
+# --- A loop that hangs for longer ends with its process, which logs where all of its threads are.
 start c3 giveway-vehicle --health-port "$C" --hang-on-signal
 await_health "c3 drives" 10 "$C" ready 0 '^ready$'
 since=$(date +%s%N)

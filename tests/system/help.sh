@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the command line says of itself: help that fits any terminal, what was probably meant, completion,
+# The help of the command line: it fits any terminal, with suggestions for misspelt names, completion,
 # colours, man pages, and verbs that find the only fleet by themselves.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"
@@ -36,7 +36,7 @@ for service in giveway-observer giveway-vehicle giveway-world; do
 done
 [[ $("$FLEETCTL" version) == "$("$FLEETCTL" --version)" ]] || fail "version is not --version"
 
-# meant PATTERN ARGUMENTS...: refused, with what was probably meant.
+# meant PATTERN ARGUMENTS...: refused, with a suggestion.
 meant() {
   local pattern=$1 code=0
   shift
@@ -85,7 +85,7 @@ grep -qF "$green" out && fail "NO_COLOR is not honoured: $(<out)"
 "$FLEETCTL" virtual crossing --seeds 1..2 >out
 grep -qF $'\e[' out && fail "colour in a pipe: $(<out)"
 
-# The only fleet of a machine needs no domain. Only where nothing else can be in sight: in namespaces.
+# The only fleet of a machine needs no domain. Only where no other fleet is visible: in namespaces.
 if unshare --net --pid --fork --mount-proc true 2>/dev/null; then
   cat >alone.sh <<'SCRIPT'
 ip link set lo up

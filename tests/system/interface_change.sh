@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A vehicle whose network interface is taken away and comes back otherwise, as another device or with
-# another address, would be deaf permanently: it ends with exit code 1 within three seconds, and drives on
-# from where it stands once it is started again. The other vehicle drives through. The world and the two
-# have network namespaces of their own, joined by a bridge. Needs root.
+# A vehicle whose network interface is removed and comes back differently, as another device or with another
+# address, would receive nothing any more: it ends with exit code 1 within three seconds, and drives on from
+# where it stands once it is restarted. The other vehicle drives on throughout. The world and the two have
+# network namespaces of their own, joined by a bridge. Needs root.
 if [[ -z ${OWN_NETWORK:-} ]]; then
   if [[ $(id -u) -ne 0 ]] || ! unshare -nm true 2>/dev/null; then
     echo "not root: left out" >&2
@@ -43,18 +43,18 @@ drive() {
 
 # ends WHAT NAME: with exit code 1, after NOTICED_MS from now at most, and the longest pause of the machine.
 ends() {
-  local what=$1 name=$2 code=0 begun last now took_ms pause_ms=0
-  begun=$(date +%s%3N)
-  now=$begun
-  while alive "$name" && ((now - begun < 10000)); do
+  local what=$1 name=$2 code=0 start_ms last now took_ms pause_ms=0
+  start_ms=$(date +%s%3N)
+  now=$start_ms
+  while alive "$name" && ((now - start_ms < 10000)); do
     last=$now
     sleep 0.02
     now=$(date +%s%3N)
     ((now - last <= pause_ms)) || pause_ms=$((now - last))
   done
-  took_ms=$((now - begun))
+  took_ms=$((now - start_ms))
   if alive "$name"; then
-    fail "$what: $name goes on: $(tail -n 3 "$SCRATCH/$name.log")"
+    fail "$what: $name still runs: $(tail -n 3 "$SCRATCH/$name.log")"
     return
   fi
   wait "${PID[$name]}" || code=$?
@@ -66,8 +66,8 @@ ends() {
     "$SCRATCH/$name.log" || fail "$what: $name does not say why: $(tail -n 3 "$SCRATCH/$name.log")"
 }
 
-# drives_through WHAT NAME LINE: since this line of its log it halted for nothing but a machine that is
-# late, whose ranges are old.
+# drives_through WHAT NAME LINE: since this line of its log it halted only for stale ranges, as on a late
+# machine.
 drives_through() {
   if tail -n "+$(($3 + 1))" "$SCRATCH/$2.log" | grep halt | grep -qv ranges_stale; then
     fail "$1: $2 was stopped by it: $(tail -n 3 "$SCRATCH/$2.log")"

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Ctrl-C is a clean stop: exit code 1, reason "interrupted", everyone leaves in good order. SIGTERM is
-# the same, a flood of it one request; a second Ctrl-C does not wait. The bound on the time is a guard against hanging, not a
-# measurement: a quiet machine takes under half a second, a busy one longer.
+# Ctrl-C is a clean stop: exit code 1, reason "interrupted", every process leaves in good order. SIGTERM is
+# the same, and many in a row count as one request; a second Ctrl-C does not wait. The bound on the time
+# guards against hanging, it is not a measurement: a quiet machine takes under half a second, a busy one
+# longer.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 now_ms() { echo $(($(date +%s%N) / 1000000)); }
 
 # interrupt NAME SECONDS SIGNAL...: sends the signals that long after the start, 50 ms apart.
 interrupt() {
-  local name=$1 delay=$2 run world domain begun code=0 signal
+  local name=$1 delay=$2 run world domain start_ms code=0 signal
   shift 2
-  # The picture does not fit on the disk: the verdict stands all the same, and is the only one.
+  # The picture does not fit on the disk: the verdict is given nevertheless, and is the only one.
   (
     ulimit -f 4 # KiB
     exec "$FLEETCTL" run intersection_yield --json --picture "$SCRATCH/picture.svg"
@@ -22,13 +23,13 @@ interrupt() {
   }
   domain=$(domain_of "$world")
   sleep "$delay"
-  begun=$(now_ms)
+  start_ms=$(now_ms)
   for signal in "$@"; do
     kill -s "$signal" "$run" || true
     sleep 0.05
   done
   all_gone "$domain" 60 || fail "$name: left over: $(processes_on "$domain" | xargs)"
-  local took=$(($(now_ms) - begun))
+  local took=$(($(now_ms) - start_ms))
   wait "$run" || code=$?
   [[ $took -le 6000 ]] || fail "$name: it took $took ms until all were gone"
   [[ $code -eq 1 ]] || fail "$name: exit code $code"
@@ -74,33 +75,33 @@ expect_left() {
 # left and is ended by what follows: such a flood judges nothing, and the next vehicle is sent another.
 readonly AT_ONCE_MS=50 # of the 200 that are one request
 flood() {
-  local vehicle begun took pids try
+  local vehicle start_ms took pids try
   for try in 1 2 3 4 5; do
     start_vehicle
     printf -v pids "$vehicle %.0s" {1..300}
-    begun=$(now_ms)
+    start_ms=$(now_ms)
     # shellcheck disable=SC2086  # 300 words
     kill -TERM $pids 2>/dev/null || true
-    took=$(($(now_ms) - begun))
+    took=$(($(now_ms) - start_ms))
     if ((took < AT_ONCE_MS)); then
-      expect_left "SIGTERM 300 times in $took ms" 0 "$begun"
+      expect_left "SIGTERM 300 times in $took ms" 0 "$start_ms"
       return
     fi
-    expect_left "SIGTERM 300 times in $took ms" '0|143' "$begun"
+    expect_left "SIGTERM 300 times in $took ms" '0|143' "$start_ms"
   done
   fail "no flood of SIGTERM was faster than $AT_ONCE_MS ms"
 }
 
 # A request sent for longer: a later one ends what has not left yet, as by a shell: 128 + 15.
 again_and_again() {
-  local vehicle begun signal
+  local vehicle start_ms signal
   start_vehicle
-  begun=$(now_ms)
+  start_ms=$(now_ms)
   for ((signal = 0; signal < 300; ++signal)); do
     kill -TERM "$vehicle" 2>/dev/null || break
     sleep 0.001
   done
-  expect_left "SIGTERM again and again" '0|143' "$begun"
+  expect_left "SIGTERM again and again" '0|143' "$start_ms"
 }
 
 for _ in 1 2 3; do

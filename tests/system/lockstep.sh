@@ -13,7 +13,7 @@ for ((core = 0; core < 2 * $(nproc); core++)); do
 done
 trap 'kill "${load[@]}" 2>/dev/null; rm -rf "$SCRATCH"' EXIT
 
-# fleetctl run starts the world of its own folder: there, one that is told of the faults.
+# fleetctl run starts the giveway-world next to itself: here, one with the faults.
 give_world_faults() {
   local bin="$SCRATCH/bin" real
   real=$(dirname "$FLEETCTL")
@@ -38,7 +38,7 @@ echo "$scenario seed $seed: real $real, virtual $virtual"
 [[ -n $real && $real == "$virtual" ]] || fail "the real run and the virtual one differ"
 if [[ -n $faults ]]; then
   log=$(cat "$SCRATCH"/logs/*world*)
-  seen="$(grep -c 'fault starts' <<<"$log") began, $(grep -c 'fault is over' <<<"$log") over"
+  seen="$(grep -c 'fault starts' <<<"$log") started, $(grep -c 'fault is over' <<<"$log") over"
   echo "faults: $seen"
   [[ $seen == "$(cat "$SCRATCH/virtual.err")" && $seen != 0* ]] ||
     fail "the world saw $seen; the virtual one $(cat "$SCRATCH/virtual.err")"

@@ -14,7 +14,7 @@ end_members() {
 }
 trap end_members EXIT
 
-# Sets DOMAIN to one that nobody uses, and keeps it by the lock that fleetctl takes too.
+# Sets DOMAIN to a free one, and keeps it by the lock that fleetctl takes too.
 take_domain() {
   for DOMAIN in $(seq 60 99); do
     exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$DOMAIN.lock"
@@ -67,7 +67,7 @@ no_contact() {
 }
 
 # Starts a process that only sleeps, 20 ms at a time, and notes each time that it was woken 40 ms late or
-# more: then the machine was too busy for vehicles, too, whose ranges are stale after 150 ms.
+# more: then the machine was too busy for vehicles too, whose ranges are stale after 150 ms.
 keep_time() {
   : >"$SCRATCH/late_us"
   (

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# fleetctl qos as an operator meets it: exit codes, JSON, files that are none, and that the shipped
-# sets which need nothing beside them run a crossing.
+# fleetctl qos as an operator meets it: exit codes, JSON, invalid files, and that the shipped sets which need
+# no other service run a crossing.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 sets=$REPOSITORY/config/qos
 bad=$REPOSITORY/tests/unit/qos/bad_qos
-# Variables of this shell would be findings of their own.
+# Variables of this shell would add findings.
 unset GIVEWAY_QOS GIVEWAY_INTERFACE FASTRTPS_DEFAULT_PROFILES_FILE ROS_DISCOVERY_SERVER
 cd "$SCRATCH"
 
@@ -114,7 +114,7 @@ qos 2 "show of nothing" show no_such_profile
 qos 2 "show of a broken file" show --qos cut.xml
 qos 2 "no verb" lint
 
-crossing() { # SET: a crossing with it, begun; its domain in $domain
+crossing() { # SET: starts a crossing with it; sets $domain
   : >run.json.err # before there is anything to look for
   judged_run run.json logs intersection_yield --qos "$1" &
   fleet=$!
@@ -127,7 +127,7 @@ crossing() { # SET: a crossing with it, begun; its domain in $domain
   fail "$1: no domain in $(cat run.json.err)"
 }
 
-arrives() { # SET: the crossing under way passes
+arrives() { # SET: the running crossing passes
   wait "$fleet" || fail "a crossing with $1: $(cat run.json; tail -n 5 run.json.err)"
   jq -e '.verdict == "passed"' run.json >/dev/null || fail "a crossing with $1: $(cat run.json)"
 }

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# Vehicles come and go in a running world: one that was killed with -9 drives again within five
-# seconds of its restart, as itself or as another; a fleet grows from two to four and shrinks again;
-# and no two bodies touch.
+# Vehicles join and leave a running world: one that was killed with -9 drives again within five seconds of its
+# restart, under its id or another; a fleet grows from two to four and shrinks again; and no two bodies touch.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 keep_time
@@ -12,18 +11,18 @@ start b giveway-vehicle
 await "the first two drive (a)" 15 a 'cruise'
 await "the first two drive (b)" 15 b 'cruise'
 
-# As traffic has it: the lanes cross.
+# The lanes cross, so vehicles also wait for each other.
 DRIVES='cruise|keep_clear|give_way|not_granted'
 
-# As itself: its id is asked for, and its body still stands where it was left.
+# Under its id: its body still stands where it was left.
 id=$(id_of b)
 listen_places b "$DOMAIN" "$id"
-await_places b 1 25 # it is on its way
+await_places b 1 25 # it drives
 kill_now b
 start b2 giveway-vehicle --id "$id"
 await "killed and restarted by its id" 5 b2 'cruise'
 
-# As another: any id, another place. The body of the dead one is taken away in time.
+# Under another: any id, another place. The body of the dead one is removed in time.
 kill_now a
 start a2 giveway-vehicle
 await "killed and restarted by any id" 5 a2 'cruise'
@@ -50,9 +49,9 @@ halts=$(tail -n "+$((line + 1))" "$SCRATCH/b2.log" | grep '(halt)' || true)
 if [[ $(times_late) -gt $late ]]; then # the machine may have made its ranges stale
   halts=$(grep -v 'ranges_stale' <<<"$halts" || true)
 fi
-[[ -z $halts ]] || fail "who stayed was stopped by the others' coming: $halts"
+[[ -z $halts ]] || fail "a vehicle that stayed was stopped by those that joined: $halts"
 
-# The world ends: everybody goes home by themselves.
+# The world ends: the vehicles end by themselves.
 kill -TERM "${PID[world]}"
 for name in b2 a2 e; do
   code=0
@@ -60,7 +59,7 @@ for name in b2 a2 e; do
   unset "PID[$name]"
   [[ $code -eq 0 ]] || fail "after the end: exit code $code of $name"
 done
-# The new process knows where the body was left, and drives on and not back.
+# The new process knows where the body was left, and drives on, not back.
 end_listening
 places b | jq -e 'length == 2 and all(.[]; .beacons > 5 and .beyond_m < 0.1) and
   .[1].first_toward == .[0].last_toward' >/dev/null ||

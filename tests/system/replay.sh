@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What vehicles of real runs recorded comes out the same to the bit: of a crossing, of one whose
-# second vehicle is killed with -9, and of a file that was corrupted on the disk, as far as it can be.
+# Recordings of real runs replay to the bit: of a crossing, of one whose second vehicle is killed with -9, and
+# of a file corrupted on the disk, as far as possible.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 # replayed FILE CONDITION: true of the only file's entry in the report.
@@ -22,20 +22,20 @@ crossing=$SCRATCH/intersection_yield
 for id in 1 2; do replayed "$crossing/vehicle-$id.recording" "$same and .complete"; done
 [[ $(find "$crossing" -name '*.recording' | wc -l) -eq 2 ]] || fail "not two recordings"
 
-# Every step says what the status and the log said: somebody gave way.
+# Every step has what the status and the log said: vehicle 2 gave way.
 "$FLEETCTL" replay "$crossing/vehicle-2.recording" --trace "$SCRATCH/2.tsv" >/dev/null
 [[ $(awk -F'\t' '$9 == "give_way"' "$SCRATCH/2.tsv" | wc -l) -gt 20 ]] ||
   fail "the trace of vehicle 2 shows no giving way"
 
-# The killed one's file has no end; what is in it is whole.
+# The file of the killed vehicle has no end record; what it holds is intact.
 record peer_dies
 died=$SCRATCH/peer_dies
 replayed "$died/vehicle-1.recording" "$same and .complete"
 replayed "$died/vehicle-2.recording" "$same and (.complete | not)"
 "$FLEETCTL" replay "$died"/*.recording || fail "peer_dies: exit code $?"
 
-# corrupted NAME COMMAND...: the file FILE as the command leaves it is refused with exit code 2.
-spoilt() {
+# malformed NAME COMMAND...: the file FILE as the command leaves it is refused with exit code 2.
+malformed() {
   local name=$1 code=0
   shift
   cp "$crossing/vehicle-1.recording" "$SCRATCH/$name"
@@ -44,9 +44,9 @@ spoilt() {
   cat "$SCRATCH/out"
   [[ $code -eq 2 ]] || fail "$name: exit code $code"
 }
-spoilt empty truncate -s 0 empty
-spoilt no_mark dd if=/dev/zero of=no_mark bs=1 count=1 conv=notrunc status=none
-spoilt one_byte dd if=/dev/zero of=one_byte bs=1 seek=30000 count=5 conv=notrunc status=none
-spoilt other_format sed -i '1s/[0-9]*$/99/' other_format
+malformed empty truncate -s 0 empty
+malformed no_mark dd if=/dev/zero of=no_mark bs=1 count=1 conv=notrunc status=none
+malformed one_byte dd if=/dev/zero of=one_byte bs=1 seek=30000 count=5 conv=notrunc status=none
+malformed other_format sed -i '1s/[0-9]*$/99/' other_format
 
 [[ $failures -eq 0 ]]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fleetctl report: shows a soak's report, draws its page again, tells a worse one from an equal one, and
-# refuses what is no report or not comparable, in words and with exit code 2.
+# fleetctl report: shows a soak's report, redraws its page, flags a worse one and passes an equal one, and
+# refuses what is no report or not comparable, with a reason and exit code 2.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 cd "$SCRATCH"
 
@@ -61,7 +61,7 @@ report 0 "equal" last-release nightly
 report 1 "slower" last-release slower --json
 jq -e '.worse and (.figures[0] | .what == "beacon_age, median" and .change == "worse"
   and .p < 0.01)' out >/dev/null || fail "slower: $(cat out)"
-report 0 "the other way" slower last-release
+report 0 "in reverse" slower last-release
 report 1 "failed" last-release broken
 grep -q '^worse  verdict' out || fail "failed: $(cat out)"
 

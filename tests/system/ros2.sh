@@ -10,7 +10,7 @@ cd "$SCRATCH"
 is() { jq -es "$3" "$2" >/dev/null || fail "$1: not true: $3: $(wc -l <"$2") messages, $(jq -c .topic "$2" | sort | uniq -c | tr '\n' ' ')"; }
 
 take_domain
-# Another; who takes domains by the lock alone takes low ones first.
+# Another domain; scripts that take domains by the lock alone take low ones first.
 for other in $(seq 59 -1 40); do
   exec {lock}>>"${TMPDIR:-/tmp}/giveway-domain-$other.lock"
   flock -n "$lock" && break

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# A soak of real processes: everything that can go wrong here passes, the report says so and is whole;
-# wrong input is refused before anything starts; Ctrl-C ends it with a report; a supervisor that is
-# killed leaves nobody behind, and its soak continues; a broken promise makes everyone keep its ring,
-# which replays; every beacon of a lossy network is accounted for; and in virtual time the same list
-# gives the same report twice. Each in a domain of its own, side by side, in about two minutes.
-# shellcheck disable=SC2317,SC2030,SC2031 # what runs beside is called by name
+# A soak of real processes: everything that can go wrong here passes, and the report says so and is complete;
+# wrong input is refused before anything starts; Ctrl-C ends it with a report; a supervisor that is killed
+# leaves no process behind, and its soak resumes; a broken promise makes every vehicle keep its ring, which
+# replays; every beacon of a lossy network is accounted for; and in virtual time the same list gives the same
+# report twice. Each in a domain of its own, in parallel, in about two minutes.
+# shellcheck disable=SC2317,SC2030,SC2031 # background functions are called by name
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 
 # refused WORDS ARGUMENTS...: exit code 2, the words, and no report.
@@ -40,7 +40,7 @@ refusals() {
   refused 'not carried out in virtual time\|cannot be carried out' patrol --faults everything --virtual --duration 60
   local code=0
   "$FLEETCTL" soak --resume "$SCRATCH/nowhere" >"$SCRATCH/out" 2>&1 || code=$?
-  { [[ $code -eq 2 ]] && grep -q 'holds no soak' "$SCRATCH/out"; } || fail "to go on with nothing ends with $code"
+  { [[ $code -eq 2 ]] && grep -q 'holds no soak' "$SCRATCH/out"; } || fail "resuming nothing ends with $code"
   code=0
   "$FLEETCTL" soak patrol --faults calm --duration 60 --report /proc/no >"$SCRATCH/out" 2>&1 || code=$?
   [[ $code -eq 2 ]] || fail "a folder that cannot be made: exit code $code"
@@ -100,7 +100,7 @@ accounted() {
     "$report/report.json" >/dev/null || fail "the latency of samples is not measured"
 }
 
-# The soak whose supervisor was killed continues with the rest of its list, and says so.
+# The soak whose supervisor was killed resumes with the rest of its list, and says so.
 killed() {
   local supervisor children code=0 report=$SCRATCH/killed
   "$FLEETCTL" soak patrol --vehicles 2 --faults "$SCRATCH/rest.textproto" --duration 45 --report "$report" \
@@ -116,36 +116,36 @@ killed() {
   sleep 11 # the second time it is saved
   kill -9 "$supervisor"
   wait "$supervisor" 2>/dev/null || true
-  all_gone "${children[@]}" || fail "processes of a killed soak live on"
+  all_gone "${children[@]}" || fail "processes of a killed soak still run"
   "$FLEETCTL" soak --resume "$report" --json >"$SCRATCH/resumed.json" 2>"$SCRATCH/resumed.log" || code=$?
   [[ $code -eq 0 ]] ||
-    fail "a soak that went on ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/resumed.json")"
+    fail "a resumed soak ended with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/resumed.json")"
   jq -e '(.resumed_at_s | length) == 1 and .resumed_at_s[0] > 8 and .ran_s > 40 and
     (.reasons | any(startswith("resumed at"))) and ([.faults[] | select(.observed)] | length) == 1' \
-    "$SCRATCH/resumed.json" >/dev/null || fail "a soak that went on does not say so: $(jq -c '[.resumed_at_s, .ran_s,
+    "$SCRATCH/resumed.json" >/dev/null || fail "a resumed soak does not say so: $(jq -c '[.resumed_at_s, .ran_s,
       .reasons, .faults]' "$SCRATCH/resumed.json")"
-  [[ ! -e $report/so_far.json ]] || fail "a soak with its verdict could be gone on with"
+  [[ ! -e $report/so_far.json ]] || fail "a soak with a verdict could be resumed"
 }
 
-# A vehicle dies unplanned: every one keeps what its ring holds, bit for bit.
+# A vehicle dies unplanned: every vehicle keeps what its ring holds, bit for bit.
 kept() {
-  local supervisor victim code=0 report=$SCRATCH/kept
+  local supervisor target code=0 report=$SCRATCH/kept
   "$FLEETCTL" soak patrol --vehicles 3 --faults "$SCRATCH/short.textproto" --duration 40 --record-ring 5 \
     --report "$report" --json >"$SCRATCH/kept.json" 2>"$SCRATCH/kept.log" &
   supervisor=$!
   started "$SCRATCH/kept.log" || fail "the fleet with rings never drove"
   sleep 13
-  victim=$(find_child "$supervisor" 3)
-  kill -9 "$victim"
+  target=$(find_child "$supervisor" 3)
+  kill -9 "$target"
   wait "$supervisor" || code=$?
   [[ $code -eq 1 ]] || fail "a soak of which a process died ends with $code: $(jq -c '[.verdict, .reasons]' "$SCRATCH/kept.json")"
   jq -e '[.violations[] | select(.invariant == "process_ended")] | length == 1' "$SCRATCH/kept.json" >/dev/null ||
-    fail "the process that died is not told of"
+    fail "the process that died is not reported"
   jq -e '.kept_rings | length == 1 and .[0].kept >= 2' "$SCRATCH/kept.json" >/dev/null ||
-    fail "not everyone kept its ring: $(jq -c .kept_rings "$SCRATCH/kept.json")"
+    fail "not every vehicle kept its ring: $(jq -c .kept_rings "$SCRATCH/kept.json")"
   [[ $(find "$report/recordings" -name 'vehicle-2*' | wc -l) -ge 4 ]] ||
-    fail "vehicle 2 has no ring beside its newest: $(ls "$report/recordings")"
-  # And the page of what the fleet did until then: vehicles and their ranges, before and at the break.
+    fail "vehicle 2 has no ring but its newest: $(ls "$report/recordings")"
+  # And the page of the fleet's last seconds: vehicles and their ranges, before the break and at it.
   local page
   page=$(jq -r '.kept_rings[0].page' "$SCRATCH/kept.json")
   [[ $page == recordings/black-box-*.html && -s $report/$page ]] || fail "no page of the last seconds: $page"
@@ -156,7 +156,7 @@ kept() {
   "$FLEETCTL" replay "$report"/recordings/*.recording >"$SCRATCH/replayed" ||
     fail "the rings do not replay: $(tail -n 3 "$SCRATCH/replayed")"
   "$FLEETCTL" soak --around "$report" >"$SCRATCH/around" || fail "there is nothing around a broken promise"
-  grep -q 'fleetctl shrink .*around.textproto' "$SCRATCH/around" || fail "--around says not how to shrink it"
+  grep -q 'fleetctl shrink .*around.textproto' "$SCRATCH/around" || fail "--around does not say how to shrink it"
   grep -q 'stop' "$report/around.textproto" || fail "the fault around it is not in around.textproto"
 }
 
@@ -170,7 +170,7 @@ virtually() {
   cmp -s "$SCRATCH/virtual-a.json" "$SCRATCH/virtual-b.json" || fail "two soaks in virtual time differ"
   jq -e '.virtual_time and (.faults | length) > 20 and ([.histograms[].name] | index("reaction_way"))' \
     "$SCRATCH/virtual-a.json" >/dev/null || fail "a soak in virtual time has no faults or no reactions"
-  grep -q '</html>' "$SCRATCH/virtual/report.html" || fail "the page of a soak in virtual time is not whole"
+  grep -q '</html>' "$SCRATCH/virtual/report.html" || fail "the page of a soak in virtual time is incomplete"
 }
 
 whole() {
@@ -188,15 +188,15 @@ whole() {
     fail "the whole soak has not accounted for its beacons: $(jq -c '[.accounting[:3]]' "$report/report.json")"
   jq -e '[.histograms[].name] as $all | ["beacon_age", "tick_jitter", "turn"] - $all == []' \
     "$report/report.json" >/dev/null || fail "the whole soak has not measured its vehicles"
-  grep -q '</html>' "$report/report.html" || fail "the page is not whole"
+  grep -q '</html>' "$report/report.html" || fail "the page is incomplete"
   "$FLEETCTL" report "$report" >"$SCRATCH/summary" || fail "fleetctl report does not read it"
   grep -q PASSED "$SCRATCH/summary" || fail "fleetctl report does not say that it passed"
   "$FLEETCTL" replay "$report"/recordings/vehicle-1.recording >/dev/null ||
     fail "a recording of the soak does not replay"
 }
 
-# Shared memory that is littered and full, a system clock that jumps, and discovery servers that are
-# killed and return: each is seen to happen, and the machine's own /dev/shm and clock are left alone.
+# Littered and full shared memory, a system clock that jumps, and discovery servers that are killed and
+# return: each shows in the report, and the machine's own /dev/shm and clock are left alone.
 host() {
   local code=0 shm before
   [[ $(id -u) -eq 0 ]] || return 0 # a /dev/shm apart needs root
@@ -216,7 +216,7 @@ host() {
   ((SECONDS - before < 300)) || fail "the clock of this script jumped"
 }
 
-# An intruder on loopback: each of its faults is seen by what its target or the peers count, no process
+# An intruder on loopback: each of its faults shows in the counters of its target or the peers, no process
 # ends, and all drive on.
 intruded() {
   local code=0 attacker=${FLEETCTL%/*}/attacker
@@ -242,9 +242,9 @@ killed_and_intruded() {
   intruded
 }
 
-# beside FUNCTION: it runs from now on; its failures count.
+# in_background FUNCTION: runs it in parallel; its failures count.
 runs=()
-beside() {
+in_background() {
   (
     failures=0
     "$1"
@@ -278,9 +278,9 @@ at { name: "again" time_s: 14 kind: "replayed" vehicle: 2 for_s: 4 }
 at { name: "noise" time_s: 16 kind: "flooded" target: "all" for_s: 5 }
 at { name: "broken" time_s: 17 kind: "malformed" vehicle: 3 for_s: 4 }
 FAULTS
-beside whole
-beside killed_and_intruded
-beside kept_and_host
+in_background whole
+in_background killed_and_intruded
+in_background kept_and_host
 refusals
 interrupted
 virtually

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fleetctl stopwatch: the shipped profile keeps every promise; what is refused, AUTOMATIC
-# liveliness among it; and Ctrl-C.
+# fleetctl stopwatch: the shipped profile keeps every promise; what is refused, including AUTOMATIC
+# liveliness; and Ctrl-C.
 source "$(dirname "${BASH_SOURCE[0]}")/fleet.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE
 cd "$SCRATCH"
@@ -54,7 +54,7 @@ grep -q 'AUTOMATIC</kind><ann' automatic.xml || fail "the profile is spelt other
 refused 'fleet_beacon_writer: liveliness AUTOMATIC.*; MANUAL_BY_TOPIC' --faults kill --trials 2 \
   --vehicles 4 --qos automatic.xml
 
-# Ctrl-C: soon, with exit code 1 and nobody left behind.
+# Ctrl-C: soon, with exit code 1 and no process left behind.
 "$FLEETCTL" stopwatch --faults kill --trials 4 --vehicles 4 --fleets 1 >out 2>err &
 watch=$!
 first=$(wait_for_child $watch 1) || fail "interrupted: no vehicle was started"

@@ -59,12 +59,12 @@ grep -q 'gnuplot-nox' err || fail "without gnuplot: $(cat err)"
 grep -q 'No pictures' small/report.html || fail "without gnuplot: report.html says nothing of it"
 rm small/trials/base-0.json
 tune "0 1" "one is missing" "${small[@]}" --out small
-[[ -s small/trials/base-0.json ]] || fail "one is missing: it was not measured anew"
+[[ -s small/trials/base-0.json ]] || fail "one is missing: it was not measured again"
 cmp -s {before,small}/trials/d190_l250_be_h5-0.json || fail "one is missing: another changed"
 tune 2 "another search there" "${small[@]}" --seed 9 --out small
 grep -q 'another' err || fail "another search there: $(cat err)"
 
-# Cut off while it measures: says that it continues, leaves nobody behind, and does.
+# Interrupted while it measures: says that it can be resumed, leaves no process behind, and resumes.
 "$FLEETCTL" qos tune "${small[@]}" --fleets 1 --out cut >out 2>err &
 tuning=$!
 for _ in $(seq 400); do
@@ -83,20 +83,20 @@ wait "$tuning" || code=$?
 [[ $code -eq 1 ]] || fail "cut off: exit code $code: $(cat err)"
 grep -q 'run the same command again' err || fail "cut off: $(cat err)"
 if [[ -z $domain ]]; then
-  fail "cut off: nobody was started"
+  fail "cut off: nothing was started"
 elif ! all_gone "$domain" 50; then
   fail "cut off: vehicles are left on domain $domain"
 fi
 compgen -G 'cut/trials/*.json' >/dev/null || fail "cut off: no evidence was kept"
-tune "0 1" "going on" "${small[@]}" --out cut
-grep -q 'resuming: [1-9]' err || fail "resuming: $(cat err)"
+tune "0 1" "resumed" "${small[@]}" --out cut
+grep -q 'resuming: [1-9]' err || fail "resumed: $(cat err)"
 
 if [[ ${GIVEWAY_TUNE_QUICK:-0} -eq 1 ]]; then
-  begun=$SECONDS
+  start_s=$SECONDS
   code=0
   "$FLEETCTL" qos tune --quick --out quick >out 2>err || code=$?
   [[ $code -eq 0 ]] || fail "quick: exit code $code: $(cat out)"
-  ((SECONDS - begun < 180)) || fail "quick: took $((SECONDS - begun)) s"
+  ((SECONDS - start_s < 180)) || fail "quick: took $((SECONDS - start_s)) s"
 fi
 
 [[ $failures -eq 0 ]]

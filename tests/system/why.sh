@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fleetctl why on real processes: each reason why one vehicle cannot hear another is named, and the
-# probe agrees; what is no reason is not named. Other namespaces need root, and are left out without.
+# fleetctl why on real processes: each reason why one vehicle cannot receive another is named, and the probe
+# agrees; what is no reason is not named. Other namespaces need root, and are skipped without it.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 unset GIVEWAY_QOS GIVEWAY_INTERFACE GIVEWAY_DOMAIN
 cd "$SCRATCH"
@@ -27,7 +27,7 @@ deaf() {
     and any(.findings[]; .rule == \"$rule\" and .values != \"\" and .remedy != \"\")"
 }
 
-hears() { # NAME A B: on every topic, foretold and probed, and nothing else is to be said
+hears() { # NAME A B: on every topic, predicted and probed, with no findings
   local name=$1
   shift
   why 0 "$name" "$@" --seconds 8 --json
@@ -35,8 +35,8 @@ hears() { # NAME A B: on every topic, foretold and probed, and nothing else is t
     and all(.topics[]; .verdict == "hears" and .predicted == "hears" and .samples > 0 and .matched)'
 }
 
-# More places than lanes.textproto has, and the same in another area. The first starts the run: a
-# world that waits for several waits until they hear each other.
+# More places than lanes.textproto has, and the same in another area. The first starts the run: a world that
+# waits for several waits until they receive each other.
 {
   cat "$REPOSITORY/tests/system/lanes.textproto"
   echo 'start_with: 1'
@@ -73,13 +73,13 @@ why 0 "for people" 1 2 --domain "$DOMAIN" --seconds 8
 grep -Eq '^vehicle 1 \(pid [0-9]+\) hears vehicle 2 \(pid [0-9]+\) on fleet/beacon' out ||
   fail "for people: $(cat out)"
 grep -q 'host id' out && fail "the host id is not that of the library: $(cat out)"
-why 0 "foretold alone" 1 2 --domain "$DOMAIN" --no-probe --json
-says "foretold alone" '.hears and .probed == false and (.topics[0] | has("samples") | not)'
+why 0 "prediction alone" 1 2 --domain "$DOMAIN" --no-probe --json
+says "prediction alone" '.hears and .probed == false and (.topics[0] | has("samples") | not)'
 
 deaf "incompatible QoS" deadline_mismatch 1 3 --domain "$DOMAIN"
 says "incompatible QoS" '.findings[0].values
   | test("deadline 400 ms \\(slow.xml:[0-9]+\\)") and test("deadline 150 ms \\(default.xml:")'
-hears "compatible the other way" 3 1 --domain "$DOMAIN"
+hears "compatible in the other direction" 3 1 --domain "$DOMAIN"
 deaf "another area" partition_apart 1 4 --domain "$DOMAIN"
 says "another area" '.findings[0].values | test("main/\\*") and test("north/v4 and without")'
 deaf "a lossy channel" impaired_deaf 5 1 --domain "$DOMAIN"
@@ -92,7 +92,7 @@ says "a stopped hearer" '.disagree == false and .topics[0].samples > 0
   and .topics[0].verdict == "does not hear" and .topics[0].reasons == ["process_stopped"]'
 kill -CONT "${PID[two]}"
 
-# Each of the others has a world of its own, and speaks.
+# Each of the others has a world of its own, and sends.
 first=$DOMAIN
 one=pid:${PID[one]}
 take_domain
@@ -139,14 +139,14 @@ else
   echo "not root: other namespaces are left out" >&2
 fi
 
-# Its id is told by ear alone.
+# Its id is known only from discovery.
 start twelve giveway-vehicle
 await "twelve drives" 20 twelve cruise
 hears "a vehicle without a given id" "$(id_of twelve)" 1 --domain "$DOMAIN"
 
-# Who is not here is judged by what can be heard, and what makes no sense is said.
-why 1 "nobody of that name" 1 77 --domain "$DOMAIN" --seconds 1 --json
-says "nobody of that name" '.topics[0].samples == 0 and (.not_known[0] | test("vehicle 77"))'
+# An absent process is judged by what can be received, and invalid arguments are reported.
+why 1 "no vehicle of that id" 1 77 --domain "$DOMAIN" --seconds 1 --json
+says "no vehicle of that id" '.topics[0].samples == 0 and (.not_known[0] | test("vehicle 77"))'
 why 2 "no such hearer" 77 1 --domain "$DOMAIN" --seconds 8 --json
 says "no such hearer" '.topics[0].samples > 0 and .topics[0].verdict == "may hear"'
 why 2 "neither" 77 78
@@ -157,7 +157,7 @@ why 2 "no vehicle" one 2
 grep -q "not 'one'" err || fail "no vehicle: $(cat err)"
 why 2 "no such process" pid:1 2
 grep -q 'no process of a fleet' err || fail "no such process: $(cat err)"
-why 2 "nobody" 0 2
+why 2 "id 0" 0 2
 why 2 "one name only" 1
 for name in "${!PID[@]}"; do alive "$name" || fail "$name did not outlive the questions"; done
 

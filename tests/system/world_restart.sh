@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The world is killed with -9 and started again, with a checkpoint, with a damaged one and without,
-# is asked to stop, and comes to the end of its run: the same vehicle processes drive again within five
-# seconds, and no two bodies touch. A vehicle without --stay ends with its run.
+# The world is killed with -9 and restarted, with a checkpoint, with a damaged one and without, is asked to
+# stop, and reaches the end of its run: the same vehicle processes drive again within five seconds, and no two
+# bodies touch. A vehicle without --stay ends with its run.
 source "$(dirname "${BASH_SOURCE[0]}")/members.sh"
 take_domain
 checkpoint=$SCRATCH/world.checkpoint
@@ -36,13 +36,13 @@ restart world2 "with its checkpoint" 'resumes from the checkpoint with 3 vehicle
 
 kill_now world2
 printf 'x' | dd of="$checkpoint" bs=1 seek=100 conv=notrunc status=none
-restart world3 "with a spoilt checkpoint" 'is of no use: its checksum is wrong' \
+restart world3 "with a corrupted checkpoint" 'is of no use: its checksum is wrong' \
   --checkpoint "$checkpoint"
 
 kill_now world3
 restart world4 "without a checkpoint" 'started with'
 
-# A fourth one still gets an id no other has.
+# A fourth vehicle still gets an id of its own.
 start d giveway-vehicle
 await "another comes" 10 d 'cruise'
 [[ $(for vehicle in a b c d; do id_of "$vehicle"; done | sort -u | wc -l) -eq 4 ]] ||
@@ -56,7 +56,7 @@ unset "PID[d]"
 for vehicle in a b c; do
   await "its run is over: $vehicle" 2 "$vehicle" 'the run has ended: waits for the next world'
 done
-restart world5 "after one that was told to stop" 'started with' --duration 2
+restart world5 "after one that was asked to stop" 'started with' --duration 2
 wait "${PID[world5]}" # its run is over
 restart world6 "after one whose run was over" 'started with'
 
@@ -68,6 +68,6 @@ for vehicle in a b c; do
   [[ $code -eq 0 ]] || fail "after the end: exit code $code of $vehicle"
 done
 no_contact
-# Their decisions in four worlds come out the same again.
+# Their decisions in four worlds replay identically.
 "$FLEETCTL" replay "$SCRATCH"/*.recording || fail "replay: exit code $?"
 [[ $failures -eq 0 ]]

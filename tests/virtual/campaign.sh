@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Runs generators of the virtual fleet over many seeds and says what broke: a campaign of
-# `fleetctl campaign` on this machine alone. A finished shard is a file in the folder of results, so
-# that a campaign cut off is taken up by the same command. Exit code 0: every invariant held in every
-# run; 1: one did not; 2: bad usage, or a shard could not be run.
+# Runs generators of the virtual fleet over many seeds and reports what broke: a `fleetctl campaign` on this
+# machine alone. A finished shard is a file in the folder of results, so that an interrupted campaign is
+# resumed by the same command. Exit code 0: every invariant held in every run; 1: one did not; 2: bad usage,
+# or a shard could not be run.
 # Usage: campaign.sh [--seeds N] [--results DIR] [--generators "NAME ..."] [--jobs J]
 set -euo pipefail
 
@@ -45,7 +45,7 @@ for ((index = 0; index < shards; ++index)); do
   code=0
   "$fleetctl" campaign shard "$work/campaign.textproto" --of "$shards" --index "$index" --jobs "$jobs" \
     --out "$results" >/dev/null 2>"$work/said" || code=$?
-  # 1 has a result: something broke, which the sum will say.
+  # 1 has a result: something broke, which the sum will report.
   [[ $code -le 1 ]] && continue
   cat "$work/said" >&2
   exit "$code"

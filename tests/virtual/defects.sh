@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Plants every defect of services/vehicle/estimation/planted.h and sees it caught by an invariant of the virtual
-# fleet. Each line of defects.txt names a defect, what it is planted beside, the invariants of which
-# one at least must break, and the run that shows it: a generator, a shipped scenario, or one of the
-# folder scenarios. Without the defect the same run must pass, and where nothing else is planted end
-# in the same hash as the product's. A line "ok" or "FAILED" each.
-# Exit code 0: every defect was caught; 1: one was not, or has no line; 2: could not run.
+# Injects every defect of services/vehicle/estimation/planted.h, and checks that an invariant of the virtual
+# fleet detects it. Each line of defects.txt names a defect, the lines of defence that remain, the invariants of
+# which at least one must break, and the run that shows it: a generator, a shipped scenario, or one of the
+# folder scenarios. Without the defect the same run must pass, and with all lines of defence end in the same
+# hash as the product's. A line "ok" or "FAILED" each.
+# Exit code 0: every defect was detected; 1: one was not, or has no line; 2: could not run.
 # Usage: defects.sh [DEFECT ...]
 set -euo pipefail
 
@@ -45,28 +45,28 @@ broken() { jq -r '[.violations | to_entries[] | select(.value > 0).key + " "] | 
 
 # sound BASE ARGUMENTS: all invariants hold; the product makes the same run.
 sound() {
-  local base=$1 planted product
+  local base=$1 injected product
   shift
-  planted=$(GIVEWAY_DEFECT=${taken_away[$base]} outcome fleetctl_planted "$@")
-  product=$planted
+  injected=$(GIVEWAY_DEFECT=${taken_away[$base]} outcome fleetctl_planted "$@")
+  product=$injected
   [[ $base != all ]] || product=$(outcome fleetctl "$@")
-  if jq -e -n --argjson a "${planted:-0}" --argjson b "${product:-1}" \
+  if jq -e -n --argjson a "${injected:-0}" --argjson b "${product:-1}" \
     '$a.verdict == "passed" and $a.hash == $b.hash' >/dev/null 2>&1; then
     report true "no defect, $base: all held by ${*##*/}"
   else
-    report false "no defect, $base: $(broken <<<"$planted")by ${*##*/}"
+    report false "no defect, $base: $(broken <<<"$injected")by ${*##*/}"
   fi
 }
 
-# caught DEFECT BASE INVARIANTS ARGUMENTS: one of the invariants, given with commas between, breaks.
-caught() {
-  local defect=$1 base=$2 expected=$3 names invariant is_caught=false
+# detected DEFECT BASE INVARIANTS ARGUMENTS: one of the invariants, separated by commas, breaks.
+detected() {
+  local defect=$1 base=$2 expected=$3 names invariant is_detected=false
   shift 3
   names=$(GIVEWAY_DEFECT=$defect,${taken_away[$base]} outcome fleetctl_planted "$@" | broken)
   for invariant in ${expected//,/ }; do
-    [[ " $names" != *" $invariant "* ]] || is_caught=true
+    [[ " $names" != *" $invariant "* ]] || is_detected=true
   done
-  report "$is_caught" "$defect, $base: ${names:-no result }by ${*##*/}"
+  report "$is_detected" "$defect, $base: ${names:-no result }by ${*##*/}"
 }
 
 declare -A known_sound=() tried=()
@@ -81,10 +81,10 @@ while read -r defect base expected scenario arguments; do
     known_sound[$base ${words[*]}]=1
     sound "$base" "${words[@]}"
   fi
-  caught "$defect" "$base" "$expected" "${words[@]}"
+  detected "$defect" "$base" "$expected" "${words[@]}"
 done <"$here/defects.txt"
 
-# A defect without a line is one that nobody looks for.
+# A defect without a line would never be tested.
 while read -r defect; do
   [[ -n ${tried[$defect]:-} ]] || report false "$defect: has no line in defects.txt"
 done < <(sed -n 's/^ *{"\([a-z_]*\)", Defect::k.*/\1/p' "$root/tests/support/planted_names.h")

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# How many defects the virtual runs alone catch: each line of mutants.txt runs through mutants_runs.txt
-# until one of them breaks an invariant that the sound brain holds there, those that are else only
-# counted included. Holds there: under four times as many seeds, so that a defect is not caught by what
-# any other course of things would have shown. What one line of defence hides shows without it: a run
-# of the base "agreement" is without claims and echoes, as in defects.sh. A line "caught" or "survived"
-# each, and the sum.
-# Exit code 0: at least --least of them were caught; 1: fewer; 2: could not run.
+# How many defects the virtual runs alone detect: each line of mutants.txt runs through mutants_runs.txt until
+# one of them breaks an invariant that the sound brain holds there, including those that are otherwise only
+# counted. Holds there: under four times as many seeds, so that a defect is not detected by what any other
+# course of events would have shown. What one line of defence hides shows without it: a run of the base
+# "agreement" is without claims and echoes, as in defects.sh. A line "detected" or "survived" each, and the
+# sum.
+# Exit code 0: at least --least of them were detected; 1: fewer; 2: could not run.
 # Usage: mutants.sh [--least N] [--jobs J] [NAME ...]
 set -euo pipefail
 
@@ -66,7 +66,7 @@ while read -r base line; do
   [[ ${sound[-1]} != *no_result* ]] || exit 2
 done <"$here/mutants_runs.txt"
 
-caught=0 tried=0
+detected=0 tried=0
 wanted=" $* "
 while read -r name _; do
   [[ $wanted == "  " || $wanted == *" $name "* ]] || continue
@@ -79,8 +79,8 @@ while read -r name _; do
     by="$new by ${runs[i]##*/}"
     break
   done
-  [[ -z $by ]] || caught=$((caught + 1))
-  echo "$([[ -n $by ]] && echo caught || echo survived)  $name: ${by:-nothing new}"
+  [[ -z $by ]] || detected=$((detected + 1))
+  echo "$([[ -n $by ]] && echo detected || echo survived)  $name: ${by:-nothing new}"
 done < <(grep -E '^[a-z_]+ +[|]' "$here/mutants.txt")
-echo "$caught of $tried caught"
-[[ $caught -ge $least ]]
+echo "$detected of $tried detected"
+[[ $detected -ge $least ]]

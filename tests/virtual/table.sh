@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# What the brain of today comes to in every generator, with stock and with mixed robots and by tier of
-# the ultrasonics: contacts / other invariants broken, all counted / vehicles that arrived. Eight
-# vehicles a run.
+# The results of the present brain in every generator, with stock and with mixed robots and by tier of the
+# ultrasonics: contacts / other invariants broken, all counted / vehicles that arrived. Eight vehicles a run.
 # Usage: table.sh [SEEDS] [GENERATOR ...]
 set -euo pipefail
 
@@ -9,7 +8,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 fleetctl=${GIVEWAY_BIN:-$root/build/release/bin}/fleetctl
 jobs=${GIVEWAY_JOBS:-$(nproc)}
 seeds=${1:-50}
-[[ $seeds =~ ^[1-9][0-9]{0,5}$ ]] || { sed -n '5s/^# //p' "${BASH_SOURCE[0]}" >&2 && exit 2; }
+[[ $seeds =~ ^[1-9][0-9]{0,5}$ ]] || { sed -n '4s/^# //p' "${BASH_SOURCE[0]}" >&2 && exit 2; }
 shift || true
 generators=("$@")
 [[ ${#generators[@]} -gt 0 ]] || generators=(crossing roundabout corridor merge warehouse swarm convoy

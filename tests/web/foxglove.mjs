@@ -53,7 +53,7 @@ await check("foxglove: the official client is greeted, and channels are advertis
   expect(first.info.name.includes(`domain ${domain}`), JSON.stringify(first.info));
   expect(first.info.capabilities.length === 0 && first.info.sessionId, JSON.stringify(first.info));
 });
-await check("foxglove: until somebody subscribes the fleet is not read", () => {
+await check("foxglove: until a client subscribes the fleet is not read", () => {
   expect(!observer.stderr.includes("reads the fleet's samples"), observer.stderr);
 });
 const beacons = first.client.subscribe(channelOf(first, "fleet/beacon").id);
@@ -144,17 +144,17 @@ function neverReading() {
     resolve(socket);
   }));
 }
-await check("foxglove: clients that never read cost no memory, and hold nobody up", async () => {
+await check("foxglove: clients that never read cost no memory, and delay no other", async () => {
   const before = rssOf(observer.child.pid), had = of(first, beacons).length;
   const sockets = await Promise.all(Array.from({ length: 15 }, neverReading));
   const answer = await answerTo(upgrade);
   expect(answer.status === 503 && answer.body.includes("16 clients"), `a 17th: ${JSON.stringify(answer)}`);
-  await until("the other goes on", () => of(first, beacons).length > had + 160);
+  await until("the other continues", () => of(first, beacons).length > had + 160);
   const grown = rssOf(observer.child.pid) - before;
   console.log(`        ${grown.toFixed(1)} MB more with 15 clients that never read`);
   expect(grown < 12, `${grown} MB`);
   for (const socket of sockets) socket.destroy();
-  await until("there is room again", async () => (await answerTo(upgrade)).status === 101, 5000);
+  await until("there is space again", async () => (await answerTo(upgrade)).status === 101, 5000);
 });
 await run.ended;
 first.client.close();

@@ -81,9 +81,9 @@ await check("live: at most 16 follow, and what none reads costs nothing", async 
     answers.push(await fetch(url + "api/v1/stream", { signal: abort.signal }));
   }
   const busy = answers.filter((answer) => answer.status === 503).length;
-  expect((await fetch(url + "api/v1/fleet")).ok, "the API answers beside them");
+  expect((await fetch(url + "api/v1/fleet")).ok, "the API still answers");
   aborts.forEach((abort) => abort.abort());
-  expect(busy === 5, `${busy} of 20 beside one page were turned away`);
+  expect(busy === 5, `${busy} of 20 in addition to one page were refused`);
 });
 await check("live: looking back and on", async () => {
   await page.keyboard.press("[");
@@ -117,7 +117,7 @@ await check("live: the page takes at most 300 kB and nothing from elsewhere", as
 });
 await check("live: no complaint in the console", async () =>
   expect(complaints.length === 0, complaints.join("; ")));
-await check("live: the run passes beside it", async () => {
+await check("live: the observed run passes", async () => {
   const code = await run.ended;
   expect(code === 0, `exit code ${code}: ${run.stderr.slice(-200)}`);
 });

@@ -66,10 +66,10 @@ const killed = [];
 // At 20 moments between two flushes, five recorders at a time.
 async function killAt(i) {
   const file = join(work, `killed-${i}.mcap`);
-  const victim = start("fleetctl", "record", file, "--domain", domain);
+  const recorder = start("fleetctl", "record", file, "--domain", domain);
   await new Promise((resolve) => setTimeout(resolve, 2200 + 53 * i));
   const at_ms = Date.now();
-  await stop(victim, "SIGKILL");
+  await stop(recorder, "SIGKILL");
   killed.push({ file, at_ms });
 }
 for (let i = 0; i < 20; i += 5) await Promise.all([0, 1, 2, 3, 4].map((more) => killAt(i + more)));

@@ -66,7 +66,7 @@ await check("replay: pause, seek and speed", async () => {
   await page.waitForTimeout(200); // what was drawn before the click is shown until the next frame
   const paused = await text(page, "when");
   await page.waitForTimeout(500);
-  expect(paused === await text(page, "when"), "it goes on while paused");
+  expect(paused === await text(page, "when"), "it continues while paused");
   await page.evaluate(() => window.giveway.seek(window.giveway.state.frames[0].at + 5000));
   await until("5.0 s", async () => (await text(page, "when")).startsWith("5.0"), 3000);
   await page.selectOption("#speed", "4");

@@ -48,8 +48,8 @@ await_query() {
   return 1
 }
 
-# What an alert compares: its expression without the comparisons with numbers, but for those that
-# say what is left out.
+# What an alert compares: its expression without the comparisons with numbers, except for those that select
+# series.
 compared() {
   local kept=${1%% unless *}
   printf '%s%s\n' "$(sed -E 's/ (==|>|<) [0-9.e+]+//g' <<<"$kept")" "${1#"$kept"}"

@@ -68,7 +68,7 @@ for (const signal of ["SIGTERM", "SIGINT", "SIGHUP"]) {
 }
 for (const fault of ["uncaughtException", "unhandledRejection"]) {
   process.on(fault, (error) => {
-    report(`${process.argv[1].split("/").at(-1)}: goes on`, false, String(error?.message ?? error).split("\n")[0]);
+    report(`${process.argv[1].split("/").at(-1)}: continues`, false, String(error?.message ?? error).split("\n")[0]);
     process.exit(1);
   });
 }
@@ -97,7 +97,7 @@ export async function openBrowser() {
   });
 }
 
-// A page whose complaints are kept: what the browser says of lost connections is none of ours.
+// A page whose complaints are kept: what the browser reports of lost connections is left out.
 export async function openPage(browser, url) {
   const page = await browser.newPage();
   const complaints = [];

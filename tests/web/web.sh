@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The observer in a browser, and its recordings in the field's own readers, also of ROS 2: a crossing live, a fleet of
-# 200 from virtual time, a recorder killed. Wants chromium, node and the built programs.
+# The observer in a browser, and its recordings in third-party readers, also of ROS 2: a crossing live, a
+# fleet of 200 from virtual time, a recorder killed. Needs chromium, node and the built programs.
 # Usage: web.sh; lines "ok NAME" and "FAILED NAME". Screenshots are kept in build/web/.
 # Exit code: 0 all ok, 1 something failed, 2 could not check.
 set -euo pipefail
@@ -24,7 +24,7 @@ if ! cmp -s "$here/package-lock.json" "$out/.fetched"; then
     die "npm ci failed; $out/npm.log says why"
   cp "$here/package-lock.json" "$out/.fetched"
 fi
-# Modules are looked for beside the file that names them.
+# Modules are searched for next to the file that names them.
 cp "$here"/*.mjs "$out"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,5 +1,5 @@
-// Whether the Job of a campaign runs every shard, tries again what may end otherwise and nothing
-// else, and keeps the results until somebody has fetched them.
+// Whether the Job of a campaign runs every shard, retries only what may succeed the next time, and
+// keeps the results until they are fetched.
 import { basename, dirname } from 'node:path';
 
 const wrong = (wanted) => wanted.filter(([holds]) => !holds).map(([, text]) => text);
@@ -64,7 +64,7 @@ export function planIsMounted(fleet) {
   const map = fleet.named('ConfigMap', volume?.configMap?.name);
   if (!map) return [`no ConfigMap is mounted at ${dirname(plan)}`];
   if (!(basename(plan) in (map.data ?? {}))) return [`${basename(plan)} is not in ${map.metadata.name}`];
-  // What no --of names is cut as the plan says: whoever runs it elsewhere gets the same shards.
+  // Without --of the plan's number of shards applies: run elsewhere, the plan gives the same shards.
   const shards = /^shards: *([0-9]+)$/m.exec(map.data[basename(plan)])?.[1];
   return shards === argumentAfter(container, '--of') ? [] : [`the plan has ${shards} shards, --of is ${argumentAfter(container, '--of')}`];
 }

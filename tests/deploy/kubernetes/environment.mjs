@@ -1,4 +1,4 @@
-// Whether the services understand what they are told.
+// Whether the services know the variables they are given.
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 
@@ -37,7 +37,7 @@ export function variablesAreKnown(fleet) {
 const REQUIRED = ['GIVEWAY_SCENARIO', 'GIVEWAY_DOMAIN', 'GIVEWAY_INTERFACE', 'GIVEWAY_QOS',
   'GIVEWAY_DISCOVERY_SERVER', 'GIVEWAY_HEALTH_PORT', 'GIVEWAY_HEALTH_ADDRESS'];
 
-// Who is in one fleet is told the same of it, and nothing that is needed is left out.
+// All processes of a fleet get the same configuration of it, and nothing required is missing.
 export function variablesAgree(fleet) {
   const vehicle = fleet.environment;
   const world = fleet.environmentOf(fleet.workload('world').pod.containers[0]);

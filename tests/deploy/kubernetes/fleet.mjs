@@ -27,7 +27,7 @@ export class Fleet {
     return found;
   }
 
-  // What the services of the fleet are told in common.
+  // The variables that all services of the fleet have in common.
   get environment() {
     return this.environmentOf(this.workload('vehicle').pod.containers[0]);
   }
@@ -59,7 +59,7 @@ export class Workload {
     this.pod = document.spec.template.spec;
   }
 
-  // The labels of each of its pods: a StatefulSet tells its pods apart.
+  // The labels of each of its pods: a StatefulSet adds one for each.
   get podLabels() {
     if (this.document.kind !== 'StatefulSet') return [this.labels];
     return Array.from({ length: this.replicas }, (_, index) => ({

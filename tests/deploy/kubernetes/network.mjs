@@ -3,7 +3,7 @@
 import { matches, selected } from './fleet.mjs';
 
 // RTPS 2.2, 9.6.1: port base 7400, 250 a domain, 2 a participant; offsets d1 = 10 and d3 = 11.
-const OTHERS_IN_A_POD = 4;  // fleetctl beside a service, and one that has just left
+const OTHERS_IN_A_POD = 4;  // fleetctl next to a service, and one that has just left
 function unicastPorts(domain) {
   const base = 7400 + 250 * domain;
   const numbers = Array.from({ length: OTHERS_IN_A_POD + 1 }, (_, participant) => participant);
@@ -33,7 +33,7 @@ function allows(fleet, direction, workload, peer, protocol, port) {
     .some((rule) => ruleAllows(rule, direction, workload, peer, protocol, port));
 }
 
-// Complaints about a way that must be open, from one workload's pods to another's port.
+// Complaints about a connection that must be open, from one workload's pods to another's port.
 function closed(fleet, from, to, protocol, port) {
   const complaints = [];
   if (!allows(fleet, 'Egress', from, to, protocol, port)) complaints.push(`${from.name} may not send to ${to.name}, ${protocol} ${port}`);
@@ -66,7 +66,7 @@ export function deniedByDefault(fleet) {
   });
   const everyone = fleet.ofKind('NetworkPolicy').filter((one) =>
     [...(one.spec.ingress ?? []), ...(one.spec.egress ?? [])].some((rule) => !(rule.from ?? rule.to) || !rule.ports));
-  return [...complaints, ...everyone.map((one) => `NetworkPolicy/${one.metadata.name} lets everybody in, or every port`)];
+  return [...complaints, ...everyone.map((one) => `NetworkPolicy/${one.metadata.name} lets every pod in, or every port`)];
 }
 
 // Without names there are no servers.
@@ -80,9 +80,9 @@ export function namesCanBeAsked(fleet) {
   }));
 }
 
-// Server number I of the variable is the pod number I, by an address that stays, on its own port; and
-// a server that is started anew is another one to its clients, whom the old one's lease keeps no longer
-// than the mounted file says.
+// Server number I of the variable is the pod number I, by a stable address, on its own port; and a
+// restarted server is a new one to its clients, which keep the old one for no longer than the lease in
+// the mounted file.
 export function serversAreFound(fleet) {
   const servers = fleet.workload('discovery-server');
   const [container] = servers.pod.containers;
@@ -115,24 +115,24 @@ export function serversAreFound(fleet) {
 
 // Probes, scrapes, Services and policies mean the port on which the services answer.
 export function healthIsReached(fleet) {
-  const { GIVEWAY_HEALTH_PORT: told, GIVEWAY_HEALTH_ADDRESS: address } = fleet.environment;
+  const { GIVEWAY_HEALTH_PORT: configured, GIVEWAY_HEALTH_ADDRESS: address } = fleet.environment;
   const complaints = address === '0.0.0.0' ? [] : [`health is served at ${address} alone`];
   for (const workload of ['vehicle', 'world'].map((one) => fleet.workload(one))) {
     const port = workload.portNamed('health')?.containerPort;
-    if (String(port) !== told) complaints.push(`${workload.name}: the port health is ${port}, served is ${told}`);
+    if (String(port) !== configured) complaints.push(`${workload.name}: the port health is ${port}, served is ${configured}`);
     if (workload.annotations['prometheus.io/scrape'] !== 'true') complaints.push(`${workload.name} is not scraped`);
-    if (workload.annotations['prometheus.io/port'] !== told) complaints.push(`${workload.name}: scraped at another port than ${told}`);
+    if (workload.annotations['prometheus.io/port'] !== configured) complaints.push(`${workload.name}: scraped at another port than ${configured}`);
     if (workload.annotations['prometheus.io/path'] !== '/metrics') complaints.push(`${workload.name}: scraped at another path than /metrics`);
     const open = fleet.ofKind('NetworkPolicy')
       .filter((one) => matches(one.spec.podSelector, workload.labels))
       .flatMap((one) => one.spec.ingress ?? [])
       .some((rule) => rule.from?.some((one) => one.namespaceSelector) &&
-        rule.ports?.some((one) => portAllows(one, 'TCP', Number(told), workload)));
+        rule.ports?.some((one) => portAllows(one, 'TCP', Number(configured), workload)));
     if (!open) complaints.push(`${workload.name}: no other namespace may ask for its metrics`);
     const served = fleet.ofKind('Service').some((service) =>
       selected(fleet, { matchLabels: service.spec.selector }).includes(workload) &&
-      service.spec.ports.some((one) => String(one.port) === told));
-    if (!served) complaints.push(`${workload.name}: no Service has its port ${told}`);
+      service.spec.ports.some((one) => String(one.port) === configured));
+    if (!served) complaints.push(`${workload.name}: no Service has its port ${configured}`);
   }
   return complaints;
 }

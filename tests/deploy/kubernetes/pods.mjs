@@ -36,7 +36,7 @@ export function shutIn(fleet) {
       [pod.securityContext?.runAsUser === 10001, 'does not run as the image\'s user, 10001'],
       [pod.securityContext?.seccompProfile?.type === 'RuntimeDefault', 'no seccomp profile RuntimeDefault'],
       [pod.automountServiceAccountToken === false, 'is given a token of the cluster'],
-      [pod.enableServiceLinks === false, 'is given variables of Services, which begin as ours do'],
+      [pod.enableServiceLinks === false, 'is given variables of Services, with our prefix'],
       [pod.terminationGracePeriodSeconds <= 10, 'is given more than 10 s to stop; it takes one'],
       [!pod.hostNetwork && !pod.hostPID && !pod.hostIPC, 'shares namespaces of its node'],
       [!(pod.volumes ?? []).some((one) => one.hostPath), 'mounts a folder of its node'],
@@ -101,7 +101,7 @@ export function plannedForIsRequested(fleet) {
     const wanted = [
       [cores(requests.cpu) * 1000 >= milliseconds, `requests ${requests.cpu} of processor, the plan is ${milliseconds.toFixed(0)}m`],
       [mebibytes(requests.memory) >= mib, `requests ${requests.memory} of memory, the plan is ${mib.toFixed(1)}Mi`],
-      // Meeting everybody takes several times what driving does, and a throttled loop misses ticks.
+      // Discovery of all peers takes several times the processor time of driving, and a throttled loop misses ticks.
       [cores(limits.cpu) * 1000 >= 4 * milliseconds, `is limited to ${limits.cpu} of processor, less than four times the plan`],
       [mebibytes(limits.memory) >= 1.5 * mib, `is limited to ${limits.memory} of memory, the plan is ${mib.toFixed(1)}Mi`],
     ];

@@ -30,7 +30,7 @@ function missingVolumes(workload) {
   const mounted = workload.pod.containers.flatMap((one) => one.volumeMounts ?? []).map((one) => one.name);
   return [
     ...mounted.filter((name) => !there.has(name)).map((name) => `${workload.name}: there is no volume ${name}`),
-    ...[...there].filter((name) => !mounted.includes(name)).map((name) => `${workload.name}: nobody mounts the volume ${name}`),
+    ...[...there].filter((name) => !mounted.includes(name)).map((name) => `${workload.name}: no container mounts the volume ${name}`),
   ];
 }
 
@@ -108,7 +108,7 @@ export function filesAreTheProjects(fleet) {
   const complaints = [];
   for (const map of fleet.ofKind('ConfigMap')) {
     for (const [key, value] of Object.entries(map.data ?? {})) {
-      // That of the servers is no set of a service's profiles, and lies beside the manifests.
+      // That of the servers is no set of a service's profiles, and lies next to the manifests.
       const folder = key === 'discovery_server.xml' ? 'deploy' : { '.xml': 'qos', '.textproto': map.metadata.name.startsWith('giveway-campaigns') ? 'campaigns' : 'scenarios' }[/\.[a-z]+$/.exec(key)?.[0]];
       if (!folder) continue;
       let file = null;

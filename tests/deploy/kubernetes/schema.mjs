@@ -2,7 +2,7 @@
 // Those schemas allow fields they do not know, as the API server drops them without a word: what a
 // validator never looked at is such a field.
 
-// A value that notes which of its fields, by their paths, somebody has read.
+// A value that notes which of its fields, by their paths, have been read.
 function watched(value, path, read) {
   if (value === null || typeof value !== 'object') return value;
   const parts = new Map();

@@ -22,9 +22,9 @@ class Writer {
   void Lose() { Next(), ++pending_missing_; }
   void Filter() { Next(), Arrive(), ++arrival_.filtered; }
   void Overwrite() { Next(), Arrive(); }
-  // Taken, and of no known meaning.
+  // Taken, but of unknown meaning.
   void Unreadable() { Overwrite(), ++arrival_.taken, ++arrival_.unreadable; }
-  // Written off by the writer alone: the library got none.
+  // Counted by the writer alone: the library got no sample.
   void Skip() { ++seq_; }
 
   ReceivedBeacon Sent() {
@@ -93,7 +93,7 @@ class BeaconLedgerTest : public ::testing::Test {
 
 TEST_F(BeaconLedgerTest, CountsEachFateOfABeaconOnce) {
   NoteNext();
-  EXPECT_TRUE(ledger_.NextRows().Rows().empty()) << "one alone says nothing of the numbers";
+  EXPECT_TRUE(ledger_.NextRows().Rows().empty()) << "one alone proves nothing about the numbers";
   NoteNext();
   NoteNext(BeaconFate::kNotHeard);
   NoteNext(BeaconFate::kRefused);
@@ -154,7 +154,7 @@ TEST_F(BeaconLedgerTest, WhatCameBeforeTheFirstIsOfNoRow) {
   EXPECT_EQ(row.Sent(), 2U);
 }
 
-// Its own number means nothing, so the row waits for the next sound one.
+// Its own number cannot be trusted, so the row waits for the next intact one.
 TEST_F(BeaconLedgerTest, ABrokenBeaconIsCountedWithTheNextSoundOne) {
   NoteNext();
   NoteNext();
@@ -208,7 +208,7 @@ TEST_F(BeaconLedgerTest, ALibraryNumberThatWasBrokenIsMadeUpForByTheNext) {
   NoteNext();
   NoteNext();
   NoteMisnumbered();
-  EXPECT_EQ(Row().last, 2U) << "it settles nothing";
+  EXPECT_EQ(Row().last, 2U) << "it proves nothing";
   NoteNext();
   EXPECT_EQ(Row().last, 8U);
   EXPECT_EQ(Row().lost, 4U);
@@ -238,7 +238,7 @@ TEST_F(BeaconLedgerTest, ANumberThatTheLibraryNeverGotIsADifference) {
   EXPECT_EQ(row.Difference(), 1);
 }
 
-// The same bit of two packets is broken, far apart.
+// The same bit is flipped in two packets, far apart.
 TEST_F(BeaconLedgerTest, TwoBrokenLibraryNumbersAreNotANewCount) {
   NoteNext();
   for (int turn = 0; turn < 2; ++turn) {
@@ -249,7 +249,7 @@ TEST_F(BeaconLedgerTest, TwoBrokenLibraryNumbersAreNotANewCount) {
   EXPECT_EQ(Row().lost, 8U);
 }
 
-// The same bit of two packets is broken, and the library drops the sound ones between: their
+// The same bit is flipped in two packets, and the library drops the intact ones between them: their
 // numbers are lower.
 TEST_F(BeaconLedgerTest, TwoLibraryNumbersBrokenInTheSameBitAreNotANewCount) {
   NoteNext();

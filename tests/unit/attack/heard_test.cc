@@ -91,7 +91,7 @@ TEST(Heard, AVehicleListensWherePacketsGoThatNameItAndAtTheOtherPortOfThePair) {
   in_addr loopback{};
   loopback.s_addr = htonl(INADDR_LOOPBACK);
   EXPECT_THAT(PlacesOf(7, captured), ElementsAre(Place{loopback, 7675}, Place{loopback, 7674}));
-  EXPECT_THAT(PlacesOf(8, captured), IsEmpty()) << "nobody heard a beacon of it";
+  EXPECT_THAT(PlacesOf(8, captured), IsEmpty()) << "no beacon from it was received";
   EXPECT_EQ(PlacesOfAll(captured).size(), 3U);
 }
 

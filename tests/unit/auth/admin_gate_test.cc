@@ -36,9 +36,9 @@ TEST(AdminGate, TakesAnOrderThatIsSealedWithItsKeyOnce) {
   EXPECT_FALSE(gate.IsShut());
   EXPECT_EQ(gate.WhyNot(Order(101)), "");
   EXPECT_THAT(gate.WhyNot(Order(101)), HasSubstr("not above"));
-  EXPECT_THAT(gate.WhyNot(Order(100)), HasSubstr("not above")) << "of before this process";
+  EXPECT_THAT(gate.WhyNot(Order(100)), HasSubstr("not above")) << "from before this process";
   EXPECT_EQ(gate.WhyNot(Order(300)), "");
-  EXPECT_EQ(gate.WhyNot(Order(200)), "") << "of another operator, who was slower";
+  EXPECT_EQ(gate.WhyNot(Order(200)), "") << "from another, slower operator";
 }
 
 TEST(AdminGate, RefusesAnotherKeyNoSealAndAnyFieldThatWasChanged) {
@@ -65,7 +65,7 @@ TEST(AdminGate, RemembersSoManyAndRefusesWhatIsOlder) {
     ASSERT_EQ(gate.WhyNot(Order(2 * i)), "");
   }
   EXPECT_THAT(gate.WhyNot(Order(2)), HasSubstr("not above"));
-  EXPECT_THAT(gate.WhyNot(Order(3)), HasSubstr("not above")) << "new, and too old to tell";
+  EXPECT_THAT(gate.WhyNot(Order(3)), HasSubstr("not above")) << "new, but too old";
 }
 
 TEST(AdminGate, SealsAnAnswerWholly) {

@@ -27,7 +27,7 @@ class HelpFormatTest : public testing::Test {
     CLI::App app("Runs a scenario.", "tool");
     app.formatter(std::make_shared<HelpFormat>(columns));
     app.footer(
-        "\nA long note that goes on and on, over the width of any terminal there is, so that it "
+        "\nA long note that is wider than any terminal, however wide that one may be, so that it "
         "must "
         "be\nwrapped.\n\nExamples\n  tool run crossing --seed 7 --picture crossing.svg      # a "
         "picture of both paths in the end\n\nExit code: 0 passed.\n");
@@ -81,7 +81,7 @@ TEST_F(HelpFormatTest, TheTwinInTheEnvironmentIsNamed) {
 TEST(HelpFormat, AnExampleThatIsTooLongHasItsCommentAbove) {
   EXPECT_EQ(WrapParagraphs("  tool run crossing --seed 7      # with another seed", 40),
             "  # with another seed\n  tool run crossing --seed 7\n");
-  // No line of it can be taken for a command.
+  // None of its lines looks like a command.
   EXPECT_EQ(WrapParagraphs("  tool run crossing      # with another seed than before", 24),
             "  # with another seed\n  # than before\n  tool run crossing\n");
 }

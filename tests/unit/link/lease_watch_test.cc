@@ -1,4 +1,4 @@
-// Whom the lease watch takes leave of, and when: by packets as participants send them.
+// Which participants the lease watch drops, and when: by packets as participants send them.
 #include "services/link/packet_filter/lease_watch.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST(LeaseWatch, SendsWhatAnHonestParticipantWouldSend) {
   LeaseWatch another;
   Announce(another, kDying, kFirst);
   EXPECT_TRUE(another.Hear(*farewell, kFirst));
-  EXPECT_EQ(another.Participants(), 0U) << "one that said farewell has none";
+  EXPECT_EQ(another.Participants(), 0U) << "a participant that left has none";
 }
 
 TEST(LeaseWatch, LeavesToAServerWhomItSpeaksFor) {

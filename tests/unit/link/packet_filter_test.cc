@@ -1,5 +1,5 @@
-// What the packet filter hands on and what it drops: submessages by themselves first, then numbers
-// and announcements by what came before.
+// What the packet filter passes and drops: submessages by themselves first, then numbers and
+// announcements by what came before.
 #include "services/link/packet_filter/packet_filter.h"
 
 #include <gtest/gtest.h>
@@ -274,7 +274,7 @@ TEST(PacketFilter, DropsNumbersThatTheWritersRateDoesNotAllow) {
   EXPECT_EQ(receiver.Data(201 + (std::int64_t{1} << 40U)), PacketDrop::kSequenceJump);
   EXPECT_EQ(receiver.Data(200 + kSlack + 20), PacketDrop::kSequenceJump);
   EXPECT_EQ(receiver.Heartbeat(kFar, kFar), PacketDrop::kSequenceJump);
-  EXPECT_EQ(receiver.Data(201), PacketDrop::kNone) << "and the writer is heard on";
+  EXPECT_EQ(receiver.Data(201), PacketDrop::kNone) << "and the writer is still heard";
 }
 
 TEST(PacketFilter, HandsOnWhatComesAgainOrAfterALoss) {
@@ -287,8 +287,8 @@ TEST(PacketFilter, HandsOnWhatComesAgainOrAfterALoss) {
   EXPECT_EQ(receiver.Data(200 + kSlack + 60 * 20), PacketDrop::kNone) << "a blackout";
 }
 
-// A vehicle that came to a world after 22 restarts of another heard no roster: of the packet that
-// said how far the writer is, the GAP before it was the number that it was held against.
+// Regression: a vehicle that joined a world after 22 restarts of another received no roster: the
+// GAP before the heartbeat in the packet was taken for the writer's highest number.
 TEST(PacketFilter, HandsOnTheSparseHistoryOfAnOldWriterToALateJoiner) {
   Received20Hz receiver;
   EXPECT_EQ(receiver.GapAndHeartbeat(4, 3, 5000), PacketDrop::kNone);
@@ -304,7 +304,7 @@ TEST(PacketFilter, GapsThatComeAgainDoNotHoldUpAWriterThatWasHeardLongAgo) {
   receiver.Settle(200);
   int dropped = 0;
   while (receiver.GapAndHeartbeat(200, 3, 700) != PacketDrop::kNone) {
-    ASSERT_LT(++dropped, 20) << "half a thousand samples were lost: two seconds";
+    ASSERT_LT(++dropped, 20) << "500 samples were lost: two seconds";
     receiver.Wait(milliseconds(100));
   }
 }
@@ -350,8 +350,8 @@ TEST(PacketFilter, AllowsAFastWriterLargerSteps) {
   EXPECT_EQ(receiver.Data(number + 600 + 10'000), PacketDrop::kSequenceJump);
 }
 
-// The library ignores every HEARTBEAT and ACKNACK whose count is not above the highest: one forged
-// count, and those of the true sender would never count again.
+// The library ignores every HEARTBEAT and ACKNACK whose count is not above the highest: after one
+// forged count those of the true sender would never be accepted again.
 TEST(PacketFilter, DropsCountsThatJump) {
   constexpr std::uint32_t kHighest = 0xffff'ffff;
   const auto heartbeat = [](std::uint32_t count) {
@@ -370,7 +370,7 @@ TEST(PacketFilter, DropsCountsThatJump) {
       EXPECT_EQ(DropOf(make(kHighest), now, &filter), PacketDrop::kSequenceJump);
       now += milliseconds(200);
     }
-    EXPECT_EQ(DropOf(make(7), now, &filter), PacketDrop::kNone) << "a reader made anew";
+    EXPECT_EQ(DropOf(make(7), now, &filter), PacketDrop::kNone) << "a new reader";
     now += seconds(60);
     EXPECT_EQ(DropOf(make(400), now, &filter), PacketDrop::kNone) << "sent to others";
   }
@@ -409,7 +409,8 @@ TEST(PacketFilter, LetsStrangersInNoFasterThanAFleetGrows) {
     const PacketDrop drop = announce(Stranger(i));
     let_in += drop == PacketDrop::kNone ? 1 : 0;
     EXPECT_TRUE(drop == PacketDrop::kNone || drop == PacketDrop::kTooManyStrangers);
-    EXPECT_TRUE(i % 100 != 0 || announce(kPeer) == PacketDrop::kNone) << "who is in stays in";
+    EXPECT_TRUE(i % 100 != 0 || announce(kPeer) == PacketDrop::kNone)
+        << "those that are in stay in";
   }
   EXPECT_LE(let_in, 256 + 2 * 2 + 5 * 16 + 1);
   EXPECT_GE(let_in, 256);

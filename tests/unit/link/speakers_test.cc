@@ -1,5 +1,5 @@
-// Who is believed, and what: sessions and their participants, ticks that can be true, entries and
-// samples in range.
+// Which senders are believed, and what of them: sessions and their participants, possible ticks,
+// entries and samples in range.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -62,7 +62,8 @@ TEST_F(Sessions, ASessionGoesToAnotherParticipantOnceItsOwnHasLeftOrIsSilent) {
   EXPECT_EQ(owners_.OwnerOf(kSeven), 3U);
 }
 
-// It was 0.75 s from the moment it was given its place, in which it may not have found its scans.
+// It was 0.75 s from the moment it got its place, during which it may not have discovered its
+// scans.
 TEST_F(Sessions, OneThatJustGotItsPlaceIsGivenTimeUntilItsFirstCommand) {
   AskBy(1, 5);
   owners_.Accept(kSeven, Ask(5).session);
@@ -72,7 +73,7 @@ TEST_F(Sessions, OneThatJustGotItsPlaceIsGivenTimeUntilItsFirstCommand) {
   EXPECT_EQ(AskBy(2, 5, later + SessionOwners::kSilence), Verdict::kOfAnother);
   AskBy(1, 5, later + SessionOwners::kSilence);
   EXPECT_EQ(AskBy(2, 5, later + SessionOwners::kSilenceBeforeCommands), Verdict::kOfAnother)
-      << "one that asks again is given the time again";
+      << "asking again restarts the time";
   EXPECT_EQ(AskBy(2, 5, later + seconds(4)), Verdict::kYes);
 }
 
@@ -96,7 +97,7 @@ TEST_F(Sessions, OnlyTheOwnerLeavesOrWhoKnowsTheSecret) {
   EXPECT_EQ(owners_.MayLeave(request, 2), Verdict::kOfAnother);
   request.secret = secret;
   EXPECT_EQ(owners_.MayLeave(request, 2), Verdict::kYes);
-  EXPECT_EQ(owners_.MayLeave(Ask(9), 1), Verdict::kOfAnother) << "nobody asked with it";
+  EXPECT_EQ(owners_.MayLeave(Ask(9), 1), Verdict::kOfAnother) << "never asked with";
 }
 
 TEST_F(Sessions, AnOwnerMayLeaveTwice) {
@@ -127,7 +128,7 @@ TEST_F(Sessions, AreBoundedAndTheOldestWithoutAPlaceGoFirst) {
   AskBy(3, 3);
   EXPECT_EQ(owners_.Sessions(), SessionOwners::kMostSessions);
   EXPECT_EQ(owners_.OwnerOf(kSeven), 1U);
-  EXPECT_EQ(AskBy(4, 2), Verdict::kYes) << "it was forgotten: anybody may ask with it";
+  EXPECT_EQ(AskBy(4, 2), Verdict::kYes) << "it was evicted: any participant may ask with it";
 }
 
 TEST_F(Sessions, OfOneEveryVehicleIsKnownUntilItsPlaceEnds) {
@@ -145,7 +146,7 @@ TEST_F(Sessions, OfOneEveryVehicleIsKnownUntilItsPlaceEnds) {
   EXPECT_EQ(owners_.OwnerOf(VehicleId{8}), 2U);
 }
 
-// Of 256 vehicles the world looked through all, for each session, each 32 ticks.
+// Regression: with 256 vehicles the world searched all of them, for each session, every 32 ticks.
 TEST_F(Sessions, WithAPlaceAreNotLookedAtToBeForgotten) {
   for (std::uint32_t i = 1; i <= 256; ++i) {
     AskBy(i, i);

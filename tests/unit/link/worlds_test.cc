@@ -1,4 +1,5 @@
-// Several that speak as the world: which of them is kept in mind, and how long each may be silent.
+// Several participants that speak as the world: which are remembered, and how long each may be
+// silent.
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -62,7 +63,7 @@ TEST_F(Candidates, OfOneParticipantTheNewestEntryIsKept) {
   EXPECT_EQ(candidates_.All().front().entry.reason, "new");
 }
 
-// The first to come gave way: a world that was started again, by four strangers.
+// The first to come was dropped: a restarted world, by four intruders.
 TEST_F(Candidates, StrangersFoundBeforeItDoNotPushOutAWorldThatWasStartedAgain) {
   Keep(9);
   for (std::uint64_t stranger = 1; stranger <= 8; ++stranger) Keep(stranger);
@@ -110,7 +111,7 @@ TEST(TickPeriod, IsTheTimeFromOneTickToTheNext) {
   period.Hear(TruthOf(14, 2.0));
   EXPECT_EQ(period.Get(), milliseconds(250));
   period.Hear(TruthOf(5, 9.0, 2));
-  EXPECT_EQ(period.Get(), milliseconds(250)) << "another world: nothing to compare with";
+  EXPECT_EQ(period.Get(), milliseconds(250)) << "another world: nothing to compare";
 }
 
 TEST(TickPeriod, NeverExceedsThatOfAScenario) {

@@ -1,5 +1,5 @@
-// How far forged packets can move a writer's numbers, and which numbers of honest writers pass:
-// of many rates, in bursts, through losses and blackouts.
+// How far forged packets can move a writer's numbers, and which numbers of honest writers pass: at
+// many rates, in bursts, through losses and blackouts.
 #include "services/link/packet_filter/writer_table.h"
 
 #include <gtest/gtest.h>
@@ -76,8 +76,8 @@ TEST(WriterTable, PassesAWriterThatBecomesFaster) {
   writer.Send(4000, 200);
 }
 
-// Half of a vehicle's beacons at 500 Hz were dropped where a fifth was lost: steps of one drew on
-// the budget that the others need.
+// Regression: at 500 Hz and 20 % loss half of a vehicle's beacons were dropped: steps of one used
+// up the budget that larger ones need.
 TEST(WriterTable, PassesAFastWriterWithLossFromItsFirstSecondOn) {
   OneWriter writer;
   for (int turn = 0; turn < 500; ++turn) {
@@ -86,7 +86,7 @@ TEST(WriterTable, PassesAFastWriterWithLossFromItsFirstSecondOn) {
   }
 }
 
-// Of poses of all bodies there are more with every vehicle that joins.
+// With every vehicle that joins there are more poses of bodies.
 TEST(WriterTable, PassesToAnObserverAFleetThatGrows) {
   OneWriter writer(true);
   writer.Send(100, 20);
@@ -96,7 +96,7 @@ TEST(WriterTable, PassesToAnObserverAFleetThatGrows) {
   }
 }
 
-// The world's of all poses: every tick a burst.
+// The world's writer of all poses: a burst every tick.
 TEST(WriterTable, PassesBursts) {
   for (const int bodies : {2, 30, 200, 500}) {
     OneWriter writer;
@@ -142,7 +142,7 @@ TEST(WriterTable, PassesWhatHeavyLossLeaves) {
   }
 }
 
-// A radio storm, an impaired second, a cable out for a minute.
+// A radio storm, a second of impairment, a cable unplugged for a minute.
 TEST(WriterTable, PassesWhatFollowsABlackout) {
   for (const double rate_hz : {1.0, 20.0, 200.0}) {
     for (const int silent_s : {1, 3, 10, 60, 600}) {
@@ -163,7 +163,8 @@ TEST(WriterTable, PassesABlackoutInTheFirstSecondToo) {
   writer.Send(100, 20);
 }
 
-// The step was once a share of a pace that each forged number raised: by half with every packet.
+// Regression: the step was a share of a pace that each forged number raised, by half with every
+// packet.
 TEST(WriterTable, NoFloodOfStepsIsFasterThanTheBudget) {
   for (const std::int64_t step : {1, 8, 64}) {
     OneWriter writer;
@@ -212,8 +213,8 @@ TEST(WriterTable, AForgerBesideTheTrueWriterIsNeverSecondsAhead) {
   }
 }
 
-// Numbers behind the highest left the time stale at which the writer was heard: what it might have
-// said since grew while it spoke.
+// Regression: numbers below the highest did not update the time at which the writer was last heard,
+// so the step allowed for silence grew while it spoke.
 TEST(WriterTable, SavesNothingUpWhileItIsHeard) {
   OneWriter writer;
   writer.Send(100, 20);
@@ -248,7 +249,7 @@ TEST(WriterTable, BelievesNoJumpWhileItIsHeardBehind) {
   }
 }
 
-// What it sends again, in every packet before what is new, once hid how far it is.
+// Regression: its repairs, in every packet before the new samples, hid how far it is.
 TEST(WriterTable, HearsHowFarAReliableWriterIsWhateverItSendsAgain) {
   OneWriter writer;
   ASSERT_TRUE(writer.Range(writer.Sent()));
@@ -306,7 +307,7 @@ TEST(WriterTable, ForgetsStrangersBeforeTheFleet) {
   }
   for (std::uint32_t own = 0; own < 16; ++own) {
     EXPECT_FALSE(table.IsPlausible(Guid(own), std::int64_t{1} << 20U, Statement::kSample, now))
-        << "of a writer that it forgot any first number is plausible: " << own;
+        << "any first number of a forgotten writer is plausible: " << own;
   }
 }
 

@@ -81,7 +81,8 @@ TEST(HeardFleet, OneThatClaimsIdsWithoutEndTakesNoMoreThanSoMany) {
     fleet.Fold({.beacons = {BeaconOf(VehicleId{id})}}, SteadyTime{id});
   }
   EXPECT_EQ(fleet.Vehicles().size(), HeardFleet::kMostVehicles);
-  EXPECT_FALSE(fleet.Vehicles().contains(VehicleId{10})) << "the first to fall silent goes first";
+  EXPECT_FALSE(fleet.Vehicles().contains(VehicleId{10}))
+      << "the first to fall silent is dropped first";
   EXPECT_TRUE(fleet.Vehicles().contains(VehicleId{11}));
 }
 

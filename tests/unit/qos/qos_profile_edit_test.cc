@@ -99,7 +99,7 @@ TEST(ProfileEdit, TheLastOfTwoElementsIsTheOneThatCounts) {
 }
 
 TEST(ProfileEdit, AMissingProfileAndBrokenXmlAreFindings) {
-  const ProfileEdit edit{Owner::kWriter, "nobody", Policy::kDepth, 3};
+  const ProfileEdit edit{Owner::kWriter, "missing", Policy::kDepth, 3};
   EXPECT_EQ(Edit(Default(), "f.xml", {edit}).findings.at(0).rule, "missing_profile");
   EXPECT_EQ(Edit("<dds><profiles>", "f.xml", {edit}).findings.size(), 1U);
 }

@@ -36,7 +36,7 @@ TEST_F(StateFile, GivesBackEveryByteOfTheNewestState) {
   EXPECT_EQ(ReadStateFile(file_), std::nullopt);
 }
 
-// A process that dies while it writes leaves its half beside.
+// A process that dies while writing leaves only its temporary file.
 TEST_F(StateFile, AHalfWrittenOneDoesNotTakeTheOldOnesPlace) {
   EXPECT_EQ(WriteStateFile(file_, "whole"), "");
   std::ofstream(file_ + ".new") << "ha";
@@ -46,9 +46,9 @@ TEST_F(StateFile, AHalfWrittenOneDoesNotTakeTheOldOnesPlace) {
   EXPECT_FALSE(std::filesystem::exists(file_ + ".new"));
 }
 
-// A checkpoint in a folder that others can write to: their link must not lead it elsewhere.
+// A checkpoint in a folder that other users can write to: their link must not redirect it.
 TEST_F(StateFile, ASymbolicLinkIsReplacedAndNotFollowed) {
-  const std::string victim = folder_ / "victim";
+  const std::string victim = folder_ / "linked";
   std::ofstream(victim) << "not ours";
   for (const std::string& link : {file_ + ".new", file_}) {
     std::filesystem::create_symlink(victim, link);

@@ -96,7 +96,7 @@ TEST_F(DriveTimingTest, RaisesTheAlarmWhenLessThanAFifthIsLeft) {
   EXPECT_GT(Of(DriveFigure::kReactionShare).max, 800'000U);
 }
 
-// Of a soak of twelve vehicles: 1 cm of nothing was told as -1250 % left.
+// From a soak of twelve vehicles: with 1 cm of free distance the margin was reported as -1250 %.
 TEST_F(DriveTimingTest, LeavesNothingOfNothingAndNoLess) {
   for (int i = 0; i < 3; ++i) Turn(Cruise());
   Turn(Obstacle(4), 0, 0.0);
@@ -153,7 +153,7 @@ TEST_F(DriveTimingTest, MeasuresJitterAgainstTicksAndNotAgainstScans) {
 TEST_F(DriveTimingTest, TellsAgesAndTurnsOfARunThatIsUnderWay) {
   age_ = milliseconds(70);
   Turn();
-  EXPECT_EQ(Of(DriveFigure::kBeaconAge).p50, 120'000U) << "the tick it is behind is age, too";
+  EXPECT_EQ(Of(DriveFigure::kBeaconAge).p50, 120'000U) << "the tick it is behind counts as age too";
   EXPECT_EQ(Of(DriveFigure::kTurn).p99, 300U);
   scan_.run_state = RunState::kWaiting;
   TurnSeen waits{.scan = &scan_};
@@ -190,7 +190,7 @@ TEST_F(DriveTimingTest, BeginsAnewInAnotherWorldAndKeepsItsFigures) {
   EXPECT_EQ(Of(DriveFigure::kTickJitter).max, 0U);
 }
 
-// Whoever reads a report at least every kNewest values meets all of them.
+// A reader that polls at least every kNewest values sees all of them.
 RC_GTEST_PROP(DriveTimingNewest, HoldsEveryValueUntilSixteenMoreCame, ()) {
   const auto lates =
       *rc::gen::container<std::vector<std::uint16_t>>(rc::gen::arbitrary<std::uint16_t>());

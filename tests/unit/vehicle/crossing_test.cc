@@ -1,4 +1,5 @@
-// World and brains together, in memory: the crossing as the scenarios ask for it, over many seeds.
+// World and brains together, in memory: the crossing as the scenarios configure it, over many
+// seeds.
 #include "tests/support/crossing.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +56,7 @@ TEST(CrossingOnce, WhenThePeerDiesTheOtherStopsAndGoesOnOnceTheWayIsClear) {
   }
 }
 
-// Decisions of one vehicle in a finished run: a stop that flickers shows as many.
+// The number of decisions of one vehicle in a finished run: a stop that flickers shows as many.
 int DecisionsOf(std::size_t index, const Scenario& scenario) {
   sim::VirtualFleet fleet(scenario);
   int decisions = 0;
@@ -64,7 +65,7 @@ int DecisionsOf(std::size_t index, const Scenario& scenario) {
 }
 
 // cruise, give way, cruise, arrived; a cooperative one may brush the claim of the winner, which
-// ends a little behind it, on its way: keep clear, cruise again
+// ends a little behind it, in its path: keep clear, cruise again
 TEST_P(CrossingTest, TheLoserDoesNotFlickerOnceTheWinnerHasPassed) {
   const int brushes = GetParam() == Behaviour::kCooperative ? 2 : 0;
   EXPECT_LE(DecisionsOf(1, Crossing(GetParam(), 0.4, 0.3)), 4 + brushes);
@@ -83,7 +84,7 @@ TEST(CrossingOnce, WhicheverDiesWheneverNobodyTouches) {
       Scenario scenario = Crossing(Behaviour::kCooperative, 0.4, 0.3);
       scenario.faults = {{FaultKind::kKill, VehicleId{victim}, tenth * 0.1, std::nullopt}};
       const auto outcome = Finish(scenario);
-      ASSERT_EQ(outcome.figures.contacts, 0U) << "victim " << victim << " at " << tenth * 0.1;
+      ASSERT_EQ(outcome.figures.contacts, 0U) << "vehicle " << victim << " at " << tenth * 0.1;
     }
   }
 }

@@ -1,4 +1,4 @@
-// What a decision says that it stood on.
+// The evidence that a decision rests on.
 #include <gtest/gtest.h>
 
 #include "tests/support/brain_bench.h"
@@ -18,7 +18,7 @@ TEST(Evidence, TellsTheOldestBeaconThatWasDecidedBy) {
   BrainBench bench(OptionsWithoutUltrasonics());
   const auto beacon = [](std::uint32_t tick) { return BeaconOf(2, tick, Pose{{2, 0}, kPi}); };
   bench.Step(RollingScan(0.3), {});
-  EXPECT_FALSE(bench.Brain().Evidence().oldest_beacon) << "of nobody there is no beacon";
+  EXPECT_FALSE(bench.Brain().Evidence().oldest_beacon) << "there is no peer yet";
   bench.Step(RollingScan(0.3), {beacon(1)});
   EXPECT_EQ(bench.Brain().Evidence().oldest_beacon, Nanoseconds{0});
   bench.Step(RollingScan(0.3), {});
@@ -43,13 +43,13 @@ TEST(Evidence, TellsHowFarIsFreeWhenTheDecisionIsNew) {
   EXPECT_LE(*free_m, 0.35);
   const Outputs second = bench.Step(ahead);
   ASSERT_FALSE(second.decision_changed);
-  EXPECT_FALSE(bench.Brain().Evidence().free_m) << "told once, when it is new";
+  EXPECT_FALSE(bench.Brain().Evidence().free_m) << "reported once, when it is new";
 }
 
 TEST(Evidence, TellsTheGapToThePeerThatIsGivenWayTo) {
   VehicleOptions options = OptionsWithoutUltrasonics();
   BrainBench bench(options);
-  // From the right, faster, on a way that crosses.
+  // From the right, faster, on a crossing path.
   const auto beacon = [](std::uint32_t tick) {
     Beacon told = BeaconOf(2, tick, Pose{{1.2, -1.2}, kPi / 2}, 0.5);
     told.wheels = WheelsFromTwist(told.drive, {0.3, 0});
@@ -64,7 +64,7 @@ TEST(Evidence, TellsTheGapToThePeerThatIsGivenWayTo) {
     EXPECT_LT(*free_m, 1.8);
     return;
   }
-  FAIL() << "it never decided on account of the peer";
+  FAIL() << "it never decided because of the peer";
 }
 
 }  // namespace

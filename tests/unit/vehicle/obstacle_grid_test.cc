@@ -1,4 +1,4 @@
-// What was heard stays where it was: how the grid gains, loses, scrolls and forgets.
+// Echoes stay where they were: how the grid gains, loses, scrolls and forgets.
 #include "services/vehicle/estimation/obstacle_grid.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ void HearTimes(ObstacleGrid* grid, int times, double range_m = 0.6) {
   for (int i = 0; i < times; ++i) grid->Hear(Ahead(true, range_m), {});
 }
 
-// What was heard 0.6 m before the nose.
+// An echo 0.6 m ahead of the nose.
 constexpr Vec2 kThere = {0.75, 0};
 
 bool Holds(const ObstacleGrid& grid, Vec2 point_body) {
@@ -73,7 +73,7 @@ TEST(ObstacleGrid, AnEchoFromBehindThePlaceClearsItAndOneFromBeforeDoesNot) {
   EXPECT_FALSE(Holds(grid, kThere));
 }
 
-// There an edge would not be heard either.
+// There an edge would not be detected either.
 TEST(ObstacleGrid, SilenceAtTheRimOfAConeClearsNearPlacesOnly) {
   const double rim_rad = Radians(14.5);
   for (const double range_m : {0.3, 0.9}) {
@@ -181,7 +181,7 @@ TEST(ObstacleGrid, WhereTheOwnBodyStandsNothingElseDoes) {
   EXPECT_FALSE(Holds(grid, {0, 0}));
 }
 
-// Against a list of where things are, over ways that lead several times round the torus.
+// Against a list of where things are, over paths that lead several times round the torus.
 TEST(ObstacleGrid, ScrollsWithTheVehicleAndKeepsWhatIsNear) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     Random random(seed);
@@ -210,7 +210,7 @@ TEST(ObstacleGrid, ScrollsWithTheVehicleAndKeepsWhatIsNear) {
         ASSERT_LT(nearest_m, 0.11) << seed << " " << i << " " << j;
       }
     }
-    // What it has left behind is gone: nothing of one heard is left five metres on.
+    // What it has left behind is gone: five metres on, nothing of an echo is left.
     HearTimes(&grid, 3);
     for (int i = 0; i < 100; ++i) grid.Move({0.05, 0}, 0, 0);
     int held = 0;
@@ -235,7 +235,7 @@ TEST(ObstacleGrid, TheSameStateHashesAlikeAndAnotherDoesNot) {
     return hash.Value();
   };
   ObstacleGrid a;
-  EXPECT_EQ(hash_of(a), StateHash().Value()) << "what takes nothing in shows in no hash";
+  EXPECT_EQ(hash_of(a), StateHash().Value()) << "a grid that takes nothing in changes no hash";
   HearTimes(&a, 2);
   ObstacleGrid b = a;
   EXPECT_EQ(hash_of(a), hash_of(b));

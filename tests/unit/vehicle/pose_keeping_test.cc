@@ -1,5 +1,5 @@
-// How a vehicle keeps its pose: fixes weighed, late, doubted and believed; wheels whose errors
-// fixes show; and when it is unsure, lost and found.
+// How a vehicle keeps its pose: fixes weighted, late, doubted and accepted; wheel errors that fixes
+// reveal; and when it is uncertain, lost and found.
 #include "services/vehicle/estimation/pose_keeping.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ VehicleProfile Fitted(double wheel_slip = 0) {
   return profile;
 }
 
-// A vehicle whose truth is known, with encoders that may say something else.
+// A vehicle whose true pose is known, with encoders that may deviate.
 class Keeper {
  public:
   explicit Keeper(const VehicleProfile& profile, std::uint64_t seed = 1)
@@ -136,7 +136,7 @@ TEST(PoseKeeping, AFixIsUsedFromTheTickAfterItsOwnOn) {
   EXPECT_GT(keeper.odometry.WorldFromBody().position_world.x, 0.05);
 }
 
-// One that comes ten ticks late speaks of where the vehicle was, not of where it is.
+// A fix ten ticks late tells where the vehicle was, not where it is.
 TEST(PoseKeeping, ALateFixIsComparedWithWhereItWasThen) {
   Keeper keeper(Fitted());
   keeper.odometry = Odometry({}, {.xx_m2 = 0.01, .yy_m2 = 0.01});
@@ -187,7 +187,7 @@ TEST(PoseKeeping, AFixThatIsNoneChangesNothing) {
   EXPECT_EQ(keeper.keeping.fixes_refused, 5U);
 }
 
-// By deviations whose squares are no numbers to divide by, of a pose that is known exactly.
+// Deviations whose squares underflow, from a pose that is known exactly.
 TEST(PoseKeeping, AFixThatClaimsToBeExactIsRefused) {
   for (const double sigma : {1e-200, 1e-170, 1e-7, 1e4, 1e300}) {
     Keeper keeper(Fitted());
@@ -205,7 +205,7 @@ TEST(PoseKeeping, AFixThatClaimsToBeExactIsRefused) {
   }
 }
 
-// One that waits came from a snapshot, where nobody has looked at it.
+// A fix that waits came from a snapshot, and is not checked yet.
 TEST(PoseKeeping, AFixThatWaitedIsLookedAtLikeAnyOther) {
   Keeper keeper(Fitted());
   keeper.Drive({});
@@ -240,7 +240,7 @@ TEST(PoseKeeping, AHeadingThatDoesNotFitIsDoubtedToo) {
   EXPECT_NEAR(keeper.odometry.WorldFromBody().heading_rad, -0.5, 0.05);
 }
 
-// Of what a step adds there is one model: who takes fixes does not take its encoders for exact.
+// The error of a step has one model: with fixes too the encoders are not taken for exact.
 TEST(PoseKeeping, SaysWhatAWayAddsToTheDoubt) {
   const auto added = [](const VehicleProfile& profile) {
     Odometry odometry;
@@ -255,7 +255,7 @@ TEST(PoseKeeping, SaysWhatAWayAddsToTheDoubt) {
   EXPECT_GT(added(Fitted()), 0);
 }
 
-// Over a hundred robots, 60 s each, what the filter says of its doubt is what it is.
+// Over a hundred robots, 60 s each, the filter's covariance matches its error.
 TEST(PoseKeeping, ItsErrorStaysAsSmallAsItSays) {
   double squares = 0;
   int samples = 0;
@@ -270,12 +270,12 @@ TEST(PoseKeeping, ItsErrorStaysAsSmallAsItSays) {
     }
     EXPECT_LT(keeper.Off(), 0.3) << seed;
   }
-  // Of two numbers along the worst axis each: at most 2, and not far from it.
+  // Two numbers along the worst axis each: at most 2, and not far from it.
   EXPECT_GT(squares / samples, 0.5);
   EXPECT_LT(squares / samples, 2.5);
 }
 
-// One wild fix does not move the vehicle; until the next it says that it may be there.
+// One outlier does not move the vehicle; until the next fix it reports that it may be there.
 TEST(PoseKeeping, AnOutlierIsDoubtedAndNotFollowed) {
   Keeper keeper(Fitted());
   for (int i = 0; i < 200; ++i) {
@@ -305,7 +305,7 @@ TEST(PoseKeeping, AFixWhereNoWheelsCanHaveBroughtItIsPassedOver) {
   EXPECT_EQ(keeper.keeping.fixes_refused, 1U);
 }
 
-// Encoders that count a third too much: fixes are doubted, then believed.
+// Encoders that count a third too much: fixes are doubted, then accepted.
 TEST(PoseKeeping, FixesThatAgreeAreBelievedAgainstTheWheels) {
   Keeper keeper(Fitted());
   for (int i = 0; i < 40; ++i) {
@@ -323,8 +323,8 @@ TEST(PoseKeeping, FixesThatAgreeAreBelievedAgainstTheWheels) {
   EXPECT_LT(keeper.Off(), 0.15);
 }
 
-// Such as the fault encoder_wrong makes: unnoticed by wheels alone, in reach of what others allow
-// for with fixes.
+// As the fault encoder_wrong does: undetectable by wheels alone, within the allowance of others
+// with fixes.
 TEST(PoseKeeping, EncodersThatCountALittleTooMuchAreMadeGoodByFixes) {
   Keeper keeper(Fitted());
   for (int i = 0; i < 400; ++i) {
@@ -347,7 +347,7 @@ TEST(PoseKeeping, UnequalWheelsAreLearntFromFixes) {
   EXPECT_NEAR(keeper.keeping.calibration.wheels.axle, -0.05, 0.012);
 }
 
-// It is told how wrong its wheels may be, not which way.
+// It knows the size of its wheel errors, not their sign.
 TEST(PoseKeeping, TheSignOfAWheelErrorIsNotKnownToIt) {
   VehicleProfile one = Fitted();
   one.wheel_error = {.diameter = 0.03, .axle = -0.05};
@@ -366,7 +366,7 @@ TEST(PoseKeeping, TheSignOfAWheelErrorIsNotKnownToIt) {
   EXPECT_EQ(odometry_of_one.Covariance(), odometry_of_other.Covariance());
 }
 
-// Its error grows with the way, not with the root of it.
+// Its error grows with the distance, not with the square root of it.
 TEST(PoseKeeping, WithoutFixesTheDoubtOfUnequalWheelsGrowsAsTheirErrorDoes) {
   VehicleProfile profile = PioneerP3dx();
   profile.wheel_error = {.diameter = 0.02, .axle = 0.02};
@@ -409,7 +409,7 @@ TEST(PoseKeeping, OneThatGrowsUnsureSlowsDownThenIsLostAndFoundByAFix) {
   ASSERT_TRUE(keeper.keeping.lost);
   EXPECT_GE(keeper.Sigma(), kUsualPoseLimit_m);
   keeper.Drive({});
-  EXPECT_EQ(keeper.Share(), 0) << "standing finds nothing";
+  EXPECT_EQ(keeper.Share(), 0) << "a standing vehicle learns nothing";
   keeper.Give(keeper.NoisyFix());
   keeper.Drive({});
   EXPECT_EQ(keeper.Share(), 1);

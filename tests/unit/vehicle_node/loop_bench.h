@@ -1,5 +1,5 @@
-// A control loop on a table: a link that a test scripts turn by turn, and a clock that moves only
-// when the loop waits. No sockets, no time.
+// A control loop on the bench: a link that a test scripts turn by turn, and a clock that moves only
+// when the loop waits. No sockets, no real time.
 #pragma once
 
 #include <algorithm>
@@ -40,9 +40,9 @@ class ScriptedLink final : public link::DriveLink {
   using Script = std::function<Arrival(std::uint32_t turn)>;
   ScriptedLink(HandClock* clock, Script script) : clock_(*clock), script_(std::move(script)) {}
 
-  // In the order in which it was said: "beacon", "good-bye", "join 1", "leave", "status", ...
+  // In the order in which it was sent: "beacon", "leave notice", "join 1", "leave", "status", ...
   const std::vector<std::string>& Said() const { return said_; }
-  // Without what is said all the while.
+  // Without what is sent all the time.
   std::vector<std::string> SaidBesides() const {
     std::vector<std::string> rest;
     std::ranges::remove_copy_if(said_, std::back_inserter(rest), [](const std::string& word) {
@@ -78,7 +78,7 @@ class ScriptedLink final : public link::DriveLink {
   std::vector<std::string> TakeUnfit(SteadyTime /*now*/) override { return {}; }
   void Send(const Outputs& outputs) override {
     sent_.push_back(outputs);
-    said_.push_back(outputs.beacon.mode == Mode::kLeaving ? "good-bye" : "beacon");
+    said_.push_back(outputs.beacon.mode == Mode::kLeaving ? "leave notice" : "beacon");
   }
   void SendStatus(const VehicleStatus& status) override {
     last_status_ = status;
@@ -129,7 +129,7 @@ class ScriptedLink final : public link::DriveLink {
   bool lacks_body_ = false;
 };
 
-// The world's word on vehicle 1, which it gave its place.
+// The world's entry for vehicle 1, to which it gave its place.
 inline RosterEntry Entry(RunState state, WorldEpoch epoch = kEpoch) {
   return {.session = kSession,
           .vehicle = VehicleId{1},
@@ -172,16 +172,16 @@ class LoopBench {
       return link_.Turns() >= std::min(stop_at_, most) || (stops_as_it_asks_ && HasAsked());
     });
   }
-  // After that many turns it is told to stop.
+  // After that many turns it is asked to stop.
   void StopAt(std::uint32_t turn) { stop_at_ = turn; }
   void StopAsItAsksForTime() { stops_as_it_asks_ = true; }
-  // At the end of that turn an order takes a restart.
+  // At the end of that turn an order requests a restart.
   void OrderRestartAt(std::uint32_t turn) { order_at_ = turn; }
 
   ScriptedLink& Link() { return link_; }
   const VehicleLoop& Loop() const { return *loop_; }
   SteadyTime Now() const { return clock_.Now(); }
-  // How much it had sent whenever it said that its first scan is answered.
+  // How much it had sent each time it reported that its first scan is answered.
   const std::vector<std::size_t>& FirstScans() const { return answered_; }
 
  private:

@@ -1,4 +1,4 @@
-// When a vehicle's control loop goes on, leaves, restarts, and asks for another place.
+// When a vehicle's control loop continues, leaves, restarts, and asks for another place.
 #include <gmock/gmock.h>
 
 #include "tests/unit/vehicle_node/loop_bench.h"
@@ -15,7 +15,7 @@ constexpr WorldEpoch kNextWorld{8};
 
 Arrival ScanOnly(std::uint32_t turn) { return {.scan = Scan(turn), .beacons = {}, .roster = {}}; }
 
-// Scans, and once another word of the world.
+// Scans, and once another answer of the world.
 ScriptedLink::Script ScansAnd(std::uint32_t turn_of_entry, const RosterEntry& entry) {
   return [=](std::uint32_t turn) {
     Arrival arrival = ScanOnly(turn);
@@ -36,7 +36,7 @@ TEST(VehicleLoop, EndsWhenTheRunEndsAndSaysSoLast) {
   LoopBench bench(ScansAnd(3, Entry(RunState::kEnded)));
   EXPECT_EQ(bench.Drive(), DriveEnd::kOver);
   EXPECT_EQ(bench.Link().Turns(), 3U);
-  // Nobody is left to say good-bye to.
+  // No peer is left to send a leave notice to.
   EXPECT_THAT(bench.Link().SaidBesides(), ElementsAre("last status", "status heard"));
 }
 
@@ -98,7 +98,7 @@ TEST(VehicleLoop, ThatLostItsPlaceAsksForAnotherUnderItsIdInItsSession) {
   EXPECT_EQ(bench.Link().Joins().front().session, kSession);
 }
 
-// Issue 25: a leave in its name took its body away, and it halted for good.
+// Issue 25: a leave in its name removed its body, and it halted permanently.
 TEST(VehicleLoop, ThatHasNoBodyInAWorldThatIsThereAsksForItsPlaceAgain) {
   LoopBench bench([](std::uint32_t turn) { return turn < 4 ? ScanOnly(turn) : Arrival{}; });
   bench.Link().SayThatItLacksBody();
@@ -135,9 +135,10 @@ TEST(VehicleLoop, ToldToStopSaysGoodByeThreeTimesAndLeaves) {
   bench.StopAt(5);
   EXPECT_EQ(bench.Drive(), DriveEnd::kOver);
   EXPECT_EQ(std::ranges::count(bench.Link().Said(), "beacon"), 5);
-  // Leaving is said before the wait for whoever may have died.
-  EXPECT_THAT(bench.Link().SaidBesides(), ElementsAre("good-bye", "good-bye", "good-bye",
-                                                      "last status", "leave", "status heard"));
+  // The leave is sent before the wait for peers that may have died.
+  EXPECT_THAT(bench.Link().SaidBesides(),
+              ElementsAre("leave notice", "leave notice", "leave notice", "last status", "leave",
+                          "status heard"));
   for (std::size_t i = 5; i < 8; ++i) {
     EXPECT_EQ(bench.Link().Waits().at(i), Nanoseconds{0});
     EXPECT_EQ(bench.Link().Sent().at(i).command.target, WheelSpeeds{});
@@ -148,7 +149,7 @@ TEST(VehicleLoop, ToldToStopAfterTheRunHasNothingToLeave) {
   LoopBench bench(ScansAnd(5, Entry(RunState::kEnded)), {.stays = true});
   bench.StopAt(7);
   bench.Drive();
-  EXPECT_EQ(std::ranges::count(bench.Link().Said(), "good-bye"), 3);
+  EXPECT_EQ(std::ranges::count(bench.Link().Said(), "leave notice"), 3);
   EXPECT_EQ(std::ranges::count(bench.Link().Said(), "leave"), 0);
 }
 
@@ -165,7 +166,7 @@ TEST(VehicleLoop, ThatAnOrderRestartsHaltsThenSaysGoodByeThenAsksForItsTime) {
   EXPECT_EQ(bench.Drive(), DriveEnd::kRestarts);
   const auto& sent = bench.Link().Sent();
   ASSERT_EQ(sent.size(), 11U);
-  EXPECT_NE(sent.at(3).command.target, WheelSpeeds{});  // nobody had ordered anything
+  EXPECT_NE(sent.at(3).command.target, WheelSpeeds{});  // no command had been sent
   for (std::size_t i = 4; i < 8; ++i) {
     EXPECT_EQ(sent.at(i).command.target, WheelSpeeds{}) << i;
     EXPECT_NE(sent.at(i).beacon.mode, Mode::kLeaving) << i;
@@ -231,7 +232,7 @@ TEST(VehicleLoop, ThatIsDeafWhileItsWorldSpeaksRestartsForANewParticipant) {
   const SteadyTime begun = bench.Now();
   EXPECT_EQ(bench.Drive(), DriveEnd::kRestarts);
   EXPECT_GE(bench.Now() - begun, seconds(10));
-  EXPECT_EQ(std::ranges::count(bench.Link().Said(), "good-bye"), 3);
+  EXPECT_EQ(std::ranges::count(bench.Link().Said(), "leave notice"), 3);
   EXPECT_EQ(bench.Link().Joins().size(), 1U);
 }
 
@@ -246,7 +247,7 @@ TEST(VehicleLoop, WhoseInterfaceChangedEndsWithoutAWord) {
   EXPECT_THAT(bench.Link().SaidBesides(), IsEmpty());
 }
 
-// Beacons that come between two ticks are decided by with the next one.
+// Beacons that arrive between two ticks count in the decision of the next one.
 TEST(VehicleLoop, InLockstepHoldsBeaconsUntilATick) {
   LoopBench bench(
       [](std::uint32_t turn) {

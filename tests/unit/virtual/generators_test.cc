@@ -111,7 +111,7 @@ TEST_P(EveryGenerator, LeadsNoWayThroughAWall) {
   });
 }
 
-// In lanes that end in bays, nobody who stands at a goal touches anybody's way.
+// In lanes that end in bays, a vehicle at its goal touches no other vehicle's path.
 TEST_P(GeneratorWithBays, PutsGoalsWhereTheyAreInNobodysWay) {
   OnManySeeds([](const Scenario& scenario, const std::string& which) {
     for (const VehicleOptions& a : scenario.vehicles) {
@@ -119,7 +119,7 @@ TEST_P(GeneratorWithBays, PutsGoalsWhereTheyAreInNobodysWay) {
         if (a.id == b.id) continue;
         for (const Leg& leg : WayOf(b)) {
           ASSERT_GE(Distance(leg, a.goal.at_world), kBody_m + 0.4)
-              << which << ": goal of " << Number(a.id) << ", way of " << Number(b.id);
+              << which << ": goal of " << Number(a.id) << ", path of " << Number(b.id);
         }
       }
     }
@@ -151,7 +151,7 @@ TEST_P(EveryGenerator, MakesTheSameOfTheSameSeedAndAnotherOfAnother) {
 INSTANTIATE_TEST_SUITE_P(Of, EveryGenerator, testing::ValuesIn(Generators()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Not an open field, and nobody parks in the order of a queue.
+// Not an open field, and no parking in the order of a queue.
 std::vector<Generator> WithBays() {
   std::vector<Generator> with_bays;
   std::ranges::copy_if(Generators(), std::back_inserter(with_bays), [](const Generator& generator) {
@@ -165,8 +165,8 @@ std::vector<Generator> WithBays() {
 INSTANTIATE_TEST_SUITE_P(Of, GeneratorWithBays, testing::ValuesIn(WithBays()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// In one lane the goals lie in the order of the queue, and whoever comes to its own has passed none
-// of those behind it.
+// In one lane the goals lie in the order of the queue, so a vehicle reaches its goal without
+// passing those of the vehicles behind it.
 TEST(ConvoyGenerator, ParksInTheOrderOfTheQueue) {
   const Scenario convoy = MakeConvoy({20, 3});
   for (std::size_t i = 0; i + 1 < convoy.vehicles.size(); ++i) {
@@ -216,7 +216,7 @@ TEST(ParkingGenerator, LetsSomeIntoTheBayOfOneThatLeaves) {
   EXPECT_LT(taken, 75);
 }
 
-// Close enough that ultrasonics matter, and no way leads into one.
+// Close enough that ultrasonics matter, and no path leads into one.
 TEST(MixedYardGenerator, PutsThingsCloseBesideTheWays) {
   int close = 0;
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
@@ -244,8 +244,8 @@ TEST(CorridorGenerator, IsWideEnoughForTwo) {
   }
 }
 
-// The longest of them is passed by the slowest in more than a minute: with twelve seconds each, as
-// where ways cross, a fleet that goes through one by one is not through in time. 6868 was not.
+// The slowest takes more than a minute through the longest of them: with twelve seconds each, as
+// where paths cross, a fleet that passes one by one is not through in time. 6868 was not.
 TEST(CorridorGenerator, LastsUntilEveryoneCanHavePassedItAlone) {
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
     const Scenario corridor = MakeCorridor({20, seed});

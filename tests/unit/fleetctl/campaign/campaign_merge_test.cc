@@ -145,7 +145,7 @@ TEST(CampaignIdentity, IsOfWhatDecidesARun) {
   const CampaignPlan plan = SmallCampaign();
   CampaignPlan other = plan;
   other.shards = 77;
-  EXPECT_EQ(PlanHash(other), PlanHash(plan)) << "how it is cut changes no run";
+  EXPECT_EQ(PlanHash(other), PlanHash(plan)) << "the division into shards changes no run";
   const std::vector<void (*)(CampaignPlan*)> changes = {
       [](CampaignPlan* p) { p->name = "b"; },
       [](CampaignPlan* p) { p->generators.pop_back(); },

@@ -118,7 +118,7 @@ TEST_F(MadeHost, TakesTheDomainItIsTold) {
   EXPECT_THAT(Read().domains, ElementsAre(9));
   options_.domain.reset();
   fs::remove_all(folder_ / "proc/42");
-  EXPECT_THAT(Read().domains, ElementsAre(1)) << "the first, if nobody runs";
+  EXPECT_THAT(Read().domains, ElementsAre(1)) << "the first, if no process runs";
 }
 
 }  // namespace

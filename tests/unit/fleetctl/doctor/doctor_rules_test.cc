@@ -128,7 +128,7 @@ TEST(Doctor, FindsHostIdsThatDiffer) {
   EXPECT_EQ(Only(host).rule, "host_ids_apart");
   EXPECT_THAT(Only(host).values, HasSubstr("both have one /dev/shm"));
   host.processes[1].told.domain = 8;
-  EXPECT_THAT(RulesOf(host), IsEmpty()) << "in two domains nobody minds";
+  EXPECT_THAT(RulesOf(host), IsEmpty()) << "no finding across two domains";
 }
 
 TEST(Doctor, FindsAnInterfaceThatIsNotThere) {
@@ -226,7 +226,7 @@ TEST(Doctor, FindsFilesAndVariablesTheLibraryReadsByItself) {
   host.surroundings[0].environment.push_back("ROS_DISCOVERY_SERVER=10.0.0.1");
   host.surroundings.push_back(host.surroundings[0]);
   host.surroundings[1].who = "vehicle 1 (pid 101)";
-  EXPECT_EQ(Only(host).rule, "ignored_variable") << "said of the first alone";
+  EXPECT_EQ(Only(host).rule, "ignored_variable") << "reported of the first alone";
   EXPECT_THAT(Only(host).values, HasSubstr("of this shell"));
 }
 
@@ -243,7 +243,7 @@ TEST(Doctor, FindsAClockThatIsSet) {
   host.clock.synchronised = false;
   EXPECT_EQ(Only(host).rule, "clock_unsynchronised");
   host.planned.profiles = SetWith();
-  EXPECT_THAT(RulesOf(host), IsEmpty()) << "without LIFESPAN nothing rests on it";
+  EXPECT_THAT(RulesOf(host), IsEmpty()) << "without LIFESPAN nothing depends on it";
 }
 
 TEST(Doctor, FindsLowLimitsOnOpenFiles) {

@@ -151,7 +151,7 @@ TEST_F(MadeMemory, IsReadWithSizesLocksAndUsers) {
   EXPECT_EQ(memory.files[0].user, user_);
   EXPECT_THAT(memory.files[0].users, ElementsAre(42));
   EXPECT_EQ(memory.files[1].held, false);
-  EXPECT_EQ(memory.files[3].held, true) << "whoever holds a lock has it open";
+  EXPECT_EQ(memory.files[3].held, true) << "a process that holds a lock has it open";
   EXPECT_THAT(memory.files[4].users, ElementsAre(42));
 }
 
@@ -197,7 +197,7 @@ TEST_F(MadeMemory, KeepsWhatIsMappedByAProcessThatCannotBeSeen) {
   const SharedMemory memory = Read();
   EXPECT_EQ(memory.files[0].held, true);
   EXPECT_THAT(memory.files[0].users, IsEmpty());
-  EXPECT_THAT(Fix(memory), IsEmpty()) << "it is in use: nothing is to be said";
+  EXPECT_THAT(Fix(memory), IsEmpty()) << "it is in use: no finding";
   EXPECT_THAT(Left(), SizeIs(1));
   ::munmap(mapped, 4096);
   EXPECT_THAT(Fix(Read()), ElementsAre(Removal{shm() / "fastrtps_port9160", ""}));

@@ -96,7 +96,7 @@ TEST(ResourcesOverTime, AShortLifeIsCountedAndNotJudged) {
   ResourceSeries series(kWarmUp_s);
   for (int t = 0; t < 20; ++t) series.Add("vehicle-1", t, Using(t, 1e6 * t));
   series.EndLife("vehicle-1");
-  series.EndLife("nobody");
+  series.EndLife("unknown");
   EXPECT_THAT(series.Slopes(), IsEmpty());
   EXPECT_EQ(series.LivesTooShort(), 1U);
 }
@@ -116,7 +116,7 @@ TEST(ResourcesOverTime, OfAThousandLivesTheLeaksAreKept) {
   EXPECT_TRUE(leak->leak);
 }
 
-// As pools and histories do: half of what is missing each forty seconds, in pages.
+// As pools and histories grow: half of what is missing every forty seconds, in pages.
 TEST(ResourcesOverTime, WhatFillsUpIsNoLeak) {
   ResourceSeries series(kWarmUp_s);
   for (int t = 0; t < 300; ++t) {
@@ -136,7 +136,7 @@ TEST(ResourcesOverTime, OfALifeOfLessThanTwoMinutesNoGrowthIsALeak) {
   for (const ResourceSlope& row : series.Slopes()) EXPECT_FALSE(row.leak);
 }
 
-// A hundred flat slopes of noise: every fortieth seems to grow, and none is called a leak.
+// A hundred flat series with noise: one in forty seems to grow, and none is called a leak.
 TEST(ResourcesOverTime, ChanceIsNoLeakHoweverManyAreWatched) {
   int seeming = 0;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

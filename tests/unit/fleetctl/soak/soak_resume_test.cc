@@ -87,7 +87,7 @@ TEST(SoakResume, WhatIsSavedComesBackAndIsForgottenWithTheVerdict) {
   EXPECT_THROW(LoadSoFar(folder.Path()), InputError);
 }
 
-// A machine may die while it saves: there is the one before, or the new one.
+// A machine may die while it saves: the file is then the old or the new one.
 TEST(SoakResume, IsSavedWholeOrNotAtAll) {
   const TempFolder folder;
   ASSERT_EQ(SaveSoFar(SampleSoak(3), folder.Path()), "");
@@ -97,7 +97,7 @@ TEST(SoakResume, IsSavedWholeOrNotAtAll) {
   for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(folder.Path())) {
     ++files;
   }
-  EXPECT_EQ(files, 1U) << "nothing is left beside it";
+  EXPECT_EQ(files, 1U) << "no temporary file is left";
   std::ofstream(folder.Path() + "/so_far.json") << "{\"format\":1,";
   EXPECT_THROW(LoadSoFar(folder.Path()), InputError);
 }

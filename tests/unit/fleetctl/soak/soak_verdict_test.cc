@@ -14,7 +14,7 @@ using ::testing::SizeIs;
 constexpr VehicleId kOne{1};
 constexpr VehicleId kTwo{2};
 
-// A run in which vehicle 1 was killed at 10 s, was noticed after 150 ms, and all was well.
+// A run in which vehicle 1 was killed at 10 s, its peers noticed after 150 ms, and nothing failed.
 class SoakVerdictTest : public testing::Test {
  protected:
   SoakVerdictTest() {
@@ -68,7 +68,7 @@ TEST_F(SoakVerdictTest, FailsWhereNobodyNoticedOrTooLate) {
   Noticed() = seconds(14);
   EXPECT_EQ(Judged().violations.at(0).invariant, "detection");
   pause_ = seconds(5);
-  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the machine stood still meanwhile";
+  EXPECT_EQ(Judged().verdict, SoakVerdict::kPassed) << "the machine stalled meanwhile";
   Noticed().reset();
   EXPECT_THAT(Judged().violations.at(0).words, HasSubstr("no peer noticed"));
 }

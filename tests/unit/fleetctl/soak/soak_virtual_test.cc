@@ -44,7 +44,7 @@ class SoakVirtualTest : public testing::Test {
   faults::Schedule schedule_;
 };
 
-// Of the invariants that are counted only, where a run is not held to them, nothing is broken.
+// Invariants that the run is not held to are only counted, and are not among the broken ones.
 TEST_F(SoakVirtualTest, NeverFailsWithoutSayingWhy) {
   scenario_ = WithPlacesFilled(LoadScenario("warehouse_loop", {0, std::nullopt, std::nullopt}), 20);
   for (std::uint32_t vehicle = 1; vehicle <= 20; ++vehicle) {
@@ -65,7 +65,7 @@ TEST_F(SoakVirtualTest, CarriesOutItsListAndJudgesIt) {
   for (const SoakFault& fault : result.faults) {
     EXPECT_TRUE(fault.observed) << fault.kind;
     EXPECT_TRUE(fault.recovered_after_s) << fault.kind;
-    EXPECT_FALSE(fault.promised_s) << "nobody is told by a middleware";
+    EXPECT_FALSE(fault.promised_s) << "no middleware reports it";
   }
   std::vector<std::string> names;
   for (const SoakHistogram& histogram : result.histograms) names.push_back(histogram.name);
@@ -86,7 +86,7 @@ TEST_F(SoakVirtualTest, WhoWasKilledIsNotExpectedBack) {
 
 TEST_F(SoakVirtualTest, AVehicleThatNeverDrivesAgainFailsIt) {
   schedule_ = {Planned(faults::Kind::kSonarOff, 20, 69, 2)};
-  // Blind to the end of the run and beyond: nobody heals it.
+  // Blind beyond the end of the run: it is never healed.
   schedule_[0].for_s = 500;
   schedule_.push_back(Planned(faults::Kind::kPause, 21, 0.2, 3));
   const SoakSeen seen = RunSoakVirtually(scenario_, schedule_, PhasesOf(90, 6));

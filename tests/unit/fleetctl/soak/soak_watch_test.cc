@@ -106,7 +106,7 @@ TEST_F(SoakWatchTest, AFaultIsOpenUntilNothingMoreCanBeLearntOfIt) {
   EXPECT_THAT(watch_.Open(), ElementsAre(2, 0));
   watch_.NoteEnd(0, seconds(13));
   Say(Driving(kTwo), milliseconds(20100));
-  EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "who is killed does not recover";
+  EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "a killed vehicle does not recover";
   Say(Driving(kOne), seconds(22));
   EXPECT_THAT(watch_.Open(), ElementsAre(0)) << "a peer may still say that it noticed";
   Say(Driving(kOne), seconds(24));
@@ -123,7 +123,7 @@ TEST_F(SoakWatchTest, AHearersFaultIsSeenByWhatItCounts) {
   VehicleStatus other = Driving(kOne);
   other.impaired.dropped_loss = 100;
   Say(other, milliseconds(10600));
-  EXPECT_EQ(watch_.Courses()[1].effect, "") << "of whom it is not";
+  EXPECT_EQ(watch_.Courses()[1].effect, "") << "not the target";
   status.impaired.dropped_loss = 9;
   Say(status, seconds(11));
   EXPECT_THAT(watch_.Courses()[1].effect, HasSubstr("counted 2 packets"));
@@ -147,14 +147,14 @@ TEST_F(SoakWatchTest, ALimitedRateIsSeenWhereOtherFaultsLeaveLessThanItPasses) {
   EXPECT_THAT(watch.Courses()[0].effect, HasSubstr("counted 40 packets"));
 }
 
-// What a vehicle's status says of an intruder's packets.
+// A vehicle's status that counts an intruder's packets.
 VehicleStatus Attacked(VehicleId vehicle, PacketDrop drop, std::uint64_t packets) {
   VehicleStatus status = Driving(vehicle);
   status.packets.packets[static_cast<std::size_t>(drop)] = packets;
   return status;
 }
 
-// The effect of a fault of that kind on the second vehicle, by two statuses, one before it.
+// The effect of a fault of that kind on the second vehicle, from a status before it and one after.
 std::string EffectOf(faults::Kind kind, const VehicleStatus& before, const VehicleStatus& now) {
   const faults::Schedule schedule{On(kTwo, kind, 2)};
   SoakWatch watch({kOne, kTwo}, schedule);
@@ -176,7 +176,7 @@ TEST(SoakWatch, AFloodIsSeenByPacketsThatTheTargetsFilterDropsAsNoneOfRtps) {
   EXPECT_EQ(EffectOf(faults::Kind::kFlooded, Driving(kTwo), other), "");
   EXPECT_EQ(
       EffectOf(faults::Kind::kFlooded, Driving(kOne), Attacked(kOne, PacketDrop::kNotRtps, 9)), "")
-      << "of whom it is not";
+      << "not the target";
 }
 
 TEST(SoakWatch, MalformedPacketsAreSeenByWhateverTheFilterDropsThemFor) {
@@ -221,7 +221,7 @@ TEST_F(SoakWatchTest, AFaultOfTheWorldIsSeenWhenTheWorldSaysSo) {
   event.vehicle = kOne;
   event.text = "sonar_stuck 1 of ";
   watch.Fold(observed, seconds(1));
-  EXPECT_EQ(watch.Courses()[0].effect, "") << "another one of the rule";
+  EXPECT_EQ(watch.Courses()[0].effect, "") << "another fault of the rule";
   event.text = "sonar_stuck 0 of ";
   watch.Fold(observed, seconds(1));
   EXPECT_NE(watch.Courses()[0].effect, "");
