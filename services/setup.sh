@@ -25,7 +25,8 @@ build_packages() {
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && fastdds=libfastdds-dev
   printf '%s\n' git g++ cmake ninja-build ccache "$fastdds" fastddsgen \
     libprotobuf-dev protobuf-compiler libspdlog-dev libfmt-dev libcli11-dev libboost-dev libeigen3-dev \
-    libtinyxml2-dev libyaml-cpp-dev liblz4-dev libssl-dev pkgconf libcpp-httplib-dev prometheus-cpp-dev gnuplot-nox \
+    nlohmann-json3-dev libutfcpp-dev libtinyxml2-dev libyaml-cpp-dev liblz4-dev libssl-dev pkgconf \
+    libcpp-httplib-dev prometheus-cpp-dev gnuplot-nox \
     libgtest-dev libgmock-dev librapidcheck-dev libbenchmark-dev
 }
 

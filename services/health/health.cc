@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 
 namespace giveway {
 namespace {
@@ -91,11 +93,10 @@ std::string AsText(std::string_view what, const Reasons& reasons) {
 }
 
 std::string AsJson(std::string_view what, const Reasons& reasons) {
-  std::string list;
-  for (const std::string& reason : reasons) {
-    list += (list.empty() ? "" : ",") + JsonString(reason);
-  }
-  return fmt::format("{{{}:{},\"reasons\":[{}]}}\n", JsonString(what), reasons.empty(), list);
+  Json json;
+  json[std::string(what)] = reasons.empty();
+  json["reasons"] = reasons;
+  return JsonText(std::move(json)) + "\n";
 }
 
 }  // namespace giveway

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <utf8.h>
 
 #include <algorithm>
 #include <cmath>
@@ -80,24 +81,22 @@ std::vector<Row> Rows(const Report& report) {
   };
 }
 
-// One column a code point, as terminals show the text that is ours.
+// One column a code point, as terminals show the text that is ours. Of well-formed text.
 std::size_t Width(std::string_view text) {
-  std::size_t width = 0;
-  for (; !text.empty(); ++width) text.remove_prefix(std::max<std::size_t>(Utf8Length(text), 1));
-  return width;
+  return static_cast<std::size_t>(utf8::distance(text.begin(), text.end()));
 }
 
-// The bytes of the first `columns` code points.
+// The bytes of the first `columns` code points, which are there.
 std::size_t Bytes(std::string_view text, std::size_t columns) {
-  std::size_t bytes = 0;
-  for (; columns > 0 && bytes < text.size(); --columns) {
-    bytes += std::max<std::size_t>(Utf8Length(text.substr(bytes)), 1);
-  }
-  return bytes;
+  auto end = text.begin();
+  utf8::advance(end, columns, text.end());
+  return static_cast<std::size_t>(end - text.begin());
 }
 
 // Breaks at spaces; a word longer than a line is cut.
-std::vector<std::string> Wrap(std::string_view text, std::size_t columns) {
+std::vector<std::string> Wrap(const std::string& words, std::size_t columns) {
+  const std::string well_formed = WellFormed(words);
+  std::string_view text = well_formed;
   std::vector<std::string> lines;
   while (Width(text) > columns) {
     const std::size_t most = Bytes(text, columns);

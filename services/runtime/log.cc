@@ -10,10 +10,11 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "services/runtime/identity.h"
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 #include "services/runtime/log_queue.h"
 #include "services/runtime/process.h"
 #include "services/types/check.h"
@@ -27,11 +28,6 @@ thread_local SteadyTime line_at{0};
 // 0 before it is known, and in a process that is no vehicle.
 std::atomic<std::uint32_t> log_vehicle{0};
 
-std::string VehicleMember() {
-  const std::uint32_t id = log_vehicle.load(std::memory_order_relaxed);
-  return id == 0 ? "" : fmt::format("\"vehicle\":{},", id);
-}
-
 std::string_view View(spdlog::string_view_t text) { return {text.data(), text.size()}; }
 
 class JsonFormatter : public spdlog::formatter {
@@ -39,13 +35,17 @@ class JsonFormatter : public spdlog::formatter {
   void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
     const auto time = std::chrono::floor<std::chrono::milliseconds>(message.time);
     const auto second = std::chrono::floor<std::chrono::seconds>(time);
-    fmt::format_to(
-        std::back_inserter(line),
-        "{{\"time\":\"{:%FT%T}.{:03d}Z\",\"steady_ns\":{},\"level\":{},\"process\":{},"
-        "{}\"text\":{}}}\n",
-        fmt::gmtime(std::chrono::system_clock::to_time_t(second)), (time - second).count(),
-        line_at.count(), JsonString(View(spdlog::level::to_string_view(message.level))),
-        JsonString(View(message.logger_name)), VehicleMember(), JsonString(View(message.payload)));
+    Json json;
+    json["time"] =
+        fmt::format("{:%FT%T}.{:03d}Z", fmt::gmtime(std::chrono::system_clock::to_time_t(second)),
+                    (time - second).count());
+    json["steady_ns"] = line_at.count();
+    json["level"] = View(spdlog::level::to_string_view(message.level));
+    json["process"] = View(message.logger_name);
+    const std::uint32_t id = log_vehicle.load(std::memory_order_relaxed);
+    if (id != 0) json["vehicle"] = id;
+    json["text"] = View(message.payload);
+    fmt::format_to(std::back_inserter(line), "{}\n", JsonText(std::move(json)));
   }
   std::unique_ptr<spdlog::formatter> clone() const override {
     return std::make_unique<JsonFormatter>();

@@ -1,4 +1,4 @@
-// UTF-8 as far as the texts of logs and reports need it (RFC 3629).
+// UTF-8 as far as the texts of logs and reports need it (RFC 3629), on utfcpp.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,6 @@
 
 namespace giveway {
 
-// Bytes of the sequence at the start of `text`, which is not empty; 0 if there is none.
-std::size_t Utf8Length(std::string_view text);
 // True if `text` is well-formed and without NUL bytes.
 bool IsText(std::string_view text);
 // The text with every byte that belongs to no sequence replaced by U+FFFD.

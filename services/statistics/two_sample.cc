@@ -1,7 +1,10 @@
 #include "services/statistics/two_sample.h"
 
 #include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/hypergeometric.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "services/statistics/distributions.h"
@@ -14,10 +17,6 @@ namespace {
 // Up to so many values all assignments to the two samples are enumerated.
 constexpr std::size_t kMostExact = 40;
 constexpr double kTail = 0.99;
-
-double LogChoose(double n, double k) {
-  return LogFactorial(n) - LogFactorial(k) - LogFactorial(n - k);
-}
 
 // The share of all choices of `chosen` out of the ranks whose sum is at least theirs. Ranks are
 // doubled to be whole.
@@ -136,39 +135,28 @@ double TailGreater(const Histogram& before, double most_before, const Histogram&
   return ShareGreater(whole(tail_before), whole(n), whole(tail_after), whole(m));
 }
 
-// The hypergeometric tail, summed from its mode outwards in logarithms.
 double ShareGreater(std::uint64_t hits_before, std::uint64_t of_before, std::uint64_t hits_after,
                     std::uint64_t of_after) {
-  if (of_before == 0 || of_after == 0) return 1;
-  const double n = static_cast<double>(of_before);
-  const double m = static_cast<double>(of_after);
-  const double hits = static_cast<double>(hits_before + hits_after);
-  const double all = LogChoose(n + m, hits);
-  double p = 0;
-  const std::uint64_t most = std::min(hits_before + hits_after, of_after);
-  for (std::uint64_t k = hits_after; k <= most; ++k) {
-    const double chosen = static_cast<double>(k);
-    if (hits - chosen > n) continue;
-    const double term = Exp(LogChoose(m, chosen) + LogChoose(n, hits - chosen) - all);
-    p += term;
-    if (term < p * 1e-12 && chosen > hits * m / (n + m)) break;
-  }
-  return std::min(p, 1.0);
+  // More than that Boost 1.74 does not count; a file may claim any number.
+  constexpr std::uint64_t kMost = std::numeric_limits<unsigned>::max() / 2;
+  if (std::max(of_before, of_after) > kMost) return 1;
+  if (hits_before > of_before || hits_after > of_after) return 1;
+  const std::uint64_t hits = hits_before + hits_after;
+  const std::uint64_t fewest_after = hits - std::min(hits, of_before);
+  if (hits_after <= fewest_after) return 1;
+  const boost::math::hypergeometric_distribution<double> by_chance(
+      static_cast<unsigned>(hits), static_cast<unsigned>(of_after),
+      static_cast<unsigned>(of_before + of_after));
+  return cdf(complement(by_chance, static_cast<unsigned>(hits_after - 1)));
 }
 
 double RateGreater(std::uint64_t events_before, double exposure_before, std::uint64_t events_after,
                    double exposure_after) {
   const double share = exposure_after / (exposure_before + exposure_after);
-  if (!(share > 0 && share < 1)) return 1;
-  const double n = static_cast<double>(events_before + events_after);
-  double p = 0;
-  for (std::uint64_t k = events_after; k <= events_before + events_after; ++k) {
-    const double hits = static_cast<double>(k);
-    const double term = Exp(LogChoose(n, hits) + hits * Log(share) + (n - hits) * Log(1 - share));
-    p += term;
-    if (term < p * 1e-12 && hits > n * share) break;
-  }
-  return std::min(p, 1.0);
+  if (!(share > 0 && share < 1) || events_after == 0) return 1;
+  const double after = static_cast<double>(events_after);
+  const boost::math::binomial by_chance(static_cast<double>(events_before) + after, share);
+  return cdf(complement(by_chance, after - 1));
 }
 
 std::vector<double> HolmAdjusted(std::span<const double> p_values) {

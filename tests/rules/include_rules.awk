@@ -12,9 +12,9 @@ BEGIN {
   INEXACT = "std::(sin|cos|tan|asin|acos|atan|atan2|exp|exp2|expm1|log|log2|log10|log1p|pow|hypot|cbrt)\\("
   # Which library a header belongs to, by the start of its name.
   n = split("fastdds/ fastrtps/ fastcdr/ fleet idl/ google/protobuf/ spdlog/ httplib.h prometheus/ CLI/ " \
-            "tinyxml2.h yaml-cpp/ Eigen/ immintrin.h openssl/ lz4 boost/asio boost/beast", prefixes, " ")
+            "tinyxml2.h yaml-cpp/ Eigen/ immintrin.h openssl/ lz4 boost/asio boost/beast boost/math nlohmann/ utf8.h", prefixes, " ")
   split("fastdds fastdds fastdds fastdds fastdds protobuf spdlog httplib prometheus CLI " \
-        "tinyxml2 yaml-cpp Eigen immintrin openssl lz4 beast beast", libraries, " ")
+        "tinyxml2 yaml-cpp Eigen immintrin openssl lz4 beast beast boost.math nlohmann utfcpp", libraries, " ")
 }
 
 function violation(text) { print "violation " FILENAME ": " text }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
 #include <vector>
 
 #include "services/fleetctl/doctor/doctor_read.h"
@@ -12,8 +14,7 @@
 #include "services/fleetctl/output/finding_text.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
-#include "services/observer/fleet/json_object.h"
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -49,45 +50,43 @@ std::string_view Word(MemoryState state) {
   return "not_known";
 }
 
-std::string ToJson(const MemoryGroup& group) {
-  JsonObject object;
-  object.Add("name", std::string_view(group.body));
-  object.Add("state", Word(group.state));
-  object.Add("bytes", group.Bytes());
-  object.Add("user", group.files.front().user);
-  object.AddRaw("files", JsonArray(group.files,
-                                   [](const MemoryFile& file) { return JsonString(file.name); }));
-  return object.Text();
-}
-
-JsonObject ToJson(const SharedMemory& memory) {
-  JsonObject object;
-  object.Add("folder", std::string_view(memory.folder));
-  object.Add("total_bytes", memory.total_bytes);
-  object.Add("free_bytes", memory.free_bytes);
-  object.AddRaw("groups", JsonArray(GroupsOf(memory),
-                                    [](const MemoryGroup& group) { return ToJson(group); }));
+Json ToJson(const MemoryGroup& group) {
+  Json object;
+  object["name"] = group.body;
+  object["state"] = Word(group.state);
+  object["bytes"] = group.Bytes();
+  object["user"] = group.files.front().user;
+  object["files"] = JsonArray(group.files, &MemoryFile::name);
   return object;
 }
 
-std::string ToJson(const Removal& removal) {
-  JsonObject object;
-  object.Add("file", std::string_view(removal.file));
-  object.Add("removed", removal.left.empty());
-  if (!removal.left.empty()) object.Add("left", std::string_view(removal.left));
-  return object.Text();
+Json ToJson(const SharedMemory& memory) {
+  Json object;
+  object["folder"] = memory.folder;
+  object["total_bytes"] = memory.total_bytes;
+  object["free_bytes"] = memory.free_bytes;
+  object["groups"] =
+      JsonArray(GroupsOf(memory), [](const MemoryGroup& group) { return ToJson(group); });
+  return object;
 }
 
-std::string Json(const HostFacts& host, const std::vector<Removal>& removals,
-                 const qos::Findings& findings) {
-  JsonObject object;
+Json ToJson(const Removal& removal) {
+  Json object;
+  object["file"] = removal.file;
+  object["removed"] = removal.left.empty();
+  if (!removal.left.empty()) object["left"] = removal.left;
+  return object;
+}
+
+std::string ToJson(const HostFacts& host, const std::vector<Removal>& removals,
+                   const qos::Findings& findings) {
+  Json object;
   AddFindings(findings, &object);
-  object.Add("processes", host.processes.size());
-  object.Add("memory", ToJson(host.memory));
-  object.AddRaw("fixed",
-                JsonArray(removals, [](const Removal& removal) { return ToJson(removal); }));
-  object.AddRaw("not_known", JsonArray(host.not_known, JsonString));
-  return object.Text() + "\n";
+  object["processes"] = host.processes.size();
+  object["memory"] = ToJson(host.memory);
+  object["fixed"] = JsonArray(removals, [](const Removal& removal) { return ToJson(removal); });
+  object["not_known"] = host.not_known;
+  return JsonText(std::move(object)) + "\n";
 }
 
 }  // namespace
@@ -104,8 +103,8 @@ int RunDoctor(const DoctorOptions& options) {
   }
   const qos::Findings findings = Examine(host);
   if (!options.quiet) {
-    const std::string text =
-        options.json ? Json(host, removals, findings) : ForTerminal(Text(host, removals, findings));
+    const std::string text = options.json ? ToJson(host, removals, findings)
+                                          : ForTerminal(Text(host, removals, findings));
     std::fputs(text.c_str(), stdout);
     if (std::fflush(stdout) != 0) return kCouldNotRun;
   }

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "services/faults/kind_table.h"
 #include "services/faults/schedule_text.h"
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -26,62 +28,59 @@ std::string LeftOutLines(const faults::Expansion& expansion, std::string_view be
   return text;
 }
 
-std::string FaultJson(const Fault& fault) {
-  JsonObject json;
-  json.Add("name", std::string_view(fault.rule));
-  json.Add("nth", fault.nth);
-  json.Add("time_s", fault.at_s);
-  json.Add("kind", faults::ToString(fault.kind));
+Json FaultJson(const Fault& fault) {
+  Json json;
+  json["name"] = fault.rule;
+  json["nth"] = fault.nth;
+  json["time_s"] = fault.at_s;
+  json["kind"] = faults::ToString(fault.kind);
   if (fault.target.what == faults::Target::What::kVehicle) {
-    json.Add("vehicle", Number(fault.target.vehicle));
+    json["vehicle"] = Number(fault.target.vehicle);
   } else {
-    json.Add("target", faults::ToString(fault.target.what));
+    json["target"] = faults::ToString(fault.target.what);
   }
-  if (faults::RowOf(fault.kind).takes_time) json.Add("for_s", fault.for_s);
+  if (faults::RowOf(fault.kind).takes_time) json["for_s"] = fault.for_s;
   for (std::size_t i = 0; i < faults::kQuantities; ++i) {
     const auto quantity = static_cast<faults::Quantity>(i);
-    json.Add(faults::FieldOf(quantity), faults::Get(fault.parameters, quantity));
+    json[faults::FieldOf(quantity)] = OrNull(faults::Get(fault.parameters, quantity));
   }
-  if (fault.parameters.from) json.Add("from", Number(*fault.parameters.from));
-  if (!fault.parameters.qos.empty()) json.Add("qos", std::string_view(fault.parameters.qos));
-  return json.Text();
+  if (fault.parameters.from) json["from"] = Number(*fault.parameters.from);
+  if (!fault.parameters.qos.empty()) json["qos"] = fault.parameters.qos;
+  return json;
 }
 
-std::string LeftOutJson(const faults::LeftOut& left) {
-  JsonObject json;
-  json.Add("name", std::string_view(left.rule));
-  json.Add("excluded", left.excluded);
-  json.Add("too_late", left.too_late);
-  return json.Text();
+Json LeftOutJson(const faults::LeftOut& left) {
+  Json json;
+  json["name"] = left.rule;
+  json["excluded"] = left.excluded;
+  json["too_late"] = left.too_late;
+  return json;
 }
 
-std::string QuantityJson(const QuantityRow& row) {
-  JsonObject json;
-  json.Add("field", faults::FieldOf(row.quantity));
-  json.Add("default", row.usual);
-  json.Add("low", row.low);
-  json.Add("high", row.high);
-  return json.Text();
+Json QuantityJson(const QuantityRow& row) {
+  Json json;
+  json["field"] = faults::FieldOf(row.quantity);
+  json["default"] = row.usual;
+  json["low"] = row.low;
+  json["high"] = row.high;
+  return json;
 }
 
-std::string KindJson(const KindRow& row) {
-  JsonObject json;
-  json.Add("kind", row.word);
-  json.Add("actor", faults::ToString(row.actor));
-  std::string targets;
+Json KindJson(const KindRow& row) {
+  Json json;
+  json["kind"] = row.word;
+  json["actor"] = faults::ToString(row.actor);
   for (const auto what : {faults::Target::What::kVehicle, faults::Target::What::kWorld,
                           faults::Target::What::kDiscoveryServer, faults::Target::What::kAll}) {
-    if (!row.Allows(what)) continue;
-    targets += fmt::format("{}\"{}\"", targets.empty() ? "" : ",", faults::ToString(what));
+    if (row.Allows(what)) json["targets"].push_back(faults::ToString(what));
   }
-  json.AddRaw("targets", "[" + targets + "]");
-  json.Add("takes_time", row.takes_time);
-  json.Add("virtual", row.in_virtual_time);
-  json.AddRaw("parameters", JsonArray(row.numbers, QuantityJson));
-  json.Add("takes_from", row.takes_from);
-  if (!row.usual_qos.empty()) json.Add("qos", row.usual_qos);
-  json.Add("what", row.what);
-  return json.Text();
+  json["takes_time"] = row.takes_time;
+  json["virtual"] = row.in_virtual_time;
+  json["parameters"] = JsonArray(row.numbers, QuantityJson);
+  json["takes_from"] = row.takes_from;
+  if (!row.usual_qos.empty()) json["qos"] = row.usual_qos;
+  json["what"] = row.what;
+  return json;
 }
 
 // "probability 0.2 (0 to 0.9), count 10 (10 to 10000)".
@@ -113,10 +112,10 @@ std::string ExpansionText(const faults::Expansion& expansion) {
 }
 
 std::string ExpansionJson(const faults::Expansion& expansion) {
-  JsonObject json;
-  json.AddRaw("faults", JsonArray(expansion.schedule, FaultJson));
-  json.AddRaw("left_out", JsonArray(expansion.left_out, LeftOutJson));
-  return json.Text() + "\n";
+  Json json;
+  json["faults"] = JsonArray(expansion.schedule, FaultJson);
+  json["left_out"] = JsonArray(expansion.left_out, LeftOutJson);
+  return JsonText(std::move(json)) + "\n";
 }
 
 std::string KindsText() {
@@ -137,6 +136,6 @@ std::string KindsText() {
   return text;
 }
 
-std::string KindsJson() { return JsonArray(faults::KindTable(), KindJson) + "\n"; }
+std::string KindsJson() { return JsonText(JsonArray(faults::KindTable(), KindJson)) + "\n"; }
 
 }  // namespace giveway::fleetctl

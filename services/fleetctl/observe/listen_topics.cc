@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "services/observer/fleet/sample_json.h"
 #include "services/observer/fleet/sample_words.h"
@@ -37,11 +39,11 @@ std::vector<std::string> LinesOf(const auto& samples, const ListenFilter& filter
       lines.push_back(fmt::format("{:9.3f}  {}", heard_s, ToLine(sample)));
       continue;
     }
-    JsonObject object;
-    object.Add("topic", Name(filter.topic));
-    object.Add("heard_s", heard_s);
+    Json object;
+    object["topic"] = Name(filter.topic);
+    object["heard_s"] = heard_s;
     AddFields(sample, &object);
-    lines.push_back(object.Text());
+    lines.push_back(JsonText(std::move(object)));
   }
   return lines;
 }

@@ -3,13 +3,14 @@
 
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "services/fleetctl/args/reading_along.h"
 #include "services/fleetctl/args/verbs.h"
 #include "services/fleetctl/survey/local_fleets.h"
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -60,28 +61,29 @@ std::string Table(const std::vector<LocalFleet>& fleets, std::uint64_t here) {
   return text;
 }
 
-std::string Json(const std::vector<LocalFleet>& fleets) {
-  return JsonArray(fleets, [](const LocalFleet& fleet) {
-    JsonObject object;
-    object.Add("domain", fleet.domain);
-    object.Add("interface", fleet.interface);
-    object.Add("network_namespace", fleet.network_namespace);
-    object.AddRaw("world_pids",
-                  JsonArray(fleet.worlds, [](int pid) { return std::to_string(pid); }));
-    object.AddRaw("vehicles", JsonArray(fleet.vehicles, [](const FleetMember& vehicle) {
-                    JsonObject member;
-                    if (vehicle.id != kNobody) member.Add("id", Number(vehicle.id));
-                    member.Add("pid", vehicle.pid);
-                    return member.Text();
-                  }));
-    return object.Text();
-  });
+Json MemberJson(const FleetMember& vehicle) {
+  Json json;
+  if (vehicle.id != kNobody) json["id"] = Number(vehicle.id);
+  json["pid"] = vehicle.pid;
+  return json;
+}
+
+std::string ToJson(const std::vector<LocalFleet>& fleets) {
+  return JsonText(JsonArray(fleets, [](const LocalFleet& fleet) {
+    Json object;
+    object["domain"] = fleet.domain;
+    object["interface"] = fleet.interface;
+    object["network_namespace"] = fleet.network_namespace;
+    object["world_pids"] = fleet.worlds;
+    object["vehicles"] = JsonArray(fleet.vehicles, MemberJson);
+    return object;
+  }));
 }
 
 int RunLs(bool json) {
   const std::vector<LocalFleet> fleets = LocalFleets();
   if (json) {
-    const int code = ExitCodeOf(Tell(Json(fleets) + "\n"));
+    const int code = ExitCodeOf(Tell(ToJson(fleets) + "\n"));
     return code != 0 ? code : fleets.empty() ? 1 : 0;
   }
   if (fleets.empty()) {

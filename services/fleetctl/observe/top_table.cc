@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <utility>
+
 #include "services/observer/fleet/sample_json.h"
 #include "services/observer/fleet/sample_words.h"
 
@@ -75,38 +78,34 @@ std::string PostText(const ListeningPost& post) {
   return fmt::format("domain {}  {}  area {}", post.domain, post.interface, post.area);
 }
 
-JsonObject WorldJson(const HeardWorld& world, SteadyTime now) {
-  JsonObject object;
-  object.Add("heard", world.heard_at.has_value());
+Json WorldJson(const HeardWorld& world, SteadyTime now) {
+  Json object;
+  object["heard"] = world.heard_at.has_value();
   if (!world.heard_at) return object;
-  object.Add("epoch", Number(world.epoch));
-  if (world.state) object.Add("state", giveway::Name(*world.state));
-  object.Add("silent", IsWorldSilent(world, now));
-  object.Add("heard_s_ago", Seconds(now - *world.heard_at));
-  object.Add("time_s", world.time_s);
-  if (world.fleet_size > 0) object.Add("fleet_size", world.fleet_size);
+  object["epoch"] = Number(world.epoch);
+  if (world.state) object["state"] = giveway::Name(*world.state);
+  object["silent"] = IsWorldSilent(world, now);
+  object["heard_s_ago"] = Seconds(now - *world.heard_at);
+  object["time_s"] = world.time_s;
+  if (world.fleet_size > 0) object["fleet_size"] = world.fleet_size;
   if (world.last_event) {
-    JsonObject event;
-    AddFields(*world.last_event, &event);
-    object.Add("last_event", event);
+    AddFields(*world.last_event, &object["last_event"]);
   }
   return object;
 }
 
-JsonObject VehicleJson(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
-  JsonObject object;
-  object.Add("id", Number(id));
-  object.Add("hearing", Name(vehicle.HearingAt(now)));
-  if (vehicle.HeardAt()) object.Add("heard_s_ago", Seconds(now - *vehicle.HeardAt()));
+Json VehicleJson(VehicleId id, const HeardVehicle& vehicle, SteadyTime now) {
+  Json object;
+  object["id"] = Number(id);
+  object["hearing"] = Name(vehicle.HearingAt(now));
+  if (vehicle.HeardAt()) object["heard_s_ago"] = Seconds(now - *vehicle.HeardAt());
   if (vehicle.beacon) {
-    object.Add("beacon_age_s", Seconds(now - *vehicle.beacon_at));
-    object.Add("speed_m_s", SpeedOf(*vehicle.beacon));
+    object["beacon_age_s"] = Seconds(now - *vehicle.beacon_at);
+    object["speed_m_s"] = SpeedOf(*vehicle.beacon);
   }
   if (vehicle.status) {
-    JsonObject status;
-    AddFields(*vehicle.status, &status);
-    object.Add("status_age_s", Seconds(now - *vehicle.status_at));
-    object.Add("status", status);
+    object["status_age_s"] = Seconds(now - *vehicle.status_at);
+    AddFields(*vehicle.status, &object["status"]);
   }
   return object;
 }
@@ -128,19 +127,16 @@ std::vector<std::string> TopLines(const HeardFleet& fleet, const ListeningPost& 
 }
 
 std::string TopJson(const HeardFleet& fleet, const ListeningPost& post, SteadyTime now) {
-  std::string vehicles;
-  for (const auto& [id, vehicle] : fleet.Vehicles()) {
-    if (!vehicles.empty()) vehicles += ',';
-    vehicles += VehicleJson(id, vehicle, now).Text();
-  }
-  JsonObject object;
-  object.Add("domain", post.domain);
-  object.Add("interface", post.interface);
-  object.Add("area", post.area);
-  object.Add("listening_s", Seconds(now - post.since));
-  object.Add("world", WorldJson(fleet.World(), now));
-  object.AddRaw("vehicles", "[" + vehicles + "]");
-  return object.Text();
+  Json object;
+  object["domain"] = post.domain;
+  object["interface"] = post.interface;
+  object["area"] = post.area;
+  object["listening_s"] = Seconds(now - post.since);
+  object["world"] = WorldJson(fleet.World(), now);
+  object["vehicles"] = JsonArray(fleet.Vehicles(), [now](const auto& entry) {
+    return VehicleJson(entry.first, entry.second, now);
+  });
+  return JsonText(std::move(object));
 }
 
 std::string NobodyHeard(const ListeningPost& post, SteadyTime now) {

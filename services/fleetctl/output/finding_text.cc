@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 #include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
@@ -37,13 +38,21 @@ std::string ToText(const qos::Finding& finding, const std::string& nowhere) {
                      Shown(finding.consequence), Shown(finding.remedy));
 }
 
-std::string ToJson(const qos::Finding& finding) {
-  return fmt::format(
-      R"({{"severity":"{}","rule":"{}","file":{},"line":{},"subject":{},"values":{},)"
-      R"("consequence":{},"remedy":{}}})",
-      Name(finding.severity), finding.rule, JsonString(finding.place.file), finding.place.line,
-      JsonString(finding.subject), JsonString(finding.values), JsonString(finding.consequence),
-      JsonString(finding.remedy));
+Json ToJson(const qos::Finding& finding) {
+  Json json;
+  json["severity"] = Name(finding.severity);
+  json["rule"] = finding.rule;
+  json["file"] = finding.place.file;
+  json["line"] = finding.place.line;
+  json["subject"] = finding.subject;
+  json["values"] = finding.values;
+  json["consequence"] = finding.consequence;
+  json["remedy"] = finding.remedy;
+  return json;
+}
+
+Json ToJson(const qos::Findings& findings) {
+  return JsonArray(findings, [](const qos::Finding& finding) { return ToJson(finding); });
 }
 
 std::string Counted(std::size_t count, std::string_view one, std::string_view many) {
@@ -56,11 +65,10 @@ std::string Tally(const qos::Findings& findings) {
          Counted(Count(findings, qos::Severity::kWarning), "warning");
 }
 
-void AddFindings(const qos::Findings& findings, JsonObject* to) {
-  to->Add("errors", Count(findings, qos::Severity::kError));
-  to->Add("warnings", Count(findings, qos::Severity::kWarning));
-  to->AddRaw("findings",
-             JsonArray(findings, [](const qos::Finding& finding) { return ToJson(finding); }));
+void AddFindings(const qos::Findings& findings, Json* to) {
+  (*to)["errors"] = Count(findings, qos::Severity::kError);
+  (*to)["warnings"] = Count(findings, qos::Severity::kWarning);
+  (*to)["findings"] = ToJson(findings);
 }
 
 }  // namespace giveway::fleetctl

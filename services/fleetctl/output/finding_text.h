@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "services/observer/fleet/json_object.h"
 #include "services/qos/finding.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 
@@ -16,14 +16,14 @@ std::string Shown(std::string text);
 // Three lines: where, with severity and values; the effect; the remedy. `nowhere` is used if a
 // finding is not about a file.
 std::string ToText(const qos::Finding& finding, const std::string& nowhere = "environment");
-// One JSON object.
-std::string ToJson(const qos::Finding& finding);
+Json ToJson(const qos::Finding& finding);
+Json ToJson(const qos::Findings& findings);
 
 // "1 file", "2 files"; the second word if `one` takes no s.
 std::string Counted(std::size_t count, std::string_view one, std::string_view many = "");
 // "1 error, 0 warnings".
 std::string Tally(const qos::Findings& findings);
 // The fields errors, warnings and findings.
-void AddFindings(const qos::Findings& findings, JsonObject* to);
+void AddFindings(const qos::Findings& findings, Json* to);
 
 }  // namespace giveway::fleetctl

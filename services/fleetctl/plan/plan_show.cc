@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <utility>
+
 #include "services/fleetctl/output/finding_text.h"
 #include "services/fleetctl/plan/plan.h"
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -22,14 +25,14 @@ std::string WhatFits(const PlanReport& report) {
   return text.empty() ? "" : "What would fit: " + text + ".\n";
 }
 
-std::string JsonOf(const PlanRow& row) {
-  JsonObject json;
-  json.Add("name", std::string_view(row.name));
-  json.Add("vehicle", row.vehicle);
-  json.Add("host", row.host);
-  json.Add("fleet", row.fleet);
-  json.Add("host_has", row.limit);
-  return json.Text();
+Json JsonOf(const PlanRow& row) {
+  Json json;
+  json["name"] = row.name;
+  json["vehicle"] = OrNull(row.vehicle);
+  json["host"] = OrNull(row.host);
+  json["fleet"] = OrNull(row.fleet);
+  json["host_has"] = OrNull(row.limit);
+  return json;
 }
 
 }  // namespace
@@ -50,16 +53,15 @@ std::string ToText(const PlanRequest& request, const PlanReport& report) {
 }
 
 std::string ToJson(const PlanRequest& request, const PlanReport& report) {
-  JsonObject json;
-  json.Add("vehicles", request.vehicles);
-  json.Add("hosts", request.hosts);
-  json.Add("fits", report.Fits());
-  if (report.fewer_vehicles) json.Add("vehicles_that_fit", *report.fewer_vehicles);
-  if (report.more_hosts) json.Add("hosts_that_fit", *report.more_hosts);
-  json.AddRaw("rows", JsonArray(report.rows, JsonOf));
-  json.AddRaw("findings", JsonArray(report.findings,
-                                    [](const qos::Finding& finding) { return ToJson(finding); }));
-  return json.Text() + "\n";
+  Json json;
+  json["vehicles"] = request.vehicles;
+  json["hosts"] = request.hosts;
+  json["fits"] = report.Fits();
+  json["vehicles_that_fit"] = OrNull(report.fewer_vehicles);
+  json["hosts_that_fit"] = OrNull(report.more_hosts);
+  json["rows"] = JsonArray(report.rows, JsonOf);
+  json["findings"] = ToJson(report.findings);
+  return JsonText(std::move(json)) + "\n";
 }
 
 }  // namespace giveway::fleetctl

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "services/fleetctl/output/finding_text.h"
-#include "services/observer/fleet/json_object.h"
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -48,47 +49,47 @@ std::string ChangesText(const std::vector<qos::Change>& changes) {
   return text.empty() ? "  nothing changes\n" : text;
 }
 
-std::string JsonOf(const qos::Change& change) {
-  JsonObject object;
-  object.Add("profile", change.profile);
-  object.Add("what", change.what);
-  object.Add("from", change.from);
-  object.Add("to", change.to);
-  object.Add("effect", Name(change.effect));
-  return object.Text();
-}
-
-std::string JsonOf(const AppliedTo& applied) {
-  JsonObject object;
-  object.Add("id", Number(applied.vehicle));
-  object.Add("process", NameOf(applied.vehicle));
-  object.Add("before", applied.before);
-  object.Add("in_effect", applied.in_effect);
-  object.Add("refusal", applied.refusal);
-  object.Add("seconds", applied.seconds);
-  object.Add("checked", applied.checked);
-  object.Add("seen", applied.seen);
-  object.AddRaw("changes",
-                JsonArray(applied.changes, [](const qos::Change& one) { return JsonOf(one); }));
-  return object.Text();
-}
-
-JsonObject JsonOf(const ServiceFigures& figures) {
-  JsonObject object;
-  object.Add("alarms", figures.alarms);
-  object.Add("lost", figures.lost);
-  object.Add("taken", figures.taken);
-  object.Add("pair_seconds", figures.pair_seconds);
+Json JsonOf(const qos::Change& change) {
+  Json object;
+  object["profile"] = change.profile;
+  object["what"] = change.what;
+  object["from"] = change.from;
+  object["to"] = change.to;
+  object["effect"] = Name(change.effect);
   return object;
 }
 
-JsonObject JsonOf(const CanaryTrial& trial) {
-  JsonObject object;
-  object.Add("vehicle", Number(trial.vehicle));
-  object.Add("seconds", trial.seconds);
-  object.Add("canary", JsonOf(trial.canary));
-  object.Add("rest", JsonOf(trial.rest));
-  object.Add("worse", trial.worse);
+Json JsonOf(const AppliedTo& applied) {
+  Json object;
+  object["id"] = Number(applied.vehicle);
+  object["process"] = NameOf(applied.vehicle);
+  object["before"] = applied.before;
+  object["in_effect"] = applied.in_effect;
+  object["refusal"] = applied.refusal;
+  object["seconds"] = applied.seconds;
+  object["checked"] = applied.checked;
+  object["seen"] = applied.seen;
+  object["changes"] =
+      JsonArray(applied.changes, [](const qos::Change& one) { return JsonOf(one); });
+  return object;
+}
+
+Json JsonOf(const ServiceFigures& figures) {
+  Json object;
+  object["alarms"] = figures.alarms;
+  object["lost"] = figures.lost;
+  object["taken"] = figures.taken;
+  object["pair_seconds"] = figures.pair_seconds;
+  return object;
+}
+
+Json JsonOf(const CanaryTrial& trial) {
+  Json object;
+  object["vehicle"] = Number(trial.vehicle);
+  object["seconds"] = trial.seconds;
+  object["canary"] = JsonOf(trial.canary);
+  object["rest"] = JsonOf(trial.rest);
+  object["worse"] = trial.worse;
   return object;
 }
 
@@ -183,17 +184,15 @@ std::string LineOf(const ApplyReport& report) {
 }
 
 std::string ToJson(const ApplyReport& report) {
-  JsonObject object;
-  object.Add("profile", report.profile);
-  object.Add("verdict", Name(report.verdict));
-  object.AddRaw("vehicles",
-                JsonArray(report.vehicles, [](const AppliedTo& one) { return JsonOf(one); }));
-  object.AddRaw("order", JsonArray(report.order, JsonString));
-  if (report.trial) object.Add("trial", JsonOf(*report.trial));
-  object.AddRaw("findings",
-                JsonArray(report.findings, [](const qos::Finding& one) { return ToJson(one); }));
-  if (!report.remedy.empty()) object.Add("remedy", report.remedy);
-  return object.Text() + "\n";
+  Json object;
+  object["profile"] = report.profile;
+  object["verdict"] = Name(report.verdict);
+  object["vehicles"] = JsonArray(report.vehicles, [](const AppliedTo& one) { return JsonOf(one); });
+  object["order"] = report.order;
+  if (report.trial) object["trial"] = JsonOf(*report.trial);
+  object["findings"] = ToJson(report.findings);
+  if (!report.remedy.empty()) object["remedy"] = report.remedy;
+  return JsonText(std::move(object)) + "\n";
 }
 
 }  // namespace giveway::fleetctl

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "services/config/problem.h"
 #include "services/config/scenario_file.h"
@@ -12,7 +14,7 @@
 #include "services/fleetctl/output/finding_text.h"
 #include "services/fleetctl/output/terminal_text.h"
 #include "services/fleetctl/process/exit_codes.h"
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -22,9 +24,9 @@ namespace fs = std::filesystem;
 void Print(const qos::Findings& findings, std::size_t files, bool json) {
   std::string text;
   if (json) {
-    JsonObject object;
+    Json object;
     AddFindings(findings, &object);
-    text = object.Text();
+    text = JsonText(std::move(object));
   } else {
     for (const qos::Finding& finding : findings) text += ToText(finding);
     text += Counted(files, "file") + ", " + Tally(findings);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "services/fleetctl/args/qos_files.h"
 #include "services/fleetctl/args/reading_along.h"
@@ -16,10 +18,9 @@
 #include "services/fleetctl/qos/qos_effective.h"
 #include "services/fleetctl/qos/qos_foreign.h"
 #include "services/fleetctl/survey/other_fleets.h"
-#include "services/observer/fleet/json_object.h"
 #include "services/qos/deployment.h"
 #include "services/qos/xml_tree.h"
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -133,28 +134,30 @@ std::string ToText(const LiveRow& told, const std::string& own_file, const std::
                                                      OriginText(*told.expected, file)));
 }
 
-std::string ToJson(const LiveRow& told) {
-  std::string json =
-      fmt::format(R"({{"profile":"{}","policy":"{}","value":{},"origin":"{}")", told.profile,
-                  told.live.policy, JsonString(told.live.value), Name(told.live.origin));
-  if (told.live.line > 0) json += fmt::format(R"(,"line":{})", told.live.line);
-  if (told.expected) json += fmt::format(R"(,"expected":{})", JsonString(told.expected->value));
-  return json + "}";
+Json ToJson(const LiveRow& told) {
+  Json json;
+  json["profile"] = told.profile;
+  json["policy"] = told.live.policy;
+  json["value"] = told.live.value;
+  json["origin"] = Name(told.live.origin);
+  if (told.live.line > 0) json["line"] = told.live.line;
+  if (told.expected) json["expected"] = told.expected->value;
+  return json;
 }
 
-std::string Json(const QosLiveOptions& options, const std::string& file, const LiveQos& live,
-                 const std::vector<LiveRow>& all) {
-  JsonObject object;
-  object.Add("vehicle", options.vehicle);
-  object.Add("domain", options.domain);
+std::string ToJson(const QosLiveOptions& options, const std::string& file, const LiveQos& live,
+                   const std::vector<LiveRow>& all) {
+  Json object;
+  object["vehicle"] = options.vehicle;
+  object["domain"] = options.domain;
   if (live.foreign.empty()) {
-    object.Add("runs_with", std::string_view(live.runs_with));
+    object["runs_with"] = live.runs_with;
   } else {
-    object.Add("foreign", std::string_view(live.foreign));
+    object["foreign"] = live.foreign;
   }
-  object.Add("file", std::string_view(file));
-  object.AddRaw("values", JsonArray(all, [](const LiveRow& told) { return ToJson(told); }));
-  return object.Text() + "\n";
+  object["file"] = file;
+  object["values"] = JsonArray(all, [](const LiveRow& told) { return ToJson(told); });
+  return JsonText(std::move(object)) + "\n";
 }
 
 std::string Text(const std::string& file, const LiveQos& live, const std::vector<LiveRow>& all) {
@@ -180,7 +183,7 @@ int RunQosLive(const QosLiveOptions& options) {
   if (!live) return exit_code;
   const std::vector<LiveRow> all = HoldAgainst(set, *live, options.set.wanted);
   const std::string text =
-      options.set.json ? Json(options, set.file, *live, all) : Text(set.file, *live, all);
+      options.set.json ? ToJson(options, set.file, *live, all) : Text(set.file, *live, all);
   std::fputs(text.c_str(), stdout);
   if (std::fflush(stdout) != 0) return kCouldNotRun;
   return std::ranges::all_of(all, &LiveRow::AsExpected) ? 0 : 1;

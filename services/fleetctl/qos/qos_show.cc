@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "services/config/problem.h"
 #include "services/fleetctl/process/exit_codes.h"
 #include "services/fleetctl/qos/qos_effective.h"
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -42,25 +44,33 @@ std::string ToText(const EffectiveSet& shown) {
   return text;
 }
 
-std::string JsonOf(const QosRow& row) {
-  std::string json =
-      fmt::format(R"("value":{},"origin":"{}")", JsonString(row.value), Name(row.origin));
-  if (row.line > 0) json += fmt::format(R"(,"line":{})", row.line);
+void AddValue(const QosRow& row, Json* json) {
+  (*json)["value"] = row.value;
+  (*json)["origin"] = Name(row.origin);
+  if (row.line > 0) (*json)["line"] = row.line;
+}
+
+Json JsonOf(const QosRow& row) {
+  Json json;
+  json["policy"] = row.policy;
+  AddValue(row, &json);
+  return json;
+}
+
+Json JsonOf(const EffectiveEndpoint& endpoint) {
+  Json json;
+  json["profile"] = endpoint.profile;
+  json["topic"] = endpoint.topic;
+  json["values"] = JsonArray(endpoint.rows, [](const QosRow& row) { return JsonOf(row); });
   return json;
 }
 
 std::string ToJson(const EffectiveSet& shown) {
-  std::string json = fmt::format(R"({{"file":{},"endpoints":[)", JsonString(shown.file));
-  for (const EffectiveEndpoint& endpoint : shown.endpoints) {
-    json += fmt::format(R"({}{{"profile":"{}","topic":"{}","values":[)",
-                        json.back() == '[' ? "" : ",", endpoint.profile, endpoint.topic);
-    for (const QosRow& row : endpoint.rows) {
-      json += fmt::format(R"({}{{"policy":"{}",{}}})", json.back() == '[' ? "" : ",", row.policy,
-                          JsonOf(row));
-    }
-    json += "]}";
-  }
-  return json + "]}\n";
+  Json json;
+  json["file"] = shown.file;
+  json["endpoints"] = JsonArray(shown.endpoints,
+                                [](const EffectiveEndpoint& endpoint) { return JsonOf(endpoint); });
+  return JsonText(std::move(json)) + "\n";
 }
 
 struct Difference {
@@ -93,16 +103,22 @@ std::string ToText(const std::vector<Difference>& differences, const EffectiveSe
   return text + fmt::format("{} values differ\n", differences.size());
 }
 
+Json JsonOf(const Difference& one) {
+  Json json;
+  json["profile"] = one.profile;
+  json["policy"] = one.a.policy;
+  AddValue(one.a, &json["a"]);
+  AddValue(one.b, &json["b"]);
+  return json;
+}
+
 std::string ToJson(const std::vector<Difference>& differences, const EffectiveSet& a,
                    const EffectiveSet& b) {
-  std::string json =
-      fmt::format(R"({{"a":{},"b":{},"differences":[)", JsonString(a.file), JsonString(b.file));
-  for (const Difference& one : differences) {
-    json += fmt::format(R"({}{{"profile":"{}","policy":"{}","a":{{{}}},"b":{{{}}}}})",
-                        json.back() == '[' ? "" : ",", one.profile, one.a.policy, JsonOf(one.a),
-                        JsonOf(one.b));
-  }
-  return json + "]}\n";
+  Json json;
+  json["a"] = a.file;
+  json["b"] = b.file;
+  json["differences"] = JsonArray(differences, [](const Difference& one) { return JsonOf(one); });
+  return JsonText(std::move(json)) + "\n";
 }
 
 }  // namespace

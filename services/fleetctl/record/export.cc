@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "services/fleetctl/args/reading_along.h"
@@ -34,9 +35,10 @@ class Exporting {
       return kCouldNotRun;
     }
     if (options_.csv && samples_ > 0) output_ = Tell(columns_.Head());
-    const mcap::ReadResult result = Read(&file, [this](const JsonObject& sample) {
+    const mcap::ReadResult result = Read(&file, [this](Json sample) {
       ++written_;
-      output_ = Tell(options_.csv ? columns_.Row(Flattened(sample.Text())) : sample.Text() + "\n");
+      output_ =
+          Tell(options_.csv ? columns_.Row(Flattened(sample)) : JsonText(std::move(sample)) + "\n");
       // A growing file may have further columns by now.
       return output_ == OutputResult::kYes && written_ != samples_;
     });
@@ -45,14 +47,14 @@ class Exporting {
   }
 
  private:
-  using Use = std::function<bool(const JsonObject& sample)>;  // false: enough
+  using Use = std::function<bool(Json sample)>;  // false: enough
 
   // Optional fields come and go: the names of all samples are collected before the header is
   // written.
   bool ReadColumns(std::ifstream* file) {
-    Read(file, [this](const JsonObject& sample) {
+    Read(file, [this](const Json& sample) {
       ++samples_;
-      columns_.Add(Flattened(sample.Text()));
+      columns_.Add(Flattened(sample));
       return true;
     });
     unreadable_ = 0;
@@ -105,11 +107,11 @@ class Exporting {
 
   template <typename Sample>
   void WriteOne(const mcap::Message& message, const Sample& sample) {
-    JsonObject object;
-    object.Add("log_ns", message.log_ns);
-    object.Add("publish_ns", message.publish_ns);
+    Json object;
+    object["log_ns"] = message.log_ns;
+    object["publish_ns"] = message.publish_ns;
     AddFields(sample, &object);
-    if (!enough_) enough_ = !use_(object);
+    if (!enough_) enough_ = !use_(std::move(object));
   }
 
   int Finish(const mcap::ReadResult& result) const {

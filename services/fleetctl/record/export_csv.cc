@@ -1,66 +1,36 @@
 #include "services/fleetctl/record/export_csv.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
 namespace {
 
-// Parses only text that JsonObject wrote: no white space.
-class Walker {
- public:
-  explicit Walker(std::string_view json) : rest_(json) {}
+// Control characters of a string stay as JSON writes them: a row is a line.
+std::string Plain(const Json& value) {
+  if (!value.is_string()) return JsonText(value);
+  std::string plain;
+  for (const char c : WellFormed(value.get_ref<const std::string&>())) {
+    const bool is_control = static_cast<unsigned char>(c) < 0x20;
+    const std::string text(1, c);
+    const std::string json = is_control ? JsonText(text) : "";
+    plain += is_control ? json.substr(1, json.size() - 2) : text;
+  }
+  return plain;
+}
 
-  void Object(const std::string& prefix, FlatFields* fields) {
-    Skip('{');
-    while (!rest_.empty() && rest_.front() != '}') {
-      const std::string name = prefix + Text();
-      Skip(':');
-      if (!rest_.empty() && rest_.front() == '{') {
-        Object(name + ".", fields);
-      } else {
-        fields->emplace_back(name, Value());
-      }
-      if (!rest_.empty() && rest_.front() == ',') rest_.remove_prefix(1);
+void Flatten(const Json& object, const std::string& prefix, FlatFields* fields) {
+  for (const auto& [name, value] : object.items()) {
+    if (value.is_object()) {
+      Flatten(value, prefix + name + ".", fields);
+    } else if (std::string plain = Plain(value); plain != "null" || value.is_string()) {
+      fields->emplace_back(prefix + name, std::move(plain));
     }
-    Skip('}');
   }
-
- private:
-  void Skip(char expected) {
-    if (!rest_.empty() && rest_.front() == expected) rest_.remove_prefix(1);
-  }
-  // A string, its escapes left as they are but for quotes and backslashes.
-  std::string Text() {
-    std::string text;
-    Skip('"');
-    while (!rest_.empty() && rest_.front() != '"') {
-      if (rest_.front() == '\\' && rest_.size() > 1) {
-        if (rest_[1] != '"' && rest_[1] != '\\') text += '\\';
-        rest_.remove_prefix(1);
-      }
-      text += rest_.front();
-      rest_.remove_prefix(1);
-    }
-    Skip('"');
-    return text;
-  }
-  std::string Value() {
-    if (!rest_.empty() && rest_.front() == '"') return Text();
-    int depth = 0;
-    std::size_t end = 0;
-    for (; end < rest_.size(); ++end) {
-      const char c = rest_[end];
-      if (depth == 0 && (c == ',' || c == '}')) break;
-      if (c == '[') ++depth;
-      if (c == ']') --depth;
-    }
-    std::string value(rest_.substr(0, end));
-    rest_.remove_prefix(end);
-    return value;
-  }
-
-  std::string_view rest_;
-};
+}
 
 std::string Cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -71,9 +41,9 @@ std::string Cell(const std::string& text) {
 
 }  // namespace
 
-FlatFields Flattened(std::string_view json) {
+FlatFields Flattened(const Json& sample) {
   FlatFields fields;
-  Walker(json).Object("", &fields);
+  Flatten(sample, "", &fields);
   return fields;
 }
 

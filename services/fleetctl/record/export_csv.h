@@ -2,16 +2,17 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 
 using FlatFields = std::vector<std::pair<std::string, std::string>>;  // name, value as text
 
-// Of one of our own JSON objects. Arrays stay as they are written.
-FlatFields Flattened(std::string_view json);
+// What does not exist is left out, as JsonText leaves it out; arrays are as it writes them.
+FlatFields Flattened(const Json& sample);
 
 // The columns of a table whose rows do not all have the same fields: all of them, in order of first
 // appearance. Collect over all rows before writing the first.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 #include "services/runtime/utf8.h"
 
 namespace giveway::fleetctl {
@@ -53,18 +55,18 @@ std::string ToText(const SoakComparison& comparison, bool all) {
 }
 
 std::string ToJson(const SoakComparison& comparison) {
-  JsonObject json;
-  json.Add("worse", comparison.AnyWorse());
-  json.AddRaw("figures", JsonArray(comparison.figures, [](const ComparedFigure& figure) {
-                JsonObject object;
-                object.Add("what", std::string_view(WellFormed(figure.what)));
-                object.Add("before", std::string_view(WellFormed(figure.before)));
-                object.Add("after", std::string_view(WellFormed(figure.after)));
-                object.Add("change", ToString(figure.change));
-                object.Add("p", figure.p);
-                return object.Text();
-              }));
-  return json.Text();
+  Json json;
+  json["worse"] = comparison.AnyWorse();
+  json["figures"] = JsonArray(comparison.figures, [](const ComparedFigure& figure) {
+    Json object;
+    object["what"] = figure.what;
+    object["before"] = figure.before;
+    object["after"] = figure.after;
+    object["change"] = ToString(figure.change);
+    object["p"] = OrNull(figure.p);
+    return object;
+  });
+  return JsonText(std::move(json));
 }
 
 }  // namespace giveway::fleetctl

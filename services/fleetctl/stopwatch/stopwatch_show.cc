@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
-#include "services/observer/fleet/json_object.h"
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -79,39 +80,39 @@ std::string MaskingHint(const StopwatchReport& report) {
       Name(report.limits.tracked));
 }
 
-std::string JsonOfTerm(const Term& term) {
-  JsonObject one;
-  one.Add("ms", Milliseconds(term.time));
-  one.Add("reason", term.reason);
-  return one.Text();
+Json JsonOfTerm(const Term& term) {
+  Json one;
+  one["ms"] = Milliseconds(term.time);
+  one["reason"] = term.reason;
+  return one;
 }
 
-std::string JsonOf(const Cell& cell, const Limits& limits) {
-  JsonObject json;
-  json.Add("fault", Name(cell.fault));
-  json.Add("mechanism", Name(cell.mechanism));
-  json.Add("duty", DutyName(cell.duty));
-  json.Add("trials", cell.trials);
-  json.Add("asked", cell.asked);
-  json.Add("seen", cell.seen.n);
+Json JsonOf(const Cell& cell, const Limits& limits) {
+  Json json;
+  json["fault"] = Name(cell.fault);
+  json["mechanism"] = Name(cell.mechanism);
+  json["duty"] = DutyName(cell.duty);
+  json["trials"] = cell.trials;
+  json["asked"] = cell.asked;
+  json["seen"] = cell.seen.n;
   if (cell.seen.n > 0) {
-    json.Add("min_ms", Milliseconds(cell.seen.min));
-    json.Add("p50_ms", Milliseconds(cell.seen.p50));
-    json.Add("p99_ms", Milliseconds(cell.seen.p99));
-    json.Add("max_ms", Milliseconds(cell.seen.max));
+    json["min_ms"] = Milliseconds(cell.seen.min);
+    json["p50_ms"] = Milliseconds(cell.seen.p50);
+    json["p99_ms"] = Milliseconds(cell.seen.p99);
+    json["max_ms"] = Milliseconds(cell.seen.max);
   }
   if (cell.duty == Duty::kMust) {
-    json.Add("promised_ms", Milliseconds(cell.promised));
-    json.AddRaw("promise", JsonArray(Promise(cell.mechanism, limits), JsonOfTerm));
-    json.Add("longest_pause_ms", Milliseconds(cell.longest_pause));
-    json.Add("unseen", cell.unseen);
-    json.Add("excused", cell.excused);
-    json.Add("late", cell.late);
-    if (cell.late > 0) json.Add("worst_excess_ms", Milliseconds(cell.worst_excess));
+    json["promised_ms"] = Milliseconds(cell.promised);
+    json["promise"] = JsonArray(Promise(cell.mechanism, limits), JsonOfTerm);
+    json["longest_pause_ms"] = Milliseconds(cell.longest_pause);
+    json["unseen"] = cell.unseen;
+    json["excused"] = cell.excused;
+    json["late"] = cell.late;
+    if (cell.late > 0) json["worst_excess_ms"] = Milliseconds(cell.worst_excess);
   }
-  if (cell.duty == Duty::kNone) json.Add("uncalled_for", cell.uncalled_for);
-  json.Add("kept", cell.Kept());
-  return json.Text();
+  if (cell.duty == Duty::kNone) json["uncalled_for"] = cell.uncalled_for;
+  json["kept"] = cell.Kept();
+  return json;
 }
 
 }  // namespace
@@ -155,21 +156,20 @@ std::string StopwatchText(const StopwatchReport& report) {
 }
 
 std::string StopwatchJson(const StopwatchReport& report) {
-  JsonObject json;
-  json.Add("verdict", report.Kept() ? "kept" : "broken");
-  json.Add("qos", report.qos_file);
-  json.Add("liveliness_asserted", Name(report.limits.asserted));
-  json.Add("liveliness_tracked", Name(report.limits.tracked));
-  json.Add("vehicles", report.vehicles);
-  json.Add("fleets", report.fleets);
-  json.Add("seed", report.seed);
-  json.Add("took_s", report.took_s);
-  json.Add("false_alarms", report.false_alarms);
-  json.AddRaw("findings", JsonArray(Findings(report),
-                                    [](const std::string& text) { return JsonString(text); }));
-  json.AddRaw("cells", JsonArray(report.cells,
-                                 [&](const Cell& cell) { return JsonOf(cell, report.limits); }));
-  return json.Text() + "\n";
+  Json json;
+  json["verdict"] = report.Kept() ? "kept" : "broken";
+  json["qos"] = report.qos_file;
+  json["liveliness_asserted"] = Name(report.limits.asserted);
+  json["liveliness_tracked"] = Name(report.limits.tracked);
+  json["vehicles"] = report.vehicles;
+  json["fleets"] = report.fleets;
+  json["seed"] = report.seed;
+  json["took_s"] = report.took_s;
+  json["false_alarms"] = report.false_alarms;
+  json["findings"] = Findings(report);
+  json["cells"] =
+      JsonArray(report.cells, [&](const Cell& cell) { return JsonOf(cell, report.limits); });
+  return JsonText(std::move(json)) + "\n";
 }
 
 }  // namespace giveway::fleetctl

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
 namespace giveway::fleetctl {
@@ -145,14 +147,12 @@ double Dispersion(const std::vector<std::vector<TrialEvidence>>& candidates) {
   return degrees > 0 ? std::max(1.0, chi_squared / degrees) : 1;
 }
 
-// Byar's approximation of the exact interval (Breslow and Day, Statistical Methods in Cancer
-// Research II, 1987, table 2.11).
+// Exact (Garwood 1936).
 CountInterval PoissonInterval(std::uint32_t count, double z) {
-  const auto end = [z](double n, double sign) {
-    const double root = 1 - 1 / (9 * n) + sign * z / (3 * std::sqrt(n));
-    return n * root * root * root;
-  };
-  return {count == 0 ? 0 : std::max(0.0, end(count, -1)), end(count + 1.0, 1)};
+  // Beyond 37 standard deviations nothing is left that a double holds.
+  const double tail = cdf(complement(boost::math::normal(), std::min(z, 37.0)));
+  return {count == 0 ? 0 : boost::math::gamma_p_inv(static_cast<double>(count), tail),
+          boost::math::gamma_q_inv(count + 1.0, tail)};
 }
 
 }  // namespace giveway::fleetctl

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+#include <utility>
+
 #include "services/fleetctl/tune/tune_store.h"
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -41,55 +44,55 @@ std::string Line(const TunedCandidate& tuned) {
   return line + "\n";
 }
 
-JsonObject FiguresJson(const TuneFigures& f) {
-  JsonObject json;
-  json.Add("trials", f.trials);
-  json.Add("vehicle_hours", f.vehicle_hours);
-  json.Add("alarms", f.alarms.Total());
-  json.Add("alarms_by_deadline", f.alarms.deadline);
-  json.Add("alarms_by_liveliness", f.alarms.liveliness);
-  json.Add("alarms_by_beacon_age", f.alarms.beacon_age);
-  json.Add("alarms_per_vehicle_hour", f.alarms_per_hour);
-  json.Add("alarms_dispersion", f.dispersion);
-  json.Add("alarms_low", f.alarms_low);
-  json.Add("alarms_high", f.alarms_high);
-  json.Add("told_per_vehicle_hour", f.told_per_hour);
-  json.Add("detections", f.detections);
-  json.Add("undetected", f.undetected);
-  json.Add("detection_ms", f.detection_ms);
-  json.Add("detection_error_ms", f.detection_error_ms);
-  json.Add("detection_max_ms", f.detection_max_ms);
-  json.Add("detection_from_kill_ms", f.detection_from_kill_ms);
-  json.Add("beacon_age_mean_ms", f.age_mean_ms);
-  json.Add("beacon_age_p99_ms", f.age_p99_ms);
-  json.Add("heard_bytes_s", f.heard_bytes_s);
-  json.Add("cpu_share", f.cpu_share);
-  json.Add("longest_pause_ms", f.longest_pause_ms);
+Json FiguresJson(const TuneFigures& f) {
+  Json json;
+  json["trials"] = f.trials;
+  json["vehicle_hours"] = f.vehicle_hours;
+  json["alarms"] = f.alarms.Total();
+  json["alarms_by_deadline"] = f.alarms.deadline;
+  json["alarms_by_liveliness"] = f.alarms.liveliness;
+  json["alarms_by_beacon_age"] = f.alarms.beacon_age;
+  json["alarms_per_vehicle_hour"] = f.alarms_per_hour;
+  json["alarms_dispersion"] = f.dispersion;
+  json["alarms_low"] = f.alarms_low;
+  json["alarms_high"] = f.alarms_high;
+  json["told_per_vehicle_hour"] = f.told_per_hour;
+  json["detections"] = f.detections;
+  json["undetected"] = f.undetected;
+  json["detection_ms"] = f.detection_ms;
+  json["detection_error_ms"] = f.detection_error_ms;
+  json["detection_max_ms"] = f.detection_max_ms;
+  json["detection_from_kill_ms"] = f.detection_from_kill_ms;
+  json["beacon_age_mean_ms"] = f.age_mean_ms;
+  json["beacon_age_p99_ms"] = f.age_p99_ms;
+  json["heard_bytes_s"] = OrNull(f.heard_bytes_s);
+  json["cpu_share"] = f.cpu_share;
+  json["longest_pause_ms"] = f.longest_pause_ms;
   return json;
 }
 
-JsonObject CandidateJson(const TunedCandidate& tuned) {
+Json CandidateJson(const TunedCandidate& tuned) {
   const BeaconQos& qos = tuned.candidate.qos;
-  JsonObject json;
-  json.Add("name", std::string_view(tuned.candidate.name));
-  json.Add("deadline_offered_ms", Milliseconds(qos.offered));
-  json.Add("deadline_requested_ms", Milliseconds(qos.requested));
-  json.Add("lease_ms", Milliseconds(qos.lease));
-  json.Add("reliable", qos.reliable);
-  json.Add("reader_depth", qos.depth);
-  json.Add("on_front", tuned.on_front);
-  if (tuned.figures) json.Add("measured", FiguresJson(*tuned.figures));
+  Json json;
+  json["name"] = tuned.candidate.name;
+  json["deadline_offered_ms"] = Milliseconds(qos.offered);
+  json["deadline_requested_ms"] = Milliseconds(qos.requested);
+  json["lease_ms"] = Milliseconds(qos.lease);
+  json["reliable"] = qos.reliable;
+  json["reader_depth"] = qos.depth;
+  json["on_front"] = tuned.on_front;
+  if (tuned.figures) json["measured"] = FiguresJson(*tuned.figures);
   if (tuned.predicted) {
-    JsonObject predicted;
-    predicted.Add("alarms_per_vehicle_hour", tuned.predicted->alarms_per_hour);
-    predicted.Add("detection_ms", tuned.predicted->detection_ms);
-    predicted.Add("beacon_age_mean_ms", tuned.predicted->age_mean_ms);
-    json.Add("predicted", predicted);
+    Json predicted;
+    predicted["alarms_per_vehicle_hour"] = tuned.predicted->alarms_per_hour;
+    predicted["detection_ms"] = tuned.predicted->detection_ms;
+    predicted["beacon_age_mean_ms"] = tuned.predicted->age_mean_ms;
+    json["predicted"] = std::move(predicted);
   }
   if (!tuned.disagreement.empty()) {
-    json.Add("disagreement", std::string_view(tuned.disagreement));
+    json["disagreement"] = tuned.disagreement;
   }
-  if (!tuned.trouble.empty()) json.Add("trouble", std::string_view(tuned.trouble));
+  if (!tuned.trouble.empty()) json["trouble"] = tuned.trouble;
   return json;
 }
 
@@ -138,33 +141,28 @@ std::string ToText(const TuneResult& result) {
 }
 
 std::string ToJson(const TuneResult& result) {
-  const auto name = [&](std::size_t place) {
-    return "\"" + result.candidates[place].candidate.name + "\"";
-  };
-  JsonObject json;
-  json.Add("base", std::string_view(result.base_file));
-  json.Add("impair", std::string_view(result.impair));
-  json.Add("vehicles", result.fleet.vehicles);
-  json.Add("tick_ms", result.fleet.tick_ms);
-  json.Add("seed", result.seed);
-  json.Add("alive_s", result.alive_s);
-  json.Add("verified", result.IsBetter());
-  json.AddRaw("recommended", name(result.recommended));
-  json.AddRaw("front", JsonArray(result.front, name));
+  const auto name = [&](std::size_t place) { return result.candidates[place].candidate.name; };
+  Json json;
+  json["base"] = result.base_file;
+  json["impair"] = result.impair;
+  json["vehicles"] = result.fleet.vehicles;
+  json["tick_ms"] = result.fleet.tick_ms;
+  json["seed"] = result.seed;
+  json["alive_s"] = result.alive_s;
+  json["verified"] = result.IsBetter();
+  json["recommended"] = name(result.recommended);
+  json["front"] = JsonArray(result.front, name);
   if (result.verified) {
-    JsonObject verification;
-    verification.Add("base", FiguresJson(result.verified->base));
-    verification.Add("recommended", FiguresJson(result.verified->recommended));
-    verification.Add("fewer_alarms", result.verified->fewer_alarms);
-    verification.Add("no_later", result.verified->no_later);
-    json.Add("verification", verification);
+    Json verification;
+    verification["base"] = FiguresJson(result.verified->base);
+    verification["recommended"] = FiguresJson(result.verified->recommended);
+    verification["fewer_alarms"] = result.verified->fewer_alarms;
+    verification["no_later"] = result.verified->no_later;
+    json["verification"] = std::move(verification);
   }
-  json.AddRaw("candidates", JsonArray(result.candidates, [](const TunedCandidate& tuned) {
-                return CandidateJson(tuned).Text();
-              }));
-  json.AddRaw("trials", JsonArray(result.trials,
-                                  [](const TrialEvidence& evidence) { return ToJson(evidence); }));
-  return json.Text();
+  json["candidates"] = JsonArray(result.candidates, CandidateJson);
+  json["trials"] = JsonArray(result.trials, EvidenceJson);
+  return JsonText(std::move(json));
 }
 
 }  // namespace giveway::fleetctl

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <thread>
+#include <utility>
 
 #include "services/config/impair.h"
 #include "services/config/problem.h"
@@ -21,8 +23,8 @@
 #include "services/fleetctl/tune/tune_report.h"
 #include "services/fleetctl/tune/tune_search.h"
 #include "services/link/convert/crc32c.h"
-#include "services/observer/fleet/json_object.h"
 #include "services/qos/check.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -48,17 +50,17 @@ QosTuneOptions Filled(QosTuneOptions options) {
 std::string PlanOf(const QosTuneOptions& options, const qos::ProfileFile& base) {
   const std::span bytes(reinterpret_cast<const std::uint8_t*>(base.bytes.data()),
                         base.bytes.size());
-  JsonObject plan;
-  plan.Add("base", std::string_view(base.name));
-  plan.Add("base_crc", link::Crc32c(bytes));
-  plan.Add("impair", std::string_view(options.impair));
-  plan.Add("vehicles", options.vehicles);
-  plan.Add("seed", options.seed);
-  plan.Add("quick", options.quick);
-  plan.Add("trial_s", options.trial_s);
-  plan.Add("candidates", options.candidates);
-  plan.Add("verify_trials", options.verify_trials);
-  return plan.Text();
+  Json plan;
+  plan["base"] = base.name;
+  plan["base_crc"] = link::Crc32c(bytes);
+  plan["impair"] = options.impair;
+  plan["vehicles"] = options.vehicles;
+  plan["seed"] = options.seed;
+  plan["quick"] = options.quick;
+  plan["trial_s"] = options.trial_s;
+  plan["candidates"] = options.candidates;
+  plan["verify_trials"] = options.verify_trials;
+  return JsonText(std::move(plan));
 }
 
 class Tuning {

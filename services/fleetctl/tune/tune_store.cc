@@ -1,36 +1,33 @@
-// Boost's own JSON parser includes what Boost deprecates.
-#define BOOST_BIND_GLOBAL_PLACEHOLDERS
 #include "services/fleetctl/tune/tune_store.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/property_tree/json_parser.hpp>
-#include <boost/property_tree/ptree.hpp>
 #include <fstream>
 #include <iterator>
-#include <sstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
 #include "services/fleetctl/output/output_file.h"
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
 
 namespace fs = std::filesystem;
-using boost::property_tree::ptree;
 
-JsonObject CountsJson(const AlarmCounts& counts) {
-  JsonObject json;
-  json.Add("deadline", counts.deadline);
-  json.Add("liveliness", counts.liveliness);
-  json.Add("beacon_age", counts.beacon_age);
+Json CountsJson(const AlarmCounts& counts) {
+  Json json;
+  json["deadline"] = counts.deadline;
+  json["liveliness"] = counts.liveliness;
+  json["beacon_age"] = counts.beacon_age;
   return json;
 }
 
-AlarmCounts CountsFrom(const ptree& json) {
-  return {json.get<std::uint32_t>("deadline"), json.get<std::uint32_t>("liveliness"),
-          json.get<std::uint32_t>("beacon_age")};
+AlarmCounts CountsFrom(const Json& json) {
+  return {Uint32Of(json.at("deadline")), Uint32Of(json.at("liveliness")),
+          Uint32Of(json.at("beacon_age"))};
 }
 
 AlarmCause CauseNamed(const std::string& name) {
@@ -38,43 +35,39 @@ AlarmCause CauseNamed(const std::string& name) {
        {AlarmCause::kDeadline, AlarmCause::kLiveliness, AlarmCause::kBeaconAge}) {
     if (Name(cause) == name) return cause;
   }
-  throw boost::property_tree::ptree_error("no such cause: " + name);
+  throw std::invalid_argument("no such cause: " + name);
 }
 
-std::string DetectionsJson(const std::vector<DetectionReading>& detections) {
-  return JsonArray(detections, [](const DetectionReading& detection) {
-    JsonObject object;
-    object.Add("from_kill_ms", detection.from_kill_ms);
-    object.Add("from_last_beacon_ms", detection.from_last_beacon_ms);
-    object.Add("by", Name(detection.cause));
-    return object.Text();
-  });
+Json DetectionJson(const DetectionReading& detection) {
+  Json json;
+  json["from_kill_ms"] = detection.from_kill_ms;
+  json["from_last_beacon_ms"] = detection.from_last_beacon_ms;
+  json["by"] = Name(detection.cause);
+  return json;
 }
 
-TrialEvidence FromTree(const ptree& json) {
+TrialEvidence FromJson(const Json& json) {
   TrialEvidence evidence;
-  evidence.candidate = json.get<std::string>("candidate");
-  evidence.verification = json.get<bool>("verification");
-  evidence.trial = json.get<std::uint32_t>("trial");
-  evidence.seed = json.get<std::uint32_t>("seed");
-  evidence.trouble = json.get<std::string>("trouble", "");
-  evidence.vehicles = json.get<std::uint32_t>("vehicles");
-  evidence.alive_s = json.get<double>("alive_s");
-  evidence.alarms = CountsFrom(json.get_child("alarms"));
-  evidence.told_deadline = json.get<std::uint32_t>("told_deadline");
-  evidence.told_liveliness = json.get<std::uint32_t>("told_liveliness");
-  evidence.age_mean_ms = json.get<double>("age_mean_ms");
-  evidence.age_p99_ms = json.get<double>("age_p99_ms");
-  if (const auto bytes = json.get_optional<double>("heard_bytes_s")) {
-    evidence.heard_bytes_s = *bytes;
-  }
-  evidence.cpu_share = json.get<double>("cpu_share");
-  evidence.longest_pause_ms = json.get<double>("longest_pause_ms");
-  evidence.undetected = json.get<std::uint32_t>("undetected");
-  for (const auto& [name, one] : json.get_child("detections")) {
-    evidence.detections.push_back({one.get<double>("from_kill_ms"),
-                                   one.get<double>("from_last_beacon_ms"),
-                                   CauseNamed(one.get<std::string>("by"))});
+  evidence.candidate = json.at("candidate").get<std::string>();
+  evidence.verification = json.at("verification").get<bool>();
+  evidence.trial = Uint32Of(json.at("trial"));
+  evidence.seed = Uint32Of(json.at("seed"));
+  evidence.trouble = json.value("trouble", "");
+  evidence.vehicles = Uint32Of(json.at("vehicles"));
+  evidence.alive_s = json.at("alive_s").get<double>();
+  evidence.alarms = CountsFrom(json.at("alarms"));
+  evidence.told_deadline = Uint32Of(json.at("told_deadline"));
+  evidence.told_liveliness = Uint32Of(json.at("told_liveliness"));
+  evidence.age_mean_ms = json.at("age_mean_ms").get<double>();
+  evidence.age_p99_ms = json.at("age_p99_ms").get<double>();
+  if (json.contains("heard_bytes_s")) evidence.heard_bytes_s = json["heard_bytes_s"].get<double>();
+  evidence.cpu_share = json.at("cpu_share").get<double>();
+  evidence.longest_pause_ms = json.at("longest_pause_ms").get<double>();
+  evidence.undetected = Uint32Of(json.at("undetected"));
+  for (const Json& one : json.at("detections")) {
+    evidence.detections.push_back({one.at("from_kill_ms").get<double>(),
+                                   one.at("from_last_beacon_ms").get<double>(),
+                                   CauseNamed(one.at("by").get<std::string>())});
   }
   return evidence;
 }
@@ -95,35 +88,36 @@ void MakeFolder(const fs::path& folder) {
 
 }  // namespace
 
-std::string ToJson(const TrialEvidence& evidence) {
-  JsonObject json;
-  json.Add("candidate", std::string_view(evidence.candidate));
-  json.Add("verification", evidence.verification);
-  json.Add("trial", evidence.trial);
-  json.Add("seed", evidence.seed);
-  if (!evidence.trouble.empty()) json.Add("trouble", std::string_view(evidence.trouble));
-  json.Add("vehicles", evidence.vehicles);
-  json.Add("alive_s", evidence.alive_s);
-  json.Add("alarms", CountsJson(evidence.alarms));
-  json.Add("told_deadline", evidence.told_deadline);
-  json.Add("told_liveliness", evidence.told_liveliness);
-  json.Add("age_mean_ms", evidence.age_mean_ms);
-  json.Add("age_p99_ms", evidence.age_p99_ms);
-  json.Add("heard_bytes_s", evidence.heard_bytes_s);
-  json.Add("cpu_share", evidence.cpu_share);
-  json.Add("longest_pause_ms", evidence.longest_pause_ms);
-  json.AddRaw("detections", DetectionsJson(evidence.detections));
-  json.Add("undetected", evidence.undetected);
-  return json.Text();
+Json EvidenceJson(const TrialEvidence& evidence) {
+  Json json;
+  json["candidate"] = evidence.candidate;
+  json["verification"] = evidence.verification;
+  json["trial"] = evidence.trial;
+  json["seed"] = evidence.seed;
+  if (!evidence.trouble.empty()) json["trouble"] = evidence.trouble;
+  json["vehicles"] = evidence.vehicles;
+  json["alive_s"] = evidence.alive_s;
+  json["alarms"] = CountsJson(evidence.alarms);
+  json["told_deadline"] = evidence.told_deadline;
+  json["told_liveliness"] = evidence.told_liveliness;
+  json["age_mean_ms"] = evidence.age_mean_ms;
+  json["age_p99_ms"] = evidence.age_p99_ms;
+  json["heard_bytes_s"] = OrNull(evidence.heard_bytes_s);
+  json["cpu_share"] = evidence.cpu_share;
+  json["longest_pause_ms"] = evidence.longest_pause_ms;
+  json["detections"] = JsonArray(evidence.detections, DetectionJson);
+  json["undetected"] = evidence.undetected;
+  return json;
 }
 
+std::string ToJson(const TrialEvidence& evidence) { return JsonText(EvidenceJson(evidence)); }
+
 std::optional<TrialEvidence> EvidenceFrom(const std::string& json) {
+  const auto read = ReadJson(json);
+  if (!read) return std::nullopt;
   try {
-    std::istringstream stream(json);
-    ptree tree;
-    boost::property_tree::read_json(stream, tree);
-    return FromTree(tree);
-  } catch (const boost::property_tree::ptree_error&) {
+    return FromJson(*read);
+  } catch (const std::exception&) {  // something is missing, or is not what it must be
     return std::nullopt;
   }
 }

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "services/fleetctl/tune/tune_evidence.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 
+Json EvidenceJson(const TrialEvidence& evidence);
 std::string ToJson(const TrialEvidence& evidence);
 // nullopt if the text is not in the format of ToJson.
 std::optional<TrialEvidence> EvidenceFrom(const std::string& json);

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "services/fleetctl/output/finding_text.h"
-#include "services/observer/fleet/json_object.h"
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 
 namespace giveway::fleetctl {
 namespace {
@@ -116,27 +117,27 @@ std::string HostIdText(const WhyReport& report) {
       report.speaker, *report.host_id, *report.probe->host_id);
 }
 
-std::string TopicJson(const WhyReport& report, const TopicOutlook& topic) {
+Json TopicJson(const WhyReport& report, const TopicOutlook& topic) {
   const TopicVerdict verdict = VerdictOf(report, topic);
   const ProbedTopic probed = ProbedOf(report, topic.topic);
-  JsonObject object;
-  object.Add("topic", std::string_view(topic.topic));
-  object.Add("verdict", Word(verdict.verdict));
-  if (report.foretold) object.Add("predicted", Word(topic.outlook));
-  if (report.foretold) object.Add("predicted_in_place", Word(topic.in_place));
+  Json object;
+  object["topic"] = topic.topic;
+  object["verdict"] = Word(verdict.verdict);
+  if (report.foretold) object["predicted"] = Word(topic.outlook);
+  if (report.foretold) object["predicted_in_place"] = Word(topic.in_place);
   if (Probed(report)) {
-    object.Add("matched", probed.matched);
-    object.Add("samples", probed.samples);
-    object.Add("first_ms", probed.first_ms);
-    if (!report.hearer_here) object.Add("fits", probed.fits);
+    object["matched"] = probed.matched;
+    object["samples"] = probed.samples;
+    object["first_ms"] = OrNull(probed.first_ms);
+    if (!report.hearer_here) object["fits"] = probed.fits;
   }
-  object.Add("disagree", verdict.disagree);
+  object["disagree"] = verdict.disagree;
   std::vector<std::string> reasons;
   for (const Cause& cause : topic.causes) {
     if (cause.weight == Weight::kPrevents) reasons.push_back(cause.finding.rule);
   }
-  object.AddRaw("reasons", JsonArray(reasons, JsonString));
-  return object.Text();
+  object["reasons"] = reasons;
+  return object;
 }
 
 // Whether the vehicle was discovered, and without a place.
@@ -271,40 +272,39 @@ std::string ToText(const WhyReport& report) {
 }
 
 std::string ToJson(const WhyReport& report) {
-  JsonObject object;
-  object.Add("hearer", std::string_view(report.hearer));
-  object.Add("speaker", std::string_view(report.speaker));
-  object.Add("hears", ExitCode(report) == 0);
-  object.Add("disagree", AnyDisagrees(report));
-  object.Add("probed", Probed(report));
+  Json object;
+  object["hearer"] = report.hearer;
+  object["speaker"] = report.speaker;
+  object["hears"] = ExitCode(report) == 0;
+  object["disagree"] = AnyDisagrees(report);
+  object["probed"] = Probed(report);
   if (report.probe && !Probed(report)) {
-    object.Add("trouble", std::string_view(report.probe->trouble));
+    object["trouble"] = report.probe->trouble;
   }
-  if (Probed(report)) object.Add("listened_ms", report.probe->listened_ms);
+  if (Probed(report)) object["listened_ms"] = report.probe->listened_ms;
   if (Probed(report) && !report.probe->hearer_foreign.empty()) {
-    object.Add("hearer_foreign", std::string_view(report.probe->hearer_foreign));
+    object["hearer_foreign"] = report.probe->hearer_foreign;
   }
   if (Probed(report) && !report.probe->speaker_foreign.empty()) {
-    object.Add("speaker_foreign", std::string_view(report.probe->speaker_foreign));
+    object["speaker_foreign"] = report.probe->speaker_foreign;
   }
   if (Probed(report) && report.probe->own_word) {
     const OwnWord& word = *report.probe->own_word;
-    JsonObject own;
-    own.Add("peers_heard", word.peers_heard);
-    own.Add("taken", word.taken);
-    own.Add("accepted", word.accepted);
-    own.Add("too_far", word.too_far);
-    own.Add("rejected", word.rejected);
-    own.Add("incompatible", word.incompatible);
-    object.Add("own_status", own);
+    Json own;
+    own["peers_heard"] = word.peers_heard;
+    own["taken"] = word.taken;
+    own["accepted"] = word.accepted;
+    own["too_far"] = word.too_far;
+    own["rejected"] = word.rejected;
+    own["incompatible"] = word.incompatible;
+    object["own_status"] = std::move(own);
   }
-  object.AddRaw("topics", JsonArray(report.topics, [&](const TopicOutlook& topic) {
-                  return TopicJson(report, topic);
-                }));
-  object.AddRaw("findings", JsonArray(CausesOf(report),
-                                      [](const Cause& cause) { return ToJson(cause.finding); }));
-  object.AddRaw("not_known", JsonArray(report.not_known, JsonString));
-  return object.Text() + "\n";
+  object["topics"] =
+      JsonArray(report.topics, [&](const TopicOutlook& topic) { return TopicJson(report, topic); });
+  object["findings"] =
+      JsonArray(CausesOf(report), [](const Cause& cause) { return ToJson(cause.finding); });
+  object["not_known"] = report.not_known;
+  return JsonText(std::move(object)) + "\n";
 }
 
 int ExitCode(const WhyReport& report) {

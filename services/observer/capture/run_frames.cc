@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "services/link/sample_codec.h"
 #include "services/observer/fleet/frame_json.h"
@@ -34,9 +36,9 @@ void RunFrames::NoteEvents(const FleetView& view, SteadyTime now) {
   const auto at_ms = static_cast<std::int64_t>(Milliseconds(now));
   for (std::size_t i = events.size() - fresh; i < events.size(); ++i) {
     if (events_.size() >= kMostEvents) return;
-    JsonObject object;
+    Json object;
     AddFields(events[i], &object);
-    events_.push_back({now, fmt::format("[{},{}]", at_ms, object.Text())});
+    events_.push_back({now, fmt::format("[{},{}]", at_ms, JsonText(std::move(object)))});
   }
 }
 

@@ -1,11 +1,11 @@
 #include "services/observer/fleet/frame_json.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "services/observer/fleet/sample_json.h"
 #include "services/observer/fleet/sample_words.h"
@@ -54,14 +54,15 @@ Decision DecisionOf(const HeardVehicle& heard) {
   return decision;
 }
 
-void AddRow(VehicleId id, const HeardVehicle& heard, const VehicleView* view, SteadyTime now,
-            std::string* json) {
+using Row = std::array<std::int64_t, kVehicleColumns.size()>;
+
+Row RowOf(VehicleId id, const HeardVehicle& heard, const VehicleView* view, SteadyTime now) {
   const Truth* truth = view != nullptr ? view->Body() : nullptr;
   const Beacon beacon = heard.beacon.value_or(Beacon{});
   const Pose pose = PoseOf(heard, truth);
   const Decision decision = DecisionOf(heard);
   const auto reaction = view != nullptr ? view->reaction.Newest_us() : std::nullopt;
-  const std::array<std::int64_t, kVehicleColumns.size()> row{
+  return {
       Number(id),
       Milli(pose.position_world.x),
       Milli(pose.position_world.y),
@@ -88,15 +89,12 @@ void AddRow(VehicleId id, const HeardVehicle& heard, const VehicleView* view, St
       Milli(beacon.toward_world.y),
       truth != nullptr || heard.beacon ? 1 : 0,
   };
-  *json += fmt::format("{}[{}]", json->back() == '[' ? "" : ",", fmt::join(row, ","));
 }
 
-std::string RowsJson(const FleetView& view, SteadyTime now) {
-  std::string json = "[";
-  for (const auto& [id, heard] : view.Heard().Vehicles()) {
-    AddRow(id, heard, view.Find(id), now, &json);
-  }
-  return json + "]";
+Json RowsJson(const FleetView& view, SteadyTime now) {
+  return JsonArray(view.Heard().Vehicles(), [&](const auto& entry) {
+    return RowOf(entry.first, entry.second, view.Find(entry.first), now);
+  });
 }
 
 std::int64_t RangeOf(const RangeReading& reading) {
@@ -106,64 +104,63 @@ std::int64_t RangeOf(const RangeReading& reading) {
   return reading.kind == Echo::kClear ? kClear : kNoData;
 }
 
-std::string RangesJson(const FleetView& view, SteadyTime now) {
-  JsonObject object;
-  if (view.Heard().Vehicles().size() > kMostWithRanges) return object.Text();
+Json RangesJson(const FleetView& view, SteadyTime now) {
+  Json object = Json::object();
+  if (view.Heard().Vehicles().size() > kMostWithRanges) return object;
   for (const auto& [id, heard] : view.Heard().Vehicles()) {
     const VehicleView* vehicle = view.Find(id);
     if (vehicle == nullptr || !vehicle->ranges) continue;
     if (now - vehicle->ranges_at > HeardFleet::kSilentAfter) continue;
-    object.AddRaw(std::to_string(Number(id)),
-                  JsonArray(vehicle->ranges->readings,
-                            [](const auto& reading) { return std::to_string(RangeOf(reading)); }));
+    object[std::to_string(Number(id))] = JsonArray(vehicle->ranges->readings, RangeOf);
   }
-  return object.Text();
+  return object;
 }
 
-std::string WorldJson(const HeardWorld& world, SteadyTime now) {
-  JsonObject object;
-  object.Add("epoch", Number(world.epoch));
-  if (world.state) object.Add("state", Name(*world.state));
-  object.Add("time_ms", Milli(world.time_s));
-  object.Add("fleet_size", world.fleet_size);
-  object.Add("age_ms", AgeMs(world.heard_at, now));
-  return object.Text();
+Json WorldJson(const HeardWorld& world, SteadyTime now) {
+  Json object;
+  object["epoch"] = Number(world.epoch);
+  if (world.state) object["state"] = Name(*world.state);
+  object["time_ms"] = Milli(world.time_s);
+  object["fleet_size"] = world.fleet_size;
+  object["age_ms"] = AgeMs(world.heard_at, now);
+  return object;
 }
 
-std::string SignalsJson(const FleetView& view) {
+Json SignalsJson(const FleetView& view) {
   return JsonArray(view.Signals(), [](const auto& entry) {
     const SignalState& signal = entry.second;
-    return fmt::format("[{},{},{},{},{},{},{}]", Number(signal.id), Milli(signal.line_from_world.x),
-                       Milli(signal.line_from_world.y), Milli(signal.line_to_world.x),
-                       Milli(signal.line_to_world.y), static_cast<int>(signal.phase),
-                       Milli(signal.to_change_s));
+    return std::array<std::int64_t, 7>{Number(signal.id),
+                                       Milli(signal.line_from_world.x),
+                                       Milli(signal.line_from_world.y),
+                                       Milli(signal.line_to_world.x),
+                                       Milli(signal.line_to_world.y),
+                                       static_cast<std::int64_t>(signal.phase),
+                                       Milli(signal.to_change_s)};
   });
 }
 
-std::string NewestEventsJson(const FleetView& view, std::size_t most) {
+Json NewestEventsJson(const FleetView& view, std::size_t most) {
   const auto& events = view.Events();
   const std::size_t skipped = events.size() > most ? events.size() - most : 0;
-  std::string json;
+  Json json = Json::array();
   for (auto event = events.begin() + static_cast<std::ptrdiff_t>(skipped); event != events.end();
        ++event) {
-    JsonObject object;
-    AddFields(*event, &object);
-    json += (json.empty() ? "" : ",") + object.Text();
+    AddFields(*event, &json.emplace_back());
   }
-  return "[" + json + "]";
+  return json;
 }
 
 }  // namespace
 
 std::string FrameJson(const FleetView& view, SteadyTime now, std::size_t most_events) {
-  JsonObject frame;
-  frame.Add("at_ms", static_cast<std::int64_t>(Milliseconds(now)));
-  frame.AddRaw("world", WorldJson(view.Heard().World(), now));
-  frame.AddRaw("vehicles", RowsJson(view, now));
-  frame.AddRaw("ranges", RangesJson(view, now));
-  frame.AddRaw("signals", SignalsJson(view));
-  frame.AddRaw("events", NewestEventsJson(view, most_events));
-  return frame.Text();
+  Json frame;
+  frame["at_ms"] = static_cast<std::int64_t>(Milliseconds(now));
+  frame["world"] = WorldJson(view.Heard().World(), now);
+  frame["vehicles"] = RowsJson(view, now);
+  frame["ranges"] = RangesJson(view, now);
+  frame["signals"] = SignalsJson(view);
+  frame["events"] = NewestEventsJson(view, most_events);
+  return JsonText(std::move(frame));
 }
 
 }  // namespace giveway

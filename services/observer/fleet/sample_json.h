@@ -2,7 +2,7 @@
 // Vehicle ids of 0 are left out. Pure.
 #pragma once
 
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 #include "services/types/beacon.h"
 #include "services/types/fleet_facts.h"
 #include "services/types/motor_command.h"
@@ -11,14 +11,14 @@
 
 namespace giveway {
 
-void AddFields(const ReceivedBeacon& received, JsonObject* object);
-void AddFields(const VehicleStatus& status, JsonObject* object);
-void AddFields(const Truth& truth, JsonObject* object);
-void AddFields(const WorldEvent& event, JsonObject* object);
-void AddFields(const RosterEntry& entry, JsonObject* object);
-void AddFields(const SignalState& signal, JsonObject* object);
-void AddFields(const RunFigures& figures, JsonObject* object);
-void AddFields(const RangeScan& scan, JsonObject* object);
-void AddFields(const MotorCommand& command, JsonObject* object);
+void AddFields(const ReceivedBeacon& received, Json* object);
+void AddFields(const VehicleStatus& status, Json* object);
+void AddFields(const Truth& truth, Json* object);
+void AddFields(const WorldEvent& event, Json* object);
+void AddFields(const RosterEntry& entry, Json* object);
+void AddFields(const SignalState& signal, Json* object);
+void AddFields(const RunFigures& figures, Json* object);
+void AddFields(const RangeScan& scan, Json* object);
+void AddFields(const MotorCommand& command, Json* object);
 
 }  // namespace giveway

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <nlohmann/json.hpp>
 
-#include "services/runtime/json_line.h"
+#include "services/runtime/json.h"
 #include "services/types/math/math.h"
 
 namespace giveway {
@@ -28,7 +29,7 @@ std::string PoseText(const Pose& pose) {
 }
 
 // Text from the network, made harmless for a terminal; nothing where there is none.
-std::string Quoted(const std::string& text) { return text.empty() ? "" : "  " + JsonString(text); }
+std::string Quoted(const std::string& text) { return text.empty() ? "" : "  " + JsonText(text); }
 
 std::string OptionalText(const char* name, const std::optional<double>& value, const char* unit) {
   return value ? fmt::format("  {} {:.2f} {}", name, *value, unit) : "";

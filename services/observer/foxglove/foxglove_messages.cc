@@ -1,11 +1,11 @@
 #include "services/observer/foxglove/foxglove_messages.h"
 
-#include <google/protobuf/util/json_util.h>
-
 #include <algorithm>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 
-#include "foxglove.pb.h"
-#include "services/observer/fleet/json_object.h"
+#include "services/runtime/json.h"
 
 namespace giveway {
 namespace {
@@ -16,15 +16,15 @@ void PutLittleEndian(std::uint64_t value, std::size_t bytes, std::uint8_t* to) {
   for (std::size_t i = 0; i < bytes; ++i) to[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-std::string ChannelJson(const FoxgloveChannel& channel) {
-  JsonObject object;
-  object.Add("id", channel.id);
-  object.Add("topic", std::string_view(channel.topic));
-  object.Add("encoding", std::string_view(channel.encoding));
-  object.Add("schemaName", std::string_view(channel.schema_name));
-  object.Add("schemaEncoding", std::string_view(channel.schema_encoding));
-  object.Add("schema", std::string_view(channel.schema));
-  return object.Text();
+Json ChannelJson(const FoxgloveChannel& channel) {
+  Json object;
+  object["id"] = channel.id;
+  object["topic"] = channel.topic;
+  object["encoding"] = channel.encoding;
+  object["schemaName"] = channel.schema_name;
+  object["schemaEncoding"] = channel.schema_encoding;
+  object["schema"] = channel.schema;
+  return object;
 }
 
 FoxgloveRequest Refused(std::string why) {
@@ -44,18 +44,28 @@ std::string Quoted(std::string_view text) {
   return "\"" + std::string(text.substr(0, kMostQuoted)) + "\"";
 }
 
-FoxgloveRequest RequestOf(const schema::FoxgloveRequest& message) {
+// The list of that name; one that is not there is empty.
+Json ListIn(const Json& message, const char* name) {
+  Json list = message.value(name, Json::array());
+  if (!list.is_array()) throw std::invalid_argument("no list");
+  return list;
+}
+
+// Throws where the message is not as the protocol has it.
+FoxgloveRequest RequestOf(const Json& message) {
   FoxgloveRequest request;
-  if (message.op() == "subscribe") {
-    for (const auto& wanted : message.subscriptions()) {
-      request.subscribe.push_back({wanted.id(), wanted.channel_id()});
+  const auto op = message.at("op").get<std::string>();
+  if (op == "subscribe") {
+    for (const Json& wanted : ListIn(message, "subscriptions")) {
+      request.subscribe.push_back({Uint32Of(wanted.at("id")), Uint32Of(wanted.at("channelId"))});
     }
-  } else if (message.op() == "unsubscribe") {
-    request.unsubscribe.assign(message.subscription_ids().begin(),
-                               message.subscription_ids().end());
+  } else if (op == "unsubscribe") {
+    for (const Json& id : ListIn(message, "subscriptionIds")) {
+      request.unsubscribe.push_back(Uint32Of(id));
+    }
   } else {
     return Refused(
-        "op " + Quoted(message.op()) +
+        "op " + Quoted(op) +
         " is not served: this server only publishes; there are subscribe and unsubscribe");
   }
   if (request.subscribe.size() + request.unsubscribe.size() > kMostListed) {
@@ -67,29 +77,29 @@ FoxgloveRequest RequestOf(const schema::FoxgloveRequest& message) {
 }  // namespace
 
 std::string ServerInfoText(std::string_view name, std::string_view session) {
-  JsonObject info;
-  info.Add("op", "serverInfo");
-  info.Add("name", name);
-  info.AddRaw("capabilities", "[]");
-  info.AddRaw("supportedEncodings", "[]");
-  info.AddRaw("metadata", "{}");
-  info.Add("sessionId", session);
-  return info.Text();
+  Json info;
+  info["op"] = "serverInfo";
+  info["name"] = name;
+  info["capabilities"] = Json::array();
+  info["supportedEncodings"] = Json::array();
+  info["metadata"] = Json::object();
+  info["sessionId"] = session;
+  return JsonText(std::move(info));
 }
 
 std::string AdvertiseText(const std::vector<FoxgloveChannel>& channels) {
-  JsonObject message;
-  message.Add("op", "advertise");
-  message.AddRaw("channels", JsonArray(channels, ChannelJson));
-  return message.Text();
+  Json message;
+  message["op"] = "advertise";
+  message["channels"] = JsonArray(channels, ChannelJson);
+  return JsonText(std::move(message));
 }
 
 std::string StatusText(FoxgloveLevel level, std::string_view message) {
-  JsonObject status;
-  status.Add("op", "status");
-  status.Add("level", static_cast<unsigned>(level));
-  status.Add("message", message);
-  return status.Text();
+  Json status;
+  status["op"] = "status";
+  status["level"] = static_cast<unsigned>(level);
+  status["message"] = message;
+  return JsonText(std::move(status));
 }
 
 std::array<std::uint8_t, kFoxgloveHeadBytes> SampleHead(std::uint32_t subscription,
@@ -102,16 +112,13 @@ std::array<std::uint8_t, kFoxgloveHeadBytes> SampleHead(std::uint32_t subscripti
 }
 
 FoxgloveRequest ReadFoxgloveRequest(std::string_view text) {
-  google::protobuf::util::JsonParseOptions options;
-  options.ignore_unknown_fields = true;
-  schema::FoxgloveRequest message;
-  const auto status =
-      google::protobuf::util::JsonStringToMessage(std::string(text), &message, options);
-  if (!status.ok())
-    return Refused(
-        "not a message of the Foxglove WebSocket protocol: it must be a JSON object with op, and "
-        "ids of 0 to 4294967295");
-  return RequestOf(message);
+  try {
+    if (const auto message = ReadJson(text)) return RequestOf(*message);
+  } catch (const std::exception&) {  // something is missing, or is not what it must be
+  }
+  return Refused(
+      "not a message of the Foxglove WebSocket protocol: it must be a JSON object with op, and "
+      "ids of 0 to 4294967295");
 }
 
 std::string_view ChooseFoxgloveProtocol(std::string_view offered) {

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <nlohmann/json.hpp>
+
 namespace giveway::fleetctl {
 namespace {
 
@@ -10,9 +13,24 @@ using ::testing::ElementsAre;
 using ::testing::Pair;
 
 TEST(ExportCsv, FieldsWithinOthersAreJoinedByDots) {
-  EXPECT_THAT(Flattened(R"({"a":1,"p":{"x_m":-1.5,"y_m":2},"l":[1,2],"t":"a,b","f":true})"),
-              ElementsAre(Pair("a", "1"), Pair("p.x_m", "-1.5"), Pair("p.y_m", "2"),
-                          Pair("l", "[1,2]"), Pair("t", "a,b"), Pair("f", "true")));
+  EXPECT_THAT(
+      Flattened(Json::parse(R"({"a":1,"p":{"x_m":-1.5,"y_m":2.0},"l":[1,2],"t":"a,b","f":true})")),
+      ElementsAre(Pair("a", "1"), Pair("p.x_m", "-1.5"), Pair("p.y_m", "2"), Pair("l", "[1,2]"),
+                  Pair("t", "a,b"), Pair("f", "true")));
+}
+
+TEST(ExportCsv, WhatDoesNotExistHasNoField) {
+  Json sample;
+  sample["a"] = nullptr;
+  sample["b"]["c"] = std::numeric_limits<double>::quiet_NaN();
+  sample["d"] = "null";
+  EXPECT_THAT(Flattened(sample), ElementsAre(Pair("d", "null")));
+}
+
+TEST(ExportCsv, ARowStaysALineWhateverATextHolds) {
+  Json sample;
+  sample["t"] = "a \"b\" \\ \n\x01\xff";
+  EXPECT_THAT(Flattened(sample), ElementsAre(Pair("t", "a \"b\" \\ \\n\\u0001\xef\xbf\xbd")));
 }
 
 TEST(ExportCsv, AFieldThatOnlyLaterRowsHaveKeepsItsColumn) {

@@ -91,6 +91,10 @@ TEST(FoxgloveMessages, MalformedOnesAreRefusedAsAWhole) {
         std::string(R"({"op":"subscribe","subscriptions":[{"id":1e99,"channelId":1}]})"),
         std::string(R"({"op":"subscribe","subscriptions":[{"id":"x","channelId":1}]})"),
         std::string(R"({"op":"unsubscribe","subscriptionIds":["a"]})"),
+        std::string(R"({"op":"unsubscribe","subscriptionIds":[null]})"),
+        std::string(R"({"op":"unsubscribe","subscriptionIds":7})"),
+        std::string(R"({"op":"subscribe","subscriptions":[{"id":1}]})"),
+        std::string(R"({"op":"subscribe","subscriptions":{"id":1,"channelId":2}})"),
         std::string("{\"op\":\"subscribe\",\"subscriptions\":[{\"id\":1,\"channelId\":\xff}]}"),
         std::string("\x01\x02\x03\x00\xff", 5)}) {
     const FoxgloveRequest request = ReadFoxgloveRequest(text);

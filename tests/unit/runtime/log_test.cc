@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "services/runtime/identity.h"
-#include "services/runtime/json_line.h"
 #include "services/runtime/process.h"
 
 namespace giveway {
@@ -15,16 +14,6 @@ using ::testing::internal::CaptureStderr;
 std::string GetCapturedStderr() {
   EXPECT_TRUE(FlushLog(std::chrono::seconds(10)));
   return ::testing::internal::GetCapturedStderr();
-}
-
-TEST(Log, AJsonStringEscapesWhatItMust) {
-  EXPECT_EQ(JsonString("a \"b\" \\ \n\t\x01"), R"("a \"b\" \\ \n\t\u0001")");
-  EXPECT_EQ(JsonString("caf\xc3\xa9 \x7f"), "\"caf\xc3\xa9 \x7f\"");
-  EXPECT_EQ(JsonString("\xff"
-                       "a"),
-            "\"\xef\xbf\xbd"
-            "a\"");
-  EXPECT_EQ(JsonString(""), "\"\"");
 }
 
 TEST(Log, ALineIsAJsonObject) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <vector>
 
 #include "services/types/math/random.h"
@@ -81,12 +82,34 @@ TEST(Shares, AreFishersExactTest) {
   EXPECT_EQ(ShareGreater(0, 0, 1, 4), 1);
 }
 
+// Of 3 of 4 after 4 of 4 at least 3 must be among them.
+TEST(Shares, WhatCannotBeOtherwiseSaysNothing) {
+  EXPECT_EQ(ShareGreater(4, 4, 3, 4), 1);
+  EXPECT_NEAR(ShareGreater(3, 4, 4, 4), 0.5, 1e-12);
+}
+
+// A file may claim anything.
+TEST(Shares, ImpossibleCountsSayNothing) {
+  constexpr std::uint64_t kHuge = std::numeric_limits<std::uint64_t>::max();
+  EXPECT_EQ(ShareGreater(5, 4, 4, 4), 1);
+  EXPECT_EQ(ShareGreater(0, 4, 5, 4), 1);
+  EXPECT_EQ(ShareGreater(0, kHuge, 4, 4), 1);
+  EXPECT_EQ(ShareGreater(0, 4, kHuge, kHuge), 1);
+  EXPECT_EQ(ShareGreater(kHuge, 4, 2, 4), 1);
+}
+
+// Summed by hand, in logarithms of factorials.
+TEST(Shares, OfAMillionAreStillCountedOut) {
+  EXPECT_NEAR(ShareGreater(10'000, 1'000'000, 10'300, 1'000'000), 0.01745806, 1e-7);
+}
+
 // 5 events in equal time, all in the second half: 1 of 32.
 TEST(Rates, AreTheConditionalBinomialTest) {
   EXPECT_NEAR(RateGreater(0, 1, 5, 1), 1.0 / 32, 1e-12);
   EXPECT_NEAR(RateGreater(0, 3, 2, 1), 1.0 / 16, 1e-12);
   EXPECT_NEAR(RateGreater(5, 1, 0, 1), 1, 1e-12);
   EXPECT_EQ(RateGreater(1, 0, 1, 0), 1);
+  EXPECT_NEAR(RateGreater(1'000'000, 1, 1'003'000, 1), 0.01704418, 1e-7);
 }
 
 TEST(Holm, TakesAllTestsTogether) {

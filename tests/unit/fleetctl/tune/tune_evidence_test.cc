@@ -87,11 +87,11 @@ TEST(TuneEvidence, PeersThatLoseTheSameVictimMakeTheMeanNoSurer) {
 // Exact intervals of the Poisson distribution, from chi-squared tables.
 TEST(TuneEvidence, TheIntervalOfACountIsThatOfThePoissonDistribution) {
   EXPECT_EQ(PoissonInterval(0, kZ99).low, 0);
-  EXPECT_NEAR(PoissonInterval(0, kZ99).high, 5.30, 0.1);
-  EXPECT_NEAR(PoissonInterval(10, kZ99).low, 3.72, 0.1);
-  EXPECT_NEAR(PoissonInterval(10, kZ99).high, 21.40, 0.1);
-  EXPECT_NEAR(PoissonInterval(100, kZ99).low, 76.12, 0.1);
-  EXPECT_NEAR(PoissonInterval(100, kZ99).high, 128.76, 0.1);
+  EXPECT_NEAR(PoissonInterval(0, kZ99).high, 5.298, 0.002);
+  EXPECT_NEAR(PoissonInterval(10, kZ99).low, 3.717, 0.002);
+  EXPECT_NEAR(PoissonInterval(10, kZ99).high, 21.398, 0.002);
+  EXPECT_NEAR(PoissonInterval(100, kZ99).low, 76.12, 0.01);
+  EXPECT_NEAR(PoissonInterval(100, kZ99).high, 128.76, 0.01);
 }
 
 TEST(TuneEvidence, WhatIsWrittenIsReadBack) {
