@@ -57,7 +57,7 @@ web_packages() { printf '%s\n' chromium fonts-dejavu-core; }
 test_packages() {
   local clang_rt=libclang-rt-14-dev
   [[ $(debian_version) -ge 13 ]] 2>/dev/null && clang_rt=libclang-rt-19-dev
-  printf '%s\n' clang-format iproute2 jq shellcheck librsvg2-bin spin clang "$clang_rt" cyclonedds-dev \
+  printf '%s\n' clang-format iproute2 jq shellcheck librsvg2-bin spin clang clang-tidy "$clang_rt" cyclonedds-dev \
     cyclonedds-tools parallel help2man
   tools_packages
 }

@@ -12,12 +12,12 @@ QUICK_STAGES=(format rules unit golden link crossing virtual)
 FIRST_STAGES=(unit golden images)
 THEN_STAGES=(link system attack manuals web containers)
 LAST_STAGES=(timed tsan debian13)
-BACKGROUND_STAGES=(format rules deploy tsan_build virtual planted model)
+BACKGROUND_STAGES=(format rules deploy tsan_build virtual planted model tidy clang)
 BACKGROUND_IMAGES_STAGES=(asan13)
 
 # Seconds each stage may take on two quiet cores with warm caches. A target, not a failure: machines are
 # shared.
-declare -A BUDGET=([format]=20 [rules]=60 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
+declare -A BUDGET=([format]=20 [rules]=60 [tidy]=120 [clang]=120 [deploy]=60 [unit]=60 [golden]=30 [link]=120 [crossing]=30
   [virtual]=150 [planted]=90 [model]=240 [system]=420 [timed]=240 [attack]=120 [manuals]=120 [web]=180 [tsan_build]=30 [tsan]=120
   [images]=60 [asan13]=180 [debian13]=330 [containers]=360 [asan]=180 [asan_link]=120 [fuzz]=120 [dev]=60)
 
@@ -31,6 +31,8 @@ and fuzz, which asan13 and debian13 run in their container, and dev, which is fo
 computes runs in the background, at idle priority. Stages:
   format   clang-format over every tracked source
   rules    include arrows, sizes, names, shell scripts, generation
+  tidy     clang-tidy over the services and the world, with the checks of .clang-tidy
+  clang    every program compiled by clang, and unit and golden, whose hashes must be the same
   deploy   the manifests of Kubernetes against its schemas and against each other
   unit     pure tests: no sockets, no clocks
   golden   hashes that must never change
@@ -276,6 +278,17 @@ stage_rules() {
   check "the check of vulnerabilities finds each contradiction" bash tests/rules/exposure_test.sh
   check "shell scripts" shellcheck "${scripts[@]}"
   check "the wire types are generated next to another user's" bash tests/rules/generate_test.sh
+}
+
+stage_tidy() {
+  check "clang-tidy over the services and the world" bash tests/tidy/tidy.sh
+  check "injected defects are findings; what passed is not checked again" bash tests/tidy/tidy_test.sh
+}
+
+stage_clang() {
+  prepare clang unit_tests golden_tests giveway-observer giveway-vehicle giveway-world fleetctl
+  run_ctest clang unit "$(nproc)"
+  run_ctest clang golden "$(nproc)"
 }
 
 # Kubernetes' schemas come as an npm package.

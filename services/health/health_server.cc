@@ -180,7 +180,7 @@ struct HealthServer::Impl {
   }
 };
 
-HealthServer::HealthServer(const std::string& address, std::uint16_t port, HealthPages pages)
+HealthServer::HealthServer(const std::string& address, std::uint16_t port, const HealthPages& pages)
     : impl_(std::make_unique<Impl>()) {
   DeskServer& server = impl_->server;
   server.set_socket_options(OnlyOneListens);

@@ -22,7 +22,7 @@ struct HealthPages {
 class HealthServer {
  public:
   // Listens from here on. Throws InputError, with a remedy, where it cannot.
-  HealthServer(const std::string& address, std::uint16_t port, HealthPages pages);
+  HealthServer(const std::string& address, std::uint16_t port, const HealthPages& pages);
   // Closes the port. Waits for clients a moment at most: slow ones are dropped.
   ~HealthServer();
   HealthServer(const HealthServer&) = delete;

@@ -275,7 +275,7 @@ std::vector<std::string> Participant::TakeUnfit(SteadyTime now) {
   return unfit_.Judge(own, now);
 }
 
-dds::Topic& Participant::MakeTopic(dds::TypeSupport type, const std::string& topic_name) {
+dds::Topic& Participant::MakeTopic(const dds::TypeSupport& type, const std::string& topic_name) {
   const std::string name = topic_prefix_ + topic_name;
   if (auto* known = participant_->lookup_topicdescription(name)) {
     return *dynamic_cast<dds::Topic*>(known);
@@ -304,9 +304,10 @@ dds::DataWriter& Participant::MakeWriter(dds::Topic& topic, const std::string& p
   return *writer;
 }
 
-dds::DataWriter& Participant::MakeForeignWriter(dds::TypeSupport type, const std::string& topic,
+dds::DataWriter& Participant::MakeForeignWriter(const dds::TypeSupport& type,
+                                                const std::string& topic,
                                                 const dds::DataWriterQos& qos) {
-  dds::Topic& made = MakeTopic(std::move(type), topic);
+  dds::Topic& made = MakeTopic(type, topic);
   auto* writer = MakePublisher("").create_datawriter(&made, qos, nullptr, dds::StatusMask::none());
   if (writer == nullptr) ThrowNotMade("writer of topic \"" + topic + "\"");
   writers_.emplace_back(topic, writer);

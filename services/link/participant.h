@@ -52,7 +52,7 @@ class Participant {
   }
   // A writer for readers outside the fleet, whose topic, type and QoS others have defined; in the
   // default partition. Throws LinkError.
-  dds::DataWriter& MakeForeignWriter(dds::TypeSupport type, const std::string& topic,
+  dds::DataWriter& MakeForeignWriter(const dds::TypeSupport& type, const std::string& topic,
                                      const dds::DataWriterQos& qos);
   // From now on every topic is another one, that no endpoint of the fleet has.
   void StandApart() { topic_prefix_ = "qos-trial/"; }
@@ -86,7 +86,7 @@ class Participant {
   dds::Topic& MakeTopic() {
     return MakeTopic(dds::TypeSupport(new typename TopicOf<Wire>::Type), TopicOf<Wire>::kName);
   }
-  dds::Topic& MakeTopic(dds::TypeSupport type, const std::string& name);
+  dds::Topic& MakeTopic(const dds::TypeSupport& type, const std::string& name);
   dds::DataWriter& MakeWriter(dds::Topic& topic, const std::string& profile,
                               const std::string& partition, std::int32_t depth);
   dds::Publisher& MakePublisher(const std::string& partition);

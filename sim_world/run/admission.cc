@@ -107,7 +107,8 @@ Admission::Result Admission::Try(Waiting* waiting) {
   if (over) entry.waiting = false;
   if (entry.waiting && entry.reason == waiting->told) return {.waits = true, .tell = {}};
   waiting->told = entry.reason;
-  return {.waits = entry.waiting, .tell = std::move(entry)};
+  const bool waits = entry.waiting;
+  return {.waits = waits, .tell = std::move(entry)};
 }
 
 void Admission::LetIn(RosterEntry entry) {

@@ -51,7 +51,7 @@ void Layout::AddCellToCell(std::uint32_t vehicles, std::uint32_t columns) {
     return Vec2{kCell_m * (cell % columns) + dice_.Uniform(-kMoved_m, kMoved_m),
                 kCell_m * (cell / columns) + dice_.Uniform(-kMoved_m, kMoved_m)};
   };
-  for (std::uint32_t i = 0; i < vehicles; ++i) {
+  for (std::size_t i = 0; i < vehicles; ++i) {
     const Vec2 start = place(cells[2 * i]);
     Add(start, {}, place(cells[2 * i + 1]));
   }

@@ -88,8 +88,7 @@ std::vector<std::string> Completions(const CLI::App& fleetctl,
   const std::string typed = words.empty() ? "" : words.back();
   std::erase_if(matching, [&](const std::string& word) { return !word.starts_with(typed); });
   std::ranges::sort(matching);
-  const auto doubled = std::ranges::unique(matching);
-  matching.erase(doubled.begin(), doubled.end());
+  matching.erase(std::unique(matching.begin(), matching.end()), matching.end());
   return matching;
 }
 

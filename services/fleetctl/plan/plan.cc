@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
-#include <ranges>
+#include <cstdint>
 
 #include "services/fleetctl/plan/plan_costs.h"
 #include "services/qos/profile_set.h"
@@ -170,6 +169,21 @@ bool WouldFit(const PlanRequest& request) {
   return !HasError(FindingsOf(request, Reckoning(request)));
 }
 
+// The first of the numbers from `low` up to but without `end` for which `holds` is false, or `end`;
+// it is true for all before and false for all after. Clang 14 does not compile the library's views.
+template <typename Holds>
+std::uint32_t FirstWithout(std::uint32_t low, std::uint32_t end, const Holds& holds) {
+  while (low < end) {
+    const std::uint32_t middle = low + (end - low) / 2;
+    if (holds(middle)) {
+      low = middle + 1;
+    } else {
+      end = middle;
+    }
+  }
+  return low;
+}
+
 // If a number of vehicles does not fit, no larger one does; and from two hosts on, if a number of
 // hosts does not suffice, no smaller one does.
 void SeekWhatFits(const PlanRequest& request, PlanReport* report) {
@@ -184,12 +198,10 @@ void SeekWhatFits(const PlanRequest& request, PlanReport* report) {
     changed.hosts = hosts;
     return !WouldFit(changed);
   };
-  const auto fewer = std::views::iota(1U, request.vehicles);
-  const auto first_too_many = std::ranges::partition_point(fewer, fit);
-  if (first_too_many != fewer.begin()) report->fewer_vehicles = *std::ranges::prev(first_too_many);
-  const auto more = std::views::iota(request.hosts + 1, request.vehicles + 1);
-  const auto enough = std::ranges::partition_point(more, too_few);
-  if (enough != more.end()) report->more_hosts = *enough;
+  const std::uint32_t first_too_many = FirstWithout(1, request.vehicles, fit);
+  if (first_too_many > 1) report->fewer_vehicles = first_too_many - 1;
+  const std::uint32_t enough = FirstWithout(request.hosts + 1, request.vehicles + 1, too_few);
+  if (enough <= request.vehicles) report->more_hosts = enough;
 }
 
 }  // namespace

@@ -140,8 +140,10 @@ void Applying::Plan() {
   };
   for (const AppliedTo& applied : report_.vehicles) add(applied.vehicle, true);
   for (const auto& [process, answer] : told_) {
-    const auto is_it = [&](const AppliedTo& applied) { return applied.vehicle == process; };
-    if (std::ranges::none_of(report_.vehicles, is_it)) add(process, false);
+    // Clang 14 does not capture a structured binding.
+    const VehicleId id = process;
+    const auto is_it = [id](const AppliedTo& applied) { return applied.vehicle == id; };
+    if (std::ranges::none_of(report_.vehicles, is_it)) add(id, false);
   }
   const QosProfiles& own = link_.qos;
   processes.push_back(

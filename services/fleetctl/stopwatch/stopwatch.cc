@@ -62,7 +62,7 @@ std::vector<StopwatchTask> TasksOf(const StopwatchOptions& options) {
   std::vector<StopwatchTask> tasks;
   // The longest first, so that no fleet is left with one at the end.
   std::vector<Fault> faults = options.faults;
-  std::ranges::stable_partition(faults, IsCut);
+  std::stable_partition(faults.begin(), faults.end(), IsCut);
   for (const Fault fault : faults) {
     const std::uint32_t most = IsCut(fault) ? VictimsOf(options.vehicles) : kTrialsAFleet;
     for (std::uint32_t done = 0; done < options.trials; done += most) {

@@ -48,8 +48,7 @@ std::vector<Fault> ParseFaults(const std::vector<std::string>& names) {
   for (std::size_t i = 0; names.empty() && i < kFaults; ++i)
     faults.push_back(static_cast<Fault>(i));
   std::ranges::sort(faults);
-  const auto twice = std::ranges::unique(faults);
-  faults.erase(twice.begin(), twice.end());
+  faults.erase(std::unique(faults.begin(), faults.end()), faults.end());
   return faults;
 }
 

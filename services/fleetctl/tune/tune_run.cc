@@ -166,7 +166,7 @@ std::size_t Tuning::PlannedTrials(const std::vector<Rung>& rungs) const {
   std::size_t trials = 2 * options_.verify_trials;
   std::uint32_t before = 0;
   for (const Rung& rung : rungs) {
-    trials += rung.candidates * (rung.trials - before);
+    trials += std::size_t{rung.candidates} * (rung.trials - before);
     before = rung.trials;
   }
   return trials;

@@ -51,7 +51,8 @@ std::string Text(std::int64_t duration_ns) {
 }
 
 std::string_view NameOf(int kind, std::span<const std::string_view> names) {
-  return kind >= 0 && static_cast<std::size_t>(kind) < names.size() ? names[kind] : "unknown";
+  const auto place = static_cast<std::size_t>(kind);  // of a negative one beyond every name
+  return place < names.size() ? names[place] : "unknown";
 }
 constexpr std::array<std::string_view, 4> kDurabilities = {"VOLATILE", "TRANSIENT_LOCAL",
                                                            "TRANSIENT", "PERSISTENT"};

@@ -99,7 +99,7 @@ void SessionOwners::Forget(const std::function<bool(std::uint64_t)>& left) {
 void SessionOwners::Count(const Owner& owner, int change) {
   if (owner.over) return;
   const auto count = counts_.try_emplace(owner.participant, 0).first;
-  count->second = static_cast<std::size_t>(static_cast<int>(count->second) + change);
+  count->second = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(count->second) + change);
   if (count->second == 0) counts_.erase(count);
 }
 

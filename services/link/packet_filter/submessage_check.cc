@@ -122,7 +122,7 @@ PacketDrop CheckHeartbeat(const Submessage& heartbeat) {
 PacketDrop CheckBits(const Submessage& of, std::size_t at, std::size_t behind) {
   const std::uint32_t bits = of.U32(at);
   if (bits > kMostBits) return PacketDrop::kListTooLong;
-  const std::size_t end = at + 4 + 4 * ((bits + 31) / 32) + behind;
+  const std::size_t end = at + 4 + 4 * std::size_t{(bits + 31) / 32} + behind;
   return end <= of.body.size() ? PacketDrop::kNone : PacketDrop::kListTooLong;
 }
 

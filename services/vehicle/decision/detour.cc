@@ -141,7 +141,7 @@ class Search {
   int nearest_ = Index(kHalf, kHalf);
   Cost reached_;
   std::array<int, kCells> parents_;
-  std::array<Open, 2 * kCells> open_;
+  std::array<Open, std::size_t{2} * kCells> open_;
   int count_ = 0;
 };
 

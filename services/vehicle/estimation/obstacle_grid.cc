@@ -121,7 +121,7 @@ void ObstacleGrid::ClearColumn(std::uint32_t column) {
 
 void ObstacleGrid::ClearRow(std::uint32_t row) {
   if (some_[row] == 0) return;
-  std::fill_n(cells_.begin() + row * kSide, kSide, std::uint8_t{0});
+  std::fill_n(cells_.begin() + std::ptrdiff_t{row} * kSide, kSide, std::uint8_t{0});
   some_[row] = 0;
 }
 
@@ -129,7 +129,7 @@ void ObstacleGrid::ClearRow(std::uint32_t row) {
 void ObstacleGrid::Lose(std::uint8_t confidence, std::uint8_t below) {
   for (std::uint32_t row = 0; row < kSide; ++row) {
     for (const std::size_t column : BitsOf(some_[row])) {
-      const std::uint8_t cell = cells_[row * kSide + column];
+      const std::uint8_t cell = cells_[std::size_t{row} * kSide + column];
       if (cell < below) Put(static_cast<std::uint32_t>(column), row, LessBy(cell, confidence));
     }
   }
@@ -275,7 +275,7 @@ void ObstacleGrid::AddTo(StateHash* hash) const {
     hash->Add(row);
     hash->Add(some_[row]);
     for (const std::size_t column : BitsOf(some_[row])) {
-      hash->Add(std::uint32_t{cells_[row * kSide + column]});
+      hash->Add(std::uint32_t{cells_[std::size_t{row} * kSide + column]});
     }
   }
 }

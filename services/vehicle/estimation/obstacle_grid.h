@@ -94,7 +94,7 @@ class ObstacleGrid {
   void Clear(const HeardCone& heard, Vec2 apex, Vec2 axis);
 
   // The cell of column x, row y; the square is a torus, and the vehicle's place in it wraps round.
-  std::array<std::uint8_t, kSide * kSide> cells_{};
+  std::array<std::uint8_t, std::size_t{kSide} * kSide> cells_{};
   std::array<std::uint64_t, kSide> some_{};  // by row: bit x where cell x is not 0
   Vec2 at_grid_{kWide_m / 2, kWide_m / 2};   // both in [0, kWide_m)
   KnownHeading heading_;                     // in the grid

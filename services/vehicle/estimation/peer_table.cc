@@ -172,10 +172,9 @@ void PeerTable::Note(const QosEvent& event, QosCounters* counters) {
     case QosEventKind::kUnmatched:
       ++counters->unmatched;
       return;
-    case QosEventKind::kSampleLost:
-      return;  // the numbers of the beacons that arrive say how many
-    case QosEventKind::kLivelinessBack:
-      return;  // its next beacon says more
+    case QosEventKind::kSampleLost:      // the numbers of the beacons that arrive say how many
+    case QosEventKind::kLivelinessBack:  // its next beacon says more
+      return;
   }
 }
 
